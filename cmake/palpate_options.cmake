@@ -1,0 +1,40 @@
+# Compiler settings of every target, carried by palpate_options: targets, not global flags.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+# `dev` and `asan` keep -DNDEBUG away so that PALPATE_ASSERT is live.
+option(PALPATE_ASSERTIONS "Check PALPATE_ASSERT" OFF)
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+set(PALPATE_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize=")
+
+find_program(PALPATE_CCACHE ccache)
+if(PALPATE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${PALPATE_CCACHE})
+endif()
+
+add_library(palpate_options INTERFACE)
+target_compile_features(palpate_options INTERFACE cxx_std_20)
+target_include_directories(palpate_options INTERFACE ${PROJECT_SOURCE_DIR})
+# -ffp-contract=off: a fused multiply-add must not be the compiler's choice, or replay and
+# power-of-two scaling would not be bit-identical between builds.
+target_compile_options(palpate_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference
+  -Wno-missing-field-initializers -Werror -ffp-contract=off)
+if(PALPATE_ASSERTIONS)
+  target_compile_definitions(palpate_options INTERFACE PALPATE_ASSERTIONS=1)
+endif()
+if(PALPATE_SANITIZE)
+  # The sanitizers' instrumentation defeats GCC's flow analysis: null-dereference then warns falsely.
+  target_compile_options(palpate_options INTERFACE
+    -fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer -Wno-null-dereference -Wno-maybe-uninitialized)
+  target_link_options(palpate_options INTERFACE -fsanitize=${PALPATE_SANITIZE})
+endif()

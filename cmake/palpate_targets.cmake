@@ -1,0 +1,61 @@
+# One function a kind of target. A folder's CMakeLists.txt lists its sources and what it uses.
+
+# palpate_module(folder SOURCES a.cpp … USES palpate::math …)
+# The library of common/<folder>. USES stays within the folder's row of the include table.
+function(palpate_module folder)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;PRIVATE_USES" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  if(arg_SOURCES)
+    add_library(palpate_${name} STATIC ${arg_SOURCES})
+    target_link_libraries(palpate_${name} PUBLIC palpate_options ${arg_USES} PRIVATE ${arg_PRIVATE_USES})
+  else()
+    add_library(palpate_${name} INTERFACE)
+    target_link_libraries(palpate_${name} INTERFACE palpate_options ${arg_USES})
+  endif()
+  add_library(palpate::${name} ALIAS palpate_${name})
+endfunction()
+
+# palpate_helper(name SOURCES … USES …): a helper program, in lib/palpate beside bin/.
+function(palpate_helper name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE palpate_options ${arg_USES})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/palpate)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/palpate)
+endfunction()
+
+# palpate_app(name SOURCES … USES … HELPERS …): an explorer; building it builds its helpers too.
+function(palpate_app name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;HELPERS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE palpate_options ${arg_USES})
+  foreach(helper ${arg_HELPERS})
+    if(TARGET ${helper})
+      add_dependencies(${name} ${helper})
+    endif()
+  endforeach()
+  # Installed as palpate-<name>: `flow` alone is too common a word for /usr/bin.
+  install(PROGRAMS $<TARGET_FILE:${name}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME palpate-${name})
+endfunction()
+
+# palpate_test(common/ode/rk4_test LABELS … USES …): tests/common/ode/rk4_test.cpp as one program.
+# Every test has the label `fast` (run under the sanitizers too) unless LABELS says `slow`.
+function(palpate_test path)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS;USES;DEPENDS;SOURCES" ${ARGN})
+  string(REPLACE "/" "_" name ${path})
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/${path}.cpp ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE palpate_test_support ${arg_USES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(arg_DEPENDS)
+    add_dependencies(${name} ${arg_DEPENDS})
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  if(NOT "slow" IN_LIST arg_LABELS)
+    list(APPEND arg_LABELS fast)
+  endif()
+  add_test(NAME ${path} COMMAND ${name})
+  set_tests_properties(${path} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()

@@ -1,0 +1,26 @@
+/// Error beside time: one row of a work-precision diagram, and one of a stability table.
+#pragma once
+
+#include <string>
+
+namespace palpate {
+
+/// What one method with one setting achieved on one subject.
+struct WorkPrecision {
+  std::string subject;     ///< what was computed ("carotid, 400 seeds")
+  std::string method;      ///< "dp54"
+  std::string parameter;   ///< "tolerance=1e-06"
+  double error = 0.0;      ///< in the unit that error_kind names
+  std::string error_kind;  ///< "max distance / diagonal"
+  double seconds = 0.0;
+};
+
+/// One extreme case, what was measured and what was promised.
+struct StabilityRow {
+  std::string name;        ///< `case` in report.json
+  double measured = 0.0;
+  double limit = 0.0;
+  bool holds = false;
+};
+
+}  // namespace palpate

@@ -1,0 +1,74 @@
+/// Uniform and rectilinear grids in local frame L: direct cell search and trilinear cells.
+///
+/// Inside the cell with corners lo, lo + d the interpolant is, with u = (x - lo) / d in [0, 1]^3,
+///
+///   v(u) = c_0 + c_x u_x + c_y u_y + c_z u_z + c_xy u_x u_y + c_yz u_y u_z + c_zx u_z u_x
+///          + c_xyz u_x u_y u_z                                                                  (1)
+///
+/// which continues smoothly past the faces: a tracer integrates (1) and then cuts at the face.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/field/sample.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+struct PointVectors;
+
+/// The polynomial (1) of one cell.
+struct BoxCell {
+  Vec3 lower{0.0};           ///< lo, frame L
+  Vec3 size{1.0};            ///< d, frame L
+  Vec3 inverse_size{1.0};    ///< 1 / d
+  std::array<Vec3, 8> c{};   ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz, local speed
+  Index3 index{0};           ///< cell index
+  bool bad_data = false;     ///< a corner's value is not finite or blanked
+
+  [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept {
+    const Vec3 u = (x - lower) * inverse_size;
+    // Horner in z, then y, then x.
+    return (c[0] + u.x * c[1]) + u.y * (c[2] + u.x * c[4]) +
+           u.z * ((c[3] + u.x * c[6]) + u.y * (c[5] + u.x * c[7]));
+  }
+
+  /// dv/dx, m[j] = dv/dx_j.
+  [[nodiscard]] Mat3 jacobian(const Vec3& x) const noexcept {
+    const Vec3 u = (x - lower) * inverse_size;
+    return Mat3{(c[1] + u.y * c[4] + u.z * c[6] + u.y * u.z * c[7]) * inverse_size.x,
+                (c[2] + u.x * c[4] + u.z * c[5] + u.x * u.z * c[7]) * inverse_size.y,
+                (c[3] + u.y * c[5] + u.x * c[6] + u.x * u.y * c[7]) * inverse_size.z};
+  }
+};
+
+class BoxGrid {
+ public:
+  /// Uniform: points at origin + spacing * (i, j, k), frame L. @pre points >= 2, spacing > 0 on each axis.
+  BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing);
+  /// Rectilinear: strictly increasing coordinates, at least two an axis, frame L.
+  explicit BoxGrid(std::array<std::vector<double>, 3> coordinates);
+
+  [[nodiscard]] const Index3& points() const noexcept { return points_; }
+  [[nodiscard]] Box bounds() const noexcept;
+  [[nodiscard]] bool uniform() const noexcept { return coordinates_[0].empty(); }
+
+  /// The cell that holds `x`; points on a shared face belong to the upper cell, on the upper border to the
+  /// last one. False outside and for NaN.
+  [[nodiscard]] bool locate(const Vec3& x, Index3& cell) const noexcept;
+  /// Position of grid line `i` on `axis`. The same bits from either side of a face.
+  [[nodiscard]] double coordinate(int axis, int i) const noexcept;
+  /// Loads the polynomial of `cell`. @pre `cell` lies in the grid.
+  void load(const Index3& cell, const PointVectors& values, BoxCell& out) const noexcept;
+
+ private:
+  Index3 points_{0};
+  Vec3 origin_{0.0};
+  Vec3 spacing_{1.0};
+  Vec3 inverse_spacing_{1.0};
+  std::array<std::vector<double>, 3> coordinates_;
+};
+
+}  // namespace palpate

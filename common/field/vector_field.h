@@ -1,0 +1,90 @@
+/// A vector field: a grid and the values at its points, immutable and shared.
+///
+/// Kinds of grid: uniform and rectilinear boxes with trilinear interpolation, tetrahedra with linear
+/// interpolation (curvilinear and mixed cells are split, grid/cell_split.h), and formulas (analytic/).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/local_frame.h"
+#include "common/field/sample.h"
+#include "common/field/vector_choice.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+class BoxGrid;          // grid/box_grid.h: uniform and rectilinear
+class TetMesh;          // grid/tet_mesh.h
+class AnalyticField;    // analytic/analytic_field.h
+
+/// Values at the points of a grid, in local units (multiplied by `scale` on reading), as stored.
+struct PointVectors {
+  std::variant<std::span<const float>, std::span<const double>> values;  ///< 3 * points, xyz by point
+  double scale = 1.0;                                                     ///< a power of two
+  std::shared_ptr<const void> owner;
+};
+
+/// Where the last sample was found: makes the next one near it quick. Any value is allowed.
+struct CellHint {
+  std::int64_t cell = -1;
+};
+
+/// What was found and done while a field was made, for `info`, summaries and reports.
+struct FieldNotes {
+  std::vector<std::string> lines;            ///< sentences for the user
+  std::size_t zero_volume_cells = 0;
+  std::size_t inverted_cells = 0;
+  std::size_t bad_values = 0;                ///< points whose value is not finite, or blanked
+};
+
+class VectorField {
+ public:
+  /// Samples at `x` in data coordinates.
+  [[nodiscard]] VectorSample sample(const Vec3& x_data, CellHint& hint) const noexcept;
+  /// Jacobian dv_i/dx_j of the interpolant, at m[j][i] (GLM column major), data units; status as sample.
+  [[nodiscard]] SampleStatus jacobian(const Vec3& x_data, CellHint& hint, Mat3& m) const noexcept;
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] const Box& bounds() const noexcept { return bounds_; }  ///< data coordinates
+  [[nodiscard]] double diagonal() const noexcept { return bounds_.diagonal(); }
+  [[nodiscard]] double max_speed() const noexcept { return max_speed_; }  ///< data units
+  [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
+  [[nodiscard]] const FieldNotes& notes() const noexcept { return notes_; }
+
+  /// The kernels that trace/ is written against; exactly one is not null.
+  [[nodiscard]] const BoxGrid* box_grid() const noexcept { return box_.get(); }
+  [[nodiscard]] const TetMesh* tet_mesh() const noexcept { return tets_.get(); }
+  [[nodiscard]] const AnalyticField* analytic() const noexcept { return analytic_.get(); }
+  [[nodiscard]] const PointVectors& values() const noexcept { return values_; }
+
+ private:
+  friend class VectorFieldBuilder;
+  std::string name_;
+  LocalFrame frame_;
+  Box bounds_;
+  double max_speed_ = 0.0;
+  FieldNotes notes_;
+  std::shared_ptr<const BoxGrid> box_;
+  std::shared_ptr<const TetMesh> tets_;
+  std::shared_ptr<const AnalyticField> analytic_;
+  PointVectors values_;
+};
+
+/// Makes the field that `choice` describes from the blocks of a data set. One uniform or rectilinear
+/// block becomes a box grid; everything else is split into tetrahedra and joined. Cell values are brought
+/// to the points by the volume-weighted mean of the cells around each point, and a note says so.
+/// @throws Error (bad input) with `file` where arrays are missing or have the wrong shape.
+[[nodiscard]] std::shared_ptr<const VectorField> make_vector_field(const std::vector<DataSet>& blocks,
+                                                                   const VectorChoice& choice,
+                                                                   const std::string& file, int threads = 0);
+
+/// Makes a field from a formula.
+[[nodiscard]] std::shared_ptr<const VectorField> make_vector_field(
+    std::shared_ptr<const AnalyticField> formula);
+
+}  // namespace palpate

@@ -1,0 +1,36 @@
+/// A traced line: points with time, arc length, speed and error, and why it ends. Data units.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Why a line ends (the contract's `termination`).
+enum class End : std::uint8_t {
+  kLeftDomain, kStagnation, kMaxLength, kMaxTime, kMaxSteps, kLoop, kBadData, kStoppedByRule
+};
+inline constexpr int kEndCount = 8;
+[[nodiscard]] std::string_view name_of(End end) noexcept;  ///< "left_domain"
+
+struct LinePoint {
+  Vec3 position{0.0};
+  double time = 0.0;   ///< from the seed on; falls when tracing backward
+  double arc = 0.0;    ///< length along the curve from the seed, never falls
+  double speed = 0.0;  ///< |v|
+  double error = 0.0;  ///< accumulated estimate of the distance from the true curve of the interpolant; > 0
+};
+
+enum class TraceDirection : std::uint8_t { kForward, kBackward };
+
+struct Line {
+  std::vector<LinePoint> points;  ///< the seed first
+  End end = End::kLeftDomain;
+  TraceDirection direction = TraceDirection::kForward;
+  std::uint32_t seed = 0;         ///< index into the seeds
+};
+
+}  // namespace palpate

@@ -1,0 +1,72 @@
+/// Opening data files: finds the loader by content, runs it as a helper program under memory and time
+/// limits, maps the arrays it hands over and checks them.
+///
+/// The helper stays alive while a Source does, so that a time series is read step by step.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/field/data_set.h"
+#include "common/field/vector_choice.h"
+
+namespace palpate {
+
+struct LoadRequest {
+  std::vector<std::filesystem::path> files;        ///< several: blocks to be joined, or a numbered time series
+  std::optional<std::filesystem::path> solution;   ///< PLOT3D solution file
+};
+
+struct LoadLimits {
+  std::uint64_t memory_bytes = 0;  ///< of the helper; 0: from the size of the input and the machine
+  double seconds = 0.0;            ///< for one answer; 0: from the size of the input
+};
+
+/// What a block holds, known before its arrays are read.
+struct BlockInfo {
+  std::string name;
+  std::string grid;                ///< "uniform", "rectilinear", "curvilinear", "unstructured"
+  Index3 points{0};                ///< structured grids: points along i, j, k
+  std::uint64_t point_count = 0;
+  std::uint64_t cell_count = 0;
+  Box bounds;
+  std::vector<ArrayInfo> arrays;
+};
+
+struct FileInfo {
+  std::string format;              ///< "legacy VTK", "PLOT3D", "Exodus II", …
+  std::string loader;              ///< helper program that read it
+  std::vector<BlockInfo> blocks;
+  std::vector<double> times;       ///< empty for a single state
+  std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
+};
+
+/// An open input with its helper program. Movable; closing it ends the helper.
+class Source {
+ public:
+  /// @throws Error (bad input: one line naming the file; usage: a helper program is not built) or Cancelled.
+  static Source open(const LoadRequest& request, const LoadLimits& limits = {}, Progress* progress = nullptr);
+  Source(Source&&) noexcept;
+  Source& operator=(Source&&) noexcept;
+  ~Source();
+
+  [[nodiscard]] const FileInfo& info() const noexcept;
+  /// All arrays of all blocks, of one name and association listed once.
+  [[nodiscard]] std::vector<ArrayInfo> arrays() const;
+  /// Reads the topology and the named arrays at one time step; no other array is read where the format
+  /// allows that.
+  [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& array_names,
+                                          std::size_t time_step = 0, Progress* progress = nullptr);
+
+ private:
+  struct State;
+  explicit Source(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,45 @@
+/// Vector and matrix types: GLM in double precision for data and geometry, in float for the GPU.
+///
+/// GLM's constructors leave members uninitialised: write `Vec3 x{0.0}` or give members initialisers.
+/// Matrices are column major: m[c][r].
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace palpate {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+using Vec4 = glm::dvec4;
+using Mat3 = glm::dmat3;
+using Mat4 = glm::dmat4;
+using Vec3f = glm::vec3;
+using Index3 = glm::ivec3;
+
+[[nodiscard]] inline bool is_finite(const Vec3& x) noexcept {
+  return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+}
+
+/// Axis-aligned box; empty while lower > upper.
+struct Box {
+  Vec3 lower{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  Vec3 upper{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void include(const Vec3& x) noexcept {
+    lower = glm::min(lower, x);
+    upper = glm::max(upper, x);
+  }
+  [[nodiscard]] bool empty() const noexcept { return !(lower.x <= upper.x); }
+  [[nodiscard]] Vec3 size() const noexcept { return empty() ? Vec3{0.0} : upper - lower; }
+  [[nodiscard]] Vec3 center() const noexcept { return 0.5 * lower + 0.5 * upper; }
+  [[nodiscard]] double diagonal() const noexcept { return glm::length(size()); }
+};
+
+}  // namespace palpate

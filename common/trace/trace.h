@@ -1,0 +1,61 @@
+/// Batch tracing of streamlines with any integrator, in parallel over the seeds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/field/vector_field.h"
+#include "common/geometry/line.h"
+
+namespace palpate {
+
+enum class Integrator : std::uint8_t { kExact, kEuler, kRk4, kBs32, kRk34, kDp54, kRodas4 };
+[[nodiscard]] std::string_view name_of(Integrator integrator) noexcept;  ///< "dp54"
+/// @throws Error (usage) that lists the known ones.
+[[nodiscard]] Integrator integrator_from_name(std::string_view name);
+/// Exact on tetrahedra, dp54 elsewhere.
+[[nodiscard]] Integrator default_integrator(const VectorField& field) noexcept;
+
+/// Ends lines where they cross the zero of `level` (data coordinates) from either side; the crossing is
+/// located to the tolerance. Lipschitz in x and scaled like a length; thread safe.
+struct StopRule {
+  std::function<double(const Vec3& x_data)> level;
+};
+
+struct TraceOptions {
+  std::optional<Integrator> integrator;  ///< default_integrator() where absent
+  bool forward = true;
+  bool backward = false;                 ///< both: two lines a seed
+  double tolerance = 1e-6;               ///< accumulated position error per diagonal travelled, relative to the diagonal
+  double step = 0.0;                     ///< fixed-step methods: step length; others: spacing of output points; 0: a default
+  double max_length = 0.0;               ///< data units; 0: 10 diagonals
+  double max_time = 0.0;                 ///< data units; 0: no limit
+  std::int64_t max_steps = 1'000'000;
+  std::vector<StopRule> stop_rules;
+  int threads = 0;                       ///< 0: all cores; the lines do not depend on it
+};
+
+struct TraceResult {
+  std::vector<Line> lines;                   ///< by seed; forward before backward
+  std::vector<std::uint32_t> outside_seeds;  ///< seeds in no cell: they give no line
+  std::array<std::size_t, kEndCount> ends{};
+  std::size_t points = 0;
+  double error_max = 0.0;                    ///< data units
+  double seconds_prepare = 0.0;
+  double seconds_trace = 0.0;
+  Integrator integrator = Integrator::kDp54;
+};
+
+/// Traces from every seed (data coordinates).
+/// @throws Error (usage) for options that make no sense together (exact on a grid that is not
+/// tetrahedral, a fixed-step method without a step); Cancelled.
+[[nodiscard]] TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds,
+                                      const TraceOptions& options, Progress* progress = nullptr);
+
+}  // namespace palpate
