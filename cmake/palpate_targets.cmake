@@ -22,7 +22,8 @@ function(palpate_helper name)
   target_link_libraries(${name} PRIVATE palpate_options ${arg_USES})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/palpate)
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR}/palpate)
+  # Not LIBDIR: helpers are found at ../lib/palpate from bin, installed or not.
+  install(TARGETS ${name} RUNTIME DESTINATION lib/palpate)
 endfunction()
 
 # palpate_app(name SOURCES … USES … HELPERS …): an explorer; building it builds its helpers too.

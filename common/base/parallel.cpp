@@ -1,10 +1,11 @@
 #include "common/base/parallel.h"
 
 #include <algorithm>
+#include <thread>
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-#include <thread>
 
 namespace palpate {
 
@@ -12,8 +13,7 @@ int resolve_threads(int threads) {
   return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-void parallel_for(std::size_t count, int threads,
-                  const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   const int used = resolve_threads(threads);
   if (used == 1) {

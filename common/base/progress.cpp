@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <mutex>
 #include <thread>
+
 #include <unistd.h>
 
 #include "common/base/error.h"

@@ -17,7 +17,7 @@ struct WorkPrecision {
 
 /// One extreme case, what was measured and what was promised.
 struct StabilityRow {
-  std::string name;        ///< `case` in report.json
+  std::string name;  ///< `case` in report.json
   double measured = 0.0;
   double limit = 0.0;
   bool holds = false;

@@ -13,6 +13,6 @@ namespace palpate::test {
 }  // namespace palpate::test
 
 /// Defines `path`, or skips the test saying what was missing.
-#define PALPATE_NEED_DATA(path, relative)                                        \
-  const std::filesystem::path path = ::palpate::test::shared_data(relative);     \
+#define PALPATE_NEED_DATA(path, relative)                                    \
+  const std::filesystem::path path = ::palpate::test::shared_data(relative); \
   if (path.empty()) GTEST_SKIP() << "sample data missing: " << (relative)

@@ -1,0 +1,169 @@
+// Every #include of the source tree against the table of who may include whom.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace palpate::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kCommon{"base",   "math",  "geometry", "kinematics", "ode",         "field",
+                                       "trace",  "load",  "haptics",  "device",     "calibration", "servo",
+                                       "render", "scene", "report",   "app"};
+
+// What each folder may include directly; allowing a folder allows what it may include.
+const std::map<std::string, std::set<std::string>> kDirect{
+    {"base", {}},
+    {"math", {"base"}},
+    {"geometry", {"math"}},
+    {"ode", {"math"}},
+    {"kinematics", {"geometry"}},
+    {"field", {"geometry"}},
+    {"trace", {"field", "ode"}},
+    {"load", {"field"}},
+    {"haptics", {"trace"}},
+    {"device", {"kinematics"}},
+    {"calibration", {"kinematics"}},
+    {"servo", {"haptics", "device"}},
+    {"render", {"trace"}},
+    {"scene", {"field", "load"}},
+    {"report",
+     {"base", "math", "geometry", "kinematics", "ode", "field", "trace", "load", "haptics", "device",
+      "calibration", "servo", "render", "scene"}},
+    {"app",
+     {"base", "math", "geometry", "kinematics", "ode", "field", "trace", "load", "haptics", "device",
+      "calibration", "servo", "render", "scene", "report"}}};
+
+std::set<std::string> closure(const std::string& folder) {
+  std::set<std::string> reached{folder};
+  std::vector<std::string> open{folder};
+  while (!open.empty()) {
+    const std::string next = open.back();
+    open.pop_back();
+    for (const std::string& allowed : kDirect.at(next)) {
+      if (reached.insert(allowed).second) open.push_back(allowed);
+    }
+  }
+  return reached;
+}
+
+/// "common/field", "loaders/vtk", "apps/flow": the first two parts of a path.
+std::string room_of(const std::string& path) {
+  const auto first = path.find('/');
+  const auto second = path.find('/', first + 1);
+  return first == std::string::npos ? path : path.substr(0, second);
+}
+
+bool allowed(const std::string& from, const std::string& to) {
+  if (from == to) return true;
+  const bool to_common = to.starts_with("common/");
+  if (from.starts_with("common/")) return to_common && closure(from.substr(7)).count(to.substr(7)) > 0;
+  if (from.starts_with("loaders/")) {
+    const std::set<std::string> loader_may = [] {
+      std::set<std::string> s = closure("field");
+      s.merge(closure("load"));
+      return s;
+    }();
+    return to_common && loader_may.count(to.substr(7)) > 0;
+  }
+  return from.starts_with("apps/") && to_common;
+}
+
+struct Foreign {
+  std::regex include;
+  std::vector<std::string> rooms;  ///< path prefixes where it may stand
+  const char* what;
+};
+
+const std::vector<Foreign> kForeign{
+    {std::regex("^(epoxy/|GL/|GLES|EGL/|GLFW/|imgui)"),
+     {"common/render/", "common/app/"},
+     "OpenGL or the window"},
+    {std::regex("^vtk"), {"loaders/vtk/"}, "VTK"},
+    {std::regex("^teem/"), {"loaders/nrrd/"}, "Teem"},
+    {std::regex("^openvdb/"), {"loaders/vdb/"}, "OpenVDB"},
+    {std::regex("^nanovdb/"), {"loaders/vdb/", "common/field/grid/"}, "NanoVDB"},
+    {std::regex("^(CGAL/|tetgen)"), {"apps/cardiac/mesher/"}, "CGAL or TetGen"},
+    {std::regex("^libusb"), {"common/device/driver/"}, "libusb"},
+};
+
+std::vector<fs::path> sources() {
+  std::vector<fs::path> files;
+  for (const char* top : {"common", "loaders", "apps"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(PALPATE_SOURCE_DIR) / top)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending == ".h" || ending == ".cpp") files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(IncludeArrows, PointOnlyWhereTheTableAllows) {
+  const std::regex include_line(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::size_t read = 0;
+  for (const fs::path& file : sources()) {
+    const std::string name = fs::relative(file, PALPATE_SOURCE_DIR).generic_string();
+    std::ifstream in(file);
+    std::string line;
+    for (int number = 1; std::getline(in, line); ++number) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include_line)) continue;
+      ++read;
+      const std::string target = match[2];
+      const bool ours =
+          target.starts_with("common/") || target.starts_with("loaders/") || target.starts_with("apps/");
+      if (match[1] == "\"" && !ours && target.find('/') != std::string::npos &&
+          !target.starts_with("imgui")) {
+        ADD_FAILURE() << name << ":" << number << ": includes start at the repository root: " << target;
+      }
+      if (ours) {
+        EXPECT_TRUE(allowed(room_of(name), room_of(target)))
+            << name << ":" << number << ": " << room_of(name) << " may not include " << target;
+      }
+      for (const Foreign& foreign : kForeign) {
+        if (!std::regex_search(target, foreign.include)) continue;
+        const bool at_home = std::any_of(foreign.rooms.begin(), foreign.rooms.end(),
+                                         [&](const std::string& room) { return name.starts_with(room); });
+        EXPECT_TRUE(at_home) << name << ":" << number << ": " << foreign.what << " may not be included here";
+      }
+    }
+  }
+  EXPECT_GT(read, 50U) << "the tree was not found";
+}
+
+TEST(IncludeArrows, TableNamesEveryFolderAndHasNoCycle) {
+  for (const std::string& folder : kCommon) {
+    ASSERT_TRUE(kDirect.count(folder)) << folder;
+    for (const std::string& direct : kDirect.at(folder)) {
+      EXPECT_FALSE(closure(direct).count(folder)) << folder << " and " << direct << " include each other";
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(fs::path(PALPATE_SOURCE_DIR) / "common")) {
+    if (!entry.is_directory()) continue;
+    EXPECT_TRUE(kDirect.count(entry.path().filename().string()))
+        << entry.path().filename() << " is not in the table";
+    EXPECT_TRUE(fs::exists(entry.path() / "README.md")) << entry.path() << " says nothing of itself";
+  }
+}
+
+TEST(IncludeArrows, RefuseAWrongArrow) {
+  EXPECT_FALSE(allowed("common/field", "common/trace"));
+  EXPECT_FALSE(allowed("common/servo", "common/render"));
+  EXPECT_FALSE(allowed("common/load", "loaders/vtk"));
+  EXPECT_FALSE(allowed("apps/flow", "loaders/vtk"));
+  EXPECT_TRUE(allowed("apps/flow", "common/app"));
+  EXPECT_TRUE(allowed("common/haptics", "common/ode"));
+}
+
+}  // namespace
+}  // namespace palpate::test
