@@ -19,7 +19,16 @@
 namespace palpate {
 
 enum class ScalarType : std::uint8_t {
-  kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64
 };
 [[nodiscard]] std::size_t byte_size(ScalarType type) noexcept;
 [[nodiscard]] const char* name_of(ScalarType type) noexcept;  ///< "float32"
@@ -35,8 +44,8 @@ struct DataArray {
   int components = 1;
   ScalarType type = ScalarType::kFloat32;
   std::size_t tuples = 0;
-  std::span<const std::byte> bytes;    ///< tuples * components * byte_size(type)
-  std::shared_ptr<const void> owner;   ///< keeps `bytes` alive
+  std::span<const std::byte> bytes;   ///< tuples * components * byte_size(type)
+  std::shared_ptr<const void> owner;  ///< keeps `bytes` alive
 
   /// @pre tuple < tuples, component < components.
   [[nodiscard]] double at(std::size_t tuple, int component = 0) const noexcept;
@@ -72,9 +81,9 @@ struct StructuredTopology {
 /// connectivity[offsets[c]] to connectivity[offsets[c + 1] - 1]; a polyhedron has its face stream there:
 /// face count, then for each face its point count and points.
 struct UnstructuredTopology {
-  DataArray positions;                      ///< 3 components
-  std::vector<std::uint8_t> types;          ///< one a cell
-  std::vector<std::int64_t> offsets;        ///< cells + 1
+  DataArray positions;                ///< 3 components
+  std::vector<std::uint8_t> types;    ///< one a cell
+  std::vector<std::int64_t> offsets;  ///< cells + 1
   std::vector<std::int64_t> connectivity;
 };
 

@@ -16,8 +16,8 @@ namespace palpate {
 struct LocalFrame {
   int length_exponent = 0;
   int speed_exponent = 0;
-  Mat3 rotation{1.0};     ///< R, orthonormal, data_from_local
-  bool rotated = false;   ///< R is not the identity
+  Mat3 rotation{1.0};    ///< R, orthonormal, data_from_local
+  bool rotated = false;  ///< R is not the identity
 
   [[nodiscard]] double length_scale() const noexcept { return power_of_two(length_exponent); }
   [[nodiscard]] double speed_scale() const noexcept { return power_of_two(speed_exponent); }

@@ -18,14 +18,14 @@
 
 namespace palpate {
 
-class BoxGrid;          // grid/box_grid.h: uniform and rectilinear
-class TetMesh;          // grid/tet_mesh.h
-class AnalyticField;    // analytic/analytic_field.h
+class BoxGrid;        // grid/box_grid.h: uniform and rectilinear
+class TetMesh;        // grid/tet_mesh.h
+class AnalyticField;  // analytic/analytic_field.h
 
 /// Values at the points of a grid, in local units (multiplied by `scale` on reading), as stored.
 struct PointVectors {
   std::variant<std::span<const float>, std::span<const double>> values;  ///< 3 * points, xyz by point
-  double scale = 1.0;                                                     ///< a power of two
+  double scale = 1.0;                                                    ///< a power of two
   std::shared_ptr<const void> owner;
 };
 
@@ -36,10 +36,10 @@ struct CellHint {
 
 /// What was found and done while a field was made, for `info`, summaries and reports.
 struct FieldNotes {
-  std::vector<std::string> lines;            ///< sentences for the user
+  std::vector<std::string> lines;  ///< sentences for the user
   std::size_t zero_volume_cells = 0;
   std::size_t inverted_cells = 0;
-  std::size_t bad_values = 0;                ///< points whose value is not finite, or blanked
+  std::size_t bad_values = 0;  ///< points whose value is not finite, or blanked
 };
 
 class VectorField {

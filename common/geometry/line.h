@@ -11,7 +11,14 @@ namespace palpate {
 
 /// Why a line ends (the contract's `termination`).
 enum class End : std::uint8_t {
-  kLeftDomain, kStagnation, kMaxLength, kMaxTime, kMaxSteps, kLoop, kBadData, kStoppedByRule
+  kLeftDomain,
+  kStagnation,
+  kMaxLength,
+  kMaxTime,
+  kMaxSteps,
+  kLoop,
+  kBadData,
+  kStoppedByRule
 };
 inline constexpr int kEndCount = 8;
 [[nodiscard]] std::string_view name_of(End end) noexcept;  ///< "left_domain"
@@ -30,7 +37,7 @@ struct Line {
   std::vector<LinePoint> points;  ///< the seed first
   End end = End::kLeftDomain;
   TraceDirection direction = TraceDirection::kForward;
-  std::uint32_t seed = 0;         ///< index into the seeds
+  std::uint32_t seed = 0;  ///< index into the seeds
 };
 
 }  // namespace palpate

@@ -18,8 +18,8 @@
 namespace palpate {
 
 struct LoadRequest {
-  std::vector<std::filesystem::path> files;        ///< several: blocks to be joined, or a numbered time series
-  std::optional<std::filesystem::path> solution;   ///< PLOT3D solution file
+  std::vector<std::filesystem::path> files;       ///< several: blocks to be joined, or a numbered time series
+  std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file
 };
 
 struct LoadLimits {
@@ -30,8 +30,8 @@ struct LoadLimits {
 /// What a block holds, known before its arrays are read.
 struct BlockInfo {
   std::string name;
-  std::string grid;                ///< "uniform", "rectilinear", "curvilinear", "unstructured"
-  Index3 points{0};                ///< structured grids: points along i, j, k
+  std::string grid;  ///< "uniform", "rectilinear", "curvilinear", "unstructured"
+  Index3 points{0};  ///< structured grids: points along i, j, k
   std::uint64_t point_count = 0;
   std::uint64_t cell_count = 0;
   Box bounds;
@@ -39,8 +39,8 @@ struct BlockInfo {
 };
 
 struct FileInfo {
-  std::string format;              ///< "legacy VTK", "PLOT3D", "Exodus II", …
-  std::string loader;              ///< helper program that read it
+  std::string format;  ///< "legacy VTK", "PLOT3D", "Exodus II", …
+  std::string loader;  ///< helper program that read it
   std::vector<BlockInfo> blocks;
   std::vector<double> times;       ///< empty for a single state
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation

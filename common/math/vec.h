@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>

@@ -31,14 +31,14 @@ struct StopRule {
 struct TraceOptions {
   std::optional<Integrator> integrator;  ///< default_integrator() where absent
   bool forward = true;
-  bool backward = false;                 ///< both: two lines a seed
-  double tolerance = 1e-6;               ///< accumulated position error per diagonal travelled, relative to the diagonal
-  double step = 0.0;                     ///< fixed-step methods: step length; others: spacing of output points; 0: a default
-  double max_length = 0.0;               ///< data units; 0: 10 diagonals
-  double max_time = 0.0;                 ///< data units; 0: no limit
+  bool backward = false;    ///< both: two lines a seed
+  double tolerance = 1e-6;  ///< accumulated position error per diagonal travelled, relative to the diagonal
+  double step = 0.0;  ///< fixed-step methods: step length; others: spacing of output points; 0: a default
+  double max_length = 0.0;  ///< data units; 0: 10 diagonals
+  double max_time = 0.0;    ///< data units; 0: no limit
   std::int64_t max_steps = 1'000'000;
   std::vector<StopRule> stop_rules;
-  int threads = 0;                       ///< 0: all cores; the lines do not depend on it
+  int threads = 0;  ///< 0: all cores; the lines do not depend on it
 };
 
 struct TraceResult {
@@ -46,7 +46,7 @@ struct TraceResult {
   std::vector<std::uint32_t> outside_seeds;  ///< seeds in no cell: they give no line
   std::array<std::size_t, kEndCount> ends{};
   std::size_t points = 0;
-  double error_max = 0.0;                    ///< data units
+  double error_max = 0.0;  ///< data units
   double seconds_prepare = 0.0;
   double seconds_trace = 0.0;
   Integrator integrator = Integrator::kDp54;

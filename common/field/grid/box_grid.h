@@ -21,12 +21,12 @@ struct PointVectors;
 
 /// The polynomial (1) of one cell.
 struct BoxCell {
-  Vec3 lower{0.0};           ///< lo, frame L
-  Vec3 size{1.0};            ///< d, frame L
-  Vec3 inverse_size{1.0};    ///< 1 / d
-  std::array<Vec3, 8> c{};   ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz, local speed
-  Index3 index{0};           ///< cell index
-  bool bad_data = false;     ///< a corner's value is not finite or blanked
+  Vec3 lower{0.0};          ///< lo, frame L
+  Vec3 size{1.0};           ///< d, frame L
+  Vec3 inverse_size{1.0};   ///< 1 / d
+  std::array<Vec3, 8> c{};  ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz, local speed
+  Index3 index{0};          ///< cell index
+  bool bad_data = false;    ///< a corner's value is not finite or blanked
 
   [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept {
     const Vec3 u = (x - lower) * inverse_size;
