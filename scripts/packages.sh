@@ -8,7 +8,7 @@ packages_explorer="libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libe
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev"
 # The tests: framework, benchmarks, virtual display, style.
-packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format"
+packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy"
 
 say() { printf '==> %s\n' "$*" >&2; }
 fail() { printf '==> %s\n' "$*" >&2; exit 1; }
