@@ -1,0 +1,28 @@
+/// flow: streamlines of CFD data, seen and followed.
+#include "common/app/cli/verbs.h"
+
+int main(int argc, char** argv) {
+  using namespace palpate;
+  const Explorer flow{
+      .name = "flow",
+      .summary = "Explore flow fields: streamlines that state their error",
+      .examples = {{"flow carotid.vtk", "look at a file in the window"},
+                   {"flow info carotid.vtk", "what the file holds"},
+                   {"flow trace carotid.vtk --seeds grid:8,8,8 --out lines.vtp", "lines for ParaView"},
+                   {"flow render carotid.vtk --out carotid.png", "a picture, with or without a display"},
+                   {"flow report carotid.vtk --out report", "error against run time on this very field"},
+                   {"flow --example list", "the built-in data sets"}},
+      .verbs = {
+          info_verb({{"flow info carotid.vtk", "grids, fields, ranges, orientation, memory"},
+                     {"flow info disk_out_ref.ex2 --explain", "and what each verb would load"}}),
+          trace_verb({{"flow trace carotid.vtk --seeds grid:8,8,8 --out lines.vtp",
+                       "512 lines with time, speed and error at each point, for ParaView"},
+                      {"flow trace bluntfinxyz.bin --solution bluntfinq.bin --seeds random:200 --direction both --out lines.csv",
+                       "PLOT3D grid and solution; two lines a seed"},
+                      {"flow trace --example abc --seeds line:1,1,1,5,5,5,20 --tolerance 1e-8 --json --out lines.vtp",
+                       "a built-in field; the counts as JSON"},
+                      {"flow trace carotid.vtk --seeds seeds.csv --stop-plane 0,0,1,20 --out lines.vtp",
+                       "seeds from a table; lines end on the plane z = 20"}}),
+      }};
+  return run_explorer(flow, argc, argv);
+}

@@ -1,0 +1,273 @@
+#include "common/app/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string_view>
+
+#include "common/base/version.h"
+#include "common/scene/session.h"
+
+namespace palpate {
+namespace {
+
+/// Options that may stand before the verb and take a value.
+constexpr std::array<std::string_view, 5> kValuedBeforeVerb{"--threads", "--seed", "--field", "--example", "--time"};
+
+const Verb* find_verb(const Explorer& explorer, std::string_view name) {
+  for (const Verb& verb : explorer.verbs) {
+    if (verb.name == name) return &verb;
+  }
+  return nullptr;
+}
+
+/// Puts the verb first, whatever was written before it, and the default verb where there is none.
+std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<std::string> arguments) {
+  const auto is_valued = [](const std::string& text) {
+    return std::find(kValuedBeforeVerb.begin(), kValuedBeforeVerb.end(), text) != kValuedBeforeVerb.end();
+  };
+  std::size_t i = 0;
+  while (i < arguments.size() && arguments[i].starts_with("-")) i += is_valued(arguments[i]) ? 2 : 1;
+  if (i < arguments.size() && find_verb(explorer, arguments[i])) {
+    std::rotate(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    return arguments;
+  }
+  const bool only_asks = i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
+                           return a == "--help" || a == "-h" || a == "--version";
+                         });
+  if (!only_asks) arguments.insert(arguments.begin(), explorer.default_verb);
+  return arguments;
+}
+
+std::string examples_text(const std::vector<UsageExample>& examples) {
+  if (examples.empty()) return {};
+  std::string text = "Examples:";
+  for (const UsageExample& example : examples) text += "\n  " + example.command + "\n      " + example.what;
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ";") + part;
+  return text;
+}
+
+/// The options of one verb, bound to `options`.
+class VerbParser {
+ public:
+  VerbParser(CLI::App& app, const Verb& verb, Options& options) : app_(app), options_(options) {
+    app_.footer(examples_text(verb.examples));
+    add_common();
+    if (verb.groups.input) add_input();
+    if (verb.groups.tracing) add_tracing();
+    if (verb.groups.view) add_view();
+    if (verb.groups.out) add_out(verb);
+    if (verb.groups.picture) add_picture();
+    if (verb.groups.effort) add_effort();
+  }
+
+  /// Options that describe the scene and were given, with their text.
+  std::vector<std::pair<std::string, std::string>> given() const {
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const CLI::Option* option : scene_options_) {
+      if (option->count() > 0) values.emplace_back(option->get_lnames().front(), joined(option->results()));
+    }
+    return values;
+  }
+
+  void check() const {
+    const auto positive = [](double value, const char* name) {
+      if (!(std::isfinite(value) && value >= 0.0)) {
+        throw usage_error(std::string(name) + ": a positive number is expected");
+      }
+    };
+    positive(options_.tracing.tolerance, "--tolerance");
+    positive(options_.tracing.step, "--step");
+    positive(options_.tracing.max_length, "--max-length");
+    positive(options_.tracing.max_time, "--max-time");
+    if (options_.tracing.tolerance == 0.0) throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
+  }
+
+ private:
+  template <typename T>
+  CLI::Option* scene(const std::string& name, T& value, const std::string& text, const std::string& type,
+                     const std::string& group) {
+    CLI::Option* option = app_.add_option(name, value, text)->type_name(type)->group(group);
+    scene_options_.push_back(option);
+    return option;
+  }
+
+  void add_common() {
+    const char* group = "Common";
+    CommonOptions& common = options_.common;
+    app_.add_flag("--json", common.json, "print one JSON object on stdout and nothing else there")->group(group);
+    app_.add_flag("--quiet,-q", common.quiet, "print nothing on stderr but errors")->group(group);
+    app_.add_flag("--explain", common.explain, "print what is used, why, what it costs, and what is left out")
+        ->group(group);
+    app_.add_flag("--force,-f", common.force, "overwrite existing outputs")->group(group);
+    app_.add_option("--threads", common.threads, "threads to use (0: all cores); results do not depend on it")
+        ->type_name("N")
+        ->check(CLI::Range(0, 4096))
+        ->group(group);
+    app_.add_option("--seed", common.seed, "start of the random numbers (random:n seeds)")
+        ->type_name("N")
+        ->group(group);
+  }
+
+  void add_input() {
+    const char* group = "Input";
+    InputOptions& input = options_.input;
+    app_.add_option("FILE", input.files, "data file; several are joined as blocks or taken as a time series")
+        ->type_name("");
+    app_.add_option("--solution", input.solution, "PLOT3D solution file that goes with the grid FILE")
+        ->type_name("FILE")
+        ->group(group);
+    scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME", group);
+    scene("--field", input.field, "the vector field; without it the likeliest one is taken and named", "NAME", group);
+    scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
+          "first|last|T", group);
+    app_.add_option("--session", options_.session, "take files and options from a saved session; typed options win")
+        ->type_name("FILE.toml")
+        ->group(group);
+  }
+
+  void add_tracing() {
+    const char* group = "Lines";
+    TracingOptions& tracing = options_.tracing;
+    scene("--seeds", tracing.seeds,
+          "file.csv | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three corners as x,y,z) | "
+          "grid:nx,ny,nz | random:n",
+          "S", group);
+    scene("--direction", tracing.direction, "which way from each seed", "forward|backward|both", group)
+        ->check(CLI::IsMember({"forward", "backward", "both"}));
+    scene("--integrator", tracing.integrator,
+          "exact (tetrahedra), euler, rk4, bs32, rk34, dp54 or rodas4; default: exact on tetrahedra, dp54 elsewhere",
+          "NAME", group);
+    scene("--tolerance", tracing.tolerance,
+          "position error accumulated per diagonal travelled, relative to the diagonal; default 1e-6", "T", group);
+    scene("--step", tracing.step, "step length of euler and rk4; spacing of output points of the others", "LENGTH",
+          group);
+    scene("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals", "LENGTH", group);
+    scene("--max-time", tracing.max_time, "longest time along a line, in data units", "TIME", group);
+    scene("--max-steps", tracing.max_steps, "most steps of a line; default 1000000", "N", group)
+        ->check(CLI::PositiveNumber);
+    scene("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated", "nx,ny,nz,d", group)
+        ->delimiter(';')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+
+  void add_view() {
+    const char* group = "View";
+    scene("--camera", options_.view.camera, "direction of view in degrees, and zoom", "azimuth,elevation,roll,zoom",
+          group);
+    scene("--color", options_.view.color, "what colours the lines: speed, time, error or a scalar array", "NAME", group);
+  }
+
+  void add_out(const Verb& verb) {
+    app_.add_option("--out,-o", options_.out, verb.groups.effort ? "folder to be made" : "file to be written")
+        ->type_name(verb.groups.effort ? "DIR" : "FILE")
+        ->group("Output");
+  }
+
+  void add_picture() {
+    app_.add_option("--size", options_.size, "size of the picture in pixels; default 1280x960")
+        ->type_name("WxH")
+        ->group("View");
+    app_.add_option("--repeat", options_.repeat, "frames to time after the first one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 100000))
+        ->group("View");
+  }
+
+  void add_effort() {
+    app_.add_flag_callback("--quick", [this] { options_.effort = "quick"; }, "fewer seeds and settings")
+        ->group("Effort");
+    app_.add_flag_callback("--thorough", [this] { options_.effort = "thorough"; }, "more seeds and settings")
+        ->group("Effort");
+  }
+
+  CLI::App& app_;
+  Options& options_;
+  std::vector<CLI::Option*> scene_options_;
+};
+
+ParsedCommand parse_once(const Explorer& explorer, std::vector<std::string> arguments) {
+  ParsedCommand parsed;
+  CLI::App app(explorer.summary, explorer.name);
+  app.set_help_flag("--help,-h", "print this help");
+  app.set_version_flag("--version", version_text(explorer.name));
+  app.require_subcommand(0, 1);
+  std::string footer = "'" + explorer.name + " FILE' is '" + explorer.name + " " + explorer.default_verb +
+                       " FILE'; '" + explorer.name + " VERB --help' lists a verb's options.\n\n";
+  app.footer(footer + examples_text(explorer.examples));
+
+  std::map<const CLI::App*, std::unique_ptr<VerbParser>> parsers;
+  for (const Verb& verb : explorer.verbs) {
+    CLI::App* sub = app.add_subcommand(verb.name, verb.summary);
+    sub->set_help_flag("--help,-h", "print this help");
+    sub->set_version_flag("--version", version_text(explorer.name));
+    parsers[sub] = std::make_unique<VerbParser>(*sub, verb, parsed.options);
+  }
+
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes its arguments from the back
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    const auto chosen = app.get_subcommands();
+    parsed.text = (chosen.empty() ? app : *chosen.front()).help(chosen.empty() ? "" : explorer.name + " " + chosen.front()->get_name());
+    return parsed;
+  } catch (const CLI::CallForVersion&) {
+    parsed.text = version_text(explorer.name) + "\n";
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    const std::string verb = chosen.empty() ? std::string() : " " + chosen.front()->get_name();
+    throw usage_error(std::string(error.what()) + "; see " + explorer.name + verb + " --help");
+  }
+  const CLI::App* chosen = app.get_subcommands().front();
+  parsed.verb = find_verb(explorer, chosen->get_name());
+  parsers.at(chosen)->check();
+  parsed.options.given = parsers.at(chosen)->given();
+  return parsed;
+}
+
+/// The arguments with the session's files and options in front, except what was typed.
+std::vector<std::string> with_session(const std::vector<std::string>& arguments, const Options& typed) {
+  const Session session = load_session(typed.session);
+  std::vector<std::string> merged{arguments.front()};
+  const auto is_typed = [&](const std::string& name) {
+    return std::any_of(typed.given.begin(), typed.given.end(), [&](const auto& option) { return option.first == name; });
+  };
+  const bool input_typed = !typed.input.files.empty() || !typed.input.example.empty();
+  for (const auto& [name, value] : session.options) {
+    if (is_typed(name) || (name == "example" && input_typed)) continue;
+    merged.push_back("--" + name + "=" + value);
+  }
+  if (!input_typed) {
+    for (const SessionInput& input : session.inputs) {
+      if (input.solution) {
+        if (!typed.input.solution) merged.push_back("--solution=" + input.file.string());
+      } else {
+        merged.push_back(input.file.string());
+      }
+    }
+  }
+  merged.insert(merged.end(), arguments.begin() + 1, arguments.end());
+  return merged;
+}
+
+}  // namespace
+
+ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> ordered = with_verb_first(explorer, arguments);
+  ParsedCommand parsed = parse_once(explorer, ordered);
+  if (!parsed.verb || parsed.options.session.empty()) return parsed;
+  return parse_once(explorer, with_session(ordered, parsed.options));
+}
+
+}  // namespace palpate

@@ -1,0 +1,33 @@
+/// What a verb says: results on stdout, remarks on stderr.
+#pragma once
+
+#include <string>
+
+namespace palpate {
+
+class Console {
+ public:
+  Console(std::string program, bool json, bool quiet) : program_(std::move(program)), json_(json), quiet_(quiet) {}
+
+  [[nodiscard]] bool json() const noexcept { return json_; }
+  [[nodiscard]] bool quiet() const noexcept { return quiet_; }
+
+  /// A remark on stderr, "flow: …"; nothing with --quiet.
+  void note(const std::string& line) const;
+  /// Result for people on stdout; nothing with --json.
+  void print(const std::string& text);
+  /// The one JSON object on stdout; nothing without --json.
+  void print_json(const std::string& object);
+  /// An error on stderr, and as {"error", "exit"} on stdout with --json if no object was printed yet.
+  void fail(const std::string& line, int exit_code);
+  /// @throws Error (work failed) where stdout did not take everything.
+  void finish();
+
+ private:
+  std::string program_;
+  bool json_ = false;
+  bool quiet_ = false;
+  bool json_printed_ = false;
+};
+
+}  // namespace palpate

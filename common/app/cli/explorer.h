@@ -1,0 +1,66 @@
+/// What a program is to the command line: a name, a summary, examples, and verbs. `flow`, `cardiac`, `dtmri` and
+/// `grid` share everything else.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/app/cli/console.h"
+#include "common/app/cli/interrupt.h"
+#include "common/app/cli/options.h"
+#include "common/base/error.h"
+#include "common/base/progress.h"
+
+namespace palpate {
+
+/// A command line worth showing and what it does.
+struct UsageExample {
+  std::string command;
+  std::string what;
+};
+
+struct Explorer;
+
+/// What a verb works with besides its options.
+struct VerbContext {
+  const Explorer& explorer;
+  Progress& progress;  ///< cancelled by Ctrl-C
+  InterruptGuard& interrupt;
+  Console& console;
+  std::string command_line;  ///< as typed, for the text chunk of pictures
+};
+
+/// Groups of options that a verb takes besides the common ones.
+struct VerbGroups {
+  bool input = true;
+  bool tracing = false;
+  bool view = false;
+  bool out = false;
+  bool picture = false;  ///< --size, --repeat
+  bool effort = false;   ///< --quick, --thorough
+};
+
+struct Verb {
+  std::string name;
+  std::string summary;
+  VerbGroups groups;
+  std::vector<UsageExample> examples;
+  /// Does the work. @throws Error.
+  std::function<ExitCode(const Options&, const VerbContext&)> run;
+};
+
+struct Explorer {
+  std::string name;
+  std::string summary;
+  std::vector<UsageExample> examples;
+  std::vector<Verb> verbs;
+  /// The verb that `<app> FILE` and `<app>` alone stand for.
+  std::string default_verb = "open";
+};
+
+/// Parses the command line, runs the verb and turns errors into one line and an exit code. Ctrl-C cancels the
+/// verb's progress; a verb that has not returned within a second is ended.
+int run_explorer(const Explorer& explorer, int argc, char** argv);
+
+}  // namespace palpate

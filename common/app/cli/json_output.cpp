@@ -1,0 +1,175 @@
+#include "common/app/cli/json_output.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/base/version.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// File names need not be UTF-8, JSON does.
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+
+Json vec_json(const Vec3& x) { return {x.x, x.y, x.z}; }
+Json box_json(const Box& box) { return {{"lower", vec_json(box.lower)}, {"upper", vec_json(box.upper)}}; }
+
+Json needs_json(const Needs& needs) {
+  Json list = Json::array();
+  for (const Need& need : needs) {
+    list.push_back({{"what", need.what},
+                    {"why", need.why},
+                    {"used", need.used},
+                    {"bytes", need.bytes},
+                    {"milliseconds", need.milliseconds}});
+  }
+  return list;
+}
+
+Json array_json(const ArraySummary& array) {
+  Json ranges = Json::array();
+  for (const ComponentRange& range : array.ranges) ranges.push_back({range.lower, range.upper});
+  const std::uint64_t bytes = static_cast<std::uint64_t>(array.info.tuples) *
+                              static_cast<std::uint64_t>(array.info.components) * byte_size(array.info.type);
+  return {{"name", array.info.name},
+          {"on", array.info.association == Association::kCell ? "cell" : "point"},
+          {"components", array.info.components},
+          {"type", name_of(array.info.type)},
+          {"tuples", array.info.tuples},
+          {"bytes", bytes},
+          {"ranges", ranges},
+          {"bad_values", array.bad_values}};
+}
+
+Json blocks_json(const FileInfo& file) {
+  Json blocks = Json::array();
+  for (const BlockInfo& block : file.blocks) {
+    Json json{{"name", block.name}, {"grid", block.grid}};
+    if (block.points.x > 0) json["size"] = {block.points.x, block.points.y, block.points.z};
+    json["points"] = block.point_count;
+    json["cells"] = block.cell_count;
+    json["bounds"] = box_json(block.bounds);
+    blocks.push_back(std::move(json));
+  }
+  return blocks;
+}
+
+}  // namespace
+
+std::string error_json(const std::string& line, int exit_code) {
+  return text_of({{"error", line}, {"exit", exit_code}});
+}
+
+std::string examples_json(const std::vector<ExampleInfo>& examples) {
+  Json list = Json::array();
+  for (const ExampleInfo& example : examples) list.push_back({{"name", example.name}, {"summary", example.summary}});
+  return text_of({{"examples", list}});
+}
+
+std::string trace_json(const TraceSummary& summary) {
+  const TraceResult& result = summary.result;
+  Json ends = Json::object();
+  for (int e = 0; e < kEndCount; ++e) {
+    ends[std::string(name_of(static_cast<End>(e)))] = result.ends[static_cast<std::size_t>(e)];
+  }
+  Json outside = Json::array();
+  for (const std::uint32_t seed : result.outside_seeds) {
+    outside.push_back({{"seed", seed}, {"position", vec_json(summary.seed_points[seed])}});
+  }
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+            {"seeds", summary.seeds},
+            {"seeds_outside", outside},
+            {"lines", result.lines.size()},
+            {"points", result.points},
+            {"ends", ends},
+            {"integrator", name_of(result.integrator)},
+            {"tolerance", summary.tolerance},
+            {"max_length", summary.max_length},
+            {"diagonal", summary.diagonal},
+            {"error_max", result.error_max},
+            {"threads", summary.threads},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_prepare", result.seconds_prepare},
+            {"seconds_trace", result.seconds_trace},
+            {"seconds_write", summary.seconds_write},
+            {"advice", summary.advice},
+            {"version", version()}};
+  if (!summary.failure.empty()) {
+    json["error"] = summary.failure;
+    json["exit"] = 1;
+  }
+  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  return text_of(json);
+}
+
+std::string info_json(const InfoSummary& summary) {
+  const Input& input = *summary.input;
+  Json json{{"input", input.title()}};
+  if (const FileInfo* file = input.file()) {
+    json["format"] = file->format;
+    json["loader"] = file->loader;
+    json["blocks"] = blocks_json(*file);
+    Json arrays = Json::array();
+    for (const ArraySummary& array : summary.arrays) arrays.push_back(array_json(array));
+    json["arrays"] = std::move(arrays);
+    Json fields = Json::array();
+    for (const VectorChoice& choice : input.choices()) fields.push_back(choice.label);
+    json["fields"] = std::move(fields);
+    json["times"] = file->times;
+    json["orientation"] = summary.orientation;
+    json["units"] = nullptr;  // none of the formats states them
+  } else {
+    json["format"] = "formula";
+    json["fields"] = {"velocity"};
+    json["times"] = Json::array();
+  }
+  json["field"] = summary.field.empty() ? Json(nullptr) : Json(summary.field);
+  json["max_speed"] = summary.max_speed;
+  json["bounds"] = box_json(summary.bounds);
+  json["diagonal"] = summary.bounds.diagonal();
+  json["memory_bytes"] = summary.memory_bytes;
+  json["notes"] = summary.notes;
+  json["seconds_load"] = summary.seconds_load;
+  if (!summary.plans.empty()) {
+    Json plans = Json::object();
+    for (const auto& plan : summary.plans) plans[plan.verb] = needs_json(plan.plan);
+    json["plan"] = std::move(plans);
+  }
+  return text_of(json);
+}
+
+std::string render_json(const RenderSummary& summary) {
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output},
+            {"width", summary.width},
+            {"height", summary.height},
+            {"lines", summary.lines},
+            {"points", summary.points},
+            {"first_frame_ms", summary.first_frame_ms},
+            {"frame_ms", summary.frame_ms},
+            {"frames_timed", summary.frames_timed},
+            {"image_error", summary.image_error},
+            {"image_error_kind", summary.image_error_kind},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_trace", summary.seconds_trace},
+            {"renderer", summary.renderer},
+            {"version", version()}};
+  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  return text_of(json);
+}
+
+std::string report_summary_json(const std::string& folder, std::size_t rows, std::size_t failed_cases,
+                                double seconds) {
+  return text_of({{"out", folder},
+                  {"work_precision_rows", rows},
+                  {"stability_cases_failed", failed_cases},
+                  {"seconds", seconds},
+                  {"version", version()}});
+}
+
+}  // namespace palpate

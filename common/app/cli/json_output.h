@@ -1,0 +1,19 @@
+/// The JSON objects of `--json`, made from plain values (the only user of the JSON library among the verbs).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/app/cli/summaries.h"
+
+namespace palpate {
+
+[[nodiscard]] std::string error_json(const std::string& line, int exit_code);
+[[nodiscard]] std::string examples_json(const std::vector<ExampleInfo>& examples);
+[[nodiscard]] std::string trace_json(const TraceSummary& summary);
+[[nodiscard]] std::string info_json(const InfoSummary& summary);
+[[nodiscard]] std::string render_json(const RenderSummary& summary);
+[[nodiscard]] std::string report_summary_json(const std::string& folder, std::size_t rows, std::size_t failed_cases,
+                                              double seconds);
+
+}  // namespace palpate

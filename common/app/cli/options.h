@@ -1,0 +1,66 @@
+/// What the command line asked for, as plain values. Each struct is one group of options; a verb says which
+/// groups it takes (verb.h), and command_line.cpp alone knows how they are spelled.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace palpate {
+
+/// Taken by every verb.
+struct CommonOptions {
+  bool json = false;     ///< one JSON object on stdout and nothing else there
+  bool quiet = false;    ///< errors only on stderr
+  bool explain = false;  ///< print the plan
+  bool force = false;    ///< overwrite outputs
+  int threads = 0;       ///< 0: all cores
+  std::uint64_t seed = 1;
+};
+
+/// What is opened.
+struct InputOptions {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::filesystem::path> solution;
+  std::string example;
+  std::string field;
+  std::string time = "first";
+};
+
+/// Where lines start and how they are traced.
+struct TracingOptions {
+  std::string seeds;                  ///< grammar of scene/seeds.h; empty: the verb's default
+  std::string direction;              ///< forward, backward, both; empty: the verb's default
+  std::string integrator;             ///< empty: exact on tetrahedra, dp54 elsewhere
+  double tolerance = 1e-6;
+  double step = 0.0;
+  double max_length = 0.0;
+  double max_time = 0.0;
+  std::int64_t max_steps = 1'000'000;
+  std::vector<std::string> stop_planes;  ///< nx,ny,nz,d: lines end where n.x = d
+};
+
+/// How it is looked at.
+struct ViewOptions {
+  std::string camera;  ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
+  std::string color;   ///< array that colours the lines; empty: speed
+};
+
+struct Options {
+  CommonOptions common;
+  InputOptions input;
+  TracingOptions tracing;
+  ViewOptions view;
+  std::filesystem::path out;
+  std::string size = "1280x960";
+  int repeat = 0;            ///< render: frames to be timed after the first one
+  std::string effort = "normal";
+  std::filesystem::path session;
+  /// Options that were given, by the command line or a session, and their text: what a session saves.
+  std::vector<std::pair<std::string, std::string>> given;
+};
+
+}  // namespace palpate

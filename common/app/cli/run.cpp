@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "common/app/cli/command_line.h"
+#include "common/app/cli/explorer.h"
+
+namespace palpate {
+namespace {
+
+std::string joined(const std::string& program, const std::vector<std::string>& arguments) {
+  std::string line = program;
+  for (const std::string& argument : arguments) {
+    const bool plain = !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
+/// Runs `verb` and turns whatever it throws into a line and an exit code.
+ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& context) {
+  const auto interrupted = [&] {
+    context.console.fail("interrupted; " + context.interrupt.kept(), static_cast<int>(ExitCode::kInterrupted));
+    return ExitCode::kInterrupted;
+  };
+  try {
+    const ExitCode code = verb.run(options, context);
+    context.console.finish();
+    return code;
+  } catch (const Error& error) {
+    // What a cancelled job says last is a consequence, not the cause.
+    if (InterruptGuard::interrupted()) return interrupted();
+    context.console.fail(error.what(), static_cast<int>(error.code()));
+    return error.code();
+  } catch (const std::bad_alloc&) {
+    context.console.fail("not enough memory for this data; give fewer seeds, or a part of the data",
+                         static_cast<int>(ExitCode::kWorkFailed));
+  } catch (const std::exception& error) {
+    if (InterruptGuard::interrupted()) return interrupted();
+    context.console.fail(error.what(), static_cast<int>(ExitCode::kWorkFailed));
+  }
+  return ExitCode::kWorkFailed;
+}
+
+}  // namespace
+
+int run_explorer(const Explorer& explorer, int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  ParsedCommand parsed;
+  try {
+    parsed = parse_command_line(explorer, arguments);
+    if (!parsed.verb) {
+      Console console(explorer.name, false, false);
+      console.print(parsed.text);
+      console.finish();
+      return 0;
+    }
+  } catch (const Error& error) {
+    const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    Console(explorer.name, json, false).fail(error.what(), static_cast<int>(error.code()));
+    return static_cast<int>(error.code());
+  }
+
+  const CommonOptions& common = parsed.options.common;
+  Console console(explorer.name, common.json, common.quiet);
+  Progress progress;
+  InterruptGuard interrupt(progress, explorer.name);
+  const ProgressBar bar(progress, common.quiet);
+  const VerbContext context{explorer, progress, interrupt, console, joined(explorer.name, arguments)};
+  return static_cast<int>(run_verb(*parsed.verb, parsed.options, context));
+}
+
+}  // namespace palpate

@@ -1,0 +1,80 @@
+/// What the verbs found out, as plain values: printed as text by the verb, as JSON by json_output.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/needs.h"
+#include "common/scene/input.h"
+#include "common/trace/trace.h"
+
+namespace palpate {
+
+struct TraceSummary {
+  std::string input;
+  std::string field;
+  std::string output;              ///< empty: none
+  std::size_t seeds = 0;
+  std::vector<Vec3> seed_points;
+  TraceResult result;              ///< lines included
+  double tolerance = 0.0;
+  double diagonal = 0.0;
+  double max_length = 0.0;         ///< data units, as applied
+  int threads = 0;
+  double seconds_load = 0.0;
+  double seconds_write = 0.0;
+  std::vector<std::string> advice; ///< what to change
+  std::string failure;             ///< why there is no line; empty where there is one
+  Needs plan;                      ///< with --explain
+};
+
+/// Range of an array's component.
+struct ComponentRange {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+struct ArraySummary {
+  ArrayInfo info;
+  std::vector<ComponentRange> ranges;  ///< one a component; finite values only
+  std::uint64_t bad_values = 0;        ///< NaN and infinite numbers
+};
+
+struct InfoSummary {
+  const Input* input = nullptr;
+  std::vector<ArraySummary> arrays;
+  std::vector<std::string> orientation;  ///< a sentence a block
+  std::string field;                     ///< empty: no vector field can be made
+  double max_speed = 0.0;
+  Box bounds;
+  std::uint64_t memory_bytes = 0;        ///< arrays as stored
+  std::vector<std::string> notes;
+  double seconds_load = 0.0;
+  struct VerbPlan {
+    std::string verb;
+    Needs plan;
+  };
+  std::vector<VerbPlan> plans;           ///< with --explain
+};
+
+struct RenderSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  int width = 0;
+  int height = 0;
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  double first_frame_ms = 0.0;
+  double frame_ms = 0.0;
+  int frames_timed = 0;
+  double image_error = 0.0;
+  std::string image_error_kind;
+  double seconds_load = 0.0;
+  double seconds_trace = 0.0;
+  std::string renderer;
+  Needs plan;
+};
+
+}  // namespace palpate

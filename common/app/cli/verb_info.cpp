@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+std::string position_text(const Vec3& x) {
+  return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";
+}
+
+/// Ranges of all components over fixed pieces of an array: minima, maxima and counts do not depend on how the
+/// pieces are shared among threads.
+struct PieceRange {
+  std::vector<ComponentRange> ranges;
+  std::uint64_t bad = 0;
+};
+
+void include_array(const DataArray& array, int threads, ArraySummary& summary) {
+  constexpr std::size_t kPiece = 65536;
+  const std::size_t pieces = (array.tuples + kPiece - 1) / kPiece;
+  const auto components = static_cast<std::size_t>(array.components);
+  std::vector<PieceRange> found(pieces);
+  parallel_for(pieces, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      PieceRange& piece = found[p];
+      piece.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
+      for (std::size_t t = p * kPiece; t < std::min(array.tuples, (p + 1) * kPiece); ++t) {
+        for (std::size_t c = 0; c < components; ++c) {
+          const double value = array.at(t, static_cast<int>(c));
+          if (!std::isfinite(value)) {
+            ++piece.bad;
+            continue;
+          }
+          piece.ranges[c].lower = std::min(piece.ranges[c].lower, value);
+          piece.ranges[c].upper = std::max(piece.ranges[c].upper, value);
+        }
+      }
+    }
+  });
+  if (summary.ranges.empty()) summary.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
+  for (const PieceRange& piece : found) {
+    summary.bad_values += piece.bad;
+    for (std::size_t c = 0; c < std::min(components, summary.ranges.size()); ++c) {
+      summary.ranges[c].lower = std::min(summary.ranges[c].lower, piece.ranges[c].lower);
+      summary.ranges[c].upper = std::max(summary.ranges[c].upper, piece.ranges[c].upper);
+    }
+  }
+}
+
+std::string orientation_of(const DataSet& block) {
+  const auto* uniform = std::get_if<UniformTopology>(&block.topology);
+  if (!uniform) return "coordinates as stored";
+  const Mat3& a = uniform->axes;
+  const bool aligned = a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
+  if (aligned) return "axes i, j, k along x, y, z; steps " + position_text({a[0].x, a[1].y, a[2].z});
+  return "steps i " + position_text(a[0]) + ", j " + position_text(a[1]) + ", k " + position_text(a[2]);
+}
+
+/// Ranges, orientation and memory of everything in the file.
+void read_all(Input& input, const Options& options, const VerbContext& context, InfoSummary& summary) {
+  std::vector<std::string> names;
+  for (const ArrayInfo& info : input.arrays()) {
+    summary.arrays.push_back({.info = info, .ranges = {}});
+    if (std::find(names.begin(), names.end(), info.name) == names.end()) names.push_back(info.name);
+  }
+  context.progress.begin("reading " + input.title(), 0);
+  const std::vector<DataSet> blocks = input.read(names, &context.progress);
+  for (const DataSet& block : blocks) {
+    context.progress.check();
+    const std::string orientation = orientation_of(block);
+    if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) == summary.orientation.end()) {
+      summary.orientation.push_back(orientation);
+    }
+    for (ArraySummary& array : summary.arrays) {
+      const DataArray* values = block.find(array.info.name, array.info.association);
+      if (!values) continue;
+      include_array(*values, options.common.threads, array);
+      summary.memory_bytes += values->bytes.size();
+    }
+  }
+}
+
+std::string range_text(const ArraySummary& array) {
+  std::string text;
+  for (const ComponentRange& range : array.ranges) {
+    text += text.empty() ? "" : ", ";
+    text += range.lower <= range.upper ? short_number(range.lower) + " … " + short_number(range.upper) : "no value";
+  }
+  if (array.bad_values > 0) text += "; " + counted(array.bad_values, "value") + " NaN or infinite";
+  return text;
+}
+
+std::string file_text(const InfoSummary& summary, const FileInfo& file) {
+  std::string text = summary.input->title() + ": " + file.format + "\n";
+  for (const BlockInfo& block : file.blocks) {
+    text += "  grid       " + (block.name.empty() ? "" : block.name + ": ") + block.grid;
+    if (block.points.x > 0) {
+      text += " " + std::to_string(block.points.x) + " x " + std::to_string(block.points.y) + " x " +
+              std::to_string(block.points.z);
+    }
+    text += ", " + counted(block.point_count, "point") + ", " + counted(block.cell_count, "cell") + "\n";
+    text += "             " + position_text(block.bounds.lower) + " to " + position_text(block.bounds.upper) + "\n";
+  }
+  for (const std::string& orientation : summary.orientation) text += "  axes       " + orientation + "\n";
+  text += "  units      not stated by the file\n";
+  for (const ArraySummary& array : summary.arrays) {
+    text += "  array      " + array.info.name + " (" + (array.info.association == Association::kCell ? "cells" : "points") +
+            ", " + std::to_string(array.info.components) + " x " + name_of(array.info.type) + "): " + range_text(array) + "\n";
+  }
+  if (file.times.size() > 1) {
+    text += "  times      " + std::to_string(file.times.size()) + ", " + short_number(file.times.front()) + " … " +
+            short_number(file.times.back()) + "\n";
+  }
+  return text;
+}
+
+std::string summary_text(const InfoSummary& summary) {
+  const Input& input = *summary.input;
+  std::string text = input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
+  if (!input.file()) {
+    text += "  domain     " + position_text(summary.bounds.lower) + " to " + position_text(summary.bounds.upper) + "\n";
+  }
+  if (summary.field.empty()) {
+    text += "  field      no vector field can be made from these arrays\n";
+  } else {
+    text += "  field      " + summary.field + ", speed up to " + short_number(summary.max_speed);
+    std::string others;
+    for (const VectorChoice& choice : input.choices()) {
+      if (choice.label != summary.field) others += (others.empty() ? "" : ", ") + choice.label;
+    }
+    text += (others.empty() ? "" : "; others: " + others + " (--field)") + "\n";
+  }
+  text += "  memory     " + bytes_text(summary.memory_bytes) + " of arrays\n";
+  for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
+  for (const auto& plan : summary.plans) text += "\n" + plan.verb + "\n" + plan_text(plan.plan);
+  return text;
+}
+
+ExitCode run_info(const Options& options, const VerbContext& context) {
+  if (list_examples(options, context.console)) return ExitCode::kDone;
+  Input input = Input::open(input_spec(options.input), &context.progress);
+  InfoSummary summary;
+  summary.input = &input;
+  const bool has_field = !input.file() || !input.choices().empty();
+  if (!options.input.field.empty() && input.file()) (void)input.choice();  // an unknown --field is refused first
+  if (options.common.explain) {
+    const bool field = has_field;
+    summary.plans = {{"info", plan_scene(input, {.verb = "info", .field = field, .all_arrays = true})}};
+    for (const Verb& verb : context.explorer.verbs) {
+      if (verb.name == "info" || !field) continue;
+      const bool drawing = verb.groups.view;
+      summary.plans.push_back({verb.name, plan_scene(input, {.verb = verb.name,
+                                                             .tracing = verb.groups.tracing,
+                                                             .drawing = drawing,
+                                                             .window = verb.name == "open"})});
+    }
+  }
+  if (const FileInfo* file = input.file()) {
+    summary.notes = file->notes;
+    for (const BlockInfo& block : file->blocks) {
+      summary.bounds.include(block.bounds.lower);
+      summary.bounds.include(block.bounds.upper);
+    }
+    read_all(input, options, context, summary);
+  }
+  if (has_field) {
+    const auto field = input.load_field(options.common.threads, &context.progress);
+    summary.field = field->name();
+    summary.max_speed = field->max_speed();
+    summary.bounds = field->bounds();
+    summary.notes.insert(summary.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
+    for (auto& plan : summary.plans) {
+      if (plan.verb == "info") measure_plan(plan.plan, input, *field);
+    }
+  }
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  context.console.print(summary_text(summary));
+  context.console.print_json(info_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb info_verb(std::vector<UsageExample> examples) {
+  return {.name = "info",
+          .summary = "say what a file holds: grids, fields, ranges, orientation, memory",
+          .groups = {},
+          .examples = std::move(examples),
+          .run = run_info};
+}
+
+}  // namespace palpate

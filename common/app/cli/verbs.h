@@ -1,0 +1,39 @@
+/// The verbs that all explorers share; each stands in a file of its own (verb_<name>.cpp).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/app/cli/explorer.h"
+#include "common/scene/input.h"
+#include "common/trace/trace.h"
+
+namespace palpate {
+
+[[nodiscard]] Verb info_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb trace_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb render_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);
+
+/// @name What the verbs share
+/// @{
+
+[[nodiscard]] InputSpec input_spec(const InputOptions& options);
+
+/// Handles `--example list`: prints the examples and returns true.
+[[nodiscard]] bool list_examples(const Options& options, Console& console);
+
+/// Opens the input and says on stderr which field and time step are taken.
+[[nodiscard]] Input open_input(const Options& options, const VerbContext& context);
+
+/// Reads `--direction`, `--integrator` and the limits.
+/// @param default_direction where `--direction` is not given.
+/// @throws Error (usage).
+[[nodiscard]] TraceOptions trace_options(const Options& options, const std::string& default_direction);
+
+/// Refuses an output file that exists (without --force) or whose folder cannot be written.
+/// @throws Error (usage for a missing --out or an existing file, work failed for the folder).
+void check_output_file(const std::filesystem::path& out, bool force);
+/// @}
+
+}  // namespace palpate

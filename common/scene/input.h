@@ -1,0 +1,94 @@
+/// The input of a scene: files or a built-in example, opened; its arrays are read and its field is made only on
+/// demand, so that what a verb does not need is not loaded.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/field/vector_field.h"
+#include "common/load/load.h"
+
+namespace palpate {
+
+/// What the user named.
+struct InputSpec {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::filesystem::path> solution;  ///< PLOT3D
+  std::string example;                            ///< in place of files
+  std::string field;                              ///< empty: the likeliest one
+  std::string time = "first";                     ///< first, last or a time
+};
+
+/// A built-in data set, for lists.
+struct ExampleInfo {
+  std::string name;
+  std::string summary;
+};
+[[nodiscard]] std::vector<ExampleInfo> example_list();
+
+/// A time step and whether it is the very one that was asked for.
+struct TimeChoice {
+  std::size_t step = 0;
+  bool exact = true;
+};
+
+/// The step that `text` means (first, last or a time: the nearest one).
+/// @throws Error (usage) that names the range, where `text` is no time or lies outside by more than the
+/// nearest interval.
+[[nodiscard]] TimeChoice choose_time(const std::vector<double>& times, std::string_view text);
+
+class Input {
+ public:
+  /// Opens the files (a helper program starts) or finds the example.
+  /// @throws Error (usage: neither or both named, an unknown example; bad input); Cancelled.
+  static Input open(const InputSpec& spec, Progress* progress = nullptr);
+
+  /// "carotid.vtk", "example abc"
+  [[nodiscard]] const std::string& title() const noexcept { return title_; }
+  [[nodiscard]] const InputSpec& spec() const noexcept { return spec_; }
+  /// What the loader says; null for an example.
+  [[nodiscard]] const FileInfo* file() const noexcept;
+  [[nodiscard]] const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
+  /// Every vector field that can be made, the default first; none for an example.
+  [[nodiscard]] const std::vector<VectorChoice>& choices() const noexcept { return choices_; }
+  [[nodiscard]] const std::vector<double>& times() const noexcept;
+  [[nodiscard]] const TimeChoice& time() const noexcept { return time_; }
+  /// Moves to another time step. @pre step < times().size().
+  void set_time_step(std::size_t step) noexcept { time_ = {step, true}; }
+
+  /// The recipe of the field that spec().field means. @pre file().
+  /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field.
+  [[nodiscard]] VectorChoice choice() const;
+
+  /// One sentence that names the field and the time step, and what else there was to choose from.
+  [[nodiscard]] std::string choice_sentence() const;
+
+  /// Reads the arrays of the field and makes it.
+  /// @throws Error, Cancelled.
+  [[nodiscard]] std::shared_ptr<const VectorField> load_field(int threads, Progress* progress = nullptr);
+  /// Reads topology and arrays by name at the chosen time step. @pre file().
+  [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names, Progress* progress = nullptr);
+
+  [[nodiscard]] double seconds_open() const noexcept { return seconds_open_; }
+  [[nodiscard]] double seconds_read() const noexcept { return seconds_read_; }    ///< of the last load_field()
+  [[nodiscard]] double seconds_field() const noexcept { return seconds_field_; }  ///< of the last load_field()
+
+ private:
+  InputSpec spec_;
+  std::string title_;
+  std::optional<Source> source_;
+  std::vector<ArrayInfo> arrays_;
+  std::vector<VectorChoice> choices_;
+  TimeChoice time_;
+  double seconds_open_ = 0.0;
+  double seconds_read_ = 0.0;
+  double seconds_field_ = 0.0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,152 @@
+#include "common/scene/plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <set>
+
+#include "common/base/text.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/load/format.h"
+
+namespace palpate {
+namespace {
+
+// A hexahedron becomes five or six tetrahedra (cell_split.h); a tetrahedron takes four vertices, four
+// neighbours and a flag; its share of the search index is about one box.
+constexpr std::uint64_t kTetsPerCell = 5;
+constexpr std::uint64_t kBytesPerTet = sizeof(TetMesh::Tet) + sizeof(TetMesh::Neighbors) + 1 + 32;
+
+constexpr const char* kHelper = "helper ";
+constexpr const char* kArray = "array ";
+constexpr const char* kVectorField = "the vector field";
+constexpr const char* kTetrahedra = "tetrahedra with neighbours and cell index";
+constexpr const char* kBoxes = "box grid, cells found directly";
+
+Need used(std::string what, std::string why, std::uint64_t bytes = 0) {
+  return {std::move(what), std::move(why), true, bytes, 0.0};
+}
+Need left_out(std::string what, std::string why, std::uint64_t bytes = 0) {
+  return {std::move(what), std::move(why), false, bytes, 0.0};
+}
+Need when(bool is_used, std::string what, std::string why_used, std::string why_not) {
+  return is_used ? used(std::move(what), std::move(why_used)) : left_out(std::move(what), std::move(why_not));
+}
+
+bool is_box(const FileInfo& file) {
+  return file.blocks.size() == 1 && (file.blocks[0].grid == "uniform" || file.blocks[0].grid == "rectilinear");
+}
+
+void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
+  std::vector<std::string> wanted;
+  if (use.field && !input.choices().empty()) wanted = input.choice().arrays;
+  for (const ArrayInfo& array : input.arrays()) {
+    const std::uint64_t bytes = static_cast<std::uint64_t>(array.tuples) *
+                                static_cast<std::uint64_t>(array.components) * byte_size(array.type);
+    const bool in_field = std::find(wanted.begin(), wanted.end(), array.name) != wanted.end();
+    const bool colors = array.name == use.color_array;
+    const std::string what = kArray + array.name;
+    if (in_field) {
+      plan.push_back(used(what, kVectorField, bytes));
+    } else if (colors) {
+      plan.push_back(used(what, "colours the lines", bytes));
+    } else if (use.all_arrays) {
+      plan.push_back(used(what, "its range", bytes));
+    } else {
+      plan.push_back(left_out(what, "nothing asks for it", bytes));
+    }
+  }
+}
+
+void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Needs& plan) {
+  plan.push_back(used(kHelper + file.loader, "reads " + file.format));
+  std::set<std::string> others;
+  for (int f = 0; f < kFormatCount; ++f) others.emplace(helper_of(static_cast<Format>(f)));
+  others.erase(file.loader);
+  for (const std::string& helper : others) plan.push_back(left_out(kHelper + helper, "not for this format"));
+
+  plan_arrays(input, use, plan);
+  if (file.times.size() > 1) {
+    plan.push_back(left_out(std::to_string(file.times.size() - 1) + " other time steps", "one is shown at a time"));
+  }
+  std::uint64_t points = 0;
+  std::uint64_t cells = 0;
+  for (const BlockInfo& block : file.blocks) {
+    points += block.point_count;
+    cells += block.cell_count;
+  }
+  const std::uint64_t tet_bytes = points * sizeof(Vec3) + kTetsPerCell * cells * kBytesPerTet;
+  if (is_box(file)) {
+    plan.push_back(when(use.field, kBoxes, "locating and interpolating", "no field is made"));
+    plan.push_back(left_out(kTetrahedra, "the grid is " + file.blocks[0].grid));
+  } else if (use.field) {
+    plan.push_back(used(kTetrahedra, "locating and interpolating", tet_bytes));
+  } else {
+    plan.push_back(left_out(kTetrahedra, "no field is made", tet_bytes));
+  }
+}
+
+std::string line_of(const Need& need) {
+  std::array<char, 64> cost{};
+  const std::string bytes = need.bytes == 0 ? "" : bytes_text(need.bytes);
+  std::snprintf(cost.data(), cost.size(), "%10s ", bytes.c_str());
+  std::string line = "  " + std::string(cost.data());
+  if (need.milliseconds > 0.0) {
+    std::snprintf(cost.data(), cost.size(), "%9.1f ms", need.milliseconds);
+    line += cost.data();
+  } else {
+    line += std::string(12, ' ');
+  }
+  return line + "  " + need.what + ": " + need.why + "\n";
+}
+
+}  // namespace
+
+Needs plan_scene(const Input& input, const SceneUse& use) {
+  Needs plan;
+  if (const FileInfo* file = input.file()) {
+    plan_file(input, *file, use, plan);
+  } else {
+    plan.push_back(used("formula " + input.spec().example, "the vector field, exact everywhere"));
+    plan.push_back(left_out("helper programs", "nothing is read"));
+  }
+  plan.push_back(left_out("derived fields (gradient, vorticity, Q, lambda-2)", "nothing asks for them"));
+  plan.push_back(when(use.tracing, "tracing", "lines from the seeds", "this verb makes no lines"));
+  plan.push_back(when(use.drawing, "drawing: lines, outline, axes, colour bar", "the picture", "nothing is drawn"));
+  plan.push_back(when(use.window, "window and panels", "to look and touch", "nothing is shown"));
+  plan.push_back(left_out("device drivers", "no probe is moved"));
+  return plan;
+}
+
+void measure_plan(Needs& plan, const Input& input, const VectorField& field) {
+  const auto reads_field = [](const Need& need) {
+    return need.used && need.what.starts_with(kArray) && need.why == kVectorField;
+  };
+  // The arrays of a field are read together: each is given its share.
+  const auto arrays = std::count_if(plan.begin(), plan.end(), reads_field);
+  for (Need& need : plan) {
+    if (!need.used) continue;
+    if (need.what.starts_with(kHelper)) need.milliseconds = 1e3 * input.seconds_open();
+    if (reads_field(need)) need.milliseconds = 1e3 * input.seconds_read() / static_cast<double>(arrays);
+    if (need.what == kBoxes) need.milliseconds = 1e3 * input.seconds_field();
+    if (need.what == kTetrahedra && field.tet_mesh()) {
+      need.milliseconds = 1e3 * input.seconds_field();
+      need.bytes = field.tet_mesh()->points().size() * sizeof(Vec3) + field.tet_mesh()->cells().size() * kBytesPerTet;
+    }
+  }
+}
+
+std::string plan_text(const Needs& plan) {
+  std::string text = "used:\n";
+  for (const Need& need : plan) {
+    if (need.used) text += line_of(need);
+  }
+  text += "left out:\n";
+  for (const Need& need : plan) {
+    if (!need.used) text += line_of(need);
+  }
+  return text;
+}
+
+}  // namespace palpate

@@ -1,0 +1,256 @@
+#include "common/scene/seeds.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
+
+#include "common/base/error.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kGrammar =
+    "seeds are file.csv, point:x,y,z, line:x,y,z,x,y,z,n, plane:o(x,y,z),a(x,y,z),b(x,y,z),na,nb, "
+    "grid:nx,ny,nz or random:n";
+
+// A line holds its seed's index in 32 bits, and a hundred million seeds take 2.4 GB: more is a slip.
+constexpr double kMostSeeds = 1e8;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::optional<double> number(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0;;) {
+    const auto end = text.find(separator, start);
+    parts.push_back(text.substr(start, end - start));
+    if (end == std::string_view::npos) return parts;
+    start = end + 1;
+  }
+}
+
+/// A count written as a number: whole, at least one, not absurd.
+int count_from(double value, const std::string& text) {
+  if (value < 1.0 || value > kMostSeeds || value != std::floor(value)) {
+    throw usage_error("--seeds " + text + ": counts are whole numbers from 1 to 100000000");
+  }
+  return static_cast<int>(value);
+}
+
+void check_total(double total, const std::string& text) {
+  if (total > kMostSeeds) throw usage_error("--seeds " + text + ": more than 100000000 seeds");
+}
+
+Vec3 vec_at(const std::vector<double>& numbers, std::size_t i) {
+  return {numbers[i], numbers[i + 1], numbers[i + 2]};
+}
+
+/// i / (n - 1), the middle of the range for a single point.
+double fraction_of(int i, int n) { return n == 1 ? 0.5 : static_cast<double>(i) / (n - 1); }
+
+SeedList read_csv(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) {
+    throw input_error({file, "", "is a folder", "a CSV file of seeds with the header x,y,z", ""});
+  }
+  std::ifstream in(file);
+  if (!in) {
+    throw input_error({file, "", "cannot be opened", "", std::string("give a CSV file, or: ") + kGrammar});
+  }
+  std::string line;
+  if (!std::getline(in, line)) throw input_error({file, "line 1", "is empty", "the header x,y,z", ""});
+
+  // Columns may stand anywhere in the header, so that tables of other programs can be used as they are.
+  std::array<std::size_t, 3> column{};
+  std::array<bool, 3> known{};
+  const auto header = split(line, ',');
+  for (std::size_t c = 0; c < header.size(); ++c) {
+    std::string_view name = trimmed(header[c]);
+    if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    if (name.size() != 1) continue;
+    const int axis = std::tolower(static_cast<unsigned char>(name.front())) - 'x';
+    if (axis < 0 || axis > 2 || known[static_cast<std::size_t>(axis)]) continue;
+    column[static_cast<std::size_t>(axis)] = c;
+    known[static_cast<std::size_t>(axis)] = true;
+  }
+  if (!known[0] || !known[1] || !known[2]) {
+    throw input_error({file, "line 1", "has no columns x, y and z", "the header x,y,z", ""});
+  }
+
+  SeedList seeds;
+  for (std::size_t row = 2; std::getline(in, line); ++row) {
+    if (trimmed(line).empty()) continue;
+    const auto cells = split(line, ',');
+    Vec3 x{0.0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto value = column[axis] < cells.size() ? number(cells[column[axis]]) : std::nullopt;
+      if (!value) {
+        throw input_error({file, "line " + std::to_string(row), "no finite number in column " + std::string(1, "xyz"[axis]),
+                           "three numbers x,y,z", ""});
+      }
+      x[static_cast<int>(axis)] = *value;
+    }
+    if (static_cast<double>(seeds.points.size()) >= kMostSeeds) check_total(kMostSeeds + 1.0, file);
+    seeds.points.push_back(x);
+  }
+  if (seeds.points.empty()) throw input_error({file, "", "holds no seed below its header", "rows of x,y,z", ""});
+  return seeds;
+}
+
+/// Uniform in [0, 1) from the upper 53 bits: std::uniform_real_distribution differs between libraries.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
+
+double tet_volume(const TetMesh& mesh, std::size_t cell) {
+  const auto& v = mesh.cells()[cell];
+  const auto x = mesh.points();
+  const Vec3 a = x[v[0]];
+  return std::abs(glm::dot(glm::cross(x[v[1]] - a, x[v[2]] - a), x[v[3]] - a)) / 6.0;
+}
+
+std::vector<Vec3> random_in_tets(const TetMesh& mesh, const LocalFrame& frame, std::size_t count,
+                                 std::mt19937_64& random) {
+  std::vector<double> volume_up_to(mesh.cells().size());
+  double sum = 0.0;
+  for (std::size_t c = 0; c < volume_up_to.size(); ++c) {
+    if (!mesh.zero_volume(static_cast<CellIndex>(c))) sum += tet_volume(mesh, c);
+    volume_up_to[c] = sum;
+  }
+  std::vector<Vec3> seeds;
+  if (!(sum > 0.0)) return seeds;
+  seeds.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto place = std::upper_bound(volume_up_to.begin(), volume_up_to.end(), uniform(random) * sum);
+    const auto cell = static_cast<std::size_t>(std::min(place, volume_up_to.end() - 1) - volume_up_to.begin());
+    // The spacings of three sorted uniform numbers are uniform on the simplex.
+    std::array<double, 3> u{uniform(random), uniform(random), uniform(random)};
+    std::sort(u.begin(), u.end());
+    const Vec4 b{u[0], u[1] - u[0], u[2] - u[1], 1.0 - u[2]};
+    seeds.push_back(frame.data_from_local(mesh.position(static_cast<CellIndex>(cell), b)));
+  }
+  return seeds;
+}
+
+std::vector<Vec3> random_seeds(const VectorField& field, std::size_t count, std::uint64_t random_seed) {
+  std::mt19937_64 random{random_seed};
+  if (const TetMesh* mesh = field.tet_mesh()) return random_in_tets(*mesh, field.frame(), count, random);
+
+  // Drawn in the grid's own box, which may be turned against the data's axes.
+  const bool boxed = field.box_grid() != nullptr;
+  const Box box = boxed ? field.box_grid()->bounds() : field.bounds();
+  std::vector<Vec3> seeds;
+  seeds.reserve(count);
+  constexpr int kMostTries = 1000;  // a domain that fills less than a thousandth of its box gives up
+  CellHint hint;
+  while (seeds.size() < count) {
+    Vec3 x{0.0};
+    for (int attempt = 0; attempt < kMostTries; ++attempt) {
+      const Vec3 u{uniform(random), uniform(random), uniform(random)};
+      x = box.lower + u * box.size();
+      if (boxed) {
+        x = field.frame().data_from_local(x);
+        break;
+      }
+      if (field.sample(x, hint).status != SampleStatus::kOutside) break;
+    }
+    seeds.push_back(x);
+  }
+  return seeds;
+}
+
+std::vector<Vec3> grid_seeds(const Box& bounds, const Index3& n) {
+  std::vector<Vec3> seeds;
+  seeds.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z));
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) {
+        const Vec3 part{(i + 0.5) / n.x, (j + 0.5) / n.y, (k + 0.5) / n.z};
+        seeds.push_back(bounds.lower + part * bounds.size());
+      }
+    }
+  }
+  return seeds;
+}
+
+}  // namespace
+
+std::vector<double> parse_numbers(std::string_view text, std::size_t count, const std::string& grammar) {
+  std::vector<double> numbers;
+  for (const auto part : split(text, ',')) {
+    const auto value = number(part);
+    if (!value) throw usage_error("'" + std::string(trimmed(part)) + "' is no finite number; " + grammar);
+    numbers.push_back(*value);
+  }
+  if (numbers.size() != count) {
+    throw usage_error("'" + std::string(text) + "' has " + std::to_string(numbers.size()) + " numbers, need " +
+                      std::to_string(count) + "; " + grammar);
+  }
+  return numbers;
+}
+
+SeedSpec parse_seeds(const std::string& text) {
+  const auto colon = text.find(':');
+  const std::string kind = colon == std::string::npos ? std::string() : text.substr(0, colon);
+  const auto numbers = [&](std::size_t count) {
+    return parse_numbers(std::string_view(text).substr(colon + 1), count, kGrammar);
+  };
+  if (kind == "point") return SeedList{{vec_at(numbers(3), 0)}};
+  if (kind == "line") {
+    const auto v = numbers(7);
+    const int n = count_from(v[6], text);
+    SeedList seeds;
+    for (int i = 0; i < n; ++i) seeds.points.push_back(glm::mix(vec_at(v, 0), vec_at(v, 3), fraction_of(i, n)));
+    return seeds;
+  }
+  if (kind == "plane") {
+    const auto v = numbers(11);
+    const int na = count_from(v[9], text);
+    const int nb = count_from(v[10], text);
+    check_total(static_cast<double>(na) * nb, text);
+    const Vec3 o = vec_at(v, 0);
+    const Vec3 a = vec_at(v, 3) - o;
+    const Vec3 b = vec_at(v, 6) - o;
+    SeedList seeds;
+    for (int j = 0; j < nb; ++j) {
+      for (int i = 0; i < na; ++i) seeds.points.push_back(o + fraction_of(i, na) * a + fraction_of(j, nb) * b);
+    }
+    return seeds;
+  }
+  if (kind == "grid") {
+    const auto v = numbers(3);
+    check_total(std::max(v[0], 1.0) * std::max(v[1], 1.0) * std::max(v[2], 1.0), text);
+    return SeedGrid{{count_from(v[0], text), count_from(v[1], text), count_from(v[2], text)}};
+  }
+  if (kind == "random") return SeedRandom{static_cast<std::size_t>(count_from(numbers(1)[0], text))};
+  if (text.ends_with(".csv") || std::filesystem::exists(text)) return read_csv(text);
+  throw usage_error("--seeds " + text + ": not understood; " + kGrammar);
+}
+
+std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field, std::uint64_t random_seed) {
+  if (const auto* list = std::get_if<SeedList>(&spec)) return list->points;
+  if (const auto* grid = std::get_if<SeedGrid>(&spec)) return grid_seeds(field.bounds(), grid->n);
+  return random_seeds(field, std::get<SeedRandom>(spec).count, random_seed);
+}
+
+}  // namespace palpate

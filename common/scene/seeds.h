@@ -1,0 +1,57 @@
+/// Seeds: where lines start, in the grammar of `--seeds`.
+///
+///   file.csv                          header with columns x, y and z
+///   point:x,y,z
+///   line:x,y,z,x,y,z,n                n points from the first to the second, both included
+///   plane:ox,oy,oz,ax,ay,az,bx,by,bz,na,nb   na x nb points on the parallelogram with corner o whose
+///                                     neighbours are the corners a and b, borders included
+///   grid:nx,ny,nz                     at ((i + 1/2) / nx, ...) of the field's bounds
+///   random:n                          uniform in volume
+///
+/// Coordinates are the data's own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/field/vector_field.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Seeds whose places do not depend on the field.
+struct SeedList {
+  std::vector<Vec3> points;
+};
+
+/// n.x * n.y * n.z seeds at (i + 1/2) / n of the bounds, x fastest.
+struct SeedGrid {
+  Index3 n{0};
+};
+
+/// `count` seeds, uniform in volume.
+struct SeedRandom {
+  std::size_t count = 0;
+};
+
+using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
+
+/// Reads `text`; a CSV file is read at once.
+/// @throws Error (usage) that shows the grammar, (bad input) naming file and line of a CSV file.
+[[nodiscard]] SeedSpec parse_seeds(const std::string& text);
+
+/// The seeds in data coordinates. Random ones depend on `random_seed` and the field alone: on tetrahedra a
+/// cell is drawn by its volume and a point in it by the spacings of three sorted uniform numbers, on other
+/// grids a point is drawn in the grid's box (for a formula until it lies in the domain).
+[[nodiscard]] std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field,
+                                           std::uint64_t random_seed);
+
+/// `count` numbers separated by commas.
+/// @throws Error (usage) that quotes `text` and says `grammar`.
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::size_t count,
+                                                const std::string& grammar);
+
+}  // namespace palpate

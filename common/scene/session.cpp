@@ -1,0 +1,145 @@
+#include "common/scene/session.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <toml++/toml.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/scene/sha256.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+
+std::filesystem::path folder_of(const std::filesystem::path& session) {
+  return std::filesystem::absolute(session).parent_path();
+}
+
+/// Inputs beside or below the session move with it; others keep their full path.
+std::string stored_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto absolute = std::filesystem::absolute(file).lexically_normal();
+  const auto relative = absolute.lexically_relative(folder);
+  const bool below = !relative.empty() && *relative.begin() != "..";
+  return (below ? relative : absolute).string();
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& place, const std::string& found,
+                       const std::string& expected) {
+  throw input_error({path.string(), place, found, expected, "save the session again, or give the options by hand"});
+}
+
+SessionInput read_input(const toml::node& node, const std::filesystem::path& path) {
+  const std::string place = "line " + std::to_string(node.source().begin.line);
+  const toml::table* table = node.as_table();
+  const auto file = table ? (*table)["file"].value<std::string>() : std::nullopt;
+  if (!file || file->empty()) fail(path, place, "an input without a file", "file = \"…\"");
+  SessionInput input;
+  input.file = (folder_of(path) / *file).lexically_normal();
+  input.bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(0, (*table)["bytes"].value_or<std::int64_t>(0)));
+  input.sha256 = (*table)["sha256"].value_or(std::string());
+  input.solution = (*table)["solution"].value_or(false);
+  return input;
+}
+
+}  // namespace
+
+SessionInput describe_input(const std::filesystem::path& file, bool solution, const Progress* progress) {
+  SessionInput input{.file = file, .sha256 = sha256_of_file(file, progress), .solution = solution};
+  std::error_code ignored;
+  input.bytes = std::filesystem::file_size(file, ignored);
+  return input;
+}
+
+void save_session(const std::filesystem::path& path, const Session& session) {
+  toml::array inputs;
+  for (const SessionInput& input : session.inputs) {
+    toml::table table{{"file", stored_path(input.file, folder_of(path))},
+                      {"bytes", static_cast<std::int64_t>(input.bytes)},
+                      {"sha256", input.sha256}};
+    if (input.solution) table.insert("solution", true);
+    inputs.push_back(std::move(table));
+  }
+  toml::table scene;
+  for (const auto& [name, value] : session.options) scene.insert_or_assign(name, value);
+  toml::table root{{"format", kFormat}, {"program", session.program}};
+  if (!inputs.empty()) root.insert("input", std::move(inputs));
+  root.insert("scene", std::move(scene));
+
+  const std::filesystem::path temporary = path.string() + ".part" + std::to_string(getpid());
+  {
+    std::ofstream out(temporary);
+    out << root << '\n';
+    out.flush();
+    if (!out) {
+      const std::string why = std::strerror(errno);
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw work_error(path.string() + ": cannot be written: " + why);
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw work_error(path.string() + ": cannot be written: " + error.message());
+  }
+}
+
+Session load_session(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in || std::filesystem::is_directory(path)) {
+    throw input_error({path.string(), "", "cannot be opened", "a session file saved by this program", ""});
+  }
+  std::ostringstream text;
+  text << in.rdbuf();
+
+  toml::table root;
+  try {
+    root = toml::parse(text.str(), path.string());
+  } catch (const toml::parse_error& error) {
+    fail(path, "line " + std::to_string(error.source().begin.line), std::string(error.description()), "TOML");
+  }
+  if (root["format"].value_or<std::int64_t>(0) != kFormat) {
+    fail(path, "format", "not a session of this version", "format = 1");
+  }
+  Session session;
+  session.program = root["program"].value_or(std::string());
+  if (const toml::array* inputs = root["input"].as_array()) {
+    for (const toml::node& node : *inputs) session.inputs.push_back(read_input(node, path));
+  }
+  const toml::table* scene = root["scene"].as_table();
+  if (!scene) fail(path, "[scene]", "is missing", "a table of options");
+  for (const auto& [key, node] : *scene) {
+    const std::string name(key.str());
+    const auto value = node.value<std::string>();
+    if (!value) {
+      fail(path, "line " + std::to_string(node.source().begin.line), "'" + name + "' is no text",
+           "the option's value in quotes");
+    }
+    session.options.emplace_back(name, *value);
+  }
+  return session;
+}
+
+std::vector<std::string> changed_inputs(const Session& session, const Progress* progress) {
+  std::vector<std::string> sentences;
+  for (const SessionInput& input : session.inputs) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(input.file, error);
+    if (error) {
+      sentences.push_back(input.file.string() + " is missing: " + error.message());
+    } else if (!input.sha256.empty() &&
+               (bytes != input.bytes || sha256_of_file(input.file, progress) != input.sha256)) {
+      sentences.push_back(input.file.string() + " has changed since the session was saved (checksum differs)");
+    }
+  }
+  return sentences;
+}
+
+}  // namespace palpate

@@ -1,0 +1,57 @@
+/// Sessions: a scene as a small text file that diffs well (TOML).
+///
+/// One grammar: the values of [scene] are those of the command line's options of the same names, so a session
+/// is read by putting them in front of the options that the user typed. Inputs carry their size and SHA-256
+/// checksum, and a changed one is named when the session is opened.
+///
+///   format = 1
+///   program = "flow"
+///   [[input]]
+///   file = "carotid.vtk"        # relative to the session file
+///   bytes = 2681486
+///   sha256 = "3f5d…"
+///   [scene]
+///   field = "vectors"
+///   seeds = "grid:8,8,8"
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/progress.h"
+
+namespace palpate {
+
+/// An input file of a session.
+struct SessionInput {
+  std::filesystem::path file;  ///< as opened from here; absolute or relative to the current folder
+  std::uint64_t bytes = 0;
+  std::string sha256;          ///< 64 hexadecimal digits
+  bool solution = false;       ///< a PLOT3D solution that goes with the other file
+};
+
+struct Session {
+  std::string program;                                          ///< "flow"
+  std::vector<SessionInput> inputs;                             ///< none for a built-in example
+  std::vector<std::pair<std::string, std::string>> options;     ///< option name without dashes, value
+};
+
+/// Size and checksum of `file`.
+/// @throws Error (bad input) where it cannot be read; Cancelled.
+[[nodiscard]] SessionInput describe_input(const std::filesystem::path& file, bool solution,
+                                          const Progress* progress = nullptr);
+
+/// Writes under a temporary name and renames. Files below the session's folder are stored relative to it.
+/// @throws Error (work failed).
+void save_session(const std::filesystem::path& path, const Session& session);
+
+/// @throws Error (bad input) naming file, line and what was expected.
+[[nodiscard]] Session load_session(const std::filesystem::path& path);
+
+/// One sentence for each input that is missing or no longer the file that the session was saved with.
+[[nodiscard]] std::vector<std::string> changed_inputs(const Session& session, const Progress* progress = nullptr);
+
+}  // namespace palpate
