@@ -1,0 +1,89 @@
+#include "common/render/gl/context.h"
+
+#include <array>
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include "common/base/error.h"
+
+namespace palpate {
+
+struct OffscreenContext::State {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+};
+
+namespace {
+
+// Mesa's surfaceless platform first: it needs neither a display nor a device file. Then the first device
+// of the driver, as other vendors offer it.
+EGLDisplay open_display() {
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    EGLDisplay display =
+        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+  }
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
+    constexpr EGLint kMaxDevices = 8;
+    std::array<EGLDeviceEXT, kMaxDevices> devices{};
+    EGLint count = 0;
+    eglQueryDevicesEXT(kMaxDevices, devices.data(), &count);
+    for (EGLint i = 0; i < count; ++i) {
+      EGLDisplay display =
+          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr);
+      if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+    }
+  }
+  throw work_error(
+      "cannot draw without a display: EGL offers neither a surfaceless nor a device platform; install "
+      "libegl1 and libgl1-mesa-dri");
+}
+
+}  // namespace
+
+OffscreenContext::OffscreenContext() : state_(std::make_unique<State>()) {
+  state_->display = open_display();
+  constexpr std::array<EGLint, 5> kConfig{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  constexpr std::array<EGLint, 7> kContext{EGL_CONTEXT_MAJOR_VERSION,
+                                           4,
+                                           EGL_CONTEXT_MINOR_VERSION,
+                                           5,
+                                           EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                           EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                           EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (!eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(state_->display, kConfig.data(), &config, 1, &count) ||
+      count == 0) {
+    throw work_error("cannot draw without a display: EGL has no configuration for desktop OpenGL");
+  }
+  state_->context = eglCreateContext(state_->display, config, EGL_NO_CONTEXT, kContext.data());
+  if (state_->context == EGL_NO_CONTEXT) {
+    throw work_error("cannot draw without a display: the driver has no OpenGL 4.5 core context");
+  }
+  make_current();
+}
+
+OffscreenContext::~OffscreenContext() {
+  eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  if (state_->context != EGL_NO_CONTEXT) eglDestroyContext(state_->display, state_->context);
+  // The display is shared by all of the process and stays initialised: terminating it here would pull
+  // it away from other contexts.
+}
+
+void OffscreenContext::make_current() {
+  if (!eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context)) {
+    throw work_error("cannot draw without a display: EGL refused the context");
+  }
+}
+
+std::string gl_description() {
+  const auto text = [](GLenum name) {
+    const GLubyte* value = glGetString(name);
+    return value == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(value));
+  };
+  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+}
+
+}  // namespace palpate

@@ -1,0 +1,41 @@
+/// Shader programs from the sources embedded at build time.
+///
+/// A source may say `#include "include/color.glsl"` (paths from shaders/); each file is taken once.
+/// Programs are compiled when a pass first needs them.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/render/gl/object.h"
+
+namespace palpate {
+
+/// One file below shaders/.
+struct ShaderFile {
+  std::string_view path;  ///< "line/line.vert"
+  std::string_view text;
+};
+
+/// All files embedded at build time, by path.
+[[nodiscard]] std::span<const ShaderFile> shader_files() noexcept;
+
+/// A source with its includes put in.
+struct ShaderSource {
+  std::string text;
+  std::vector<std::string> files;  ///< file k stands in `#line n k`
+};
+
+/// Puts in the includes of `path`, looked up in `files`.
+/// @throws Error (work failed) naming a file that is not there, and who includes it.
+[[nodiscard]] ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files);
+
+/// Compiles and links `vertex` and `fragment` (paths below shaders/).
+/// @throws Error (work failed) with the file, line and message of the first error of the driver.
+[[nodiscard]] GlProgram compile_program(std::string_view vertex, std::string_view fragment,
+                                        std::span<const ShaderFile> files = shader_files());
+
+}  // namespace palpate

@@ -1,0 +1,95 @@
+#include "common/render/gl/target.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <epoxy/gl.h>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+// What every driver of OpenGL 4.5 offers at least, and software rasterisers at most.
+constexpr int kSamples = 4;
+
+GlRenderbuffer make_storage(GLenum format, int samples, int width, int height) {
+  GLuint name = 0;
+  glCreateRenderbuffers(1, &name);
+  GlRenderbuffer buffer(name);
+  if (samples > 1) {
+    glNamedRenderbufferStorageMultisample(name, samples, format, width, height);
+  } else {
+    glNamedRenderbufferStorage(name, format, width, height);
+  }
+  return buffer;
+}
+
+GlFramebuffer make_framebuffer(const GlRenderbuffer& color, const GlRenderbuffer& depth) {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  GlFramebuffer framebuffer(name);
+  glNamedFramebufferRenderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color.name());
+  if (depth) glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+  if (glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw work_error("the OpenGL driver refuses a framebuffer with four samples a pixel");
+  }
+  return framebuffer;
+}
+
+}  // namespace
+
+void RenderTarget::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  if (width < 1 || height < 1 || width > largest || height > largest) {
+    throw usage_error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
+                      " pixels cannot be drawn; each side is 1 to " + std::to_string(largest));
+  }
+  scene_color_ = make_storage(GL_RGBA8, kSamples, width, height);
+  scene_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, width, height);
+  resolved_color_ = make_storage(GL_RGBA8, 1, width, height);
+  scene_ = make_framebuffer(scene_color_, scene_depth_);
+  resolved_ = make_framebuffer(resolved_color_, {});
+  width_ = width;
+  height_ = height;
+}
+
+void RenderTarget::bind_scene() {
+  glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+void RenderTarget::resolve() {
+  glBlitNamedFramebuffer(scene_.name(), resolved_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void RenderTarget::bind_resolved() {
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+void RenderTarget::show() const {
+  glBlitNamedFramebuffer(resolved_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+Image RenderTarget::read() const {
+  const auto row = 4 * static_cast<std::size_t>(width_);
+  Image image{width_, height_, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height_))};
+  std::vector<std::uint8_t> upward(image.rgba.size());  // OpenGL counts rows from the bottom
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, upward.data());
+  for (int y = 0; y < height_; ++y) {
+    std::memcpy(image.rgba.data() + row * static_cast<std::size_t>(y),
+                upward.data() + row * static_cast<std::size_t>(height_ - 1 - y), row);
+  }
+  // The picture stands for itself: no part of it shows what lies behind it.
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+}  // namespace palpate

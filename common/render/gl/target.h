@@ -1,0 +1,31 @@
+/// Where a picture is drawn: a multisampled framebuffer, and the plain one that it is resolved to.
+#pragma once
+
+#include "common/render/gl/object.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+class RenderTarget {
+ public:
+  /// Makes framebuffers of this size (both > 0), unless they are there already.
+  /// @throws Error (usage) where the driver cannot draw that large.
+  void resize(int width, int height);
+
+  void bind_scene();                 ///< draw into the multisampled framebuffer, with depth
+  void resolve();                    ///< copies it, averaged, to the plain one
+  void bind_resolved();              ///< draw into the plain one, without depth
+  [[nodiscard]] Image read() const;  ///< of the plain one
+  /// Copies the plain one to the lower left corner of the framebuffer that the window shows.
+  void show() const;
+
+  [[nodiscard]] int width() const noexcept { return width_; }
+  [[nodiscard]] int height() const noexcept { return height_; }
+
+ private:
+  int width_ = 0, height_ = 0;
+  GlRenderbuffer scene_color_, scene_depth_, resolved_color_;
+  GlFramebuffer scene_, resolved_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,281 @@
+#include "common/render/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "common/base/error.h"
+#include "common/render/font.h"
+#include "common/render/ticks.h"
+
+namespace palpate {
+
+struct Overlay::State {
+  ImGuiContext* context = nullptr;
+  float text_height = 0.0F;  ///< that the font's texture was made for
+};
+
+namespace {
+
+// Makes an ImGui context current, and the one before it again: the window has a context of its own.
+class ContextScope {
+ public:
+  explicit ContextScope(ImGuiContext* context) : before_(ImGui::GetCurrentContext()) {
+    ImGui::SetCurrentContext(context);
+  }
+  ~ContextScope() { ImGui::SetCurrentContext(before_); }
+  ContextScope(const ContextScope&) = delete;
+  ContextScope& operator=(const ContextScope&) = delete;
+
+ private:
+  ImGuiContext* before_;
+};
+
+ImU32 packed(const Rgb& color, float opacity = 1.0F) {
+  return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity});
+}
+
+// Draws text and shapes in the colours of the background.
+class Pen {
+ public:
+  Pen(ImDrawList& list, float text_height, Background background)
+      : list_(list), text_height_(text_height), dark_(background == Background::kDark) {}
+
+  [[nodiscard]] float text_height() const { return text_height_; }
+  [[nodiscard]] ImU32 ink() const { return dark_ ? IM_COL32(232, 235, 240, 255) : IM_COL32(28, 31, 36, 255); }
+  [[nodiscard]] ImU32 faint_ink() const {
+    return dark_ ? IM_COL32(168, 174, 184, 255) : IM_COL32(86, 92, 102, 255);
+  }
+  [[nodiscard]] ImU32 paper(int opacity) const {
+    return dark_ ? IM_COL32(16, 18, 21, opacity) : IM_COL32(255, 255, 255, opacity);
+  }
+
+  [[nodiscard]] ImVec2 size_of(const std::string& text, float scale = 1.0F) const {
+    return ImGui::GetFont()->CalcTextSizeA(text_height_ * scale, FLT_MAX, 0.0F, text.c_str());
+  }
+
+  // `align` is the share of the text's width that lies left of x.
+  void text(float x, float y, const std::string& words, ImU32 color, float align = 0.0F,
+            float scale = 1.0F) const {
+    const float size = text_height_ * scale;
+    x = std::round(x - align * size_of(words, scale).x);
+    y = std::round(y);
+    // A rim in the colour of the background keeps letters readable over lines.
+    const float rim = std::max(1.0F, std::round(text_height_ / 14.0F));
+    for (const ImVec2 shift : {ImVec2(-rim, 0), ImVec2(rim, 0), ImVec2(0, -rim), ImVec2(0, rim)}) {
+      list_.AddText(nullptr, size, {x + shift.x, y + shift.y}, paper(110), words.c_str());
+    }
+    list_.AddText(nullptr, size, {x, y}, color, words.c_str());
+  }
+
+  ImDrawList& list() const { return list_; }
+
+ private:
+  ImDrawList& list_;
+  float text_height_;
+  bool dark_;
+};
+
+void draw_title(const Pen& pen, const SceneView& view) {
+  const float em = pen.text_height();
+  float y = em;
+  if (!view.title.empty()) {
+    constexpr float kTitleScale = 1.3F;
+    pen.text(1.2F * em, y, view.title, pen.ink(), 0.0F, kTitleScale);
+    y += 1.75F * em;
+  }
+  if (!view.subtitle.empty()) pen.text(1.2F * em, y, view.subtitle, pen.faint_ink());
+}
+
+// The three axes of the data as arrows in the lower left corner, the farthest one first.
+void draw_axes(const Pen& pen, const SceneView& view, int height) {
+  struct Axis {
+    const char* name;
+    ImU32 color;
+    Vec3 direction;  // right, up, back
+  };
+  const auto in_view = [&](const Vec3& axis) { return axis * view.camera.axes; };
+  std::array<Axis, 3> axes{{{"x", IM_COL32(226, 88, 82, 255), in_view({1.0, 0.0, 0.0})},
+                            {"y", IM_COL32(96, 186, 92, 255), in_view({0.0, 1.0, 0.0})},
+                            {"z", IM_COL32(86, 140, 240, 255), in_view({0.0, 0.0, 1.0})}}};
+  std::stable_sort(axes.begin(), axes.end(),
+                   [](const Axis& a, const Axis& b) { return a.direction.z < b.direction.z; });
+  const float em = pen.text_height();
+  const float arm = 2.6F * em, thickness = std::max(1.5F, 0.13F * em);
+  const ImVec2 origin(1.6F * em + arm, static_cast<float>(height) - 1.6F * em - arm);
+  for (const Axis& axis : axes) {
+    const auto dx = static_cast<float>(axis.direction.x), dy = -static_cast<float>(axis.direction.y);
+    const float length = std::hypot(dx, dy);
+    const ImVec2 tip(origin.x + arm * dx, origin.y + arm * dy);
+    const float head = std::min(0.62F * em, arm * length);
+    if (length > 0.02F) {
+      const ImVec2 along(dx / length, dy / length), across(-along.y, along.x);
+      const ImVec2 neck(tip.x - head * along.x, tip.y - head * along.y);
+      pen.list().AddLine(origin, neck, axis.color, thickness);
+      pen.list().AddTriangleFilled(tip, {neck.x + 0.38F * head * across.x, neck.y + 0.38F * head * across.y},
+                                   {neck.x - 0.38F * head * across.x, neck.y - 0.38F * head * across.y},
+                                   axis.color);
+    } else {
+      pen.list().AddCircleFilled(origin, 0.7F * thickness, axis.color);
+    }
+    const float reach = arm + 0.62F * em;
+    pen.text(origin.x + reach * dx, origin.y + reach * dy - 0.55F * em, axis.name, axis.color, 0.5F);
+  }
+}
+
+// Colour patches with words, from `top` down, right-aligned to `right`.
+struct LegendEntry {
+  Rgb color;
+  std::string text;
+};
+
+void draw_legend(const Pen& pen, const std::string& label, const std::vector<LegendEntry>& entries,
+                 float right, float middle) {
+  const float em = pen.text_height(), line = 1.45F * em;
+  float widest = 0.0F;
+  for (const LegendEntry& entry : entries) widest = std::max(widest, pen.size_of(entry.text).x);
+  const float left = right - widest - 1.5F * em;
+  float y = middle - 0.5F * line * static_cast<float>(entries.size());
+  if (!label.empty()) pen.text(right, y - 1.6F * em, label, pen.ink(), 1.0F);
+  for (const LegendEntry& entry : entries) {
+    pen.list().AddRectFilled({left, y + 0.08F * em}, {left + 0.95F * em, y + 1.03F * em}, packed(entry.color),
+                             0.2F * em);
+    pen.text(left + 1.5F * em, y, entry.text, pen.ink());
+    y += line;
+  }
+}
+
+void draw_color_bar(const Pen& pen, const SceneView& view, const ColorLegend& legend, float right,
+                    float middle, float length) {
+  const LineStyle& style = view.style;
+  const bool logarithmic = is_logarithmic(style);
+  const float em = pen.text_height(), thickness = 0.9F * em;
+  const int most = std::clamp(static_cast<int>(length / (2.6F * em)), 2, 9);
+  const std::vector<Tick> marks = ticks(legend.range, logarithmic, most);
+  float widest = 0.0F;
+  for (const Tick& tick : marks) widest = std::max(widest, pen.size_of(tick.text).x);
+
+  const float x1 = right - widest - 0.6F * em, x0 = x1 - thickness;
+  const float top = middle - 0.5F * length, bottom = middle + 0.5F * length;
+  const auto& table = color_table(color_map_of(style));
+  // One quad between entries, shaded by the rasteriser.
+  for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+    const auto at = [&](std::size_t k) {
+      return bottom - length * static_cast<float>(k) / static_cast<float>(table.size() - 1);
+    };
+    const ImU32 low = packed(table[i]), high = packed(table[i + 1]);
+    pen.list().AddRectFilledMultiColor({x0, at(i + 1)}, {x1, at(i)}, high, high, low, low);
+  }
+  // Tips where values lie beyond the range: they get the end's colour.
+  const float tip = 0.7F * thickness;
+  if (legend.values_above) {
+    pen.list().AddTriangleFilled({x0, top}, {x1, top}, {0.5F * (x0 + x1), top - tip}, packed(table.back()));
+  }
+  if (legend.values_below) {
+    pen.list().AddTriangleFilled({x0, bottom}, {x1, bottom}, {0.5F * (x0 + x1), bottom + tip},
+                                 packed(table.front()));
+  }
+  for (const Tick& tick : marks) {
+    double t = 0.5;
+    if (legend.range.upper > legend.range.lower) {
+      t = logarithmic ? std::log10(tick.value / legend.range.lower) /
+                            std::log10(legend.range.upper / legend.range.lower)
+                      : (tick.value - legend.range.lower) / (legend.range.upper - legend.range.lower);
+    }
+    const float y = bottom - length * static_cast<float>(std::clamp(t, 0.0, 1.0));
+    pen.list().AddLine({x1, y}, {x1 + 0.25F * em, y}, pen.ink(), std::max(1.0F, em / 16.0F));
+    pen.text(x1 + 0.45F * em, y - 0.55F * em, tick.text, pen.ink());
+  }
+  const std::string label = color_label(style, view.units);
+  pen.text(right, top - tip - 1.6F * em, label, pen.ink(), 1.0F);
+}
+
+void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, int width, int height) {
+  const float em = pen.text_height();
+  const float right = static_cast<float>(width) - 1.2F * em, middle = 0.5F * static_cast<float>(height);
+  switch (view.style.color_by) {
+    case ColorBy::kUniform:
+      return;
+    case ColorBy::kDirection:
+      draw_legend(pen, "direction",
+                  {{{1.0F, 0.1F, 0.1F}, "x"}, {{0.1F, 1.0F, 0.1F}, "y"}, {{0.1F, 0.1F, 1.0F}, "z"}}, right,
+                  middle);
+      return;
+    case ColorBy::kTermination: {
+      std::vector<LegendEntry> entries;
+      for (int k = 0; k < kEndCount; ++k) {
+        const std::size_t count = legend.ends[static_cast<std::size_t>(k)];
+        if (count == 0) continue;
+        std::string name(name_of(static_cast<End>(k)));
+        std::replace(name.begin(), name.end(), '_', ' ');
+        entries.push_back({map_color(ColorMap::kCategorical, (k + 0.5) / kCategoryCount),
+                           name + "  " + std::to_string(count)});
+      }
+      draw_legend(pen, color_label(view.style, view.units), entries, right, middle);
+      return;
+    }
+    default:
+      draw_color_bar(pen, view, legend, right, middle, 0.46F * static_cast<float>(height));
+  }
+}
+
+}  // namespace
+
+Overlay::Overlay() : state_(std::make_unique<State>()) {
+  IMGUI_CHECKVERSION();
+  ImGuiContext* const before = ImGui::GetCurrentContext();
+  state_->context = ImGui::CreateContext();
+  ImGui::SetCurrentContext(before);
+  const ContextScope scope(state_->context);
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().LogFilename = nullptr;
+  if (!ImGui_ImplOpenGL3_Init("#version 450 core")) {
+    ImGui::DestroyContext(state_->context);
+    throw work_error("text cannot be drawn: libGL.so.1 cannot be loaded; install libgl1");
+  }
+}
+
+Overlay::~Overlay() {
+  {
+    const ContextScope scope(state_->context);
+    ImGui_ImplOpenGL3_Shutdown();
+  }
+  ImGui::DestroyContext(state_->context);
+}
+
+float overlay_text_height(int width, int height) noexcept {
+  // 1/52 of the height, or of a height that goes with the width in tall pictures.
+  constexpr float kShare = 1.0F / 52.0F, kSmallest = 10.0F, kLargest = 96.0F;
+  const float side = std::min(static_cast<float>(height), 0.8F * static_cast<float>(width));
+  return std::round(std::clamp(kShare * side, kSmallest, kLargest));
+}
+
+void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, int height) {
+  const bool has_lines = view.lines && !view.lines->empty();
+  const ContextScope scope(state_->context);
+  ImGuiIO& io = ImGui::GetIO();
+  const float text_height = overlay_text_height(width, height);
+  if (text_height != state_->text_height) {
+    io.Fonts->Clear();
+    add_font(*io.Fonts, text_height);
+    if (state_->text_height > 0.0F) ImGui_ImplOpenGL3_DestroyFontsTexture();
+    io.Fonts->Build();
+    if (state_->text_height > 0.0F) ImGui_ImplOpenGL3_CreateFontsTexture();
+    state_->text_height = text_height;
+  }
+  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  io.DeltaTime = 1.0F / 60.0F;
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  const Pen pen(*ImGui::GetBackgroundDrawList(), text_height, view.background);
+  draw_title(pen, view);
+  if (view.show_axes) draw_axes(pen, view, height);
+  if (view.show_color_bar && has_lines) draw_colors(pen, view, legend, width, height);
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace palpate

@@ -1,0 +1,123 @@
+#include "common/render/png.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string_view>
+
+#include <stb_image_write.h>
+#include <unistd.h>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+
+// Exported by the library; its header shows it only where the implementation is compiled.
+extern "C" unsigned char* stbi_write_png_to_mem(const unsigned char* pixels, int stride_bytes, int x, int y,
+                                                int n, int* out_len);
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kSignature = 8;     // bytes before the first chunk
+constexpr std::size_t kHeaderChunk = 25;  // IHDR: length 4, type 4, data 13, CRC 4
+constexpr std::array<std::uint8_t, kSignature> kMagic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+
+// CRC-32 of ISO 3309, as the PNG standard asks for.
+std::uint32_t crc(const std::uint8_t* bytes, std::size_t count) {
+  std::uint32_t value = 0xFFFFFFFFU;
+  for (std::size_t i = 0; i < count; ++i) {
+    value ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) value = (value >> 1U) ^ ((value & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~value;
+}
+
+void append_number(std::vector<std::uint8_t>& out, std::uint32_t value) {
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+std::uint32_t read_number(const std::uint8_t* p) {
+  return (std::uint32_t{p[0]} << 24U) | (std::uint32_t{p[1]} << 16U) | (std::uint32_t{p[2]} << 8U) | p[3];
+}
+
+std::vector<std::uint8_t> text_chunk(const PngText& entry) {
+  const bool ascii =
+      std::all_of(entry.text.begin(), entry.text.end(), [](char c) { return (c & 0x80) == 0; });
+  std::string body = entry.keyword + '\0';
+  // iTXt: not compressed, method 0, no language tag, no translated keyword.
+  if (!ascii) body.append(4, '\0');
+  body += entry.text;
+  std::vector<std::uint8_t> chunk;
+  append_number(chunk, static_cast<std::uint32_t>(body.size()));
+  for (const char c : std::string_view(ascii ? "tEXt" : "iTXt"))
+    chunk.push_back(static_cast<std::uint8_t>(c));
+  chunk.insert(chunk.end(), body.begin(), body.end());
+  append_number(chunk, crc(chunk.data() + 4, chunk.size() - 4));
+  return chunk;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngText>& texts) {
+  PALPATE_CHECK(image.width > 0 && image.height > 0);
+  int size = 0;
+  const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(
+      stbi_write_png_to_mem(image.rgba.data(), 4 * image.width, image.width, image.height, 4, &size),
+      &std::free);
+  if (!bytes) throw work_error("out of memory while a PNG was written");
+  std::vector<std::uint8_t> png(bytes.get(), bytes.get() + kSignature + kHeaderChunk);
+  for (const PngText& entry : texts) {
+    PALPATE_CHECK(!entry.keyword.empty() && entry.keyword.size() <= 79);
+    const auto chunk = text_chunk(entry);
+    png.insert(png.end(), chunk.begin(), chunk.end());
+  }
+  png.insert(png.end(), bytes.get() + kSignature + kHeaderChunk, bytes.get() + size);
+  return png;
+}
+
+std::vector<PngText> png_texts(const std::vector<std::uint8_t>& png) {
+  if (png.size() < kSignature || !std::equal(kMagic.begin(), kMagic.end(), png.begin())) return {};
+  std::vector<PngText> texts;
+  for (std::size_t at = kSignature; at + 12 <= png.size();) {
+    const std::size_t length = read_number(png.data() + at);
+    if (length > png.size() - at - 12) break;
+    const std::string_view type(reinterpret_cast<const char*>(png.data() + at + 4), 4);
+    const std::string_view body(reinterpret_cast<const char*>(png.data() + at + 8), length);
+    const auto end = body.find('\0');
+    const std::size_t skip = type == "iTXt" ? 5 : 1;
+    if ((type == "tEXt" || type == "iTXt") && end != std::string_view::npos && end + skip <= body.size()) {
+      texts.push_back({std::string(body.substr(0, end)), std::string(body.substr(end + skip))});
+    }
+    at += 12 + length;
+  }
+  return texts;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image, const std::vector<PngText>& texts) {
+  const auto png = encode_png(image, texts);
+  std::filesystem::path part = path;
+  part += ".part" + std::to_string(getpid());
+  {
+    std::ofstream file(part, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+    file.close();
+    if (!file) {
+      std::error_code ignored;
+      std::filesystem::remove(part, ignored);
+      throw work_error(path.string() + ": cannot be written");
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw work_error(path.string() + ": cannot be written: " + error.message());
+  }
+}
+
+}  // namespace palpate

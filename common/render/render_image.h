@@ -1,0 +1,23 @@
+/// Pictures without a display.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+struct RenderedImage {
+  Image image;
+  double first_frame_ms = 0.0;   ///< with the upload and the compiling of shaders
+  std::vector<double> frame_ms;  ///< of the repeated frames, by the clock
+  std::string renderer;          ///< the OpenGL driver
+};
+
+/// Draws `view` off-screen, `repeat` times after the first frame. Usable from any one thread; leaves no
+/// context current.
+/// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.
+[[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0);
+
+}  // namespace palpate

@@ -1,0 +1,225 @@
+#include "common/render/scene_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <epoxy/gl.h>
+
+#include "common/base/clock.h"
+#include "common/render/gl/object.h"
+#include "common/render/gl/program.h"
+#include "common/render/gl/target.h"
+#include "common/render/line/line_geometry.h"
+#include "common/render/line/line_pass.h"
+#include "common/render/line/line_values.h"
+#include "common/render/overlay.h"
+
+namespace palpate {
+namespace {
+
+// shaders/include/frame.glsl
+struct FrameBlock {
+  glm::mat4 clip_from_scene{1.0F};
+  glm::vec4 eye{0.0F}, right{0.0F}, up{0.0F}, back{0.0F}, size{0.0F}, depth_cue{0.0F};
+  glm::vec4 background_top{0.0F}, background_bottom{0.0F};
+};
+
+struct Palette {
+  Rgb top, bottom, outline, plain_line;
+  float fading;  // share of the background that the farthest lines take on
+};
+
+Palette palette(Background background) {
+  if (background == Background::kDark) {
+    return {{0.125F, 0.135F, 0.150F},
+            {0.055F, 0.060F, 0.068F},
+            {0.40F, 0.43F, 0.47F},
+            {0.80F, 0.83F, 0.88F},
+            0.62F};
+  }
+  return {{1.0F, 1.0F, 1.0F}, {0.955F, 0.960F, 0.968F}, {0.62F, 0.65F, 0.69F}, {0.32F, 0.36F, 0.42F}, 0.55F};
+}
+
+std::vector<std::vector<Vec3>> box_edges(const Box& box) {
+  if (box.empty()) return {};
+  const Vec3 a = box.lower, b = box.upper;
+  std::vector<std::vector<Vec3>> edges;
+  for (const double z : {a.z, b.z}) {
+    edges.push_back({{a.x, a.y, z}, {b.x, a.y, z}});
+    edges.push_back({{b.x, a.y, z}, {b.x, b.y, z}});
+    edges.push_back({{b.x, b.y, z}, {a.x, b.y, z}});
+    edges.push_back({{a.x, b.y, z}, {a.x, a.y, z}});
+  }
+  for (const double x : {a.x, b.x}) {
+    for (const double y : {a.y, b.y}) edges.push_back({{x, y, a.z}, {x, y, b.z}});
+  }
+  return edges;
+}
+
+// Bounds for clipping: lines may leave the domain's box a little.
+Box reach_of(const SceneView& view) {
+  Box box = view.bounds;
+  if (view.lines) {
+    for (const Line& line : *view.lines) {
+      for (const LinePoint& point : line.points) {
+        if (is_finite(point.position)) box.include(point.position);
+      }
+    }
+  }
+  for (const auto& polyline : view.outline) {
+    for (const Vec3& x : polyline) box.include(x);
+  }
+  return box;
+}
+
+bool same_colors(const LineStyle& a, const LineStyle& b) {
+  return a.color_by == b.color_by && a.array == b.array && is_logarithmic(a) == is_logarithmic(b) &&
+         color_map_of(a) == color_map_of(b) && a.range.has_value() == b.range.has_value() &&
+         (!a.range || (a.range->lower == b.range->lower && a.range->upper == b.range->upper));
+}
+
+bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
+
+}  // namespace
+
+struct SceneRenderer::State {
+  RenderTarget target;
+  GlProgram background;
+  GlVertexArray no_vertices = make_vertex_array();
+  LineProgram line_program;
+  LineSet lines, outline;
+  std::unique_ptr<Overlay> overlay;
+  Stopwatch since_draw;
+
+  // What the uploaded buffers were made from.
+  bool filled = false;
+  std::shared_ptr<const std::vector<Line>> shown_lines;
+  Box shown_bounds, reach;
+  std::vector<std::vector<Vec3>> shown_outline;
+  std::optional<LineStyle> shown_style;
+  SceneFrame frame;
+  ColorLegend legend;
+
+  void update_geometry(const SceneView& view) {
+    if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
+        shown_outline == view.outline) {
+      return;
+    }
+    reach = reach_of(view);
+    frame = scene_frame(view.bounds.empty() ? reach : view.bounds);
+    lines.set_geometry(view.lines ? make_line_geometry(*view.lines, frame) : LineGeometry{});
+    outline.set_geometry(
+        make_line_geometry(view.outline.empty() ? box_edges(view.bounds) : view.outline, frame));
+    shown_lines = view.lines;
+    shown_bounds = view.bounds;
+    shown_outline = view.outline;
+    shown_style.reset();
+    filled = true;
+  }
+
+  void update_colors(const SceneView& view) {
+    if (shown_style && same_colors(*shown_style, view.style)) return;
+    legend = {};
+    if (view.lines) {
+      const std::vector<double> values = line_values(*view.lines, view.style);
+      legend.range = value_range(*view.lines, view.style);
+      legend.values_below =
+          std::any_of(values.begin(), values.end(), [&](double v) { return v < legend.range.lower; });
+      legend.values_above =
+          std::any_of(values.begin(), values.end(), [&](double v) { return v > legend.range.upper; });
+      for (const Line& line : *view.lines) ++legend.ends[static_cast<std::size_t>(line.end)];
+      lines.set_values(map_coordinates(values, view.style, legend.range));
+    }
+    shown_style = view.style;
+  }
+};
+
+SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
+SceneRenderer::~SceneRenderer() = default;
+
+void SceneRenderer::draw(const SceneView& view, int width, int height) {
+  State& s = *state_;
+  s.since_draw.restart();
+  s.target.resize(width, height);
+  s.update_geometry(view);
+  s.update_colors(view);
+
+  const double aspect = static_cast<double>(width) / height;
+  const ViewTransform transform = view_transform(view.camera, s.frame, s.reach, aspect);
+  const Palette colors = palette(view.background);
+  const bool perspective = view.camera.projection == Projection::kPerspective;
+  const double pixel = transform.view_height / height;
+  FrameBlock block;
+  block.clip_from_scene = glm::mat4(transform.clip_from_scene);
+  block.eye = {Vec3f(transform.eye), perspective ? 1.0F : 0.0F};
+  block.right = {Vec3f(view.camera.axes[0]), 0.0F};
+  block.up = {Vec3f(view.camera.axes[1]), 0.0F};
+  block.back = {Vec3f(view.camera.axes[2]), 0.0F};
+  block.size = {width, height, pixel, transform.distance};
+  block.depth_cue = {transform.near_depth, transform.far_depth, view.style.depth_cue ? colors.fading : 0.0F,
+                     0.0F};
+  block.background_top = {colors.top, 1.0F};
+  block.background_bottom = {colors.bottom, 1.0F};
+  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
+
+  s.target.bind_scene();
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_MULTISAMPLE);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1.0);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  if (!s.background)
+    s.background = compile_program("background/background.vert", "background/background.frag");
+  glUseProgram(s.background.name());
+  glBindVertexArray(s.no_vertices.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  s.line_program.use(color_map_of(view.style));
+  const float unit = static_cast<float>(height) / 1000.0F;
+  LineDraw how;
+  how.back = Vec3f(view.camera.axes[2]);
+  if (view.show_outline) {
+    how.coloring = LineDraw::Coloring::kUnlit;
+    how.color = colors.outline;
+    how.min_width = how.width = std::max(1.0F, 1.3F * unit);
+    s.outline.draw(how);
+  }
+  how.coloring = view.style.color_by == ColorBy::kDirection ? LineDraw::Coloring::kDirection
+                 : view.style.color_by == ColorBy::kUniform ? LineDraw::Coloring::kOneColor
+                                                            : LineDraw::Coloring::kMap;
+  how.color = colors.plain_line;
+  how.width = static_cast<float>(view.style.width) * unit;
+  how.min_width = 1.0F;
+  // Half the line's width, but never thinner than the eye sees nor so wide that it eats neighbours.
+  how.halo_width = view.style.halo ? std::clamp(0.5F * how.width, 1.0F, 3.0F * unit + 1.0F) : 0.0F;
+  how.opacity = static_cast<float>(std::clamp(view.style.opacity, 0.0, 1.0));
+  s.lines.draw(how);
+
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  s.target.resolve();
+  s.target.bind_resolved();
+  if (!view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar) {
+    if (!s.overlay) s.overlay = std::make_unique<Overlay>();
+    s.overlay->draw(view, s.legend, width, height);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+double SceneRenderer::finish() {
+  glFinish();
+  return 1e3 * state_->since_draw.seconds();
+}
+
+Image SceneRenderer::read() const { return state_->target.read(); }
+void SceneRenderer::show() const { state_->target.show(); }
+ValueRange SceneRenderer::range() const { return state_->legend.range; }
+
+}  // namespace palpate

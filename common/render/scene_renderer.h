@@ -1,0 +1,35 @@
+/// Draws a SceneView with OpenGL: into a framebuffer of its own, to be read or shown.
+#pragma once
+
+#include <memory>
+
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same. Needs an
+/// OpenGL 4.5 core context, the same at every call and at destruction.
+class SceneRenderer {
+ public:
+  SceneRenderer();
+  ~SceneRenderer();
+  SceneRenderer(const SceneRenderer&) = delete;
+  SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+  /// @throws Error (usage) for a size that cannot be drawn.
+  void draw(const SceneView& view, int width, int height);
+  /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
+  /// some drivers lie.
+  double finish();
+  [[nodiscard]] Image read() const;
+  /// Copies the picture to the framebuffer that the window shows.
+  void show() const;
+  /// The range that the colours of the last picture spread over.
+  [[nodiscard]] ValueRange range() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,63 @@
+#version 450 core
+// Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width.
+#include "include/frame.glsl"
+#include "include/color.glsl"
+#include "include/line_light.glsl"
+
+layout(location = 3) uniform bool has_values;
+layout(location = 4) uniform int coloring;       // 0 colour map, 1 direction, 2 one colour, 3 one colour without light
+layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for colouring 2 and 3
+layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
+
+in Vertex {
+  vec3 tangent;
+  vec3 side;
+  vec3 view;
+  float across;
+  float outer;
+  float value;
+  float depth;
+} vertex;
+noperspective in float halo_z;
+
+layout(location = 0) out vec4 color;
+
+vec3 base_color(vec3 t) {
+  if (coloring == 1) return abs(t);
+  if (coloring >= 2) return line_color.rgb;
+  if (isnan(vertex.value)) return vec3(0.5);
+  // Middle of the first texel to middle of the last: t = 0 and 1 are the ends of the table.
+  float entries = float(textureSize(color_map, 0).x);
+  return texture(color_map, vec2((vertex.value * (entries - 1.0) + 0.5) / entries, 0.5)).rgb;
+}
+
+void main() {
+  vec3 t = length(vertex.tangent) > 0.0 ? normalize(vertex.tangent) : vec3(0.0);
+  vec3 background = background_at(gl_FragCoord.xy);
+  float u = abs(vertex.across);
+  vec3 srgb = base_color(t);
+
+  if (coloring != 3) {
+    const float kAmbient = 0.18, kDiffuse = 0.92, kSpecular = 0.38;
+    const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
+    const float kShininess = 48.0;
+    vec3 light = normalize(frame.back.xyz + 0.55 * frame.up.xyz - 0.45 * frame.right.xyz);
+    vec2 shine = line_light(t, light, normalize(vertex.view));
+    // Towards its edges a round line turns away from the eye.
+    float facing = sqrt(max(0.0, 1.0 - u * u));
+    float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
+    float specular = pow(shine.y, kShininess) * facing;
+    srgb = encode_srgb(decode_srgb(srgb) * (kAmbient + kDiffuse * diffuse) + kSpecular * specular);
+  }
+
+  // Depth cue: farther lines take on the background.
+  float far = clamp((vertex.depth - frame.depth_cue.x) / max(frame.depth_cue.y - frame.depth_cue.x, 1e-6), 0.0, 1.0);
+  srgb = mix(srgb, background, frame.depth_cue.z * far);
+
+  // Halo beyond the edge; the border between the two is smoothed over one pixel.
+  float soft = 0.5 * fwidth(vertex.across);
+  float halo = vertex.outer > 1.0 ? smoothstep(1.0 - soft, 1.0 + soft, u) : 0.0;
+  color = vec4(mix(srgb, background, halo), line_color.a);
+  float sink = vertex.outer > 1.0 ? clamp((u - 1.0) / (vertex.outer - 1.0), 0.0, 1.0) : 0.0;
+  gl_FragDepth = mix(gl_FragCoord.z, max(halo_z, gl_FragCoord.z), sink);
+}

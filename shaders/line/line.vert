@@ -1,0 +1,61 @@
+#version 450 core
+// Ribbons that face the viewer: each point of a line gives two vertices, one on either side.
+//   side = T x V / |T x V|,  T tangent, V to the eye
+#include "include/frame.glsl"
+
+struct Point {
+  vec4 position;  // xyz in N
+  vec4 tangent;   // xyz, unit or zero
+};
+layout(std430, binding = 0) readonly buffer Points { Point points[]; };
+layout(std430, binding = 1) readonly buffer Values { float values[]; };  // place in the colour map, or NaN
+
+layout(location = 0) uniform float width;       // at the focal point, pixels
+layout(location = 1) uniform float halo_width;  // beyond either edge, pixels
+layout(location = 2) uniform float min_width;   // pixels, wherever the point lies
+layout(location = 3) uniform bool has_values;
+
+out Vertex {
+  vec3 tangent;
+  vec3 side;
+  vec3 view;
+  float across;        // -1 and 1 at the edges of the line, beyond in its halo
+  float outer;         // |across| at the outer edge of the halo
+  float value;
+  float depth;         // along the view, in N
+} result;
+noperspective out float halo_z;  // depth of the halo's outer edge in the depth buffer, [0, 1]
+
+void main() {
+  int index = gl_VertexID >> 1;
+  float sign_of_side = float(gl_VertexID & 1) * 2.0 - 1.0;
+  vec3 p = points[index].position.xyz;
+  vec3 t = points[index].tangent.xyz;
+  bool perspective = frame.eye.w > 0.5;
+  vec3 to_eye = frame.eye.xyz - p;
+  float depth = dot(to_eye, frame.back.xyz);
+  vec3 view = perspective ? normalize(to_eye) : frame.back.xyz;
+
+  // A line that runs straight toward the eye has no side of its own: the camera's right will do.
+  vec3 side = cross(t, view);
+  float size = length(side);
+  side = size > 1e-4 ? side / size : frame.right.xyz;
+
+  float pixel = perspective ? frame.size.z * max(depth, 0.0) / frame.size.w : frame.size.z;
+  float radius = 0.5 * max(width * frame.size.z, min_width * pixel);
+  float outer = radius + halo_width * pixel;
+  vec3 corner = p + side * (sign_of_side * outer);
+
+  result.tangent = t;
+  result.side = side;
+  result.view = view;
+  result.across = sign_of_side * outer / radius;
+  result.outer = outer / radius;
+  result.value = has_values ? values[index] : 0.5;
+  result.depth = depth;
+  gl_Position = frame.clip_from_scene * vec4(corner, 1.0);
+  // Halos sink with the distance from the line (Everts, Bekker, Roerdink, Isenberg 2009), here by up to
+  // three widths, so that close neighbours join into a bundle and only far ones are cut.
+  vec4 sunk = frame.clip_from_scene * vec4(corner - view * (6.0 * outer), 1.0);
+  halo_z = 0.5 + 0.5 * clamp(sunk.z / sunk.w, -1.0, 1.0);
+}
