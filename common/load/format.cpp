@@ -1,0 +1,28 @@
+#include "common/load/format.h"
+
+#include <array>
+
+namespace palpate {
+
+std::string_view name_of(Format format) noexcept {
+  static constexpr std::array<std::string_view, kFormatCount> kNames{
+      "legacy VTK", "VTK XML", "VTK multi-block", "VTK time series", "PLOT3D", "EnSight", "Exodus II",
+      "OpenFOAM",   "NRRD"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+std::string_view helper_of(Format format) noexcept {
+  switch (format) {
+    case Format::kLegacyVtk:
+    case Format::kVtkXml:
+    case Format::kVtkMultiBlock:
+    case Format::kParaviewSeries:
+      return "palpate-load-vtk";
+    case Format::kNrrd:
+      return "palpate-load-nrrd";
+    default:
+      return "palpate-load-solver";
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,29 @@
+/// The file formats that the loaders read, and which helper program reads which.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace palpate {
+
+enum class Format : std::uint8_t {
+  kLegacyVtk,       ///< "# vtk DataFile"
+  kVtkXml,          ///< .vti .vtr .vts .vtu .vtp
+  kVtkMultiBlock,   ///< .vtm: an index of blocks
+  kParaviewSeries,  ///< .pvd, or .vtu.series: an index of time steps
+  kPlot3d,
+  kEnsight,
+  kExodus,
+  kOpenFoam,
+  kNrrd
+};
+inline constexpr int kFormatCount = 9;
+
+/// "legacy VTK", as `info` shows it.
+[[nodiscard]] std::string_view name_of(Format format) noexcept;
+
+/// The helper program that reads it: "palpate-load-vtk". The VTK formats proper have a helper of their own
+/// since the readers of solver formats pull in some forty more libraries, six times the start-up time.
+[[nodiscard]] std::string_view helper_of(Format format) noexcept;
+
+}  // namespace palpate

@@ -1,0 +1,64 @@
+/// A helper program and the explorer's end of its socket pair.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <sys/types.h>
+
+#include "common/base/progress.h"
+#include "common/load/channel.h"
+#include "common/load/load.h"
+
+namespace palpate {
+
+/// Where the helper program `name` is: lib/palpate beside the folder of the running program, or where it is
+/// installed. PALPATE_HELPERS, if set, names the folder instead (packagers, tests). Empty where it is not.
+[[nodiscard]] std::filesystem::path find_helper(std::string_view name);
+
+/// How the last exchange with a helper went wrong.
+struct HelperFailure {
+  enum class Kind { kTimeOut, kEnded, kMalformed };
+  Kind kind = Kind::kEnded;
+  std::string what;  ///< "ended by signal 11 (Segmentation fault)"
+};
+
+/// A running helper program: no input, no terminal, an address space and a largest file of
+/// `limits.memory_bytes`, no core dumps; Ctrl-C at the terminal does not reach it (its explorer decides).
+class HelperProcess {
+ public:
+  /// @throws Error (work failed) where the system cannot start another process.
+  HelperProcess(const std::filesystem::path& program, const LoadLimits& limits);
+  ~HelperProcess();  ///< ends the helper at once
+  HelperProcess(const HelperProcess&) = delete;
+  HelperProcess& operator=(const HelperProcess&) = delete;
+
+  struct Reply {
+    std::string_view json;  ///< lies in `memory`
+    std::shared_ptr<const MappedMemory> memory;
+  };
+
+  /// Sends a request and waits for its answer at most `limits.seconds`. Empty: see failure(); the helper
+  /// was ended then.
+  /// @throws Cancelled, within a tenth of a second of `progress` being cancelled; the helper is ended.
+  std::optional<Reply> ask(std::string_view json, Progress* progress);
+
+  [[nodiscard]] const HelperFailure& failure() const noexcept { return failure_; }
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+
+ private:
+  std::optional<Reply> fail(HelperFailure::Kind kind, std::string what);
+  std::string how_it_ended();
+  void end() noexcept;
+
+  LoadLimits limits_;
+  pid_t pid_ = -1;
+  UniqueFd socket_;
+  UniqueFd errors_;  ///< what the helper and its libraries print
+  HelperFailure failure_;
+};
+
+}  // namespace palpate

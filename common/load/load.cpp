@@ -1,0 +1,184 @@
+#include "common/load/load.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/load/format.h"
+#include "common/load/helper_process.h"
+#include "common/load/protocol.h"
+#include "common/load/sniff.h"
+
+namespace palpate {
+namespace {
+
+/// What a reader may take beyond what the input justifies: its libraries and their working memory. Measured
+/// on the Exodus II sample: 330 MB of address space in all.
+constexpr std::uint64_t kBaseMemory = std::uint64_t{700} << 20;
+/// Address space for each byte of input: compressed single precision grows about tenfold, is held twice
+/// (by the reader and in shared memory), and cells take more room in memory than in text.
+constexpr std::uint64_t kMemoryFactor = 32;
+/// A reader's time: start-up on a loaded machine, and the slowest reading that still makes sense.
+constexpr double kBaseSeconds = 8.0;
+constexpr double kSecondsPerByte = 1.0 / 2e6;
+
+std::uint64_t size_of(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) {
+    const auto size = std::filesystem::file_size(path, error);
+    return error ? 0 : size;
+  }
+  return 0;
+}
+
+/// Bytes of a file, or of what lies beside an index file: an index is small and says nothing of what it
+/// leads to.
+std::uint64_t input_bytes(const LoadRequest& request, Format format) {
+  std::uint64_t bytes = request.solution ? size_of(*request.solution) : 0;
+  for (const auto& file : request.files) bytes += size_of(file);
+  const bool index = format == Format::kVtkMultiBlock || format == Format::kParaviewSeries ||
+                     format == Format::kEnsight || format == Format::kOpenFoam || format == Format::kNrrd;
+  if (!index) return bytes;
+  std::filesystem::path folder = request.files.front();
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    folder = folder.has_parent_path() ? folder.parent_path() : ".";
+  constexpr int kMaxEntries = 100'000;
+  int entries = 0;
+  for (auto it = std::filesystem::recursive_directory_iterator(
+           folder, std::filesystem::directory_options::skip_permission_denied, error);
+       !error && it != std::filesystem::recursive_directory_iterator() && entries < kMaxEntries;
+       it.increment(error), ++entries) {
+    if (it.depth() > 4) it.disable_recursion_pending();
+    bytes += size_of(it->path());
+  }
+  return bytes;
+}
+
+std::uint64_t machine_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long page = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
+                               : ~std::uint64_t{0};
+}
+
+LoadLimits resolve(LoadLimits limits, std::uint64_t bytes) {
+  if (limits.memory_bytes == 0) {
+    const std::uint64_t wanted = kBaseMemory + kMemoryFactor * std::min(bytes, std::uint64_t{1} << 50);
+    limits.memory_bytes = std::max(kBaseMemory, std::min(wanted, machine_memory() / 4 * 3));
+  }
+  if (limits.seconds <= 0.0) limits.seconds = kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes);
+  return limits;
+}
+
+Error error_of(const HelperFailure& failure, const std::string& file, std::string_view helper,
+               const LoadLimits& limits) {
+  const std::string reader = "the reader " + std::string(helper);
+  switch (failure.kind) {
+    case HelperFailure::Kind::kTimeOut:
+      return input_error(
+          {file, "", reader + " was stopped after " + std::to_string(static_cast<int>(limits.seconds)) + " s",
+           "", "the file may be damaged"});
+    case HelperFailure::Kind::kMalformed:
+      return input_error({file, "", reader + " gave an answer that makes no sense: " + failure.what, "",
+                          "the file may be damaged"});
+    case HelperFailure::Kind::kEnded:
+      break;
+  }
+  return input_error({file, "", reader + " " + failure.what, "", "the file may be damaged"});
+}
+
+}  // namespace
+
+struct Source::State {
+  std::string file;  ///< the first file, for messages
+  std::string helper;
+  LoadLimits limits;
+  std::unique_ptr<HelperProcess> process;
+  FileInfo info;
+
+  /// Asks the helper and hands its answer to `decode`.
+  template <typename Decode>
+  auto ask(const RequestMessage& message, Progress* progress, const Decode& decode) {
+    const auto reply = process->ask(encode(message), progress);
+    if (!reply) throw error_of(process->failure(), file, helper, limits);
+    try {
+      return decode(*reply);
+    } catch (const ProtocolError& error) {
+      throw error_of({HelperFailure::Kind::kMalformed, error.what()}, file, helper, limits);
+    }
+  }
+};
+
+Source::Source(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Source::Source(Source&&) noexcept = default;
+Source& Source::operator=(Source&&) noexcept = default;
+Source::~Source() = default;
+
+Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progress* progress) {
+  if (request.files.empty()) throw usage_error("no file to open");
+  if (progress != nullptr) progress->check();
+  auto state = std::make_unique<State>();
+  state->file = request.files.front().string();
+
+  const Format format = find_format(request.files.front());
+  for (const auto& file : request.files) {
+    const Format other = find_format(file);
+    if (other != format) {
+      throw input_error({file.string(), "", "is " + std::string(name_of(other)),
+                         std::string(name_of(format)) + " like " + state->file,
+                         "open files of one format together"});
+    }
+  }
+  if (request.solution) {
+    if (format != Format::kPlot3d) {
+      throw usage_error("--solution goes with a PLOT3D grid; " + state->file + " is " +
+                        std::string(name_of(format)));
+    }
+    (void)read_head(*request.solution, 1);
+  }
+
+  state->helper = helper_of(format);
+  const std::filesystem::path program = find_helper(state->helper);
+  if (program.empty()) {
+    throw usage_error(state->file + ": its reader " + state->helper +
+                      " is not installed; build that target or install palpate again");
+  }
+  state->limits = resolve(limits, input_bytes(request, format));
+  state->process = std::make_unique<HelperProcess>(program, state->limits);
+  state->info = state->ask(OpenMessage{format, request}, progress,
+                           [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });
+  return Source(std::move(state));
+}
+
+const FileInfo& Source::info() const noexcept { return state_->info; }
+
+std::vector<ArrayInfo> Source::arrays() const {
+  std::vector<ArrayInfo> all;
+  for (const BlockInfo& block : state_->info.blocks) {
+    for (const ArrayInfo& array : block.arrays) {
+      const bool known = std::any_of(all.begin(), all.end(), [&](const ArrayInfo& other) {
+        return other.name == array.name && other.association == array.association;
+      });
+      if (!known) all.push_back(array);
+    }
+  }
+  return all;
+}
+
+std::vector<DataSet> Source::read(const std::vector<std::string>& array_names, std::size_t time_step,
+                                  Progress* progress) {
+  const std::size_t steps = std::max<std::size_t>(1, state_->info.times.size());
+  if (time_step >= steps) {
+    throw usage_error(state_->file + ": has " + std::to_string(steps) + " time steps, not " +
+                      std::to_string(time_step + 1));
+  }
+  return state_->ask(ReadMessage{array_names, time_step}, progress, [](const HelperProcess::Reply& reply) {
+    return decode_blocks(reply.json, reply.memory->bytes(), reply.memory);
+  });
+}
+
+}  // namespace palpate

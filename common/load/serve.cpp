@@ -1,0 +1,111 @@
+#include "common/load/serve.h"
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+#include <system_error>
+#include <thread>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/load/channel.h"
+#include "common/load/protocol.h"
+
+namespace palpate {
+namespace {
+
+/// Ends the process when the other end of the socket closes, whatever the loader is doing. The explorer's
+/// death closes it too, and that of the thread which started the helper does not: so this serves better
+/// than PR_SET_PDEATHSIG, which follows the thread.
+void end_with_explorer() {
+  std::thread([] {
+    pollfd wait{kHelperSocket, POLLRDHUP, 0};
+    while (true) {
+      const int ready = ::poll(&wait, 1, -1);
+      if (ready > 0 && (wait.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0) ::_exit(0);
+    }
+  }).detach();
+}
+
+/// What is in memory before the answer, so that an error in the middle of encoding starts afresh.
+struct Answer {
+  MemoryFile memory;
+  std::string json;
+};
+
+Answer answer_to(const RequestMessage& request, Loader& loader) {
+  Answer answer;
+  if (const auto* open = std::get_if<OpenMessage>(&request)) {
+    FileInfo info = loader.open(open->request, open->format);
+    info.loader = helper_of(open->format);
+    answer.json = encode_info(info);
+  } else {
+    const auto& read = std::get<ReadMessage>(request);
+    answer.json = encode_blocks(loader.read(read.arrays, read.time_step), answer.memory);
+  }
+  return answer;
+}
+
+Answer failure(ExitCode code, const std::string& line) { return {MemoryFile(), encode_failure(code, line)}; }
+
+}  // namespace
+
+int serve_loader(Loader& loader) {
+  if (::fcntl(kHelperSocket, F_GETFD) < 0) {
+    std::fputs("This program reads data files for the explorers, which start it themselves.\n", stderr);
+    return static_cast<int>(ExitCode::kUsage);
+  }
+  end_with_explorer();
+
+  // At most some twenty reports a second: a reader may call for every cell.
+  auto last = std::chrono::steady_clock::now();
+  loader.on_progress = [&last](double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < std::chrono::milliseconds(50)) return;
+    last = now;
+    Frame frame;
+    frame.kind = Frame::kProgress;
+    frame.fraction = fraction;
+    (void)send_frame(kHelperSocket, frame, -1);  // a lost explorer ends this process anyway
+  };
+
+  std::string file;  // the first file, for messages that come from below any reader
+  while (true) {
+    Frame frame;
+    UniqueFd fd;
+    const Received received = receive_frame(kHelperSocket, -1, frame, fd);
+    if (received == Received::kTimeOut) continue;
+    if (received == Received::kClosed) return 0;
+    if (received == Received::kMalformed || frame.kind != Frame::kMessage) return 1;
+
+    Answer answer;
+    try {
+      const auto memory = MappedMemory::map(fd);
+      const RequestMessage request = decode_request(json_of(frame, memory->bytes()));
+      if (const auto* open = std::get_if<OpenMessage>(&request);
+          open != nullptr && !open->request.files.empty()) {
+        file = open->request.files.front().string();
+      }
+      answer = answer_to(request, loader);
+    } catch (const Error& error) {
+      answer = failure(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+      answer =
+          failure(ExitCode::kBadInput, input_error({file, "", "needs more memory than its size justifies", "",
+                                                    "the file may be damaged, or the machine too small"})
+                                           .what());
+    } catch (const std::system_error& error) {
+      answer = failure(
+          ExitCode::kBadInput,
+          input_error({file, "", std::string("out of memory or files (") + error.what() + ")"}).what());
+    } catch (const std::exception& error) {
+      answer = failure(ExitCode::kBadInput, input_error({file, "", error.what()}).what());
+    }
+    if (!send_message(kHelperSocket, answer.memory, answer.json)) return 0;
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,37 @@
+/// The helper program's side: a Loader, and the loop that answers an explorer's requests with it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/load/format.h"
+#include "common/load/load.h"
+
+namespace palpate {
+
+/// Reads one family of file formats. One object serves one opened input.
+class Loader {
+ public:
+  Loader() = default;
+  virtual ~Loader() = default;
+  Loader(const Loader&) = delete;
+  Loader& operator=(const Loader&) = delete;
+
+  /// Finds out what the files hold. `request` was checked: the files exist and are of `format`.
+  /// @throws Error (bad input) with a line that names the file.
+  virtual FileInfo open(const LoadRequest& request, Format format) = 0;
+
+  /// Topology of every block and the named arrays at a time step (< times, or 0). @throws Error.
+  virtual std::vector<DataSet> read(const std::vector<std::string>& array_names, std::size_t time_step) = 0;
+
+  /// Called with the part done, 0 to 1, now and then; may be empty.
+  std::function<void(double)> on_progress;
+};
+
+/// Answers requests on kHelperSocket until the explorer goes away; the exit status of the helper program.
+/// The helper ends as soon as its explorer does, in the middle of a reading too.
+int serve_loader(Loader& loader);
+
+}  // namespace palpate

@@ -1,0 +1,194 @@
+#include "common/load/sniff.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/load/plot3d_layout.h"
+#include "common/load/unique_fd.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kReadable = "a VTK, PLOT3D, EnSight, Exodus II, OpenFOAM or NRRD file";
+
+bool starts_with(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+std::string lower_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), lower);
+  return ending;
+}
+
+/// The value of an attribute of the first start tag `element`, or empty.
+std::string_view attribute(std::string_view text, std::string_view element, std::string_view name) {
+  const std::size_t start = text.find(element);
+  if (start == std::string_view::npos) return {};
+  const std::string_view tag = text.substr(start, text.find('>', start) - start);
+  const std::string key = " " + std::string(name) + "=";
+  const std::size_t at = tag.find(key);
+  if (at == std::string_view::npos || at + key.size() >= tag.size()) return {};
+  const char quote = tag[at + key.size()];
+  if (quote != '"' && quote != '\'') return {};
+  const std::size_t first = at + key.size() + 1;
+  const std::size_t last = tag.find(quote, first);
+  return last == std::string_view::npos ? std::string_view() : tag.substr(first, last - first);
+}
+
+Sniffed sniff_vtk_xml(std::string_view text) {
+  const std::string_view type = attribute(text, "<VTKFile", "type");
+  static constexpr std::array<std::string_view, 5> kSingle{"ImageData", "RectilinearGrid", "StructuredGrid",
+                                                           "UnstructuredGrid", "PolyData"};
+  if (std::find(kSingle.begin(), kSingle.end(), type) != kSingle.end()) return {Format::kVtkXml, "", ""};
+  if (type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet")
+    return {Format::kVtkMultiBlock, "", ""};
+  if (type == "Collection") return {Format::kParaviewSeries, "", ""};
+  if (type.empty()) return {{}, "a VTK XML file whose type is missing or cut off", "it may be truncated"};
+  return {{},
+          "a VTK XML file of type " + std::string(type.substr(0, 40)),
+          "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
+}
+
+/// EnSight's case file is text with section keywords; FORMAT comes first and GEOMETRY must be there.
+bool looks_like_ensight(std::string_view text) {
+  const auto line_starts = [text](std::string_view word) {
+    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+      if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r') return true;
+    }
+    return false;
+  };
+  return line_starts("FORMAT") && line_starts("GEOMETRY") && text.find("type:") != std::string_view::npos &&
+         text.find("ensight") != std::string_view::npos;
+}
+
+std::string printable(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes.substr(0, 16)) {
+    const auto b = static_cast<unsigned char>(c);
+    if (b >= 0x20 && b < 0x7f) {
+      text += c;
+    } else {
+      std::array<char, 5> hex{};
+      std::snprintf(hex.data(), hex.size(), "\\x%02x", b);
+      text += hex.data();
+    }
+  }
+  return text;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found,
+                         const std::string& expected = "", const std::string& remedy = "") {
+  throw input_error({path.string(), "", found, expected, remedy});
+}
+
+bool is_openfoam_case(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / "system/controlDict", ignored) &&
+         std::filesystem::is_directory(folder / "constant", ignored);
+}
+
+}  // namespace
+
+Sniffed sniff(const FileHead& head) {
+  std::string_view text(reinterpret_cast<const char*>(head.bytes.data()), head.bytes.size());
+  if (starts_with(text, "\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
+  if (starts_with(text, "# vtk DataFile")) return {Format::kLegacyVtk, "", ""};
+  if (starts_with(text, "NRRD000")) return {Format::kNrrd, "", ""};
+
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const std::string_view trimmed = first == std::string_view::npos ? std::string_view() : text.substr(first);
+  if (starts_with(trimmed, "<") && trimmed.find("<VTKFile") != std::string_view::npos)
+    return sniff_vtk_xml(trimmed);
+  if (starts_with(trimmed, "<")) return {{}, "an XML file that is not VTK's", ""};
+  if (starts_with(trimmed, "{") && trimmed.find("\"file-series-version\"") != std::string_view::npos) {
+    return {Format::kParaviewSeries, "", ""};
+  }
+
+  const bool netcdf =
+      text.size() >= 4 && starts_with(text, "CDF") && (text[3] == 1 || text[3] == 2 || text[3] == 5);
+  if (netcdf) {
+    if (text.find("num_nodes") != std::string_view::npos) return {Format::kExodus, "", ""};
+    return {{}, "a netCDF file that is not Exodus II (it has no num_nodes)", ""};
+  }
+  if (starts_with(text, "\x89HDF\r\n\x1a\n")) {
+    // A netCDF-4 file is HDF5; whether it is Exodus II only its reader can tell.
+    static constexpr std::array<std::string_view, 6> kExodusEndings{".e",    ".ex2", ".exo",
+                                                                    ".exii", ".g",   ".gen"};
+    if (std::find(kExodusEndings.begin(), kExodusEndings.end(), head.ending) != kExodusEndings.end()) {
+      return {Format::kExodus, "", ""};
+    }
+    return {{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
+  }
+  if (starts_with(text, "\x1f\x8b")) return {{}, "a gzip file", "unpack it first"};
+  if (looks_like_ensight(text)) return {Format::kEnsight, "", ""};
+  if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {
+    return {Format::kOpenFoam, "", ""};
+  }
+  if (find_plot3d_layout({head.bytes, head.file_size}, Plot3dFile::kGrid)) return {Format::kPlot3d, "", ""};
+  if (find_plot3d_layout({head.bytes, head.file_size}, Plot3dFile::kSolution)) {
+    return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
+  }
+  return {{}, "not recognised (it starts with \"" + printable(text) + "\")", ""};
+}
+
+HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes) {
+  // O_NONBLOCK: opening a pipe must not wait for a writer.
+  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!fd) {
+    if (errno == ENOENT || errno == ENOTDIR) refuse(path, "no such file");
+    refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")", "", "check its permissions");
+  }
+  struct stat status {};
+  if (::fstat(fd.get(), &status) != 0)
+    refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+  if (S_ISDIR(status.st_mode)) refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
+  if (!S_ISREG(status.st_mode)) refuse(path, "is a pipe or device", "a regular file");
+
+  HeadOfFile head;
+  head.file_size = static_cast<std::uint64_t>(status.st_size);
+  head.bytes.resize(std::min<std::uint64_t>(bytes, head.file_size));
+  std::size_t have = 0;
+  while (have < head.bytes.size()) {
+    const ssize_t got = ::read(fd.get(), head.bytes.data() + have, head.bytes.size() - have);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+    if (got == 0) break;
+    have += static_cast<std::size_t>(got);
+  }
+  head.bytes.resize(have);
+  return head;
+}
+
+Format find_format(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    if (is_openfoam_case(path)) return Format::kOpenFoam;
+    refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
+  }
+  const HeadOfFile head = read_head(path, kSniffBytes);
+  const std::string ending = lower_ending(path);
+  if (ending == ".foam" || ending == ".openfoam") {
+    // By custom an empty file that only marks the case's folder.
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (is_openfoam_case(folder)) return Format::kOpenFoam;
+    refuse(path, "marks no OpenFOAM case", "system/controlDict and constant/ beside it");
+  }
+  if (head.file_size == 0) refuse(path, "is empty", kReadable);
+  const Sniffed sniffed = sniff({std::as_bytes(std::span(head.bytes)), head.file_size, ending});
+  if (!sniffed.format) refuse(path, sniffed.found, kReadable, sniffed.remedy);
+  return *sniffed.format;
+}
+
+}  // namespace palpate

@@ -1,0 +1,288 @@
+#include "loaders/vtk/legacy_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/base/error.h"
+#include "loaders/vtk/mapped_file.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::uint64_t kHuge = ~std::uint64_t{0};
+
+std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t product = 0;
+  return __builtin_mul_overflow(a, b, &product) ? kHuge : product;
+}
+
+std::string upper(std::string_view word) {
+  std::string text(word);
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// Bits that one value of a type takes in a binary file; 0 for types of no fixed size (string, variant).
+std::optional<std::uint64_t> bits_of(std::string_view type) {
+  struct Size {
+    std::string_view name;
+    std::uint64_t bits;
+  };
+  static constexpr std::array<Size, 16> kSizes{{{"BIT", 1},
+                                                {"CHAR", 8},
+                                                {"SIGNED_CHAR", 8},
+                                                {"UNSIGNED_CHAR", 8},
+                                                {"SHORT", 16},
+                                                {"UNSIGNED_SHORT", 16},
+                                                {"INT", 32},
+                                                {"UNSIGNED_INT", 32},
+                                                {"LONG", 64},
+                                                {"UNSIGNED_LONG", 64},
+                                                {"VTKTYPEINT64", 64},
+                                                {"VTKTYPEUINT64", 64},
+                                                {"VTKIDTYPE", 32},
+                                                {"FLOAT", 32},
+                                                {"DOUBLE", 64},
+                                                {"LONG_LONG", 64}}};
+  const std::string name = upper(type);
+  for (const Size& size : kSizes) {
+    if (name == size.name) return size.bits;
+  }
+  return std::nullopt;
+}
+
+struct Impossible {
+  std::string what;
+};
+/// The walk has come to something that it does not know.
+struct Stop {};
+
+class Walk {
+ public:
+  explicit Walk(std::string_view text) : text_(text) {}
+
+  void run() {
+    for (int i = 0; i < 2; ++i) (void)line();  // version and title
+    const std::string encoding = upper(word());
+    if (encoding != "ASCII" && encoding != "BINARY")
+      throw Impossible{place() + "found '" + encoding.substr(0, 40) + "', expected ASCII or BINARY"};
+    binary_ = encoding == "BINARY";
+    while (true) {
+      const std::string keyword = upper(word());
+      if (keyword.empty()) return;
+      section(keyword);
+    }
+  }
+
+ private:
+  void section(const std::string& keyword) {
+    keyword_ = keyword;
+    if (keyword == "DATASET") {
+      (void)word();
+    } else if (keyword == "DIMENSIONS" || keyword == "EXTENT") {
+      (void)line();
+    } else if (keyword == "SPACING" || keyword == "ASPECT_RATIO" || keyword == "ORIGIN") {
+      (void)line();
+    } else if (keyword == "POINTS") {
+      values(times(count(), 3), word());
+    } else if (keyword == "X_COORDINATES" || keyword == "Y_COORDINATES" || keyword == "Z_COORDINATES") {
+      values(count(), word());
+    } else if (keyword == "CELLS" || keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
+               keyword == "TRIANGLE_STRIPS") {
+      const std::uint64_t cells = count();
+      const std::uint64_t size = count();
+      // Version 5.1 gives OFFSETS and CONNECTIVITY as sections of their own.
+      if (upper(peek()) == "OFFSETS") {
+        (void)word();
+        values(cells, word());
+        if (upper(word()) != "CONNECTIVITY") throw Stop{};
+        values(size, word());
+      } else {
+        values(size, "int");
+      }
+    } else if (keyword == "CELL_TYPES") {
+      values(count(), "int");
+    } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+      tuples_ = count();
+    } else if (keyword == "SCALARS") {
+      (void)word();
+      const std::string type(word());
+      std::uint64_t components = 1;
+      if (const auto given = same_line_count()) components = *given;
+      if (upper(peek()) == "LOOKUP_TABLE") {
+        (void)word();
+        (void)word();
+      }
+      values(times(tuples_, components), type);
+    } else if (keyword == "VECTORS" || keyword == "NORMALS") {
+      (void)word();
+      values(times(tuples_, 3), word());
+    } else if (keyword == "TENSORS" || keyword == "TENSORS6") {
+      (void)word();
+      values(times(tuples_, keyword == "TENSORS" ? 9 : 6), word());
+    } else if (keyword == "TEXTURE_COORDINATES") {
+      (void)word();
+      const std::uint64_t components = count();
+      values(times(tuples_, components), word());
+    } else if (keyword == "COLOR_SCALARS") {
+      (void)word();
+      values(times(tuples_, count()), binary_ ? "unsigned_char" : "float");
+    } else if (keyword == "LOOKUP_TABLE") {
+      (void)word();
+      values(times(count(), 4), binary_ ? "unsigned_char" : "float");
+    } else if (keyword == "FIELD") {
+      (void)word();
+      const std::uint64_t arrays = count();
+      for (std::uint64_t i = 0; i < arrays; ++i) {
+        const std::string name(word());
+        if (upper(name) == "METADATA") {
+          // Ends with an empty line.
+          while (!line().empty()) {
+          }
+          --i;
+          continue;
+        }
+        if (name.empty())
+          throw Impossible{place() + "the file ends after " + std::to_string(i) + " of " +
+                           std::to_string(arrays) + " arrays"};
+        keyword_ = name;
+        const std::uint64_t components = count();
+        const std::uint64_t tuples = count();
+        values(times(components, tuples), word());
+      }
+    } else if (keyword == "METADATA") {
+      while (!line().empty()) {
+      }
+    } else {
+      throw Stop{};
+    }
+  }
+
+  /// Passes over `number` values, which must be there.
+  void values(std::uint64_t number, std::string_view type) {
+    const auto bits = bits_of(type);
+    if (!bits) throw Stop{};
+    const std::uint64_t left = text_.size() - at_;
+    if (!binary_) {
+      // A value takes a character, and a separator before the next.
+      if (number > left / 2 + 1) impossible(number, type, left);
+      for (std::uint64_t i = 0; i < number; ++i) {
+        if (word().empty())
+          throw Impossible{place() + keyword_.substr(0, 60) + ": the file ends after " + std::to_string(i) +
+                           " of " + std::to_string(number) + " values"};
+      }
+      return;
+    }
+    (void)line();
+    // Up to 2^64 - 1 bits is never in a file either.
+    const std::uint64_t bytes = times(number, *bits) == kHuge ? kHuge : (times(number, *bits) + 7) / 8;
+    if (bytes > text_.size() - at_) impossible(number, type, text_.size() - at_);
+    at_ += bytes;
+    ++binary_sections_;
+  }
+
+  [[noreturn]] void impossible(std::uint64_t number, std::string_view type, std::uint64_t left) {
+    throw Impossible{place() + keyword_.substr(0, 60) + " claims " +
+                     (number == kHuge ? "over 2^63" : std::to_string(number)) + " values of type " +
+                     std::string(type.substr(0, 20)) + ", but " + std::to_string(left) +
+                     " bytes are left in the file"};
+  }
+
+  std::uint64_t count() {
+    const std::string_view text = word();
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range) return kHuge;
+    if (error != std::errc() || end != text.data() + text.size()) {
+      throw Impossible{place() + "found '" + printable(text) + "' in " + keyword_.substr(0, 60) +
+                       ", expected a count"};
+    }
+    return value;
+  }
+
+  /// A count on the rest of this line, if there is one.
+  std::optional<std::uint64_t> same_line_count() {
+    std::size_t at = at_;
+    while (at < text_.size() && (text_[at] == ' ' || text_[at] == '\t')) ++at;
+    if (at >= text_.size() || std::isdigit(static_cast<unsigned char>(text_[at])) == 0) return std::nullopt;
+    return count();
+  }
+
+  std::string_view word() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) next();
+    const std::size_t start = at_;
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) == 0) ++at_;
+    return text_.substr(start, at_ - start);
+  }
+
+  std::string_view peek() {
+    const std::size_t at = at_;
+    const std::uint64_t lines = lines_;
+    const std::string_view text = word();
+    at_ = at;
+    lines_ = lines;
+    return text;
+  }
+
+  /// The rest of the line, without its end; also at the end of the file.
+  std::string_view line() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    std::string_view text = text_.substr(start, at_ - start);
+    if (at_ < text_.size()) next();
+    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    return text;
+  }
+
+  void next() {
+    if (text_[at_] == '\n') ++lines_;
+    ++at_;
+  }
+
+  /// Lines can be counted until the first binary data.
+  [[nodiscard]] std::string place() const {
+    if (binary_sections_ > 0) return "byte " + std::to_string(at_) + ": ";
+    return "line " + std::to_string(lines_) + ": ";
+  }
+
+  static std::string printable(std::string_view text) {
+    std::string result(text.substr(0, 40));
+    std::replace_if(
+        result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+    return result;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::uint64_t lines_ = 1;
+  bool binary_ = false;
+  int binary_sections_ = 0;
+  std::uint64_t tuples_ = 0;
+  std::string keyword_;
+};
+
+}  // namespace
+
+std::string legacy_problem(std::string_view text) {
+  try {
+    Walk(text).run();
+  } catch (const Impossible& impossible) {
+    return impossible.what;
+  } catch (const Stop&) {
+  }
+  return "";
+}
+
+void check_legacy(const std::string& file) {
+  const MappedFile mapped(file);
+  const std::string problem = legacy_problem(mapped.text());
+  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+}
+
+}  // namespace palpate

@@ -1,0 +1,359 @@
+#include "loaders/vtk/vtk_convert.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellTypes.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMatrix3x3.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkSmartPointer.h>
+#include <vtkStructuredGrid.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+// ---- arrays --------------------------------------------------------------------------------------------
+
+/// `source` as the project's array, sharing its memory where VTK stores it tuple by tuple.
+DataArray share(vtkDataArray* source, Association association, const std::string& name) {
+  vtkSmartPointer<vtkDataArray> array = source;
+  if (!source->HasStandardMemoryLayout()) {
+    array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(source->GetDataType()));
+    array->DeepCopy(source);
+  }
+  DataArray result;
+  result.name = name;
+  result.association = association;
+  result.components = array->GetNumberOfComponents();
+  if (!scalar_type_of(array->GetDataType(), result.type)) {
+    throw input_error(
+        {"", "array '" + name + "'", std::string("has numbers of type ") + array->GetDataTypeAsString()});
+  }
+  result.tuples = static_cast<std::size_t>(array->GetNumberOfTuples());
+  const std::size_t bytes =
+      result.tuples * static_cast<std::size_t>(result.components) * byte_size(result.type);
+  result.bytes = {static_cast<const std::byte*>(array->GetVoidPointer(0)), bytes};
+  result.owner = std::make_shared<vtkSmartPointer<vtkDataArray>>(array);
+  return result;
+}
+
+bool is_ghost_array(const std::string& name) { return name == vtkDataSetAttributes::GhostArrayName(); }
+
+/// Calls `visit(array, association, name)` for every array of numbers; text, bits and ghost marks are not.
+template <typename Visit>
+void for_each_array(vtkDataSet* data, const Visit& visit) {
+  const auto walk = [&visit](vtkDataSetAttributes* attributes, Association association) {
+    for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
+      vtkDataArray* array = attributes->GetArray(i);
+      ScalarType type{};
+      if (array == nullptr || !scalar_type_of(array->GetDataType(), type)) continue;
+      const char* given = array->GetName();
+      const std::string name = given != nullptr && *given != '\0' ? given : "array " + std::to_string(i + 1);
+      if (!is_ghost_array(name)) visit(array, association, name);
+    }
+  };
+  walk(data->GetPointData(), Association::kPoint);
+  walk(data->GetCellData(), Association::kCell);
+}
+
+// ---- topologies ----------------------------------------------------------------------------------------
+
+Index3 points_along_axes(vtkDataSet* data) {
+  int n[3] = {0, 0, 0};
+  if (auto* image = vtkImageData::SafeDownCast(data)) image->GetDimensions(n);
+  if (auto* box = vtkRectilinearGrid::SafeDownCast(data)) box->GetDimensions(n);
+  if (auto* grid = vtkStructuredGrid::SafeDownCast(data)) grid->GetDimensions(n);
+  return {n[0], n[1], n[2]};
+}
+
+UniformTopology uniform(vtkImageData* image, const std::string& file) {
+  UniformTopology t;
+  t.points = points_along_axes(image);
+  const double* spacing = image->GetSpacing();
+  const int* extent = image->GetExtent();
+  t.origin = {image->GetOrigin()[0], image->GetOrigin()[1], image->GetOrigin()[2]};
+  vtkMatrix3x3* direction = image->GetDirectionMatrix();
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) t.axes[c][r] = direction->GetElement(r, c) * spacing[c];
+    // An extent that does not begin at 0 shifts the first point.
+    if (extent[2 * c] != 0) t.origin += static_cast<double>(extent[2 * c]) * t.axes[c];
+  }
+  for (int c = 0; c < 3; ++c) {
+    const double step = glm::length(t.axes[c]);
+    if (!std::isfinite(step) || step == 0.0 || !is_finite(t.origin)) {
+      throw input_error({file, "", "has a spacing of 0, or one that is not finite"});
+    }
+  }
+  return t;
+}
+
+/// Coordinates that increase along every axis; a decreasing axis would turn the cells inside out.
+bool increasing(const std::vector<double>& x) {
+  return std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
+}
+
+std::vector<double> doubles(vtkDataArray* array, int count) {
+  std::vector<double> values;
+  for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfTuples(); ++i)
+    values.push_back(array->GetComponent(i, 0));
+  values.resize(static_cast<std::size_t>(count), values.empty() ? 0.0 : values.back());
+  return values;
+}
+
+RectilinearTopology rectilinear(vtkRectilinearGrid* grid, const std::string& file) {
+  RectilinearTopology t;
+  const Index3 n = points_along_axes(grid);
+  t.coordinates = {doubles(grid->GetXCoordinates(), n.x), doubles(grid->GetYCoordinates(), n.y),
+                   doubles(grid->GetZCoordinates(), n.z)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& x = t.coordinates[axis];
+    if (!increasing(x) || !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
+      throw input_error({file, std::string("coordinates along ") + "xyz"[axis], "do not increase",
+                         "strictly increasing ones"});
+    }
+  }
+  return t;
+}
+
+StructuredTopology curvilinear(vtkStructuredGrid* grid) {
+  StructuredTopology t;
+  t.points = points_along_axes(grid);
+  t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
+  return t;
+}
+
+UnstructuredTopology unstructured(vtkUnstructuredGrid* grid) {
+  UnstructuredTopology t;
+  t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
+  const vtkIdType cells = grid->GetNumberOfCells();
+  t.types.reserve(static_cast<std::size_t>(cells));
+  t.offsets.reserve(static_cast<std::size_t>(cells) + 1);
+  t.connectivity.reserve(static_cast<std::size_t>(grid->GetCells()->GetNumberOfConnectivityIds()));
+  t.offsets.push_back(0);
+  const auto faces = vtkSmartPointer<vtkIdList>::New();
+  for (vtkIdType cell = 0; cell < cells; ++cell) {
+    const int type = grid->GetCellType(cell);
+    t.types.push_back(static_cast<std::uint8_t>(type));
+    if (type == VTK_POLYHEDRON) {
+      grid->GetFaceStream(cell, faces);
+      for (vtkIdType i = 0; i < faces->GetNumberOfIds(); ++i) t.connectivity.push_back(faces->GetId(i));
+    } else {
+      vtkIdType count = 0;
+      const vtkIdType* corners = nullptr;
+      grid->GetCellPoints(cell, count, corners);
+      t.connectivity.insert(t.connectivity.end(), corners, corners + count);
+    }
+    t.offsets.push_back(static_cast<std::int64_t>(t.connectivity.size()));
+  }
+  return t;
+}
+
+/// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
+std::vector<std::uint8_t> visible_points(vtkDataSet* data) {
+  const auto points = static_cast<std::size_t>(data->GetNumberOfPoints());
+  std::vector<std::uint8_t> visible;
+  if (vtkUnsignedCharArray* ghosts = data->GetPointGhostArray();
+      ghosts != nullptr && ghosts->GetNumberOfTuples() == data->GetNumberOfPoints()) {
+    visible.assign(points, 1);
+    for (std::size_t p = 0; p < points; ++p) {
+      if ((ghosts->GetValue(static_cast<vtkIdType>(p)) & vtkDataSetAttributes::HIDDENPOINT) != 0)
+        visible[p] = 0;
+    }
+  }
+  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
+  if (ghosts != nullptr && ghosts->GetNumberOfTuples() == data->GetNumberOfCells()) {
+    std::vector<std::uint8_t> in_visible_cell(points, 0);
+    const auto corners = vtkSmartPointer<vtkIdList>::New();
+    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
+      if ((ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) != 0) continue;
+      data->GetCellPoints(cell, corners);
+      for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+        in_visible_cell[static_cast<std::size_t>(corners->GetId(i))] = 1;
+    }
+    if (visible.empty()) visible.assign(points, 1);
+    for (std::size_t p = 0; p < points; ++p)
+      visible[p] = static_cast<std::uint8_t>(visible[p] & in_visible_cell[p]);
+  }
+  if (std::all_of(visible.begin(), visible.end(), [](std::uint8_t v) { return v == 1; })) visible.clear();
+  return visible;
+}
+
+}  // namespace
+
+bool scalar_type_of(int vtk_type, ScalarType& type) {
+  switch (vtk_type) {
+    case VTK_CHAR:
+    case VTK_SIGNED_CHAR:
+      type = ScalarType::kInt8;
+      return true;
+    case VTK_UNSIGNED_CHAR:
+      type = ScalarType::kUint8;
+      return true;
+    case VTK_SHORT:
+      type = ScalarType::kInt16;
+      return true;
+    case VTK_UNSIGNED_SHORT:
+      type = ScalarType::kUint16;
+      return true;
+    case VTK_INT:
+      type = ScalarType::kInt32;
+      return true;
+    case VTK_UNSIGNED_INT:
+      type = ScalarType::kUint32;
+      return true;
+    case VTK_LONG:
+    case VTK_LONG_LONG:
+      type = ScalarType::kInt64;
+      return true;
+    case VTK_ID_TYPE:
+      type = sizeof(vtkIdType) == 8 ? ScalarType::kInt64 : ScalarType::kInt32;
+      return true;
+    case VTK_UNSIGNED_LONG:
+    case VTK_UNSIGNED_LONG_LONG:
+      type = ScalarType::kUint64;
+      return true;
+    case VTK_FLOAT:
+      type = ScalarType::kFloat32;
+      return true;
+    case VTK_DOUBLE:
+      type = ScalarType::kFloat64;
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::vector<VtkBlock> leaves_of(vtkDataObject* object) {
+  std::vector<VtkBlock> blocks;
+  if (auto* single = vtkDataSet::SafeDownCast(object)) {
+    blocks.push_back({single, ""});
+    return blocks;
+  }
+  auto* composite = vtkCompositeDataSet::SafeDownCast(object);
+  if (composite == nullptr) return blocks;
+  const auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  it->SkipEmptyNodesOn();
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+    auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
+    if (leaf == nullptr) continue;
+    vtkInformation* about = it->HasCurrentMetaData() != 0 ? it->GetCurrentMetaData() : nullptr;
+    const char* name = about != nullptr && about->Has(vtkCompositeDataSet::NAME()) != 0
+                           ? about->Get(vtkCompositeDataSet::NAME())
+                           : nullptr;
+    blocks.push_back({leaf, name != nullptr ? name : ""});
+  }
+  for (std::size_t b = 0; blocks.size() > 1 && b < blocks.size(); ++b) {
+    if (blocks[b].name.empty()) blocks[b].name = "block " + std::to_string(b + 1);
+  }
+  return blocks;
+}
+
+std::string why_not_volume(vtkDataSet* data) {
+  if (vtkPolyData::SafeDownCast(data) != nullptr)
+    return "holds points, lines or surfaces (polygonal data), not a volume";
+  if (data->GetNumberOfPoints() == 0) return "holds no points";
+  const Index3 n = points_along_axes(data);
+  if (n != Index3{0} && (n.x < 2 || n.y < 2 || n.z < 2)) {
+    return "is flat (" + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) +
+           " points), not a volume";
+  }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (n == Index3{0} && grid == nullptr)
+    return std::string("is of a kind that is not read (") + data->GetClassName() + ")";
+  if (grid != nullptr) {
+    if (grid->GetNumberOfCells() == 0) return "holds no cells";
+    static constexpr int kFlat[] = {VTK_EMPTY_CELL,     VTK_VERTEX,         VTK_POLY_VERTEX,
+                                    VTK_LINE,           VTK_POLY_LINE,      VTK_TRIANGLE,
+                                    VTK_TRIANGLE_STRIP, VTK_POLYGON,        VTK_PIXEL,
+                                    VTK_QUAD,           VTK_QUADRATIC_EDGE, VTK_QUADRATIC_TRIANGLE,
+                                    VTK_QUADRATIC_QUAD};
+    const auto types = vtkSmartPointer<vtkCellTypes>::New();
+    grid->GetCellTypes(types);
+    for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i) {
+      if (std::find(std::begin(kFlat), std::end(kFlat), types->GetCellType(i)) == std::end(kFlat)) return "";
+    }
+    return "holds points, lines or surfaces only, not a volume";
+  }
+  return "";
+}
+
+BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
+  BlockInfo info;
+  info.name = name;
+  info.points = points_along_axes(data);
+  info.point_count = static_cast<std::uint64_t>(data->GetNumberOfPoints());
+  info.cell_count = static_cast<std::uint64_t>(data->GetNumberOfCells());
+  if (vtkImageData::SafeDownCast(data) != nullptr) info.grid = "uniform";
+  if (vtkRectilinearGrid::SafeDownCast(data) != nullptr) info.grid = "rectilinear";
+  if (vtkStructuredGrid::SafeDownCast(data) != nullptr) info.grid = "curvilinear";
+  if (vtkUnstructuredGrid::SafeDownCast(data) != nullptr) info.grid = "unstructured";
+  double b[6];
+  data->GetBounds(b);
+  info.bounds.lower = {b[0], b[2], b[4]};
+  info.bounds.upper = {b[1], b[3], b[5]};
+  for_each_array(data, [&info](vtkDataArray* array, Association association, const std::string& array_name) {
+    ArrayInfo about{array_name, association, array->GetNumberOfComponents(), ScalarType::kFloat32,
+                    static_cast<std::size_t>(array->GetNumberOfTuples())};
+    (void)scalar_type_of(array->GetDataType(), about.type);
+    info.arrays.push_back(about);
+  });
+  return info;
+}
+
+DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<std::string>& wanted,
+                      const std::string& file) {
+  DataSet block;
+  block.name = name;
+  vtkSmartPointer<vtkDataSet> kept = data;
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+      grid != nullptr && grid->GetCellGhostArray() != nullptr) {
+    // Cells that another piece owns too would lie twice in the joined mesh.
+    const auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    copy->ShallowCopy(grid);
+    copy->RemoveGhostCells();
+    kept = copy;
+  }
+  if (auto* image = vtkImageData::SafeDownCast(kept)) {
+    block.topology = uniform(image, file);
+  } else if (auto* box = vtkRectilinearGrid::SafeDownCast(kept)) {
+    block.topology = rectilinear(box, file);
+  } else if (auto* curved = vtkStructuredGrid::SafeDownCast(kept)) {
+    block.topology = curvilinear(curved);
+  } else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(kept)) {
+    block.topology = unstructured(mesh);
+  } else {
+    throw input_error({file, name, why_not_volume(kept)});
+  }
+  block.visible = visible_points(kept);
+  for_each_array(kept, [&](vtkDataArray* array, Association association, const std::string& array_name) {
+    if (wanted.count(array_name) == 0) return;
+    DataArray shared = share(array, association, array_name);
+    const vtkIdType tuples =
+        association == Association::kPoint ? kept->GetNumberOfPoints() : kept->GetNumberOfCells();
+    if (shared.tuples != static_cast<std::size_t>(tuples)) {
+      throw input_error({file, "array '" + array_name + "'",
+                         "has " + std::to_string(shared.tuples) + " tuples", std::to_string(tuples)});
+    }
+    block.arrays.push_back(std::move(shared));
+  });
+  return block;
+}
+
+}  // namespace palpate
