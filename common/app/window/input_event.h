@@ -1,0 +1,43 @@
+/// What mouse and keyboard do, as plain data: it comes from the window system or from a script, and goes
+/// to the panels and to the camera alike.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace palpate {
+
+enum class InputKind : std::uint8_t {
+  kMove,     ///< x, y
+  kPress,    ///< button
+  kRelease,  ///< button
+  kWheel,    ///< x, y: notches to the right and up
+  kKeyDown,  ///< key, modifiers
+  kKeyUp,    ///< key, modifiers
+  kText,     ///< code point in key
+  kDrop      ///< files
+};
+
+enum class MouseButton : std::uint8_t { kLeft = 0, kRight = 1, kMiddle = 2 };
+
+/// Bits of InputEvent::modifiers, as GLFW has them.
+inline constexpr int kModifierShift = 1, kModifierControl = 2, kModifierAlt = 4;
+
+struct InputEvent {
+  InputKind kind = InputKind::kMove;
+  double x = 0.0;  ///< [pixels] from the left of the window
+  double y = 0.0;  ///< [pixels] from its top
+  MouseButton button = MouseButton::kLeft;
+  int key = 0;  ///< GLFW's key number: an ASCII capital for letters, 256 Esc, 257 Enter
+  int modifiers = 0;
+  std::vector<std::filesystem::path> files;
+};
+
+/// An event at a frame.
+struct ScriptedEvent {
+  int frame = 0;
+  InputEvent event;
+};
+
+}  // namespace palpate

@@ -1,0 +1,55 @@
+/// The window of an explorer: the picture, a panel, mouse and keys.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/app/window/input_event.h"
+#include "common/app/window/window_model.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+struct WindowOptions {
+  std::string program = "palpate";  ///< in the title bar
+  int width = 1440;                 ///< [screen coordinates]
+  int height = 900;
+  /// Style, background and what is shown at the start; its lines, bounds and camera are set by the scene.
+  SceneView view;
+  CameraAngles angles;                         ///< the first view, and that of a reset
+  std::string command_line;                    ///< for the text of saved pictures
+  std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
+  std::filesystem::path picture_folder = ".";  ///< where "Save picture" writes
+  /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
+  std::function<bool()> stop_requested;
+
+  /// @name For tests and demonstrations
+  /// @{
+  /// Events put in at their frame as if they came from mouse and keyboard. Frames are counted from the
+  /// moment when the first scene is shown, and wait for background jobs.
+  std::vector<ScriptedEvent> script;
+  int frames = 0;                    ///< > 0: closes after that many frames
+  std::filesystem::path screenshot;  ///< picture of the whole window, panel and all, at the end
+  bool hidden = false;               ///< never shown on the screen
+  /// @}
+};
+
+/// What happened, for tests.
+struct WindowResult {
+  int frames = 0;          ///< drawn since the first scene was shown
+  Camera camera;           ///< at the end
+  SceneSettings settings;  ///< at the end
+  std::string message;     ///< last line that the window said to the user
+  double median_frame_ms = 0.0;
+};
+
+/// Whether a window can be opened at all (a display is there).
+[[nodiscard]] bool window_available();
+
+/// Shows the window until it is closed. Call it on the main thread.
+/// @throws Error (work failed) where no window can be opened, and whatever WindowModel::start() throws.
+WindowResult run_window(WindowModel& model, const WindowOptions& options);
+
+}  // namespace palpate

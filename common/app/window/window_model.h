@@ -1,0 +1,87 @@
+/// What the window needs of a program: opening inputs and tracing lines, behind plain values.
+///
+/// The window calls these functions on a background thread, one at a time; the picture goes on meanwhile.
+/// What they return is immutable. Words are those of the command line (design: command line).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/geometry/line.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// What the panel can change about the lines.
+struct SceneSettings {
+  std::string field;               ///< one of SceneInfo::fields
+  std::size_t time_step = 0;       ///< index into SceneInfo::times
+  std::string integrator;          ///< "dp54"; empty: the default for the grid
+  std::string seeds;               ///< grammar of --seeds: "grid:8,8,8"
+  std::string direction = "both";  ///< forward, backward, both
+  double tolerance = 1e-6;
+  double step = 0.0;        ///< as --step; 0: the default
+  double max_length = 0.0;  ///< data units; 0: the default
+  std::uint64_t random_seed = 1;
+
+  bool operator==(const SceneSettings&) const = default;
+};
+
+/// What is known of an open input.
+struct SceneInfo {
+  std::string name;                      ///< file or example, for the title
+  std::vector<std::string> facts;        ///< one line each: "legacy VTK, 76x49x45 points", …
+  std::vector<std::string> fields;       ///< vector fields that can be chosen
+  std::vector<std::string> integrators;  ///< those that this grid can be traced with
+  std::vector<double> times;             ///< empty for a single state
+  Box bounds;
+  std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
+  UnitNames units;
+};
+
+/// A scene with its lines.
+struct SceneState {
+  std::shared_ptr<const SceneInfo> info;
+  SceneSettings settings;                          ///< as used; what was left to a default is filled in
+  std::shared_ptr<const std::vector<Line>> lines;  ///< never null
+  std::array<std::size_t, kEndCount> ends{};
+  std::size_t seeds = 0;  ///< those outside the domain too
+  std::size_t outside_seeds = 0;
+  double error_max = 0.0;  ///< data units
+  double seconds_load = 0.0;
+  double seconds_trace = 0.0;
+  std::vector<std::string> notes;  ///< what the user should know, one line each
+};
+
+class WindowModel {
+ public:
+  WindowModel() = default;
+  WindowModel(const WindowModel&) = delete;
+  WindowModel& operator=(const WindowModel&) = delete;
+  virtual ~WindowModel() = default;
+
+  /// What the command line named.
+  /// @throws Error, Cancelled.
+  virtual SceneState start(Progress& progress) = 0;
+
+  /// Opens files that were dropped on the window, with the program's own settings for a new input.
+  /// @throws Error, Cancelled; what was open before then stays open.
+  virtual SceneState open(const std::vector<std::filesystem::path>& files, Progress& progress) = 0;
+
+  /// Lines of the open input with other settings; only what changed is read or traced again.
+  /// @throws Error, Cancelled; what was open before then stays open.
+  virtual SceneState update(const SceneSettings& settings, Progress& progress) = 0;
+
+  /// Saves scene and view beside the input.
+  /// @return what was written, for the message line.
+  /// @throws Error.
+  virtual std::string save_session(const SceneSettings& settings, const SceneView& view) = 0;
+};
+
+}  // namespace palpate
