@@ -1,0 +1,49 @@
+/// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/load/unique_fd.h"
+
+namespace palpate {
+
+/// Writes under a temporary name in the same folder; finish() renames. Without finish() nothing is left.
+class OutputFile {
+ public:
+  /// @throws Error (usage) where `path` exists and `overwrite` is not set; (work failed) where its folder
+  /// cannot be written or `path` is a folder or device.
+  OutputFile(const std::filesystem::path& path, bool overwrite);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// @throws Error (work failed) where the disk refuses.
+  void write(std::span<const std::byte> bytes);
+  void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+  /// The bytes of a number as they lie in memory.
+  template <typename T>
+  void write_number(T value) {
+    write(std::as_bytes(std::span(&value, 1)));
+  }
+  void finish();
+
+ private:
+  void flush();
+  [[noreturn]] void refuse(const char* what);
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  bool overwrite_;
+  UniqueFd fd_;
+  std::vector<std::byte> buffer_;
+};
+
+/// What OutputFile's constructor checks, without making a file.
+/// @throws Error as it does.
+void check_output(const std::filesystem::path& path, bool overwrite);
+
+}  // namespace palpate
