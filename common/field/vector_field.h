@@ -21,6 +21,7 @@ namespace palpate {
 class BoxGrid;        // grid/box_grid.h: uniform and rectilinear
 class TetMesh;        // grid/tet_mesh.h
 class AnalyticField;  // analytic/analytic_field.h
+struct FieldGrid;      // field_grid.h
 
 /// Values at the points of a grid, in local units (multiplied by `scale` on reading), as stored.
 struct PointVectors {
@@ -61,6 +62,10 @@ class VectorField {
   [[nodiscard]] const TetMesh* tet_mesh() const noexcept { return tets_.get(); }
   [[nodiscard]] const AnalyticField* analytic() const noexcept { return analytic_.get(); }
   [[nodiscard]] const PointVectors& values() const noexcept { return values_; }
+  /// The grid with its way back to the data, on which further fields can be made; null for a formula.
+  [[nodiscard]] const std::shared_ptr<const FieldGrid>& grid() const noexcept { return grid_; }
+  /// Indices of the blocks of the data set that the grid is made of.
+  [[nodiscard]] const std::vector<std::size_t>& blocks() const noexcept { return blocks_; }
 
  private:
   friend class VectorFieldBuilder;
@@ -73,6 +78,8 @@ class VectorField {
   std::shared_ptr<const TetMesh> tets_;
   std::shared_ptr<const AnalyticField> analytic_;
   PointVectors values_;
+  std::shared_ptr<const FieldGrid> grid_;
+  std::vector<std::size_t> blocks_;
 };
 
 /// Makes the field that `choice` describes from the blocks of a data set. One uniform or rectilinear
@@ -83,8 +90,8 @@ class VectorField {
                                                                    const VectorChoice& choice,
                                                                    const std::string& file, int threads = 0);
 
-/// Makes a field from a formula.
+/// Makes a field from a formula, whose local units are 2^length_exponent and 2^speed_exponent data units.
 [[nodiscard]] std::shared_ptr<const VectorField> make_vector_field(
-    std::shared_ptr<const AnalyticField> formula);
+    std::shared_ptr<const AnalyticField> formula, int length_exponent = 0, int speed_exponent = 0);
 
 }  // namespace palpate

@@ -14,6 +14,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "common/math/power_of_two.h"
+
 namespace palpate {
 
 using Vec2 = glm::dvec2;
@@ -40,7 +42,13 @@ struct Box {
   [[nodiscard]] bool empty() const noexcept { return !(lower.x <= upper.x); }
   [[nodiscard]] Vec3 size() const noexcept { return empty() ? Vec3{0.0} : upper - lower; }
   [[nodiscard]] Vec3 center() const noexcept { return 0.5 * lower + 0.5 * upper; }
-  [[nodiscard]] double diagonal() const noexcept { return glm::length(size()); }
+  /// Length of the diagonal; neither overflows nor underflows where the box itself does not.
+  [[nodiscard]] double diagonal() const noexcept {
+    const Vec3 extent = size();
+    const double largest = glm::max(extent.x, glm::max(extent.y, extent.z));
+    const double unit = power_of_two(binary_exponent(largest));
+    return glm::length(extent / unit) * unit;
+  }
 };
 
 }  // namespace palpate

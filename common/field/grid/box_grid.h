@@ -69,6 +69,7 @@ class BoxGrid {
   Vec3 spacing_{1.0};
   Vec3 inverse_spacing_{1.0};
   std::array<std::vector<double>, 3> coordinates_;
+  std::array<std::vector<double>, 3> inverse_widths_;  ///< rectilinear: 1 / width of each interval
 };
 
 }  // namespace palpate

@@ -7,11 +7,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "common/field/sample.h"
+#include "common/field/grid/cell_tree.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -30,15 +29,13 @@ class TetMesh {
   using Tet = std::array<std::uint32_t, 4>;
   using Neighbors = std::array<CellIndex, 4>;
 
-  /// Orients the cells (inverted ones are turned and counted), finds neighbours, flags zero-volume cells
-  /// (volume <= 2^-40 of the cube of the longest edge: below it barycentric coordinates have no correct
-  /// digit in float32 data) and builds the index for point location.
-  /// @throws Error (bad input, without file) on a vertex out of range, a face shared by three cells or
-  /// more than 2^31 - 2 cells.
-  TetMesh(std::vector<Vec3> points, std::vector<Tet> cells, int threads = 0);
-  ~TetMesh();
-  TetMesh(const TetMesh&) = delete;
-  TetMesh& operator=(const TetMesh&) = delete;
+  /// Orients the cells (inverted ones are turned and counted), puts them in an order that keeps neighbours
+  /// close in memory (cell_order()), finds neighbours, flags zero-volume cells (least height <= 2^-40 of the
+  /// longest edge: below it barycentric coordinates are rounding alone) and builds the index for point
+  /// location. A face that more than two cells share is a border to all of them, and counted.
+  /// @throws Error (bad input, without file) where there is no cell, on a vertex out of range or not finite,
+  /// or on more than 2^31 - 2 cells.
+  TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads = 0);
 
   [[nodiscard]] std::span<const Vec3> points() const noexcept { return points_; }
   [[nodiscard]] std::span<const Tet> cells() const noexcept { return cells_; }
@@ -48,29 +45,44 @@ class TetMesh {
   }
   [[nodiscard]] std::size_t zero_volume_count() const noexcept { return zero_volume_count_; }
   [[nodiscard]] std::size_t inverted_count() const noexcept { return inverted_count_; }
+  [[nodiscard]] std::size_t non_manifold_face_count() const noexcept { return non_manifold_face_count_; }
+  /// The place that each cell had among the cells given to the constructor.
+  [[nodiscard]] std::span<const std::uint32_t> cell_order() const noexcept { return cell_order_; }
+  /// Bounds of the cells.
   [[nodiscard]] const Box& bounds() const noexcept { return bounds_; }
 
-  /// Finds the cell of `x`: a visibility walk from `hint`, else from the spatial index; falls back to the
-  /// index's candidate cells where the walk leaves a non-convex mesh. A point on a face, edge or vertex
-  /// always belongs to some cell. False outside and for NaN. Never returns a zero-volume cell.
-  /// @rt Safe.
+  /// Finds the cell of `x`: a visibility walk from `hint`, else from a cell that the index names; where the
+  /// walk leaves a non-convex mesh, meets a zero-volume cell or runs past its bound, every cell of the index
+  /// that may hold `x` is asked. A point on a face, edge or vertex always belongs to some cell, and so do
+  /// points less than rounding (2^-50 of the largest coordinate) outside. False outside and for NaN.
+  /// Never returns a zero-volume cell. @rt Safe.
   [[nodiscard]] bool locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexcept;
 
   /// Barycentric coordinates of `x` in `cell`. @pre not zero_volume(cell).
   [[nodiscard]] Vec4 barycentric(CellIndex cell, const Vec3& x) const noexcept;
+  /// Gradients of the barycentric coordinates 1, 2 and 3 (that of 0 is minus their sum), as columns.
+  /// @pre not zero_volume(cell).
+  [[nodiscard]] Mat3 barycentric_gradients(CellIndex cell) const noexcept;
   /// The point at barycentric coordinates `b` of `cell`.
   [[nodiscard]] Vec3 position(CellIndex cell, const Vec4& b) const noexcept;
 
  private:
-  struct Index;
+  [[nodiscard]] bool walk(const Vec3& x, CellIndex start, TetPoint& found) const noexcept;
+  [[nodiscard]] bool search(const Vec3& x, TetPoint& found) const noexcept;
+  void orient_cells(int threads);
+  void find_neighbors(int threads);
+
   std::vector<Vec3> points_;
   std::vector<Tet> cells_;
   std::vector<Neighbors> neighbors_;
   std::vector<std::uint8_t> zero_volume_;
+  std::vector<std::uint32_t> cell_order_;
   std::size_t zero_volume_count_ = 0;
   std::size_t inverted_count_ = 0;
+  std::size_t non_manifold_face_count_ = 0;
   Box bounds_;
-  std::unique_ptr<const Index> index_;
+  double slack_ = 0.0;  ///< distance that rounding moves a point [frame L]
+  CellTree tree_;
 };
 
 }  // namespace palpate

@@ -1,0 +1,454 @@
+#include "common/field/field_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/base/parallel.h"
+#include "common/field/data_set_check.h"
+#include "common/field/grid/cell_split.h"
+#include "common/field/grid/tet_shape.h"
+#include "common/math/power_of_two.h"
+
+namespace palpate {
+namespace {
+
+/// Axes of an image may be off a right angle by what six digits in a header lose, no more.
+constexpr double kRightAngle = 0x1p-20;
+/// Cells thinner than this part of the grid, or than the rounding of its coordinates, cannot be told apart.
+constexpr double kLeastWidth = 0x1p-500;
+constexpr double kCoordinateRounding = 0x1p-50;
+
+std::string size_text(const Index3& n) {
+  return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z);
+}
+
+std::string number_text(double x) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", x);
+  return text.data();
+}
+
+std::string count_text(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& expected) {
+  throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
+}
+
+void refuse_flat(const Index3& n, const std::string& file) {
+  if (n.x >= 2 && n.y >= 2 && n.z >= 2) return;
+  refuse(file, "a flat grid of " + size_text(n) + " points",
+         "a volume: at least 2 points along each of the three axes");
+}
+
+int length_exponent_of(const Box& bounds, const std::string& file) {
+  const double diagonal = bounds.diagonal();
+  if (!std::isfinite(diagonal) || diagonal <= 0.0) {
+    refuse(file, "a grid whose bounds have the diagonal " + number_text(diagonal), "finite, positive bounds");
+  }
+  return binary_exponent(diagonal);
+}
+
+/// Grid lines of one axis must differ after they were rounded.
+void check_widths(double width, double largest, const std::string& file) {
+  if (width >= kLeastWidth && width > kCoordinateRounding * largest) return;
+  refuse(file,
+         "cells of width " + number_text(width) + " at the coordinate " + number_text(largest) +
+             " (in units of about the grid's size)",
+         "cells that double precision can tell apart");
+}
+
+void note_blanking(FieldGrid& grid, const DataSet& block) {
+  const auto blanked =
+      static_cast<std::size_t>(std::count(block.visible.begin(), block.visible.end(), std::uint8_t{0}));
+  if (blanked == 0) return;
+  grid.blanked = true;
+  grid.notes.lines.push_back(count_text(blanked, "blanked point", "blanked points") +
+                             ": cells around them count as bad data");
+}
+
+/// Null where the axes are sheared.
+std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string& file) {
+  const auto& topology = std::get<UniformTopology>(block.topology);
+  const Index3& n = topology.points;
+  refuse_flat(n, file);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_finite(topology.axes[axis]) || !is_finite(topology.origin)) {
+      refuse(file, "an origin or spacing that is not finite", "finite numbers");
+    }
+  }
+
+  auto grid = std::make_shared<FieldGrid>();
+  Mat3 axes = topology.axes;
+  Vec3 origin = topology.origin;
+  const auto reverse = [&](int axis) {
+    origin += axes[axis] * static_cast<double>(n[axis] - 1);
+    axes[axis] = -axes[axis];
+    grid->reversed[static_cast<std::size_t>(axis)] = true;
+  };
+
+  // Steps along the grid's axes and the directions they take, free of overflow.
+  Vec3 spacing{0.0};
+  Mat3 direction{1.0};
+  bool aligned = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& a = axes[axis];
+    const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+    if (largest == 0.0) refuse(file, "a spacing of zero along an axis", "a positive one");
+    const double unit = power_of_two(binary_exponent(largest));
+    const double length = glm::length(a / unit);
+    direction[axis] = a / unit / length;
+    spacing[axis] = length * unit;
+    for (int other = 0; other < 3; ++other) aligned = aligned && (other == axis || a[other] == 0.0);
+  }
+  if (aligned) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axes[axis][axis] < 0.0) reverse(axis);
+      spacing[axis] = axes[axis][axis];
+    }
+  } else {
+    const double skew = std::max({std::abs(glm::dot(direction[0], direction[1])),
+                                  std::abs(glm::dot(direction[1], direction[2])),
+                                  std::abs(glm::dot(direction[2], direction[0]))});
+    if (skew > kRightAngle) return nullptr;
+    if (glm::determinant(direction) < 0.0) {
+      reverse(0);
+      direction[0] = -direction[0];
+    }
+    // A signed permutation is orthonormal as it is; other axes are made so, the first kept.
+    if (skew > 0.0) {
+      direction[1] = glm::normalize(direction[1] - glm::dot(direction[0], direction[1]) * direction[0]);
+      direction[2] = glm::cross(direction[0], direction[1]);
+    }
+    grid->frame.rotation = direction;
+    grid->frame.rotated = true;
+    if (skew > 0x1p-40) {
+      grid->notes.lines.push_back("the grid's axes are off a right angle by " + number_text(skew) +
+                                  ": taken as right angles");
+    }
+  }
+
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 x = origin;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (((corner >> static_cast<unsigned>(axis)) & 1U) != 0) {
+        x += axes[axis] * static_cast<double>(n[axis] - 1);
+      }
+    }
+    grid->bounds.include(x);
+  }
+  grid->frame.length_exponent = length_exponent_of(grid->bounds, file);
+  const Vec3 local_origin = grid->frame.local_from_data(origin);
+  const Vec3 local_spacing = spacing * power_of_two(-grid->frame.length_exponent);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = local_origin[axis] + local_spacing[axis] * (n[axis] - 1);
+    check_widths(local_spacing[axis], std::max(std::abs(local_origin[axis]), std::abs(last)), file);
+  }
+  grid->box = std::make_shared<BoxGrid>(n, local_origin, local_spacing);
+  grid->notes.lines.push_back("uniform grid of " + size_text(n) + " points" +
+                              (grid->frame.rotated ? ", turned against the axes" : "") +
+                              ": trilinear interpolation");
+  note_blanking(*grid, block);
+  return grid;
+}
+
+std::shared_ptr<FieldGrid> make_rectilinear(const DataSet& block, const std::string& file) {
+  const auto& topology = std::get<RectilinearTopology>(block.topology);
+  refuse_flat(structured_points(block), file);
+  auto grid = std::make_shared<FieldGrid>();
+  std::array<std::vector<double>, 3> lines = topology.coordinates;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double>& x = lines[axis];
+    if (x.front() > x.back()) {
+      std::ranges::reverse(x);
+      grid->reversed[axis] = true;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const bool rises = i == 0 || x[i - 1] < x[i];
+      if (std::isfinite(x[i]) && rises) continue;
+      refuse(file,
+             std::string("coordinate ") + std::to_string(i) + " along " + "xyz"[axis] + " is " +
+                 number_text(x[i]) + (i == 0 ? "" : " after " + number_text(x[i - 1])),
+             "finite coordinates that rise or fall all along");
+    }
+    const int a = static_cast<int>(axis);
+    grid->bounds.lower[a] = x.front();
+    grid->bounds.upper[a] = x.back();
+  }
+  grid->frame.length_exponent = length_exponent_of(grid->bounds, file);
+  const double scale = power_of_two(-grid->frame.length_exponent);
+  for (std::vector<double>& x : lines) {
+    for (double& value : x) value *= scale;
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      check_widths(x[i] - x[i - 1], std::max(std::abs(x[i]), std::abs(x[i - 1])), file);
+    }
+  }
+  grid->box = std::make_shared<BoxGrid>(std::move(lines));
+  grid->notes.lines.push_back("rectilinear grid of " + size_text(grid->box->points()) +
+                              " points: trilinear interpolation");
+  note_blanking(*grid, block);
+  return grid;
+}
+
+/// Sentences about what splitting found and did.
+void note_split(const SplitMesh& split, std::size_t cells, FieldNotes& notes) {
+  const auto add = [&notes](std::size_t count, const std::string& one, const std::string& many,
+                            const std::string& rest) {
+    if (count > 0) notes.lines.push_back(count_text(count, one, many) + rest);
+  };
+  notes.lines.push_back(count_text(cells, "cell", "cells") + " split into " +
+                        count_text(split.tets.size(), "tetrahedron", "tetrahedra") + " over " +
+                        std::to_string(split.points.size()) + " points: linear interpolation");
+  add(split.merged_points, "point", "points",
+      " of block borders and grid seams joined with one at the same place (closer than 2^-10 of the local "
+      "spacing)");
+  add(split.refined_cells, "quadratic cell", "quadratic cells", " split into eight linear ones each");
+  add(split.corner_cells, "higher-order cell", "higher-order cells", " taken through their corners alone");
+  add(split.dropped_cells, "cell", "cells", " without a volume left out");
+  add(split.unknown_cells, "cell", "cells", " of a type that cannot be split left out");
+  add(split.blanked_cells, "cell", "cells", " with blanked or non-finite points left out");
+  add(split.repeated_tets, "tetrahedron", "tetrahedra", " that several blocks hold counted once");
+  add(split.left_handed_blocks, "block", "blocks", " with left-handed cell order: taken as such");
+  add(split.inverted_cells, "cell", "cells", " inside out, against the rest of their block: turned");
+  add(split.folded_cells, "cell", "cells", " so warped that their tetrahedra overlap");
+}
+
+std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, const std::string& file,
+                                           int threads) {
+  SplitMesh split = split_into_tetrahedra(blocks, file);
+  auto grid = std::make_shared<FieldGrid>();
+  std::size_t cells = 0;
+  for (const DataSet& block : blocks) cells += block.cell_count();
+  note_split(split, cells, grid->notes);
+
+  Box bounds;
+  for (const Vec3& x : split.points) bounds.include(x);
+  grid->frame.length_exponent = length_exponent_of(bounds, file);
+  const double scale = power_of_two(-grid->frame.length_exponent);
+  for (Vec3& x : split.points) x *= scale;
+
+  bool same = split.points.size() == split.point_of_input.size();
+  for (std::size_t p = 0; same && p < split.point_of_input.size(); ++p) same = split.point_of_input[p] == p;
+  if (!same) grid->point_of_input = std::move(split.point_of_input);
+
+  try {
+    grid->tets = std::make_shared<TetMesh>(std::move(split.points), split.tets, threads);
+  } catch (const Error& error) {
+    throw Error(error.code(), file + ": " + error.what());
+  }
+  const auto order = grid->tets->cell_order();
+  grid->source_cell.resize(order.size());
+  for (std::size_t t = 0; t < order.size(); ++t) grid->source_cell[t] = split.source_cell[order[t]];
+  grid->bounds = {grid->tets->bounds().lower / scale, grid->tets->bounds().upper / scale};
+
+  grid->notes.zero_volume_cells = grid->tets->zero_volume_count();
+  grid->notes.inverted_cells = split.inverted_cells + grid->tets->inverted_count();
+  if (grid->tets->zero_volume_count() > 0) {
+    grid->notes.lines.push_back(count_text(grid->tets->zero_volume_count(), "tetrahedron", "tetrahedra") +
+                                " without volume (flatter than 2^-40 of the longest edge): never sampled");
+  }
+  if (grid->tets->inverted_count() > 0) {
+    grid->notes.lines.push_back(
+        count_text(grid->tets->inverted_count(), "inverted tetrahedron", "inverted tetrahedra") +
+        " inside warped cells: turned; they overlap their neighbours");
+  }
+  if (grid->tets->non_manifold_face_count() > 0) {
+    grid->notes.lines.push_back(count_text(grid->tets->non_manifold_face_count(), "face", "faces") +
+                                " shared by more than two tetrahedra: treated as border");
+  }
+  return grid;
+}
+
+/// Fixed weights from tuples of the data to one point of the grid.
+struct Store {
+  GatheredValues& out;
+  int components;
+  bool use_double;
+
+  void put(std::size_t point, const double* value) const {
+    const std::size_t at = point * static_cast<std::size_t>(components);
+    for (int c = 0; c < components; ++c) {
+      const auto i = at + static_cast<std::size_t>(c);
+      if (use_double) {
+        out.doubles[i] = value[c];
+      } else {
+        out.floats[i] = static_cast<float>(value[c]);
+      }
+    }
+  }
+};
+
+/// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.
+std::size_t data_index(const FieldGrid& grid, const Index3& n, Index3 at) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (grid.reversed[static_cast<std::size_t>(axis)]) at[axis] = n[axis] - 1 - at[axis];
+  }
+  return static_cast<std::size_t>(at.x) +
+         static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(at.y) +
+                                          static_cast<std::size_t>(n.y) * static_cast<std::size_t>(at.z));
+}
+
+void gather_box(const FieldGrid& grid, const DataSet& block, Association association, const TupleReader& read,
+                const Store& store, int threads) {
+  const Index3 n = grid.box->points();
+  const auto slice = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
+  parallel_for(static_cast<std::size_t>(n.z), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<double> value(static_cast<std::size_t>(store.components));
+    std::vector<double> sum(value.size());
+    for (std::size_t point = first * slice; point < last * slice; ++point) {
+      const Index3 at{static_cast<int>(point % static_cast<std::size_t>(n.x)),
+                      static_cast<int>(point / static_cast<std::size_t>(n.x) % static_cast<std::size_t>(n.y)),
+                      static_cast<int>(point / slice)};
+      const std::size_t input = data_index(grid, n, at);
+      if (!block.visible.empty() && block.visible[input] == 0) continue;
+      if (association == Association::kPoint) {
+        read(block, input, value.data());
+        store.put(point, value.data());
+        continue;
+      }
+      std::ranges::fill(sum, 0.0);
+      double total = 0.0;
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        const Index3 cell = at - Index3(corner & 1U, (corner >> 1U) & 1U, corner >> 2U);
+        double volume = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+          if (cell[axis] < 0 || cell[axis] >= n[axis] - 1) {
+            volume = 0.0;
+            break;
+          }
+          volume *= grid.box->coordinate(axis, cell[axis] + 1) - grid.box->coordinate(axis, cell[axis]);
+        }
+        if (volume == 0.0) continue;
+        read(block, data_index(grid, n - 1, cell), value.data());
+        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += volume * value[c];
+        total += volume;
+      }
+      for (double& s : sum) s /= total;
+      store.put(point, sum.data());
+    }
+  });
+}
+
+/// Cells around each point of a tetrahedral mesh, by the tetrahedra that they became.
+class CellsAroundPoints {
+ public:
+  explicit CellsAroundPoints(const FieldGrid& grid) : volume_(largest_cell(grid) + 1, 0.0) {
+    const TetMesh& mesh = *grid.tets;
+    const Vec3* points = mesh.points().data();
+    begin_.assign(mesh.points().size() + 1, 0);
+    // A cell's volume is summed over its tetrahedra in a fixed order, that of the mesh.
+    for (std::size_t t = 0; t < mesh.cells().size(); ++t) {
+      volume_[grid.source_cell[t]] += std::abs(TetShape(points, mesh.cells()[t]).volume6);
+      for (const std::uint32_t v : mesh.cells()[t]) ++begin_[v + 1];
+    }
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
+    cells_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t t = 0; t < mesh.cells().size(); ++t) {
+      for (const std::uint32_t v : mesh.cells()[t]) cells_[next[v]++] = grid.source_cell[t];
+    }
+  }
+
+  /// Each once, by rising number.
+  std::span<const std::uint32_t> around(std::size_t point) {
+    const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point]);
+    const auto last = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point + 1]);
+    std::sort(first, last);
+    return {first, std::unique(first, last)};
+  }
+
+  [[nodiscard]] double volume(std::uint32_t cell) const { return volume_[cell]; }
+
+ private:
+  static std::size_t largest_cell(const FieldGrid& grid) { return std::ranges::max(grid.source_cell); }
+
+  std::vector<double> volume_;  ///< six times that of each cell
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> cells_;
+};
+
+void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
+                 const TupleReader& read, const Store& store) {
+  std::vector<double> value(static_cast<std::size_t>(store.components));
+  if (association == Association::kPoint) {
+    std::vector<std::uint8_t> done(grid.tets->points().size(), 0);
+    std::size_t input = 0;
+    for (const DataSet& block : blocks) {
+      const std::size_t count = block.point_count();
+      for (std::size_t i = 0; i < count; ++i, ++input) {
+        const std::size_t point =
+            grid.point_of_input.empty() ? input : static_cast<std::size_t>(grid.point_of_input[input]);
+        if (point == kNoPoint || done[point] != 0) continue;
+        if (!block.visible.empty() && block.visible[i] == 0) continue;
+        done[point] = 1;
+        read(block, i, value.data());
+        store.put(point, value.data());
+      }
+    }
+    return;
+  }
+  std::vector<std::size_t> first_cell{0};
+  for (const DataSet& block : blocks) first_cell.push_back(first_cell.back() + block.cell_count());
+  CellsAroundPoints cells(grid);
+  std::vector<double> sum(value.size());
+  for (std::size_t point = 0; point < grid.tets->points().size(); ++point) {
+    const auto around = cells.around(point);
+    double total = 0.0;
+    for (const std::uint32_t cell : around) total += cells.volume(cell);
+    std::ranges::fill(sum, 0.0);
+    for (const std::uint32_t cell : around) {
+      const auto above = std::upper_bound(first_cell.begin(), first_cell.end(), cell);
+      const auto block = static_cast<std::size_t>(above - first_cell.begin()) - 1;
+      read(blocks[block], cell - first_cell[block], value.data());
+      // Where no cell has a volume they all count the same.
+      const double weight =
+          total > 0.0 ? cells.volume(cell) / total : 1.0 / static_cast<double>(around.size());
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
+    }
+    store.put(point, sum.data());
+  }
+}
+
+}  // namespace
+
+std::size_t FieldGrid::point_count() const noexcept {
+  if (tets) return tets->points().size();
+  const Index3& n = box->points();
+  return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
+}
+
+std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
+                                                 int threads) {
+  if (blocks.size() == 1) {
+    const DataSet& block = blocks.front();
+    check_block(block, 0, 1, file);
+    if (std::holds_alternative<RectilinearTopology>(block.topology)) return make_rectilinear(block, file);
+    if (std::holds_alternative<UniformTopology>(block.topology)) {
+      if (auto grid = make_uniform(block, file)) return grid;
+    }
+  }
+  return make_tetrahedra(blocks, file, threads);
+}
+
+GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
+                             int components, bool use_double, const TupleReader& read, int threads) {
+  GatheredValues out;
+  const std::size_t count = grid.point_count() * static_cast<std::size_t>(components);
+  if (use_double) {
+    out.doubles.assign(count, std::numeric_limits<double>::quiet_NaN());
+  } else {
+    out.floats.assign(count, std::numeric_limits<float>::quiet_NaN());
+  }
+  const Store store{out, components, use_double};
+  if (grid.box) {
+    gather_box(grid, blocks.front(), association, read, store, threads);
+  } else {
+    gather_tets(grid, blocks, association, read, store);
+  }
+  return out;
+}
+
+}  // namespace palpate

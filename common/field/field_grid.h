@@ -1,0 +1,61 @@
+/// The grid of a data set in local frame L, made once and shared by every field on it, with the way from
+/// the data's points and cells to its own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/field/local_frame.h"
+#include "common/field/vector_field.h"
+
+namespace palpate {
+
+/// Exactly one of `box` and `tets` is not null.
+struct FieldGrid {
+  LocalFrame frame;  ///< lengths and rotation; its speed exponent is zero
+  Box bounds;        ///< data coordinates
+  std::shared_ptr<const BoxGrid> box;
+  std::shared_ptr<const TetMesh> tets;
+  std::array<bool, 3> reversed{};             ///< box: the data's points run backwards along the axis
+  bool blanked = false;                       ///< box: some points are blanked
+  std::vector<std::uint32_t> point_of_input;  ///< tets: see SplitMesh; empty where every point is its own
+  std::vector<std::uint32_t> source_cell;     ///< tets: for each, its cell in the data
+  FieldNotes notes;
+
+  [[nodiscard]] std::size_t point_count() const noexcept;
+  /// The grid's points are the data's points, one for one.
+  [[nodiscard]] bool same_points() const noexcept {
+    return !reversed[0] && !reversed[1] && !reversed[2] && !blanked && point_of_input.empty();
+  }
+};
+
+/// One uniform or rectilinear block becomes a box grid; everything else is split into tetrahedra.
+/// @throws Error (bad input) with `file` for hostile or flat topologies.
+[[nodiscard]] std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks,
+                                                               const std::string& file, int threads);
+
+/// Values at the grid's points, brought there from the data's points or cells.
+struct GatheredValues {
+  std::vector<float> floats;  ///< filled unless `use_double`
+  std::vector<double> doubles;
+};
+
+/// Reads `components` numbers of a tuple of a block into `out`.
+using TupleReader = std::function<void(const DataSet& block, std::size_t tuple, double* out)>;
+
+/// Brings values to the grid's points: those of joined points from the first of them, those of cells by
+/// the volume-weighted mean of the cells around each point, NaN at blanked points of a box grid. Points that
+/// no value reaches are NaN. @pre `blocks` are those that the grid was made of.
+[[nodiscard]] GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks,
+                                           Association association, int components, bool use_double,
+                                           const TupleReader& read, int threads);
+
+}  // namespace palpate

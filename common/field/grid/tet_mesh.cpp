@@ -1,0 +1,288 @@
+#include "common/field/grid/tet_mesh.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/field/grid/tet_shape.h"
+
+namespace palpate {
+namespace {
+
+/// Rounding of a coordinate, a few operations long, relative to the largest one.
+constexpr double kRounding = 0x1p-50;
+/// Cells that a walk may cross. Walks that begin at the index's cell need two or three; longer ones go in
+/// circles among badly shaped cells, or come from a hint that is worth less than the index.
+constexpr int kMaxWalk = 32;
+/// A hint whose cell sees the point this many cell sizes away is not walked from.
+constexpr double kFarHint = 16.0;
+
+[[noreturn]] void refuse(const std::string& found, const std::string& expected) {
+  throw input_error({.file = {}, .place = "cells", .found = found, .expected = expected, .remedy = {}});
+}
+
+/// Such a cell has no volume, and faces that are edges: it is nobody's neighbour.
+bool repeats_vertex(const TetMesh::Tet& v) noexcept {
+  return v[0] == v[1] || v[0] == v[2] || v[0] == v[3] || v[1] == v[2] || v[1] == v[3] || v[2] == v[3];
+}
+
+int least(const Vec4& b) noexcept {
+  const int low = b[1] < b[0] ? 1 : 0;
+  const int high = b[3] < b[2] ? 3 : 2;
+  return b[high] < b[low] ? high : low;
+}
+
+}  // namespace
+
+TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads)
+    : points_(std::move(points)) {
+  if (cells.empty()) refuse("no tetrahedron", "at least one");
+  if (cells.size() > static_cast<std::size_t>(std::numeric_limits<CellIndex>::max()) - 1) {
+    refuse(std::to_string(cells.size()) + " tetrahedra", "at most 2^31 - 2");
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const std::uint32_t v : cells[c]) {
+      if (v >= points_.size()) {
+        refuse("tetrahedron " + std::to_string(c) + " has the vertex " + std::to_string(v),
+               "a number below " + std::to_string(points_.size()));
+      }
+      if (!is_finite(points_[v])) {
+        refuse("vertex " + std::to_string(v) + " is not finite", "finite coordinates");
+      }
+      bounds_.include(points_[v]);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    slack_ = std::max({slack_, std::abs(bounds_.lower[axis]), std::abs(bounds_.upper[axis])});
+  }
+  slack_ *= kRounding;
+
+  cell_order_ = CellTree::order(points_, cells, threads);
+  cells_.resize(cells.size());
+  parallel_for(cells.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) cells_[c] = cells[cell_order_[c]];
+  });
+  orient_cells(threads);
+  find_neighbors(threads);
+  tree_ = CellTree(points_, cells_, bounds_, threads);
+}
+
+void TetMesh::orient_cells(int threads) {
+  zero_volume_.assign(cells_.size(), 0);
+  std::atomic<std::size_t> inverted{0};
+  std::atomic<std::size_t> flat{0};
+  parallel_for(cells_.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::size_t inverted_here = 0;
+    std::size_t flat_here = 0;
+    for (std::size_t c = first; c < last; ++c) {
+      const TetShape shape(points_.data(), cells_[c]);
+      if (shape.flat()) {
+        zero_volume_[c] = 1;
+        ++flat_here;
+      } else if (shape.volume6 < 0.0) {
+        std::swap(cells_[c][2], cells_[c][3]);
+        ++inverted_here;
+      }
+    }
+    inverted += inverted_here;
+    flat += flat_here;
+  });
+  inverted_count_ = inverted;
+  zero_volume_count_ = flat;
+}
+
+void TetMesh::find_neighbors(int threads) {
+  // Faces are gathered by their smallest vertex; those of one vertex are few and sorted by the other two.
+  struct Face {
+    std::uint32_t middle;
+    std::uint32_t largest;
+    std::uint32_t cell;
+  };
+  const auto sorted_face = [](const Tet& cell, std::size_t opposite) {
+    std::array<std::uint32_t, 3> v{cell[(opposite + 1) % 4], cell[(opposite + 2) % 4],
+                                   cell[(opposite + 3) % 4]};
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    if (v[1] > v[2]) std::swap(v[1], v[2]);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    return v;
+  };
+
+  std::vector<std::size_t> begin(points_.size() + 1, 0);
+  for (const Tet& cell : cells_) {
+    if (repeats_vertex(cell)) continue;
+    for (std::size_t i = 0; i < 4; ++i) ++begin[sorted_face(cell, i)[0] + 1];
+  }
+  for (std::size_t v = 0; v < points_.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<Face> faces(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (repeats_vertex(cells_[c])) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto v = sorted_face(cells_[c], i);
+      faces[next[v[0]]++] = {v[1], v[2], static_cast<std::uint32_t>(c)};
+    }
+  }
+
+  neighbors_.assign(cells_.size(), {kNoCell, kNoCell, kNoCell, kNoCell});
+  std::atomic<std::size_t> non_manifold{0};
+  parallel_for(points_.size(), threads, [&](std::size_t first, std::size_t last) {
+    const auto place = [&](const Face& face, std::uint32_t smallest) -> CellIndex& {
+      const Tet& cell = cells_[face.cell];
+      std::size_t opposite = 0;
+      while (cell[opposite] == smallest || cell[opposite] == face.middle || cell[opposite] == face.largest) {
+        ++opposite;
+      }
+      return neighbors_[face.cell][opposite];
+    };
+    for (std::size_t v = first; v < last; ++v) {
+      const std::span<Face> around(faces.data() + begin[v], begin[v + 1] - begin[v]);
+      std::ranges::sort(around, [](const Face& a, const Face& b) {
+        return std::tuple(a.middle, a.largest, a.cell) < std::tuple(b.middle, b.largest, b.cell);
+      });
+      for (std::size_t i = 0; i < around.size();) {
+        std::size_t end = i + 1;
+        while (end < around.size() && around[end].middle == around[i].middle &&
+               around[end].largest == around[i].largest) {
+          ++end;
+        }
+        if (end - i == 2) {
+          const auto smallest = static_cast<std::uint32_t>(v);
+          place(around[i], smallest) = static_cast<CellIndex>(around[i + 1].cell);
+          place(around[i + 1], smallest) = static_cast<CellIndex>(around[i].cell);
+        } else if (end - i > 2) {
+          ++non_manifold;
+        }
+        i = end;
+      }
+    }
+  });
+  non_manifold_face_count_ = non_manifold;
+}
+
+Vec4 TetMesh::barycentric(CellIndex cell, const Vec3& x) const noexcept {
+  PALPATE_ASSERT(!zero_volume(cell));
+  const Tet& v = cells_[static_cast<std::size_t>(cell)];
+  return TetShape(points_.data(), v).barycentric(x - points_[v[0]]);
+}
+
+Mat3 TetMesh::barycentric_gradients(CellIndex cell) const noexcept {
+  PALPATE_ASSERT(!zero_volume(cell));
+  const TetShape shape(points_.data(), cells_[static_cast<std::size_t>(cell)]);
+  const double inverse = 1.0 / shape.volume6;
+  return {shape.n1 * inverse, shape.n2 * inverse, shape.n3 * inverse};
+}
+
+Vec3 TetMesh::position(CellIndex cell, const Vec4& b) const noexcept {
+  const Tet& v = cells_[static_cast<std::size_t>(cell)];
+  return b[0] * points_[v[0]] + b[1] * points_[v[1]] + b[2] * points_[v[2]] + b[3] * points_[v[3]];
+}
+
+bool TetMesh::locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexcept {
+  for (int axis = 0; axis < 3; ++axis) {
+    // False for NaN.
+    if (!(x[axis] >= bounds_.lower[axis] - slack_ && x[axis] <= bounds_.upper[axis] + slack_)) return false;
+  }
+  if (hint >= 0 && static_cast<std::size_t>(hint) < cells_.size() && walk(x, hint, found)) return true;
+  return walk(x, static_cast<CellIndex>(tree_.near(x)), found) || search(x, found);
+}
+
+bool TetMesh::walk(const Vec3& x, CellIndex start, TetPoint& found) const noexcept {
+  CellIndex cell = start;
+  for (int step = 0; step < kMaxWalk; ++step) {
+    const auto c = static_cast<std::size_t>(cell);
+    if (zero_volume_count_ != 0 && zero_volume_[c] != 0) return false;
+    const Neighbors& behind = neighbors_[c];
+    __builtin_prefetch(&behind);
+    const Tet& v = cells_[c];
+    const TetShape shape(points_.data(), v);
+    const Vec4 b = shape.barycentric(x - points_[v[0]]);
+    int face = least(b);
+    if (b[face] >= 0.0) {
+      found = {cell, b};
+      return true;
+    }
+    // Outside by less than rounding counts as inside: the distance to the plane of face i is
+    // |b_i| volume6 / |n_i|. The walk leaves by the least coordinate among faces farther than that.
+    const auto beyond = [&](int i) {
+      const double outside = b[i] * shape.volume6;
+      return b[i] < 0.0 && outside * outside > slack_ * slack_ * shape.area2(i);
+    };
+    if (!beyond(face)) {
+      int other = -1;
+      for (int i = 0; i < 4; ++i) {
+        if (beyond(i) && (other < 0 || b[i] < b[other])) other = i;
+      }
+      if (other < 0) {
+        found = {cell, b};
+        return true;
+      }
+      face = other;
+    }
+    if (step == 0 && b[face] < -kFarHint) return false;
+    cell = behind[static_cast<std::size_t>(face)];
+    if (cell == kNoCell) return false;
+  }
+  return false;
+}
+
+bool TetMesh::search(const Vec3& x, TetPoint& found) const noexcept {
+  // Among cells that see x outside by rounding alone, the one that sees it least outside is taken.
+  double best = std::numeric_limits<double>::infinity();  // distance outside / tolerated distance
+  bool inside = false;
+  double flat_edge2 = 0.0;  // longest edge of a zero-volume cell near x
+  TetPoint nearest;
+  double nearest_outside = std::numeric_limits<double>::infinity();
+  tree_.visit_leaves(x, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const Tet& v = cells_[c];
+      const TetShape shape(points_.data(), v);
+      const double edge2 = shape.longest_edge2();
+      if (zero_volume_[c] != 0) {
+        flat_edge2 = std::max(flat_edge2, edge2);
+        continue;
+      }
+      const Vec4 b = shape.barycentric(x - points_[v[0]]);
+      if (b[least(b)] >= 0.0) {
+        found = {static_cast<CellIndex>(c), b};
+        inside = true;
+        return true;
+      }
+      // Rounding of the face's normal grows as the face gets narrow: edge^2 / area2.
+      double worst = 0.0;
+      double distance = 0.0;
+      for (int i = 0; i < 4; ++i) {
+        if (b[i] >= 0.0) continue;
+        const double area = std::sqrt(shape.area2(i));
+        const double outside = -b[i] * shape.volume6 / area;
+        const double tolerated = slack_ + kRounding * std::sqrt(edge2) * (edge2 / area);
+        worst = std::max(worst, outside / tolerated);
+        distance = std::max(distance, outside);
+      }
+      if (worst < best) {
+        best = worst;
+        found = {static_cast<CellIndex>(c), b};
+      }
+      if (distance < nearest_outside) {
+        nearest_outside = distance;
+        nearest = {static_cast<CellIndex>(c), b};
+      }
+    }
+    return false;
+  });
+  if (inside || best <= 1.0) return true;
+  // Inside a zero-volume cell the nearest proper cell answers: it is as near as that cell is flat.
+  constexpr double kFlatStack = 4.0;
+  if (flat_edge2 > 0.0 && nearest_outside <= kFlatStack * TetShape::kFlat * std::sqrt(flat_edge2)) {
+    found = nearest;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace palpate

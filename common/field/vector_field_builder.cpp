@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "common/base/error.h"
+#include "common/field/analytic/analytic_field.h"
+#include "common/field/data_set_check.h"
+#include "common/field/field_grid.h"
+#include "common/field/vector_field.h"
+
+namespace palpate {
+namespace {
+
+bool is_double(ScalarType type) {
+  return type == ScalarType::kFloat64 || type == ScalarType::kInt64 || type == ScalarType::kUint64 ||
+         type == ScalarType::kInt32 || type == ScalarType::kUint32;
+}
+
+/// Components that each array of a choice must have.
+std::vector<int> wanted_components(const VectorChoice& choice) {
+  switch (choice.kind) {
+    case VectorChoice::Kind::kArray:
+      return {3};
+    case VectorChoice::Kind::kComponents:
+      return {1, 1, 1};
+    case VectorChoice::Kind::kMomentumOverDensity:
+      return choice.arrays.size() == 2 ? std::vector<int>{3, 1} : std::vector<int>{1, 1, 1, 1};
+  }
+  return {};
+}
+
+/// The choice's arrays of one block, found anew for each block.
+struct ChosenArrays {
+  std::vector<const DataArray*> arrays;  ///< empty where one is missing
+  std::string missing;
+};
+
+ChosenArrays find_arrays(const DataSet& block, const VectorChoice& choice) {
+  ChosenArrays out;
+  for (const std::string& name : choice.arrays) {
+    const DataArray* array = block.find(name, choice.association);
+    if (array == nullptr) return {{}, name};
+    out.arrays.push_back(array);
+  }
+  return out;
+}
+
+/// The vector of a tuple, in the data frame.
+Vec3 vector_of(const VectorChoice& choice, const std::vector<const DataArray*>& arrays, std::size_t tuple) {
+  const auto read = [&](std::size_t first) {
+    if (arrays[first]->components == 3) {
+      return Vec3{arrays[first]->at(tuple, 0), arrays[first]->at(tuple, 1), arrays[first]->at(tuple, 2)};
+    }
+    return Vec3{arrays[first]->at(tuple), arrays[first + 1]->at(tuple), arrays[first + 2]->at(tuple)};
+  };
+  if (choice.kind != VectorChoice::Kind::kMomentumOverDensity) return read(0);
+  return read(0) / arrays.back()->at(tuple);
+}
+
+struct SpeedRange {
+  double max_speed = 0.0;
+  std::size_t bad = 0;  ///< points whose value is not finite
+};
+
+template <typename T>
+SpeedRange speed_range(std::span<const T> values) {
+  SpeedRange out;
+  // The largest component first: its power of two keeps the squares from overflow and underflow.
+  double largest = 0.0;
+  for (std::size_t p = 0; p + 2 < values.size(); p += 3) {
+    const Vec3 v{static_cast<double>(values[p]), static_cast<double>(values[p + 1]),
+                 static_cast<double>(values[p + 2])};
+    if (!is_finite(v)) {
+      ++out.bad;
+      continue;
+    }
+    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  }
+  const int exponent = binary_exponent(largest);
+  const double unit = power_of_two(-exponent);
+  double square = 0.0;
+  for (std::size_t p = 0; p + 2 < values.size(); p += 3) {
+    const Vec3 v{static_cast<double>(values[p]) * unit, static_cast<double>(values[p + 1]) * unit,
+                 static_cast<double>(values[p + 2]) * unit};
+    if (is_finite(v)) square = std::max(square, glm::dot(v, v));
+  }
+  out.max_speed = std::sqrt(square) * power_of_two(exponent);
+  return out;
+}
+
+template <typename T>
+bool aligned(const DataArray& array) {
+  return reinterpret_cast<std::uintptr_t>(array.bytes.data()) % alignof(T) == 0;
+}
+
+}  // namespace
+
+/// Puts a VectorField together.
+class VectorFieldBuilder {
+ public:
+  static std::shared_ptr<const VectorField> from_data(const std::vector<DataSet>& blocks,
+                                                      const VectorChoice& choice, const std::string& file,
+                                                      int threads) {
+    auto field = std::make_shared<VectorField>();
+    field->name_ = choice.label;
+    const std::vector<DataSet> used = usable_blocks(blocks, choice, file, *field);
+    field->grid_ = make_field_grid(used, file, threads);
+    const FieldGrid& grid = *field->grid_;
+    field->frame_ = grid.frame;
+    field->bounds_ = grid.bounds;
+    field->box_ = grid.box;
+    field->tets_ = grid.tets;
+    field->notes_.zero_volume_cells = grid.notes.zero_volume_cells;
+    field->notes_.inverted_cells = grid.notes.inverted_cells;
+    field->notes_.lines.insert(field->notes_.lines.end(), grid.notes.lines.begin(), grid.notes.lines.end());
+
+    if (!share_values(used, choice, grid, field->values_)) {
+      gather(used, choice, grid, threads, field->values_);
+    }
+    note_values(choice, *field);
+    return field;
+  }
+
+  static std::shared_ptr<const VectorField> from_formula(std::shared_ptr<const AnalyticField> formula,
+                                                         int length_exponent, int speed_exponent) {
+    auto field = std::make_shared<VectorField>();
+    field->name_ = formula->name();
+    field->frame_.length_exponent = length_exponent;
+    field->frame_.speed_exponent = speed_exponent;
+    const Box box = formula->bounds();
+    field->bounds_ = {field->frame_.data_from_local(box.lower), field->frame_.data_from_local(box.upper)};
+    // A formula's largest speed is taken from a lattice: it sets units and colours, no result.
+    constexpr int kSteps = 32;
+    double square = 0.0;
+    for (int k = 0; k <= kSteps; ++k) {
+      for (int j = 0; j <= kSteps; ++j) {
+        for (int i = 0; i <= kSteps; ++i) {
+          const Vec3 v = formula->velocity(box.lower + box.size() * (Vec3(i, j, k) / double{kSteps}));
+          if (is_finite(v)) square = std::max(square, glm::dot(v, v));
+        }
+      }
+    }
+    field->max_speed_ = std::sqrt(square) * field->frame_.speed_scale();
+    field->notes_.lines.push_back(formula->description());
+    field->analytic_ = std::move(formula);
+    return field;
+  }
+
+ private:
+  static std::vector<DataSet> usable_blocks(const std::vector<DataSet>& blocks, const VectorChoice& choice,
+                                            const std::string& file, VectorField& field) {
+    const std::vector<int> wanted = wanted_components(choice);
+    if (wanted.size() != choice.arrays.size()) {
+      throw usage_error("the vector field '" + choice.label + "' names " +
+                        std::to_string(choice.arrays.size()) + " arrays");
+    }
+    std::vector<DataSet> used;
+    std::string missing;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const DataSet& block = blocks[b];
+      if (block.cell_count() == 0) continue;
+      const ChosenArrays chosen = find_arrays(block, choice);
+      if (chosen.arrays.empty()) {
+        missing = chosen.missing;
+        field.notes_.lines.push_back("block " +
+                                     (block.name.empty() ? std::to_string(b + 1) : "'" + block.name + "'") +
+                                     " left out: it has no array '" + chosen.missing + "'");
+        continue;
+      }
+      check_block(block, b, blocks.size(), file);
+      for (std::size_t a = 0; a < wanted.size(); ++a) {
+        if (chosen.arrays[a]->components == wanted[a]) continue;
+        throw block_error(block, b, blocks.size(), file,
+                          "array '" + choice.arrays[a] + "' has " +
+                              std::to_string(chosen.arrays[a]->components) + " components",
+                          std::to_string(wanted[a]));
+      }
+      used.push_back(block);
+      field.blocks_.push_back(b);
+    }
+    if (used.empty()) {
+      const char* where = choice.association == Association::kPoint ? "point" : "cell";
+      throw input_error(
+          {.file = file,
+           .place = {},
+           .found = missing.empty() ? "no cells" : "no " + std::string(where) + " array '" + missing + "'",
+           .expected = missing.empty() ? "a volume grid" : "",
+           .remedy = {}});
+    }
+    return used;
+  }
+
+  /// Takes the data's own memory where its points are the grid's points.
+  static bool share_values(const std::vector<DataSet>& blocks, const VectorChoice& choice,
+                           const FieldGrid& grid, PointVectors& values) {
+    if (blocks.size() != 1 || choice.kind != VectorChoice::Kind::kArray ||
+        choice.association != Association::kPoint || grid.frame.rotated || !grid.same_points()) {
+      return false;
+    }
+    const DataArray& array = *blocks.front().find(choice.arrays.front(), Association::kPoint);
+    const std::size_t count = 3 * array.tuples;
+    if (array.type == ScalarType::kFloat32 && aligned<float>(array)) {
+      values.values = std::span(reinterpret_cast<const float*>(array.bytes.data()), count);
+    } else if (array.type == ScalarType::kFloat64 && aligned<double>(array)) {
+      values.values = std::span(reinterpret_cast<const double*>(array.bytes.data()), count);
+    } else {
+      return false;
+    }
+    values.owner = array.owner;
+    return true;
+  }
+
+  static void gather(const std::vector<DataSet>& blocks, const VectorChoice& choice, const FieldGrid& grid,
+                     int threads, PointVectors& values) {
+    bool use_double = false;
+    std::vector<std::vector<const DataArray*>> arrays;
+    for (const DataSet& block : blocks) {
+      arrays.push_back(find_arrays(block, choice).arrays);
+      for (const DataArray* array : arrays.back()) use_double = use_double || is_double(array->type);
+    }
+    const Mat3 rotation = grid.frame.rotation;
+    const bool rotated = grid.frame.rotated;
+    const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
+      const auto b = static_cast<std::size_t>(&block - blocks.data());
+      Vec3 v = vector_of(choice, arrays[b], tuple);
+      if (rotated) v = v * rotation;  // R^T v
+      for (int i = 0; i < 3; ++i) out[i] = v[i];
+    };
+    auto stored = std::make_shared<const GatheredValues>(
+        gather_values(grid, blocks, choice.association, 3, use_double, read, threads));
+    if (use_double) {
+      values.values = std::span<const double>(stored->doubles);
+    } else {
+      values.values = std::span<const float>(stored->floats);
+    }
+    values.owner = std::move(stored);
+  }
+
+  static void note_values(const VectorChoice& choice, VectorField& field) {
+    const SpeedRange range =
+        std::visit([](const auto& values) { return speed_range(values); }, field.values_.values);
+    field.max_speed_ = range.max_speed;
+    field.frame_.speed_exponent = binary_exponent(range.max_speed);
+    field.values_.scale = power_of_two(-field.frame_.speed_exponent);
+    field.notes_.bad_values = range.bad;
+    if (choice.association == Association::kCell) {
+      field.notes_.lines.emplace_back(
+          "cell values brought to the points: volume-weighted mean of the cells around each point");
+    }
+    if (choice.kind == VectorChoice::Kind::kMomentumOverDensity) {
+      field.notes_.lines.emplace_back("velocity computed as momentum divided by density");
+    }
+    if (range.bad > 0) {
+      field.notes_.lines.push_back(std::to_string(range.bad) + (range.bad == 1 ? " point" : " points") +
+                                   " with a value that is not finite: cells around them are bad data");
+    }
+    if (range.max_speed == 0.0) field.notes_.lines.emplace_back("the field is zero everywhere");
+  }
+};
+
+std::shared_ptr<const VectorField> make_vector_field(const std::vector<DataSet>& blocks,
+                                                     const VectorChoice& choice, const std::string& file,
+                                                     int threads) {
+  return VectorFieldBuilder::from_data(blocks, choice, file, threads);
+}
+
+std::shared_ptr<const VectorField> make_vector_field(std::shared_ptr<const AnalyticField> formula,
+                                                     int length_exponent, int speed_exponent) {
+  return VectorFieldBuilder::from_formula(std::move(formula), length_exponent, speed_exponent);
+}
+
+}  // namespace palpate
