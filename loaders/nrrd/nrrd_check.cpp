@@ -1,0 +1,240 @@
+#include "loaders/nrrd/nrrd_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "common/base/error.h"
+#include "common/load/sniff.h"
+
+namespace palpate {
+namespace {
+
+/// Headers with tens of thousands of key/value pairs still fit.
+constexpr std::size_t kHeadBytes = std::size_t{4} << 20;
+constexpr std::size_t kMaxAxes = 16;
+constexpr std::size_t kMaxDataFiles = 100'000;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
+
+/// How far the encodings compress at best: deflate 1032 : 1, bzip2 (runs of one byte) some 45 000 : 1.
+constexpr std::uint64_t kGzipRatio = 1032;
+constexpr std::uint64_t kBzip2Ratio = 50'000;
+
+std::string trim(std::string_view text) {
+  const auto space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && space(text.back())) text.remove_suffix(1);
+  return std::string(text);
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Bytes of one value of a NRRD type by any of its names, or 0.
+std::uint64_t bytes_of_type(const std::string& name) {
+  struct Type {
+    std::uint64_t bytes;
+    std::array<std::string_view, 8> names;
+  };
+  static constexpr std::array<Type, 10> kTypes{{
+      {1, {"signed char", "int8", "int8_t"}},
+      {1, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {2, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {2, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {4, {"int", "signed int", "int32", "int32_t"}},
+      {4, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {8,
+       {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+        "int64_t"}},
+      {8, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {4, {"float"}},
+      {8, {"double"}},
+  }};
+  for (const Type& type : kTypes) {
+    if (!name.empty() && std::find(type.names.begin(), type.names.end(), name) != type.names.end())
+      return type.bytes;
+  }
+  return 0;
+}
+
+std::optional<std::uint64_t> number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) return ~std::uint64_t{0};
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) list.push_back(word);
+  return list;
+}
+
+/// "name%03d.raw 1 20 1 [subdim]": the names that it stands for.
+void add_numbered(const std::vector<std::string>& parts, NrrdClaims& claims) {
+  const std::string& format = parts[0];
+  // One %d with optional zero and width; anything else is not expanded, and Teem would refuse it too.
+  const std::size_t percent = format.find('%');
+  std::size_t end = percent + 1;
+  while (end < format.size() && std::isdigit(static_cast<unsigned char>(format[end])) != 0) ++end;
+  const bool plain = percent != std::string::npos && end < format.size() && format[end] == 'd' &&
+                     end - percent <= 4 && format.find('%', end) == std::string::npos;
+  const auto parse = [](const std::string& text) -> std::optional<long long> {
+    long long value = 0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || last != text.data() + text.size()) return std::nullopt;
+    return value;
+  };
+  const auto first = parse(parts[1]);
+  const auto last = parse(parts[2]);
+  const auto step = parse(parts[3]);
+  constexpr long long kLargest = 1'000'000'000;
+  if (!plain || !first || !last || !step || *step == 0 || std::abs(*first) > kLargest ||
+      std::abs(*last) > kLargest || std::abs(*step) > kLargest) {
+    claims.problem = "its list of data files makes no sense";
+    return;
+  }
+  const std::string digits = format.substr(percent + 1, end - percent - 1);
+  const std::size_t width = std::min<std::size_t>(number(digits).value_or(0), 100);
+  const bool zeros = !digits.empty() && digits.front() == '0';
+  for (long long i = *first; *step > 0 ? i <= *last : i >= *last; i += *step) {
+    std::string text = std::to_string(i);
+    if (text.size() < width) text.insert(0, width - text.size(), zeros ? '0' : ' ');
+    claims.data_files.push_back(format.substr(0, percent) + text + format.substr(end + 1));
+    if (claims.data_files.size() > kMaxDataFiles) {
+      claims.problem = "names too many data files";
+      return;
+    }
+  }
+}
+
+void read_field(const std::string& field, const std::string& value, NrrdClaims& claims, bool& list_follows) {
+  if (field == "sizes") {
+    claims.sizes.clear();
+    for (const std::string& word : words(value)) {
+      const auto size = number(word);
+      if (!size || *size == 0) {
+        claims.problem = "'sizes' holds '" + word.substr(0, 40) + "', expected counts above 0";
+        return;
+      }
+      claims.sizes.push_back(*size);
+    }
+    if (claims.sizes.empty() || claims.sizes.size() > kMaxAxes)
+      claims.problem = "'sizes' names no axes, or too many";
+  } else if (field == "type") {
+    claims.bytes_per_value = bytes_of_type(lower(value));
+    if (claims.bytes_per_value == 0)
+      claims.problem = "has values of type '" + value.substr(0, 40) + "', expected numbers";
+  } else if (field == "encoding") {
+    claims.encoding = lower(value);
+  } else if (field == "data file" || field == "datafile") {
+    claims.detached = true;
+    const std::vector<std::string> parts = words(value);
+    if (!parts.empty() && parts[0] == "LIST") {
+      list_follows = true;
+    } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos) {
+      add_numbered(parts, claims);
+    } else {
+      claims.data_files.push_back(value);
+    }
+  }
+}
+
+}  // namespace
+
+NrrdClaims read_nrrd_claims(std::string_view head) {
+  NrrdClaims claims;
+  std::size_t at = 0;
+  bool first = true;
+  bool list_follows = false;
+  bool ended = false;
+  while (at < head.size() && claims.problem.empty()) {
+    const std::size_t end = std::min(head.find('\n', at), head.size());
+    const std::string line = trim(head.substr(at, end - at));
+    at = std::min(end + 1, head.size());
+    if (first) {
+      first = false;  // the magic
+      continue;
+    }
+    if (list_follows) {
+      if (line.empty()) continue;
+      claims.data_files.push_back(line);
+      if (claims.data_files.size() > kMaxDataFiles) claims.problem = "names too many data files";
+      continue;
+    }
+    if (line.empty()) {  // ends the header; attached data follows
+      ended = true;
+      break;
+    }
+    // "field: value"; comments begin with #, key/value pairs have ":=".
+    const std::size_t colon = line.find(": ");
+    if (line.front() == '#' || colon == std::string::npos) continue;
+    read_field(lower(line.substr(0, colon)), trim(std::string_view(line).substr(colon + 2)), claims,
+               list_follows);
+  }
+  claims.header_bytes = at;
+  if (!claims.problem.empty()) return claims;
+  if (claims.sizes.empty()) claims.problem = "has no field 'sizes'";
+  if (claims.bytes_per_value == 0) claims.problem = "has no field 'type'";
+  if (!claims.detached && !ended) claims.problem = "its header does not end, and names no data file";
+  return claims;
+}
+
+std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available) {
+  std::uint64_t values = 1;
+  bool huge = false;
+  for (const std::uint64_t size : claims.sizes) huge = huge || __builtin_mul_overflow(values, size, &values);
+  std::uint64_t bytes = 0;
+  huge = huge || __builtin_mul_overflow(values, claims.bytes_per_value, &bytes) || bytes > kMaxBytes;
+  std::uint64_t possible = available;
+  std::string encoded = claims.encoding;
+  if (encoded == "gz" || encoded == "gzip") {
+    possible = std::min(available, kMaxBytes) * kGzipRatio;
+  } else if (encoded == "bz2" || encoded == "bzip2") {
+    possible = std::min(available, kMaxBytes >> 6) * kBzip2Ratio;
+  } else if (encoded == "txt" || encoded == "text" || encoded == "ascii") {
+    possible = (available / 2 + 1) * claims.bytes_per_value;  // a digit and a separator make a value
+  } else if (encoded == "hex") {
+    possible = available / 2;
+  } else if (encoded != "raw") {
+    return "has the unknown encoding '" + encoded.substr(0, 40) + "'";
+  }
+  if (!huge && bytes <= possible) return "";
+  return "claims " + (huge ? std::string("over 2^50") : std::to_string(bytes)) +
+         " bytes of values, but there are " + std::to_string(available) + " bytes of " + encoded + " data";
+}
+
+void check_nrrd(const std::string& file) {
+  const HeadOfFile head = read_head(file, kHeadBytes);
+  NrrdClaims claims = read_nrrd_claims(head.bytes);
+  if (!claims.problem.empty())
+    throw input_error({file, "header", claims.problem, "", "the file may be damaged"});
+  std::uint64_t available = head.file_size - claims.header_bytes;
+  if (claims.detached) {
+    if (claims.data_files.empty()) throw input_error({file, "header", "names no data file"});
+    available = 0;
+    for (const std::string& name : claims.data_files) {
+      // Relative names start from the header's folder.
+      const std::filesystem::path path = std::filesystem::path(file).parent_path() / name;
+      try {
+        available += read_head(path, 0).file_size;
+      } catch (const Error& error) {
+        throw input_error({file, "data file", error.what()});
+      }
+    }
+  }
+  const std::string problem = nrrd_size_problem(claims, available);
+  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+}
+
+}  // namespace palpate

@@ -1,0 +1,35 @@
+/// A cheap look at a NRRD header before Teem sees it: what the header claims must fit into the data that is
+/// there, since Teem allocates what the header claims, and data files must be regular files.
+///
+/// Format: "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+/// The fields that say how many bytes there are and where.
+struct NrrdClaims {
+  std::vector<std::uint64_t> sizes;  ///< samples along every axis, the fastest first
+  std::uint64_t bytes_per_value = 0;
+  std::string encoding = "raw";
+  bool detached = false;
+  std::vector<std::string> data_files;  ///< as the header names them
+  std::uint64_t header_bytes = 0;       ///< where attached data begins
+  std::string problem;                  ///< what is wrong, or empty
+};
+
+/// Reads the claims from the start of a NRRD file. Unknown fields are Teem's business.
+[[nodiscard]] NrrdClaims read_nrrd_claims(std::string_view head);
+
+/// Why data of `available` bytes cannot hold what `claims` says, or empty.
+[[nodiscard]] std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available);
+
+/// @throws Error (bad input).
+void check_nrrd(const std::string& file);
+
+}  // namespace palpate
