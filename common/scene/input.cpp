@@ -7,7 +7,6 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/analytic/examples.h"
 
 namespace palpate {
 namespace {
@@ -46,14 +45,6 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
   return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
 }
 
-std::vector<ExampleInfo> example_list() {
-  std::vector<ExampleInfo> list;
-  for (const Example& example : examples()) {
-    list.push_back({std::string(example.name), std::string(example.summary)});
-  }
-  return list;
-}
-
 Input Input::open(const InputSpec& spec, Progress* progress) {
   if (spec.files.empty() && spec.example.empty()) {
     throw usage_error("no input: give a file, or --example NAME (--example list shows them)");
@@ -66,7 +57,7 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   input.spec_ = spec;
   input.title_ = title_of(spec);
   if (!spec.example.empty()) {
-    (void)make_example(spec.example);  // throws for an unknown name
+    (void)example(spec.example);  // throws for an unknown name
     if (!spec.field.empty() && spec.field != "velocity") {
       throw usage_error("--field " + spec.field + ": a built-in example has one field, velocity");
     }
@@ -115,7 +106,7 @@ std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* prog
   Stopwatch watch;
   seconds_read_ = 0.0;
   if (!source_) {
-    auto field = make_vector_field(make_example(spec_.example));
+    auto field = make_vector_field(example(spec_.example));
     seconds_field_ = watch.seconds();
     return field;
   }

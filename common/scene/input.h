@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/field/analytic/examples.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
 
@@ -24,13 +25,6 @@ struct InputSpec {
   std::string field;                              ///< empty: the likeliest one
   std::string time = "first";                     ///< first, last or a time
 };
-
-/// A built-in data set, for lists.
-struct ExampleInfo {
-  std::string name;
-  std::string summary;
-};
-[[nodiscard]] std::vector<ExampleInfo> example_list();
 
 /// A time step and whether it is the very one that was asked for.
 struct TimeChoice {
