@@ -24,6 +24,8 @@ struct Camera {
   double view_height = 2.0;  ///< h > 0
   Projection projection = Projection::kPerspective;
   double field_of_view = 0.5235987755982988;  ///< alpha [rad], 30 degrees
+
+  bool operator==(const Camera&) const = default;
 };
 
 /// A view of a box as `--camera azimuth,elevation,roll,zoom` states it. The z axis of the data points up;

@@ -219,7 +219,7 @@ double SceneRenderer::finish() {
 }
 
 Image SceneRenderer::read() const { return state_->target.read(); }
-void SceneRenderer::show() const { state_->target.show(); }
+void SceneRenderer::show(int left, int bottom) const { state_->target.show(left, bottom); }
 ValueRange SceneRenderer::range() const { return state_->legend.range; }
 
 }  // namespace palpate

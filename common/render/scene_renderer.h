@@ -22,8 +22,9 @@ class SceneRenderer {
   /// some drivers lie.
   double finish();
   [[nodiscard]] Image read() const;
-  /// Copies the picture to the framebuffer that the window shows.
-  void show() const;
+  /// Copies the picture to the framebuffer that the window shows, `left` and `bottom` pixels from its
+  /// lower left corner.
+  void show(int left, int bottom) const;
   /// The range that the colours of the last picture spread over.
   [[nodiscard]] ValueRange range() const;
 

@@ -29,6 +29,14 @@ ColorBy color_by_from_name(std::string_view name) {
                     "'; known: speed, time, arc, error, direction, termination, seed, uniform");
 }
 
+bool same_picture(const SceneView& a, const SceneView& b) {
+  return a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
+         a.bounds.lower == b.bounds.lower && a.bounds.upper == b.bounds.upper && a.units == b.units &&
+         a.background == b.background && a.show_outline == b.show_outline && a.show_axes == b.show_axes &&
+         a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
+         a.outline == b.outline;
+}
+
 ColorMap default_color_map(ColorBy color_by) noexcept {
   switch (color_by) {
     case ColorBy::kTermination:

@@ -37,6 +37,8 @@ inline constexpr int kColorByCount = 9;
 struct ValueRange {
   double lower = 0.0;
   double upper = 1.0;
+
+  bool operator==(const ValueRange&) const = default;
 };
 
 /// One number a point, for lines that are coloured by something that they do not carry themselves.
@@ -56,6 +58,8 @@ struct LineStyle {
   double opacity = 1.0;                    ///< in (0, 1]
   bool halo = true;                        ///< a gap around nearer lines, where opaque
   bool depth_cue = true;                   ///< farther lines fade into the background
+
+  bool operator==(const LineStyle&) const = default;
 };
 
 enum class Background : std::uint8_t { kDark, kLight };
@@ -64,6 +68,8 @@ enum class Background : std::uint8_t { kDark, kLight };
 struct UnitNames {
   std::string length;
   std::string time;
+
+  bool operator==(const UnitNames&) const = default;
 };
 
 struct SceneView {
@@ -81,6 +87,9 @@ struct SceneView {
   std::string subtitle;  ///< smaller, below it
   Camera camera;
 };
+
+/// Whether both give the same picture; lines and arrays count as the same where they are the same objects.
+[[nodiscard]] bool same_picture(const SceneView& a, const SceneView& b);
 
 [[nodiscard]] ColorMap default_color_map(ColorBy color_by) noexcept;
 [[nodiscard]] ColorMap color_map_of(const LineStyle& style) noexcept;

@@ -71,21 +71,23 @@ void RenderTarget::bind_resolved() {
   glViewport(0, 0, width_, height_);
 }
 
-void RenderTarget::show() const {
-  glBlitNamedFramebuffer(resolved_.name(), 0, 0, 0, width_, height_, 0, 0, width_, height_,
-                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void RenderTarget::show(int left, int bottom) const {
+  glBlitNamedFramebuffer(resolved_.name(), 0, 0, 0, width_, height_, left, bottom, left + width_,
+                         bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-Image RenderTarget::read() const {
-  const auto row = 4 * static_cast<std::size_t>(width_);
-  Image image{width_, height_, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height_))};
+Image RenderTarget::read() const { return read_framebuffer(resolved_.name(), width_, height_); }
+
+Image read_framebuffer(std::uint32_t framebuffer, int width, int height) {
+  const auto row = 4 * static_cast<std::size_t>(width);
+  Image image{width, height, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
   std::vector<std::uint8_t> upward(image.rgba.size());  // OpenGL counts rows from the bottom
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, upward.data());
-  for (int y = 0; y < height_; ++y) {
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upward.data());
+  for (int y = 0; y < height; ++y) {
     std::memcpy(image.rgba.data() + row * static_cast<std::size_t>(y),
-                upward.data() + row * static_cast<std::size_t>(height_ - 1 - y), row);
+                upward.data() + row * static_cast<std::size_t>(height - 1 - y), row);
   }
   // The picture stands for itself: no part of it shows what lies behind it.
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;

@@ -6,6 +6,9 @@
 
 namespace palpate {
 
+/// What a framebuffer (0: the window's back buffer) holds from its lower left corner on, opaque.
+[[nodiscard]] Image read_framebuffer(std::uint32_t framebuffer, int width, int height);
+
 class RenderTarget {
  public:
   /// Makes framebuffers of this size (both > 0), unless they are there already.
@@ -16,8 +19,9 @@ class RenderTarget {
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
   [[nodiscard]] Image read() const;  ///< of the plain one
-  /// Copies the plain one to the lower left corner of the framebuffer that the window shows.
-  void show() const;
+  /// Copies the plain one to the framebuffer that the window shows, `left` and `bottom` pixels from its
+  /// lower left corner.
+  void show(int left, int bottom) const;
 
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }

@@ -1,0 +1,339 @@
+#include "common/app/window/panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "common/app/window/keys.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+ImVec2 place(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+void section(const char* name) {
+  ImGui::Spacing();
+  ImGui::TextDisabled("%s", name);
+  ImGui::Separator();
+}
+
+// A drop-down of words; true when another one was chosen.
+bool choose(const char* label, std::string& chosen, const std::vector<std::string>& words) {
+  bool changed = false;
+  if (ImGui::BeginCombo(label, chosen.c_str())) {
+    for (const std::string& word : words) {
+      if (ImGui::Selectable(word.c_str(), word == chosen) && word != chosen) {
+        chosen = word;
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+bool logarithmic_slider(const char* label, double& value, double lower, double upper) {
+  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, "%.1e",
+                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+}
+
+void draw_input(const SceneState& scene) {
+  section("INPUT");
+  ImGui::TextWrapped("%s", scene.info->name.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  for (const std::string& fact : scene.info->facts) ImGui::TextWrapped("%s", fact.c_str());
+  ImGui::PopStyleColor();
+}
+
+void draw_time(PanelState& state, const std::vector<double>& times) {
+  if (times.size() < 2) return;
+  int step = static_cast<int>(state.settings.time_step);
+  const int last = static_cast<int>(times.size()) - 1;
+  const std::string text = "t = " + short_number(times[state.settings.time_step]);
+  if (ImGui::SliderInt("time step", &step, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
+    state.settings.time_step = static_cast<std::size_t>(step);
+  }
+  if (ImGui::SmallButton(state.playing ? "Stop" : "Play")) state.playing = !state.playing;
+}
+
+void draw_seeds(PanelState& state) {
+  static const std::vector<std::string> kKinds{"grid", "random", "other"};
+  std::string kind = kKinds[static_cast<std::size_t>(state.seeds.kind)];
+  if (choose("seeds", kind, kKinds)) {
+    // `other` starts from the text of what was chosen before.
+    state.seeds.text = seeds_text(state.seeds);
+    state.seeds.kind =
+        static_cast<SeedChoice::Kind>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
+  }
+  constexpr int kMost = 1'000'000, kMostAcross = 200;
+  switch (state.seeds.kind) {
+    case SeedChoice::Kind::kGrid:
+      ImGui::DragInt3("along x y z", state.seeds.grid.data(), 0.1F, 1, kMostAcross, "%d",
+                      ImGuiSliderFlags_AlwaysClamp);
+      break;
+    case SeedChoice::Kind::kRandom:
+      ImGui::DragInt("number", &state.seeds.random, 2.0F, 1, kMost, "%d",
+                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+      break;
+    case SeedChoice::Kind::kText:
+      // Half a word is no seeds: taken when it is complete.
+      ImGui::InputText("as --seeds", &state.seeds.text);
+      if (ImGui::IsItemActive()) return;
+      break;
+  }
+  state.settings.seeds = seeds_text(state.seeds);
+}
+
+void draw_lines(PanelState& state, const SceneState& scene) {
+  section("LINES");
+  SceneSettings& settings = state.settings;
+  const SceneInfo& info = *scene.info;
+  choose("field", settings.field, info.fields);
+  draw_time(state, info.times);
+  draw_seeds(state);
+  static const std::vector<std::string> kDirections{"forward", "backward", "both"};
+  choose("direction", settings.direction, kDirections);
+  choose("integrator", settings.integrator, info.integrators);
+  constexpr double kTightest = 1e-12, kLoosest = 1e-2;
+  if (settings.integrator == "euler" || settings.integrator == "rk4") {
+    const double diagonal = info.bounds.diagonal();
+    double step = settings.step > 0.0 ? settings.step : 1e-3 * diagonal;
+    if (diagonal > 0.0 && logarithmic_slider("step", step, 1e-5 * diagonal, 0.1 * diagonal))
+      settings.step = step;
+  } else {
+    logarithmic_slider("tolerance", settings.tolerance, kTightest, kLoosest);
+  }
+  const double diagonal = info.bounds.diagonal();
+  if (diagonal > 0.0) {
+    constexpr double kShortest = 0.01, kLongest = 100.0;
+    double length = settings.max_length > 0.0 ? settings.max_length / diagonal : 10.0;
+    if (ImGui::SliderScalar("max length", ImGuiDataType_Double, &length, &kShortest, &kLongest,
+                            "%.2f diagonals", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+      settings.max_length = length * diagonal;
+    }
+  }
+}
+
+void draw_color(const PanelState& state, SceneView& view) {
+  section("COLOUR");
+  LineStyle& style = view.style;
+  if (ImGui::BeginCombo("by", std::string(name_of(style.color_by)).c_str())) {
+    for (int i = 0; i < kColorByCount; ++i) {
+      const auto by = static_cast<ColorBy>(i);
+      if (by == ColorBy::kArray && !style.array) continue;
+      if (ImGui::Selectable(std::string(name_of(by)).c_str(), by == style.color_by)) {
+        style.color_by = by;
+        style.range.reset();
+        style.logarithmic.reset();
+      }
+    }
+    ImGui::EndCombo();
+  }
+  const bool mapped = style.color_by != ColorBy::kDirection && style.color_by != ColorBy::kTermination &&
+                      style.color_by != ColorBy::kUniform;
+  if (!mapped) return;
+  const ColorMap map = color_map_of(style);
+  if (ImGui::BeginCombo("map", std::string(name_of(map)).c_str())) {
+    for (const ColorMap choice : {ColorMap::kSequential, ColorMap::kHeat, ColorMap::kDiverging}) {
+      if (ImGui::Selectable(std::string(name_of(choice)).c_str(), choice == map)) style.color_map = choice;
+    }
+    ImGui::EndCombo();
+  }
+  bool automatic = !style.range.has_value();
+  if (ImGui::Checkbox("automatic range", &automatic)) {
+    style.range = automatic ? std::nullopt : std::optional(state.automatic_range.value_or(ValueRange{}));
+  }
+  if (style.range) {
+    ValueRange range = *style.range;
+    std::array<double, 2> ends{range.lower, range.upper};
+    if (ImGui::InputScalarN("range", ImGuiDataType_Double, ends.data(), 2, nullptr, nullptr, "%.4g") &&
+        ends[0] < ends[1]) {
+      style.range = ValueRange{ends[0], ends[1]};
+    }
+  }
+  if (style.color_by != ColorBy::kSeed) {
+    bool logarithmic = is_logarithmic(style);
+    if (ImGui::Checkbox("logarithmic", &logarithmic)) style.logarithmic = logarithmic;
+  }
+}
+
+void draw_look(SceneView& view, PanelActions& actions) {
+  section("LOOK");
+  LineStyle& style = view.style;
+  constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
+  ImGui::SliderScalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderScalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
+                      ImGuiSliderFlags_AlwaysClamp);
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
+  bool light = view.background == Background::kLight;
+  bool perspective = view.camera.projection == Projection::kPerspective;
+  ImGui::Checkbox("halos", &style.halo);
+  ImGui::SameLine(half);
+  ImGui::Checkbox("fade with depth", &style.depth_cue);
+  ImGui::Checkbox("outline", &view.show_outline);
+  ImGui::SameLine(half);
+  ImGui::Checkbox("axes", &view.show_axes);
+  ImGui::Checkbox("colour bar", &view.show_color_bar);
+  ImGui::SameLine(half);
+  if (ImGui::Checkbox("light", &light)) view.background = light ? Background::kLight : Background::kDark;
+  if (ImGui::Checkbox("perspective", &perspective)) {
+    view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
+  }
+  ImGui::Spacing();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
+  actions.reset_camera |= ImGui::Button("Reset view", size);
+  ImGui::SameLine();
+  actions.save_picture |= ImGui::Button("Save picture", size);
+  actions.save_session |= ImGui::Button("Save session", size);
+}
+
+void draw_job(const Progress& job, PanelActions& actions) {
+  const double fraction = job.fraction();
+  const std::string stage = job.stage().empty() ? "working" : job.stage();
+  if (fraction < 0.0) {
+    // Unknown length: a bar that fills up with time and starts again.
+    const auto seconds = static_cast<float>(job.seconds_in_stage());
+    ImGui::ProgressBar(seconds - std::floor(seconds), {-FLT_MIN, 0.0F}, stage.c_str());
+  } else {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "%s %.0f %%", stage.c_str(), 100.0 * fraction);
+    ImGui::ProgressBar(static_cast<float>(fraction), {-FLT_MIN, 0.0F}, text.data());
+  }
+  actions.cancel |= ImGui::Button("Cancel", {-FLT_MIN, 0.0F});
+}
+
+std::string status_text(const SceneState& scene) {
+  std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
+  if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
+  const char* separator = ": ";
+  for (int k = 0; k < kEndCount; ++k) {
+    const std::size_t count = scene.ends[static_cast<std::size_t>(k)];
+    if (count == 0) continue;
+    std::string name(name_of(static_cast<End>(k)));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += separator + std::to_string(count) + " " + name;
+    separator = ", ";
+  }
+  std::array<char, 96> numbers{};
+  std::snprintf(numbers.data(), numbers.size(), "   error below %.1e   traced in %.3g s", scene.error_max,
+                scene.seconds_trace);
+  return text + numbers.data();
+}
+
+void draw_status(const PanelState& state, const WindowLayout& layout) {
+  ImGui::SetNextWindowPos(place(layout.picture.left, layout.picture.top + layout.picture.height));
+  ImGui::SetNextWindowSize(place(layout.picture.width, layout.status_height));
+  ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+  if (!state.message.empty() && state.message_is_error) {
+    ImGui::TextColored({0.93F, 0.36F, 0.30F, 1.0F}, "%s", state.message.c_str());
+  } else if (!state.message.empty()) {
+    ImGui::TextUnformatted(state.message.c_str());
+  } else if (state.scene != nullptr) {
+    ImGui::TextUnformatted(status_text(*state.scene).c_str());
+  }
+  std::array<char, 48> frame{};
+  std::snprintf(frame.data(), frame.size(), "%.1f ms", state.frame_ms);
+  const float width = ImGui::CalcTextSize(frame.data()).x;
+  ImGui::SameLine(ImGui::GetWindowWidth() - width - ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextDisabled("%s", frame.data());
+  ImGui::End();
+}
+
+void draw_help(PanelState& state, const WindowLayout& layout) {
+  if (!state.show_help) return;
+  ImGui::SetNextWindowPos(place(layout.picture.left + 0.5 * layout.picture.width,
+                                layout.picture.top + 0.5 * layout.picture.height),
+                          ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowBgAlpha(0.94F);
+  ImGui::Begin(
+      "Keys and mouse", &state.show_help,
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    const auto row = [](const char* name, const char* what) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", name);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what);
+    };
+    row("left drag", "turn about the focal point");
+    row("middle drag", "pan");
+    row("right drag, wheel", "zoom");
+    row("drop files", "open them");
+    for (const KeyBinding& binding : key_bindings()) row(binding.name, binding.what);
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void draw_rates(const PanelState& state, const WindowLayout& layout) {
+  if (!state.show_rates) return;
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(place(layout.picture.left + layout.picture.width - em, layout.picture.top + em),
+                          ImGuiCond_Always, {1.0F, 0.0F});
+  ImGui::SetNextWindowBgAlpha(0.7F);
+  ImGui::Begin("rates", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ImGui::Text("picture  %6.1f ms", state.frame_ms);
+  ImGui::Text("frames   %6.1f /s", state.frames_per_second);
+  if (state.scene != nullptr) {
+    std::size_t points = 0;
+    for (const Line& line : *state.scene->lines) points += line.points.size();
+    ImGui::Text("points   %zu", points);
+    ImGui::Text("load     %.3g s", state.scene->seconds_load);
+    ImGui::Text("trace    %.3g s", state.scene->seconds_trace);
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+WindowLayout layout(int width, int height, float text_height) {
+  WindowLayout result;
+  // A narrow window keeps at least half of its width for the picture.
+  result.panel_width = std::min(std::round(21.0 * text_height), std::floor(0.5 * width));
+  result.status_height = std::round(2.4 * text_height);
+  result.picture = {result.panel_width, 0.0, std::max(1.0, width - result.panel_width),
+                    std::max(1.0, height - result.status_height)};
+  return result;
+}
+
+PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout) {
+  PanelActions actions;
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize(place(layout.panel_width, layout.picture.height + layout.status_height));
+  ImGui::Begin("panel", nullptr, kFixed);
+  ImGui::PushItemWidth(0.62F * ImGui::GetContentRegionAvail().x);
+  if (state.job != nullptr) draw_job(*state.job, actions);
+  if (state.scene != nullptr) {
+    draw_input(*state.scene);
+    draw_lines(state, *state.scene);
+    draw_color(state, view);
+    draw_look(view, actions);
+    for (const std::string& note : state.scene->notes) {
+      ImGui::Spacing();
+      ImGui::TextWrapped("%s", note.c_str());
+    }
+  }
+  ImGui::Spacing();
+  ImGui::TextDisabled("H  keys and mouse");
+  ImGui::PopItemWidth();
+  ImGui::End();
+  draw_status(state, layout);
+  draw_rates(state, layout);
+  draw_help(state, layout);
+  return actions;
+}
+
+}  // namespace palpate

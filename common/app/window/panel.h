@@ -1,0 +1,50 @@
+/// The panel at the left of the window, the status line below the picture, and the cheat sheet.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/app/window/seed_choice.h"
+#include "common/app/window/view_control.h"
+#include "common/app/window/window_model.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// What panel and status line show and change.
+struct PanelState {
+  const SceneState* scene = nullptr;          ///< null until the first one is there
+  const Progress* job = nullptr;              ///< null while none runs
+  SceneSettings settings;                     ///< edited
+  SeedChoice seeds;                           ///< edited; goes into the settings
+  std::optional<ValueRange> automatic_range;  ///< that colours have while the view gives none
+  std::string message;
+  bool message_is_error = false;
+  double frame_ms = 0.0;
+  double frames_per_second = 0.0;
+  bool show_help = false;
+  bool show_rates = false;
+  bool playing = false;
+};
+
+/// What the user asked for in this frame.
+struct PanelActions {
+  bool cancel = false;
+  bool reset_camera = false;
+  bool save_picture = false;
+  bool save_session = false;
+};
+
+/// Parts of the window [pixels].
+struct WindowLayout {
+  double panel_width = 0.0;
+  double status_height = 0.0;
+  PictureArea picture;
+};
+
+[[nodiscard]] WindowLayout layout(int width, int height, float text_height);
+
+/// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
+[[nodiscard]] PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout);
+
+}  // namespace palpate
