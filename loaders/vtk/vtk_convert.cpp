@@ -12,6 +12,7 @@
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
@@ -132,34 +133,65 @@ RectilinearTopology rectilinear(vtkRectilinearGrid* grid, const std::string& fil
   return t;
 }
 
-StructuredTopology curvilinear(vtkStructuredGrid* grid) {
+StructuredTopology curvilinear(vtkStructuredGrid* grid, const std::string& file) {
   StructuredTopology t;
   t.points = points_along_axes(grid);
+  const vtkIdType expected = vtkIdType{t.points.x} * t.points.y * t.points.z;
+  if (grid->GetNumberOfPoints() != expected) {
+    throw input_error({file, "", "has " + std::to_string(grid->GetNumberOfPoints()) + " points",
+                       std::to_string(expected) + " from its dimensions", "the file may be damaged"});
+  }
   t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
   return t;
 }
 
-UnstructuredTopology unstructured(vtkUnstructuredGrid* grid) {
+/// Appends the face stream of polyhedron `cell` (face count; for each face its point count and points).
+/// False where it lies outside the arrays that hold it.
+bool append_faces(vtkUnstructuredGrid* grid, vtkIdType cell, std::vector<std::int64_t>& stream) {
+  vtkIdTypeArray* faces = grid->GetFaces();
+  vtkIdTypeArray* locations = grid->GetFaceLocations();
+  if (faces == nullptr || locations == nullptr || cell >= locations->GetNumberOfTuples()) return false;
+  vtkIdType at = locations->GetValue(cell);
+  const vtkIdType end = faces->GetNumberOfTuples();
+  if (at < 0 || at >= end) return false;
+  const vtkIdType count = faces->GetValue(at++);
+  stream.push_back(count);
+  for (vtkIdType face = 0; face < count; ++face) {
+    if (at >= end) return false;
+    const vtkIdType corners = faces->GetValue(at++);
+    if (corners < 0 || corners > end - at) return false;
+    stream.push_back(corners);
+    for (vtkIdType corner = 0; corner < corners; ++corner) stream.push_back(faces->GetValue(at++));
+  }
+  return true;
+}
+
+UnstructuredTopology unstructured(vtkUnstructuredGrid* grid, const std::string& file) {
+  const vtkIdType cells = grid->GetNumberOfCells();
+  if (!grid->GetCells()->IsValid() || grid->GetCellTypesArray()->GetNumberOfTuples() != cells) {
+    throw input_error(
+        {file, "", "its lists of cells do not agree with one another", "", "the file may be damaged"});
+  }
   UnstructuredTopology t;
   t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
-  const vtkIdType cells = grid->GetNumberOfCells();
   t.types.reserve(static_cast<std::size_t>(cells));
   t.offsets.reserve(static_cast<std::size_t>(cells) + 1);
   t.connectivity.reserve(static_cast<std::size_t>(grid->GetCells()->GetNumberOfConnectivityIds()));
   t.offsets.push_back(0);
-  const auto faces = vtkSmartPointer<vtkIdList>::New();
+  const vtkIdType points = grid->GetNumberOfPoints();
   for (vtkIdType cell = 0; cell < cells; ++cell) {
     const int type = grid->GetCellType(cell);
     t.types.push_back(static_cast<std::uint8_t>(type));
-    if (type == VTK_POLYHEDRON) {
-      grid->GetFaceStream(cell, faces);
-      for (vtkIdType i = 0; i < faces->GetNumberOfIds(); ++i) t.connectivity.push_back(faces->GetId(i));
-    } else {
-      vtkIdType count = 0;
-      const vtkIdType* corners = nullptr;
-      grid->GetCellPoints(cell, count, corners);
-      t.connectivity.insert(t.connectivity.end(), corners, corners + count);
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    grid->GetCells()->GetCellAtId(cell, count, corners);
+    const bool there =
+        std::all_of(corners, corners + count, [points](vtkIdType p) { return p >= 0 && p < points; });
+    if (!there || (type == VTK_POLYHEDRON && !append_faces(grid, cell, t.connectivity))) {
+      throw input_error({file, "cell " + std::to_string(cell), "names a point that is not there", "",
+                         "the file may be damaged"});
     }
+    if (type != VTK_POLYHEDRON) t.connectivity.insert(t.connectivity.end(), corners, corners + count);
     t.offsets.push_back(static_cast<std::int64_t>(t.connectivity.size()));
   }
   return t;
@@ -335,9 +367,9 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
   } else if (auto* box = vtkRectilinearGrid::SafeDownCast(kept)) {
     block.topology = rectilinear(box, file);
   } else if (auto* curved = vtkStructuredGrid::SafeDownCast(kept)) {
-    block.topology = curvilinear(curved);
+    block.topology = curvilinear(curved, file);
   } else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(kept)) {
-    block.topology = unstructured(mesh);
+    block.topology = unstructured(mesh, file);
   } else {
     throw input_error({file, name, why_not_volume(kept)});
   }

@@ -1,41 +1,158 @@
 #include "loaders/vtk/vtk_files.h"
 
+#include <algorithm>
+#include <map>
+
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
+#include "common/load/sniff.h"
+#include "loaders/vtk/file_index.h"
 #include "loaders/vtk/legacy_file.h"
 #include "loaders/vtk/vtk_convert.h"
+#include "loaders/vtk/xml_file.h"
 
 namespace palpate {
 namespace {
 
+ScalarType type_of_xml(const std::string& name) {
+  static const std::map<std::string, ScalarType> kTypes{
+      {"Int8", ScalarType::kInt8},      {"UInt8", ScalarType::kUint8},   {"Int16", ScalarType::kInt16},
+      {"UInt16", ScalarType::kUint16},  {"Int32", ScalarType::kInt32},   {"UInt32", ScalarType::kUint32},
+      {"Int64", ScalarType::kInt64},    {"UInt64", ScalarType::kUint64}, {"Float32", ScalarType::kFloat32},
+      {"Float64", ScalarType::kFloat64}};
+  const auto found = kTypes.find(name);
+  return found == kTypes.end() ? ScalarType::kFloat32 : found->second;
+}
+
+/// One open file: XML files with their reader, legacy files as a whole.
+struct OpenFile {
+  std::unique_ptr<XmlFile> xml;
+  vtkSmartPointer<vtkDataObject> legacy;
+};
+
 class VtkFiles : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format format) override {
-    file_ = request.files.front().string();
     FileInfo info;
     info.format = name_of(format);
-    data_ = read_legacy(file_, errors_);
-    for (const auto& b : leaves_of(data_)) {
-      const auto why = why_not_volume(b.data);
-      if (!why.empty()) throw input_error({file_, b.name, why});
-      info.blocks.push_back(describe_block(b.data, b.name));
+    arrange(request, format, info.notes);
+    if (steps_.size() > 1) {
+      for (const FileStep& step : steps_) info.times.push_back(step.time);
     }
+    std::string why;
+    for (const FilePiece& piece : steps_.front().pieces) describe(piece, info, why);
+    if (info.blocks.empty()) throw input_error({request.files.front().string(), "", why, "a volume"});
     return info;
   }
-  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    if (step != open_step_) {
+      open_files_.clear();  // one step at a time is kept
+      open_step_ = step;
+    }
+    const std::set<std::string> wanted(names.begin(), names.end());
     std::vector<DataSet> blocks;
-    for (const auto& b : leaves_of(data_))
-      blocks.push_back(convert_block(b.data, b.name, {names.begin(), names.end()}, file_));
+    std::string why = "holds no data";
+    const auto& pieces = steps_[step].pieces;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      const std::string file = pieces[p].file.string();
+      OpenFile& opened = open_file(file);
+      for (const VtkBlock& block : leaves_of(opened.xml ? opened.xml->read(wanted) : opened.legacy.Get())) {
+        if (std::string reason = why_not_volume(block.data); !reason.empty()) {
+          why = reason;
+          continue;
+        }
+        blocks.push_back(convert_block(block.data, name_of_block(pieces[p], block), wanted, file));
+      }
+      if (on_progress) on_progress(static_cast<double>(p + 1) / static_cast<double>(pieces.size()));
+    }
+    if (blocks.empty()) throw input_error({pieces.front().file.string(), "", why, "a volume"});
     return blocks;
   }
 
  private:
+  void arrange(const LoadRequest& request, Format format, std::vector<std::string>& notes) {
+    const bool index = format == Format::kVtkMultiBlock || format == Format::kParaviewSeries;
+    if (request.files.size() > 1) {
+      std::string note;
+      steps_ = arrange_files(request.files, note);
+      notes.push_back(note);
+    } else if (index) {
+      steps_ = read_index(request.files.front(), format);
+    } else {
+      steps_ = {{0.0, {{request.files.front(), ""}}}};
+    }
+    if (format == Format::kParaviewSeries && request.files.size() > 1) {
+      throw input_error({request.files[1].string(), "", "is a second time series", "one"});
+    }
+    // An index of time steps may name indices of blocks, and so may the files of a series.
+    for (FileStep& step : steps_) {
+      for (std::size_t p = 0; p < step.pieces.size(); ++p) {
+        if (format == Format::kLegacyVtk || format == Format::kVtkXml) break;
+        const Format inner = find_format(step.pieces[p].file);
+        if (inner == Format::kVtkMultiBlock) {
+          std::vector<FilePiece> parts = read_index(step.pieces[p].file, inner).front().pieces;
+          step.pieces.erase(step.pieces.begin() + static_cast<std::ptrdiff_t>(p));
+          step.pieces.insert(step.pieces.begin() + static_cast<std::ptrdiff_t>(p), parts.begin(),
+                             parts.end());
+          p += parts.size() - 1;
+        } else if (inner != Format::kVtkXml && inner != Format::kLegacyVtk) {
+          throw input_error(
+              {step.pieces[p].file.string(), "", "is " + std::string(palpate::name_of(inner)), "a VTK file"});
+        }
+      }
+    }
+  }
+
+  OpenFile& open_file(const std::string& file) {
+    OpenFile& opened = open_files_[file];
+    if (opened.xml || opened.legacy != nullptr) return opened;
+    if (find_format(file) == Format::kLegacyVtk) {
+      opened.legacy = read_legacy(file, errors_);
+    } else {
+      opened.xml = std::make_unique<XmlFile>(file, errors_);
+    }
+    return opened;
+  }
+
+  /// Adds the blocks of one file to `info`; notes what is left out, and why.
+  void describe(const FilePiece& piece, FileInfo& info, std::string& why) {
+    const std::string file = piece.file.string();
+    OpenFile& opened = open_file(file);
+    for (const VtkBlock& block : leaves_of(opened.xml ? opened.xml->read({}) : opened.legacy.Get())) {
+      const std::string name = name_of_block(piece, block);
+      if (std::string reason = why_not_volume(block.data); !reason.empty()) {
+        why = reason;
+        info.notes.push_back("block '" + name + "' " + reason + "; left out");
+        continue;
+      }
+      BlockInfo about = describe_block(block.data, name);
+      if (opened.xml) {
+        about.arrays.clear();
+        for (const XmlArray& array : opened.xml->scan().arrays) {
+          if (array.name == "vtkGhostType" || array.type == "String") continue;
+          about.arrays.push_back(
+              {array.name, array.on_points ? Association::kPoint : Association::kCell, array.components,
+               type_of_xml(array.type),
+               static_cast<std::size_t>(array.on_points ? about.point_count : about.cell_count)});
+        }
+      }
+      info.blocks.push_back(std::move(about));
+    }
+  }
+
+  static std::string name_of_block(const FilePiece& piece, const VtkBlock& block) {
+    if (piece.name.empty()) return block.name;
+    return block.name.empty() ? piece.name : piece.name + "/" + block.name;
+  }
+
   VtkErrors errors_;
-  std::string file_;
-  vtkSmartPointer<vtkDataObject> data_;
+  std::vector<FileStep> steps_;
+  std::size_t open_step_ = 0;
+  std::map<std::string, OpenFile> open_files_;
 };
 
 }  // namespace

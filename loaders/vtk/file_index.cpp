@@ -1,0 +1,188 @@
+#include "loaders/vtk/file_index.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.h"
+#include "common/load/sniff.h"
+#include "loaders/vtk/mapped_file.h"
+#include "loaders/vtk/xml_scan.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kMaxDepth = 8;
+constexpr std::size_t kMaxPieces = 1'000'000;
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// The blocks of a .vtm, also of those inside it.
+void add_blocks(const std::filesystem::path& file, int depth, std::vector<FilePiece>& pieces) {
+  if (depth > kMaxDepth) throw input_error({file.string(), "", "multi-block files are nested too deeply"});
+  const MappedFile mapped(file.string());
+  XmlTags tags(mapped.text());
+  XmlTag tag;
+  std::vector<std::string> groups;  // names of the <Block>s around
+  bool complete = false;
+  while (tags.next(tag)) {
+    if (tag.name == "VTKFile" && tag.closes) complete = true;
+    if (tag.name == "Block" || tag.name == "Partition") {
+      if (tag.opens && !tag.closes) groups.push_back(tag.at("name"));
+      if (tag.closes && !tag.opens && !groups.empty()) groups.pop_back();
+      continue;
+    }
+    if (tag.name != "DataSet" || !tag.opens || tag.at("file").empty()) continue;
+    std::string name = tag.at("name");
+    if (name.empty() && !groups.empty()) name = groups.back();
+    const std::filesystem::path path = file.parent_path() / tag.at("file");
+    if (find_format(path) == Format::kVtkMultiBlock) {
+      add_blocks(path, depth + 1, pieces);
+    } else {
+      pieces.push_back({path, name});
+    }
+    if (pieces.size() > kMaxPieces) throw input_error({file.string(), "", "names too many blocks"});
+  }
+  if (!complete)
+    throw input_error({file.string(), "", "its end is missing (no </VTKFile>)", "", "it may be truncated"});
+  if (pieces.empty() && depth == 0)
+    throw input_error({file.string(), "", "names no file", "a DataSet with a file"});
+}
+
+struct Entry {
+  double time = 0.0;
+  std::string file;
+  std::string name;
+};
+
+std::vector<Entry> read_pvd(const std::filesystem::path& file, std::string_view text) {
+  std::vector<Entry> entries;
+  XmlTags tags(text);
+  XmlTag tag;
+  bool complete = false;
+  while (tags.next(tag)) {
+    if (tag.name == "VTKFile" && tag.closes) complete = true;
+    if (tag.name != "DataSet" || !tag.opens) continue;
+    const std::string& time = tag.at("timestep");
+    const auto value = time.empty() ? std::optional<double>(0.0) : number_of(time);
+    if (!value) throw input_error({file.string(), "", "timestep=\"" + time.substr(0, 40) + "\"", "a number"});
+    entries.push_back({*value, tag.at("file"), tag.at("name")});
+    if (entries.size() > kMaxPieces) throw input_error({file.string(), "", "names too many files"});
+  }
+  if (!complete)
+    throw input_error({file.string(), "", "its end is missing (no </VTKFile>)", "", "it may be truncated"});
+  return entries;
+}
+
+/// {"file-series-version": "1.0", "files": [{"name": "a.vtu", "time": 0.0}, …]}
+std::vector<Entry> read_series(const std::filesystem::path& file, std::string_view text) {
+  const auto index = nlohmann::json::parse(text, nullptr, false);
+  std::vector<Entry> entries;
+  const bool shaped = index.is_object() && index.contains("files") && index["files"].is_array();
+  if (!shaped)
+    throw input_error(
+        {file.string(), "", "is no file series", "JSON with a list \"files\"", "it may be truncated"});
+  for (const auto& entry : index["files"]) {
+    const bool right = entry.is_object() && entry.contains("name") && entry["name"].is_string() &&
+                       (!entry.contains("time") || entry["time"].is_number());
+    if (!right) throw input_error({file.string(), "", "has an entry without a name or with a wrong time"});
+    entries.push_back(
+        {entry.value("time", static_cast<double>(entries.size())), entry["name"].get<std::string>(), ""});
+  }
+  return entries;
+}
+
+/// The last run of digits of a file's name, and what stands around it.
+struct NumberedName {
+  std::string before;
+  std::string digits;
+  std::string after;
+};
+
+NumberedName split_name(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::size_t end = stem.size();
+  while (end > 0 && !is_digit(stem[end - 1])) --end;
+  std::size_t start = end;
+  while (start > 0 && is_digit(stem[start - 1])) --start;
+  const std::string folder = file.parent_path().string() + "/";
+  return {folder + stem.substr(0, start), stem.substr(start, end - start),
+          stem.substr(end) + file.extension().string()};
+}
+
+bool counts_parts(const std::string& before) {
+  std::string word = std::filesystem::path(before).filename().string();
+  while (!word.empty() && std::isalpha(static_cast<unsigned char>(word.back())) == 0) word.pop_back();
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static constexpr std::array<std::string_view, 7> kWords{"block", "part", "piece", "domain",
+                                                          "zone",  "proc", "grid"};
+  return std::any_of(kWords.begin(), kWords.end(), [&word](std::string_view end) {
+    return word.size() >= end.size() && std::string_view(word).substr(word.size() - end.size()) == end;
+  });
+}
+
+}  // namespace
+
+std::vector<FileStep> read_index(const std::filesystem::path& file, Format format) {
+  if (format == Format::kVtkMultiBlock) {
+    FileStep step;
+    add_blocks(file, 0, step.pieces);
+    return {step};
+  }
+  const MappedFile mapped(file.string());
+  const bool json = mapped.text().find_first_not_of(" \t\r\n") != std::string_view::npos &&
+                    mapped.text()[mapped.text().find_first_not_of(" \t\r\n")] == '{';
+  std::map<double, FileStep> steps;
+  for (const Entry& entry : json ? read_series(file, mapped.text()) : read_pvd(file, mapped.text())) {
+    if (entry.file.empty()) throw input_error({file.string(), "", "has an entry without a file"});
+    FileStep& step = steps[entry.time];
+    step.time = entry.time;
+    step.pieces.push_back({file.parent_path() / entry.file, entry.name});
+  }
+  if (steps.empty()) throw input_error({file.string(), "", "names no file"});
+  std::vector<FileStep> list;
+  for (auto& [time, step] : steps) list.push_back(std::move(step));
+  return list;
+}
+
+std::vector<FileStep> arrange_files(const std::vector<std::filesystem::path>& files, std::string& note) {
+  std::vector<std::pair<double, std::filesystem::path>> numbered;
+  const NumberedName first = split_name(files.front());
+  std::set<double> numbers;
+  bool series = !first.digits.empty() && !counts_parts(first.before);
+  for (const auto& file : files) {
+    const NumberedName name = split_name(file);
+    series = series && name.before == first.before && name.after == first.after;
+    const double number = number_of(name.digits).value_or(0.0);
+    series = series && numbers.insert(number).second;
+    numbered.emplace_back(number, file);
+  }
+  const std::string count = std::to_string(files.size()) + " files";
+  if (series) {
+    note = count + " taken as a time series: their names differ in one number only";
+    std::sort(numbered.begin(), numbered.end());
+    std::vector<FileStep> steps;
+    for (const auto& [number, file] : numbered) steps.push_back({number, {{file, ""}}});
+    return steps;
+  }
+  note = count + " taken as blocks of one state";
+  FileStep step;
+  for (const auto& file : files) step.pieces.push_back({file, file.stem().string()});
+  return {step};
+}
+
+}  // namespace palpate

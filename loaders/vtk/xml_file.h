@@ -1,0 +1,37 @@
+/// One VTK XML file (.vti .vtr .vts .vtu) through VTK's reader, with the arrays asked for and no others.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+
+#include "loaders/vtk/vtk_errors.h"
+#include "loaders/vtk/xml_scan.h"
+
+class vtkDataSet;
+
+namespace palpate {
+
+class XmlFile {
+ public:
+  /// Scans the file and reads its topology. @throws Error (bad input).
+  XmlFile(const std::string& file, VtkErrors& errors);
+  ~XmlFile();
+  XmlFile(const XmlFile&) = delete;
+  XmlFile& operator=(const XmlFile&) = delete;
+
+  /// Reads the arrays of these names. The result lives as long as this object, until the next call.
+  /// @throws Error (bad input).
+  vtkDataSet* read(const std::set<std::string>& arrays);
+
+  [[nodiscard]] const XmlScan& scan() const noexcept { return scan_; }
+
+ private:
+  struct Reader;
+  std::string file_;
+  VtkErrors& errors_;
+  XmlScan scan_;
+  std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,56 @@
+/// A cheap pass over the tags of a VTK XML file before VTK's reader sees it: what arrays there are, and that
+/// every count in it can be true of a file of this size. VTK would allocate what a count claims.
+///
+/// File format: "VTK File Formats for VTK Version 4.2", "XML File Formats".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+/// One tag. Attribute values have their entities (&lt; …) resolved.
+struct XmlTag {
+  std::string name;     ///< "DataArray"
+  bool opens = false;   ///< <name …> or <name …/>
+  bool closes = false;  ///< </name> or <name …/>
+  std::map<std::string, std::string> attributes;
+
+  /// The attribute, or an empty string.
+  [[nodiscard]] const std::string& at(const std::string& attribute) const;
+};
+
+/// Walks from tag to tag; text, comments, declarations and anything malformed in between are passed over.
+class XmlTags {
+ public:
+  explicit XmlTags(std::string_view text) : text_(text) {}
+  /// False at the end of the text, also in the middle of a tag.
+  bool next(XmlTag& tag);
+  [[nodiscard]] std::size_t position() const noexcept { return at_; }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+struct XmlArray {
+  std::string name;
+  std::string type;  ///< "Float32"
+  int components = 1;
+  bool on_points = true;
+};
+
+struct XmlScan {
+  std::string data_type;         ///< "UnstructuredGrid"
+  std::vector<XmlArray> arrays;  ///< of PointData and CellData, of the first piece
+  std::string problem;           ///< what is wrong, or empty
+};
+
+/// Scans `text`, the whole file (binary appended data is not looked into).
+[[nodiscard]] XmlScan scan_xml(std::string_view text);
+
+}  // namespace palpate
