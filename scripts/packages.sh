@@ -4,7 +4,7 @@
 packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev"
 # The explorers: command line, session files, window, drawing.
 packages_explorer="libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
-  libglfw3-dev libimgui-dev libstb-dev"
+  libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev"
 # The tests: framework, benchmarks, virtual display, style.
