@@ -17,9 +17,11 @@ int main(int argc, char** argv) {
                      {"flow info disk_out_ref.ex2 --explain", "and what each verb would load"}}),
           trace_verb({{"flow trace carotid.vtk --seeds grid:8,8,8 --out lines.vtp",
                        "512 lines with time, speed and error at each point, for ParaView"},
-                      {"flow trace bluntfinxyz.bin --solution bluntfinq.bin --seeds random:200 --direction both --out lines.csv",
+                      {"flow trace bluntfinxyz.bin --solution bluntfinq.bin --seeds random:200 --direction "
+                       "both --out lines.csv",
                        "PLOT3D grid and solution; two lines a seed"},
-                      {"flow trace --example abc --seeds line:1,1,1,5,5,5,20 --tolerance 1e-8 --json --out lines.vtp",
+                      {"flow trace --example abc --seeds line:1,1,1,5,5,5,20 --tolerance 1e-8 --json --out "
+                       "lines.vtp",
                        "a built-in field; the counts as JSON"},
                       {"flow trace carotid.vtk --seeds seeds.csv --stop-plane 0,0,1,20 --out lines.vtp",
                        "seeds from a table; lines end on the plane z = 20"}}),

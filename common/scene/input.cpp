@@ -35,12 +35,13 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
     return std::abs(a - wanted) < std::abs(b - wanted);
   });
   const auto [lowest, highest] = std::minmax_element(times.begin(), times.end());
-  // Between two steps the nearer one is a fair answer, and so is rounding at the ends; far outside it is a slip.
+  // Between two steps the nearer one is a fair answer, and so is rounding at the ends; far outside it is a
+  // slip.
   const double interval = times.size() > 1 ? (*highest - *lowest) / static_cast<double>(times.size() - 1)
                                            : 1e-6 * std::abs(*lowest);
   if (std::abs(*nearest - wanted) > interval && wanted != *nearest) {
-    throw usage_error("--time " + std::string(text) + ": the data has times from " + exact_number(*lowest) + " to " +
-                      exact_number(*highest) + " (" + std::to_string(times.size()) + " steps)");
+    throw usage_error("--time " + std::string(text) + ": the data has times from " + exact_number(*lowest) +
+                      " to " + exact_number(*highest) + " (" + std::to_string(times.size()) + " steps)");
   }
   return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
 }
@@ -79,7 +80,9 @@ const std::vector<double>& Input::times() const noexcept {
   return source_ ? source_->info().times : kNone;
 }
 
-VectorChoice Input::choice() const { return choose_vector(arrays_, spec_.field, spec_.files.front().string()); }
+VectorChoice Input::choice() const {
+  return choose_vector(arrays_, spec_.field, spec_.files.front().string());
+}
 
 std::string Input::choice_sentence() const {
   if (!source_) return title_ + ": field velocity, a formula";
@@ -92,8 +95,8 @@ std::string Input::choice_sentence() const {
   }
   if (!others.empty()) text += "; others: " + others + " (--field)";
   if (times().size() > 1) {
-    text += "; time " + exact_number(times()[time_.step]) + " (step " + std::to_string(time_.step + 1) + " of " +
-            std::to_string(times().size()) + ")";
+    text += "; time " + exact_number(times()[time_.step]) + " (step " + std::to_string(time_.step + 1) +
+            " of " + std::to_string(times().size()) + ")";
   }
   return text;
 }

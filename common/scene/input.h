@@ -1,5 +1,5 @@
-/// The input of a scene: files or a built-in example, opened; its arrays are read and its field is made only on
-/// demand, so that what a verb does not need is not loaded.
+/// The input of a scene: files or a built-in example, opened; its arrays are read and its field is made only
+/// on demand, so that what a verb does not need is not loaded.
 #pragma once
 
 #include <cstddef>
@@ -67,11 +67,14 @@ class Input {
   /// @throws Error, Cancelled.
   [[nodiscard]] std::shared_ptr<const VectorField> load_field(int threads, Progress* progress = nullptr);
   /// Reads topology and arrays by name at the chosen time step. @pre file().
-  [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names, Progress* progress = nullptr);
+  [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names,
+                                          Progress* progress = nullptr);
 
   [[nodiscard]] double seconds_open() const noexcept { return seconds_open_; }
-  [[nodiscard]] double seconds_read() const noexcept { return seconds_read_; }    ///< of the last load_field()
-  [[nodiscard]] double seconds_field() const noexcept { return seconds_field_; }  ///< of the last load_field()
+  [[nodiscard]] double seconds_read() const noexcept { return seconds_read_; }  ///< of the last load_field()
+  [[nodiscard]] double seconds_field() const noexcept {
+    return seconds_field_;
+  }  ///< of the last load_field()
 
  private:
   InputSpec spec_;

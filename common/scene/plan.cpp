@@ -35,7 +35,8 @@ Need when(bool is_used, std::string what, std::string why_used, std::string why_
 }
 
 bool is_box(const FileInfo& file) {
-  return file.blocks.size() == 1 && (file.blocks[0].grid == "uniform" || file.blocks[0].grid == "rectilinear");
+  return file.blocks.size() == 1 &&
+         (file.blocks[0].grid == "uniform" || file.blocks[0].grid == "rectilinear");
 }
 
 void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
@@ -68,7 +69,8 @@ void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Ne
 
   plan_arrays(input, use, plan);
   if (file.times.size() > 1) {
-    plan.push_back(left_out(std::to_string(file.times.size() - 1) + " other time steps", "one is shown at a time"));
+    plan.push_back(
+        left_out(std::to_string(file.times.size() - 1) + " other time steps", "one is shown at a time"));
   }
   std::uint64_t points = 0;
   std::uint64_t cells = 0;
@@ -113,7 +115,8 @@ Needs plan_scene(const Input& input, const SceneUse& use) {
   }
   plan.push_back(left_out("derived fields (gradient, vorticity, Q, lambda-2)", "nothing asks for them"));
   plan.push_back(when(use.tracing, "tracing", "lines from the seeds", "this verb makes no lines"));
-  plan.push_back(when(use.drawing, "drawing: lines, outline, axes, colour bar", "the picture", "nothing is drawn"));
+  plan.push_back(
+      when(use.drawing, "drawing: lines, outline, axes, colour bar", "the picture", "nothing is drawn"));
   plan.push_back(when(use.window, "window and panels", "to look and touch", "nothing is shown"));
   plan.push_back(left_out("device drivers", "no probe is moved"));
   return plan;
@@ -132,7 +135,8 @@ void measure_plan(Needs& plan, const Input& input, const VectorField& field) {
     if (need.what == kBoxes) need.milliseconds = 1e3 * input.seconds_field();
     if (need.what == kTetrahedra && field.tet_mesh()) {
       need.milliseconds = 1e3 * input.seconds_field();
-      need.bytes = field.tet_mesh()->points().size() * sizeof(Vec3) + field.tet_mesh()->cells().size() * kBytesPerTet;
+      need.bytes =
+          field.tet_mesh()->points().size() * sizeof(Vec3) + field.tet_mesh()->cells().size() * kBytesPerTet;
     }
   }
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -107,15 +107,17 @@ SeedList read_csv(const std::string& file) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto value = column[axis] < cells.size() ? number(cells[column[axis]]) : std::nullopt;
       if (!value) {
-        throw input_error({file, "line " + std::to_string(row), "no finite number in column " + std::string(1, "xyz"[axis]),
-                           "three numbers x,y,z", ""});
+        throw input_error({file, "line " + std::to_string(row),
+                           "no finite number in column " + std::string(1, "xyz"[axis]), "three numbers x,y,z",
+                           ""});
       }
       x[static_cast<int>(axis)] = *value;
     }
     if (static_cast<double>(seeds.points.size()) >= kMostSeeds) check_total(kMostSeeds + 1.0, file);
     seeds.points.push_back(x);
   }
-  if (seeds.points.empty()) throw input_error({file, "", "holds no seed below its header", "rows of x,y,z", ""});
+  if (seeds.points.empty())
+    throw input_error({file, "", "holds no seed below its header", "rows of x,y,z", ""});
   return seeds;
 }
 
@@ -142,7 +144,8 @@ std::vector<Vec3> random_in_tets(const TetMesh& mesh, const LocalFrame& frame, s
   seeds.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto place = std::upper_bound(volume_up_to.begin(), volume_up_to.end(), uniform(random) * sum);
-    const auto cell = static_cast<std::size_t>(std::min(place, volume_up_to.end() - 1) - volume_up_to.begin());
+    const auto cell =
+        static_cast<std::size_t>(std::min(place, volume_up_to.end() - 1) - volume_up_to.begin());
     // The spacings of three sorted uniform numbers are uniform on the simplex.
     std::array<double, 3> u{uniform(random), uniform(random), uniform(random)};
     std::sort(u.begin(), u.end());
@@ -181,7 +184,8 @@ std::vector<Vec3> random_seeds(const VectorField& field, std::size_t count, std:
 
 std::vector<Vec3> grid_seeds(const Box& bounds, const Index3& n) {
   std::vector<Vec3> seeds;
-  seeds.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z));
+  seeds.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+                static_cast<std::size_t>(n.z));
   for (int k = 0; k < n.z; ++k) {
     for (int j = 0; j < n.y; ++j) {
       for (int i = 0; i < n.x; ++i) {
@@ -203,8 +207,8 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count, cons
     numbers.push_back(*value);
   }
   if (numbers.size() != count) {
-    throw usage_error("'" + std::string(text) + "' has " + std::to_string(numbers.size()) + " numbers, need " +
-                      std::to_string(count) + "; " + grammar);
+    throw usage_error("'" + std::string(text) + "' has " + std::to_string(numbers.size()) +
+                      " numbers, need " + std::to_string(count) + "; " + grammar);
   }
   return numbers;
 }
@@ -220,7 +224,8 @@ SeedSpec parse_seeds(const std::string& text) {
     const auto v = numbers(7);
     const int n = count_from(v[6], text);
     SeedList seeds;
-    for (int i = 0; i < n; ++i) seeds.points.push_back(glm::mix(vec_at(v, 0), vec_at(v, 3), fraction_of(i, n)));
+    for (int i = 0; i < n; ++i)
+      seeds.points.push_back(glm::mix(vec_at(v, 0), vec_at(v, 3), fraction_of(i, n)));
     return seeds;
   }
   if (kind == "plane") {
@@ -233,7 +238,8 @@ SeedSpec parse_seeds(const std::string& text) {
     const Vec3 b = vec_at(v, 6) - o;
     SeedList seeds;
     for (int j = 0; j < nb; ++j) {
-      for (int i = 0; i < na; ++i) seeds.points.push_back(o + fraction_of(i, na) * a + fraction_of(j, nb) * b);
+      for (int i = 0; i < na; ++i)
+        seeds.points.push_back(o + fraction_of(i, na) * a + fraction_of(j, nb) * b);
     }
     return seeds;
   }

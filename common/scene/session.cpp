@@ -1,14 +1,13 @@
 #include "common/scene/session.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+
 #include <toml++/toml.h>
-#include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/load/output_file.h"
 #include "common/scene/sha256.h"
 
 namespace palpate {
@@ -30,7 +29,8 @@ std::string stored_path(const std::filesystem::path& file, const std::filesystem
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& place, const std::string& found,
                        const std::string& expected) {
-  throw input_error({path.string(), place, found, expected, "save the session again, or give the options by hand"});
+  throw input_error(
+      {path.string(), place, found, expected, "save the session again, or give the options by hand"});
 }
 
 SessionInput read_input(const toml::node& node, const std::filesystem::path& path) {
@@ -40,7 +40,8 @@ SessionInput read_input(const toml::node& node, const std::filesystem::path& pat
   if (!file || file->empty()) fail(path, place, "an input without a file", "file = \"…\"");
   SessionInput input;
   input.file = (folder_of(path) / *file).lexically_normal();
-  input.bytes = static_cast<std::uint64_t>(std::max<std::int64_t>(0, (*table)["bytes"].value_or<std::int64_t>(0)));
+  input.bytes =
+      static_cast<std::uint64_t>(std::max<std::int64_t>(0, (*table)["bytes"].value_or<std::int64_t>(0)));
   input.sha256 = (*table)["sha256"].value_or(std::string());
   input.solution = (*table)["solution"].value_or(false);
   return input;
@@ -70,25 +71,11 @@ void save_session(const std::filesystem::path& path, const Session& session) {
   if (!inputs.empty()) root.insert("input", std::move(inputs));
   root.insert("scene", std::move(scene));
 
-  const std::filesystem::path temporary = path.string() + ".part" + std::to_string(getpid());
-  {
-    std::ofstream out(temporary);
-    out << root << '\n';
-    out.flush();
-    if (!out) {
-      const std::string why = std::strerror(errno);
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw work_error(path.string() + ": cannot be written: " + why);
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw work_error(path.string() + ": cannot be written: " + error.message());
-  }
+  std::ostringstream text;
+  text << root << '\n';
+  OutputFile file(path, true);
+  file.write(text.str());
+  file.finish();
 }
 
 Session load_session(const std::filesystem::path& path) {
@@ -136,7 +123,8 @@ std::vector<std::string> changed_inputs(const Session& session, const Progress* 
       sentences.push_back(input.file.string() + " is missing: " + error.message());
     } else if (!input.sha256.empty() &&
                (bytes != input.bytes || sha256_of_file(input.file, progress) != input.sha256)) {
-      sentences.push_back(input.file.string() + " has changed since the session was saved (checksum differs)");
+      sentences.push_back(input.file.string() +
+                          " has changed since the session was saved (checksum differs)");
     }
   }
   return sentences;

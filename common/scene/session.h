@@ -29,14 +29,14 @@ namespace palpate {
 struct SessionInput {
   std::filesystem::path file;  ///< as opened from here; absolute or relative to the current folder
   std::uint64_t bytes = 0;
-  std::string sha256;          ///< 64 hexadecimal digits
-  bool solution = false;       ///< a PLOT3D solution that goes with the other file
+  std::string sha256;     ///< 64 hexadecimal digits
+  bool solution = false;  ///< a PLOT3D solution that goes with the other file
 };
 
 struct Session {
-  std::string program;                                          ///< "flow"
-  std::vector<SessionInput> inputs;                             ///< none for a built-in example
-  std::vector<std::pair<std::string, std::string>> options;     ///< option name without dashes, value
+  std::string program;                                       ///< "flow"
+  std::vector<SessionInput> inputs;                          ///< none for a built-in example
+  std::vector<std::pair<std::string, std::string>> options;  ///< option name without dashes, value
 };
 
 /// Size and checksum of `file`.
@@ -52,6 +52,7 @@ void save_session(const std::filesystem::path& path, const Session& session);
 [[nodiscard]] Session load_session(const std::filesystem::path& path);
 
 /// One sentence for each input that is missing or no longer the file that the session was saved with.
-[[nodiscard]] std::vector<std::string> changed_inputs(const Session& session, const Progress* progress = nullptr);
+[[nodiscard]] std::vector<std::string> changed_inputs(const Session& session,
+                                                      const Progress* progress = nullptr);
 
 }  // namespace palpate

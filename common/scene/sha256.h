@@ -14,6 +14,7 @@ namespace palpate {
 
 /// Checksum of a file's content.
 /// @throws Error (bad input) where it cannot be read; Cancelled.
-[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file, const Progress* progress = nullptr);
+[[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file,
+                                         const Progress* progress = nullptr);
 
 }  // namespace palpate

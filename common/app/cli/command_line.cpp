@@ -1,12 +1,13 @@
 #include "common/app/cli/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <string_view>
+
+#include <CLI/CLI.hpp>
 
 #include "common/base/version.h"
 #include "common/scene/session.h"
@@ -15,7 +16,8 @@ namespace palpate {
 namespace {
 
 /// Options that may stand before the verb and take a value.
-constexpr std::array<std::string_view, 5> kValuedBeforeVerb{"--threads", "--seed", "--field", "--example", "--time"};
+constexpr std::array<std::string_view, 5> kValuedBeforeVerb{"--threads", "--seed", "--field", "--example",
+                                                            "--time"};
 
 const Verb* find_verb(const Explorer& explorer, std::string_view name) {
   for (const Verb& verb : explorer.verbs) {
@@ -36,9 +38,10 @@ std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<s
                 arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     return arguments;
   }
-  const bool only_asks = i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
-                           return a == "--help" || a == "-h" || a == "--version";
-                         });
+  const bool only_asks =
+      i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
+        return a == "--help" || a == "-h" || a == "--version";
+      });
   if (!only_asks) arguments.insert(arguments.begin(), explorer.default_verb);
   return arguments;
 }
@@ -89,7 +92,8 @@ class VerbParser {
     positive(options_.tracing.step, "--step");
     positive(options_.tracing.max_length, "--max-length");
     positive(options_.tracing.max_time, "--max-time");
-    if (options_.tracing.tolerance == 0.0) throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
+    if (options_.tracing.tolerance == 0.0)
+      throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
   }
 
  private:
@@ -104,7 +108,8 @@ class VerbParser {
   void add_common() {
     const char* group = "Common";
     CommonOptions& common = options_.common;
-    app_.add_flag("--json", common.json, "print one JSON object on stdout and nothing else there")->group(group);
+    app_.add_flag("--json", common.json, "print one JSON object on stdout and nothing else there")
+        ->group(group);
     app_.add_flag("--quiet,-q", common.quiet, "print nothing on stderr but errors")->group(group);
     app_.add_flag("--explain", common.explain, "print what is used, why, what it costs, and what is left out")
         ->group(group);
@@ -126,11 +131,14 @@ class VerbParser {
     app_.add_option("--solution", input.solution, "PLOT3D solution file that goes with the grid FILE")
         ->type_name("FILE")
         ->group(group);
-    scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME", group);
-    scene("--field", input.field, "the vector field; without it the likeliest one is taken and named", "NAME", group);
+    scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME",
+          group);
+    scene("--field", input.field, "the vector field; without it the likeliest one is taken and named", "NAME",
+          group);
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);
-    app_.add_option("--session", options_.session, "take files and options from a saved session; typed options win")
+    app_.add_option("--session", options_.session,
+                    "take files and options from a saved session; typed options win")
         ->type_name("FILE.toml")
         ->group(group);
   }
@@ -145,17 +153,21 @@ class VerbParser {
     scene("--direction", tracing.direction, "which way from each seed", "forward|backward|both", group)
         ->check(CLI::IsMember({"forward", "backward", "both"}));
     scene("--integrator", tracing.integrator,
-          "exact (tetrahedra), euler, rk4, bs32, rk34, dp54 or rodas4; default: exact on tetrahedra, dp54 elsewhere",
+          "exact (tetrahedra), euler, rk4, bs32, rk34, dp54 or rodas4; default: exact on tetrahedra, dp54 "
+          "elsewhere",
           "NAME", group);
     scene("--tolerance", tracing.tolerance,
-          "position error accumulated per diagonal travelled, relative to the diagonal; default 1e-6", "T", group);
-    scene("--step", tracing.step, "step length of euler and rk4; spacing of output points of the others", "LENGTH",
+          "position error accumulated per diagonal travelled, relative to the diagonal; default 1e-6", "T",
           group);
-    scene("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals", "LENGTH", group);
+    scene("--step", tracing.step, "step length of euler and rk4; spacing of output points of the others",
+          "LENGTH", group);
+    scene("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals", "LENGTH",
+          group);
     scene("--max-time", tracing.max_time, "longest time along a line, in data units", "TIME", group);
     scene("--max-steps", tracing.max_steps, "most steps of a line; default 1000000", "N", group)
         ->check(CLI::PositiveNumber);
-    scene("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated", "nx,ny,nz,d", group)
+    scene("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated",
+          "nx,ny,nz,d", group)
         ->delimiter(';')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -163,9 +175,10 @@ class VerbParser {
 
   void add_view() {
     const char* group = "View";
-    scene("--camera", options_.view.camera, "direction of view in degrees, and zoom", "azimuth,elevation,roll,zoom",
-          group);
-    scene("--color", options_.view.color, "what colours the lines: speed, time, error or a scalar array", "NAME", group);
+    scene("--camera", options_.view.camera, "direction of view in degrees, and zoom",
+          "azimuth,elevation,roll,zoom", group);
+    scene("--color", options_.view.color, "what colours the lines: speed, time, error or a scalar array",
+          "NAME", group);
   }
 
   void add_out(const Verb& verb) {
@@ -185,9 +198,11 @@ class VerbParser {
   }
 
   void add_effort() {
-    app_.add_flag_callback("--quick", [this] { options_.effort = "quick"; }, "fewer seeds and settings")
+    app_.add_flag_callback(
+            "--quick", [this] { options_.effort = "quick"; }, "fewer seeds and settings")
         ->group("Effort");
-    app_.add_flag_callback("--thorough", [this] { options_.effort = "thorough"; }, "more seeds and settings")
+    app_.add_flag_callback(
+            "--thorough", [this] { options_.effort = "thorough"; }, "more seeds and settings")
         ->group("Effort");
   }
 
@@ -219,7 +234,8 @@ ParsedCommand parse_once(const Explorer& explorer, std::vector<std::string> argu
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
-    parsed.text = (chosen.empty() ? app : *chosen.front()).help(chosen.empty() ? "" : explorer.name + " " + chosen.front()->get_name());
+    parsed.text = (chosen.empty() ? app : *chosen.front())
+                      .help(chosen.empty() ? "" : explorer.name + " " + chosen.front()->get_name());
     return parsed;
   } catch (const CLI::CallForVersion&) {
     parsed.text = version_text(explorer.name) + "\n";
@@ -241,7 +257,8 @@ std::vector<std::string> with_session(const std::vector<std::string>& arguments,
   const Session session = load_session(typed.session);
   std::vector<std::string> merged{arguments.front()};
   const auto is_typed = [&](const std::string& name) {
-    return std::any_of(typed.given.begin(), typed.given.end(), [&](const auto& option) { return option.first == name; });
+    return std::any_of(typed.given.begin(), typed.given.end(),
+                       [&](const auto& option) { return option.first == name; });
   };
   const bool input_typed = !typed.input.files.empty() || !typed.input.example.empty();
   for (const auto& [name, value] : session.options) {

@@ -19,6 +19,7 @@ struct ParsedCommand {
 /// Reads `arguments` (without the program's name). Where no verb is named, explorer.default_verb is meant. A
 /// session named by `--session` stands in front of what was typed, so typed options win.
 /// @throws Error (usage), (bad input) for a session file.
-[[nodiscard]] ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std::string>& arguments);
+[[nodiscard]] ParsedCommand parse_command_line(const Explorer& explorer,
+                                               const std::vector<std::string>& arguments);
 
 }  // namespace palpate

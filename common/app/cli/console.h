@@ -7,7 +7,8 @@ namespace palpate {
 
 class Console {
  public:
-  Console(std::string program, bool json, bool quiet) : program_(std::move(program)), json_(json), quiet_(quiet) {}
+  Console(std::string program, bool json, bool quiet)
+      : program_(std::move(program)), json_(json), quiet_(quiet) {}
 
   [[nodiscard]] bool json() const noexcept { return json_; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }

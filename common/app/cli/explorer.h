@@ -1,5 +1,5 @@
-/// What a program is to the command line: a name, a summary, examples, and verbs. `flow`, `cardiac`, `dtmri` and
-/// `grid` share everything else.
+/// What a program is to the command line: a name, a summary, examples, and verbs. `flow`, `cardiac`, `dtmri`
+/// and `grid` share everything else.
 #pragma once
 
 #include <functional>

@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <ctime>
 #include <mutex>
-#include <semaphore.h>
 #include <thread>
-#include <unistd.h>
 #include <vector>
+
+#include <semaphore.h>
+#include <unistd.h>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
@@ -67,14 +68,16 @@ struct InterruptGuard::State {
   }
 
   void watch() {
-    while (sem_wait(&signal_arrived) != 0) {}
+    while (sem_wait(&signal_arrived) != 0) {
+    }
     if (over) return;
     timespec end{};
     clock_gettime(CLOCK_REALTIME, &end);
     end.tv_nsec += kGraceNanoseconds;
     end.tv_sec += end.tv_nsec / 1'000'000'000;
     end.tv_nsec %= 1'000'000'000;
-    while (sem_timedwait(&signal_arrived, &end) != 0 && errno == EINTR) {}
+    while (sem_timedwait(&signal_arrived, &end) != 0 && errno == EINTR) {
+    }
     if (!over) end_now();
   }
 };

@@ -1,6 +1,7 @@
 #include "common/app/cli/json_output.h"
 
 #include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "common/base/version.h"
@@ -64,7 +65,8 @@ std::string error_json(const std::string& line, int exit_code) {
 
 std::string examples_json(const std::vector<ExampleInfo>& examples) {
   Json list = Json::array();
-  for (const ExampleInfo& example : examples) list.push_back({{"name", example.name}, {"summary", example.summary}});
+  for (const ExampleInfo& example : examples)
+    list.push_back({{"name", example.name}, {"summary", example.summary}});
   return text_of({{"examples", list}});
 }
 

@@ -32,9 +32,9 @@ struct InputOptions {
 
 /// Where lines start and how they are traced.
 struct TracingOptions {
-  std::string seeds;                  ///< grammar of scene/seeds.h; empty: the verb's default
-  std::string direction;              ///< forward, backward, both; empty: the verb's default
-  std::string integrator;             ///< empty: exact on tetrahedra, dp54 elsewhere
+  std::string seeds;       ///< grammar of scene/seeds.h; empty: the verb's default
+  std::string direction;   ///< forward, backward, both; empty: the verb's default
+  std::string integrator;  ///< empty: exact on tetrahedra, dp54 elsewhere
   double tolerance = 1e-6;
   double step = 0.0;
   double max_length = 0.0;
@@ -56,7 +56,7 @@ struct Options {
   ViewOptions view;
   std::filesystem::path out;
   std::string size = "1280x960";
-  int repeat = 0;            ///< render: frames to be timed after the first one
+  int repeat = 0;  ///< render: frames to be timed after the first one
   std::string effort = "normal";
   std::filesystem::path session;
   /// Options that were given, by the command line or a session, and their text: what a session saves.

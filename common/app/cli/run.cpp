@@ -20,7 +20,8 @@ std::string joined(const std::string& program, const std::vector<std::string>& a
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
 ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& context) {
   const auto interrupted = [&] {
-    context.console.fail("interrupted; " + context.interrupt.kept(), static_cast<int>(ExitCode::kInterrupted));
+    context.console.fail("interrupted; " + context.interrupt.kept(),
+                         static_cast<int>(ExitCode::kInterrupted));
     return ExitCode::kInterrupted;
   };
   try {

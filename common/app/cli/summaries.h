@@ -14,19 +14,19 @@ namespace palpate {
 struct TraceSummary {
   std::string input;
   std::string field;
-  std::string output;              ///< empty: none
+  std::string output;  ///< empty: none
   std::size_t seeds = 0;
   std::vector<Vec3> seed_points;
-  TraceResult result;              ///< lines included
+  TraceResult result;  ///< lines included
   double tolerance = 0.0;
   double diagonal = 0.0;
-  double max_length = 0.0;         ///< data units, as applied
+  double max_length = 0.0;  ///< data units, as applied
   int threads = 0;
   double seconds_load = 0.0;
   double seconds_write = 0.0;
-  std::vector<std::string> advice; ///< what to change
-  std::string failure;             ///< why there is no line; empty where there is one
-  Needs plan;                      ///< with --explain
+  std::vector<std::string> advice;  ///< what to change
+  std::string failure;              ///< why there is no line; empty where there is one
+  Needs plan;                       ///< with --explain
 };
 
 /// Range of an array's component.
@@ -48,14 +48,14 @@ struct InfoSummary {
   std::string field;                     ///< empty: no vector field can be made
   double max_speed = 0.0;
   Box bounds;
-  std::uint64_t memory_bytes = 0;        ///< arrays as stored
+  std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;
   double seconds_load = 0.0;
   struct VerbPlan {
     std::string verb;
     Needs plan;
   };
-  std::vector<VerbPlan> plans;           ///< with --explain
+  std::vector<VerbPlan> plans;  ///< with --explain
 };
 
 struct RenderSummary {

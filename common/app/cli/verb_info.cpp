@@ -58,7 +58,8 @@ std::string orientation_of(const DataSet& block) {
   const auto* uniform = std::get_if<UniformTopology>(&block.topology);
   if (!uniform) return "coordinates as stored";
   const Mat3& a = uniform->axes;
-  const bool aligned = a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
+  const bool aligned =
+      a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
   if (aligned) return "axes i, j, k along x, y, z; steps " + position_text({a[0].x, a[1].y, a[2].z});
   return "steps i " + position_text(a[0]) + ", j " + position_text(a[1]) + ", k " + position_text(a[2]);
 }
@@ -75,7 +76,8 @@ void read_all(Input& input, const Options& options, const VerbContext& context, 
   for (const DataSet& block : blocks) {
     context.progress.check();
     const std::string orientation = orientation_of(block);
-    if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) == summary.orientation.end()) {
+    if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) ==
+        summary.orientation.end()) {
       summary.orientation.push_back(orientation);
     }
     for (ArraySummary& array : summary.arrays) {
@@ -91,7 +93,8 @@ std::string range_text(const ArraySummary& array) {
   std::string text;
   for (const ComponentRange& range : array.ranges) {
     text += text.empty() ? "" : ", ";
-    text += range.lower <= range.upper ? short_number(range.lower) + " … " + short_number(range.upper) : "no value";
+    text += range.lower <= range.upper ? short_number(range.lower) + " … " + short_number(range.upper)
+                                       : "no value";
   }
   if (array.bad_values > 0) text += "; " + counted(array.bad_values, "value") + " NaN or infinite";
   return text;
@@ -106,26 +109,31 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
               std::to_string(block.points.z);
     }
     text += ", " + counted(block.point_count, "point") + ", " + counted(block.cell_count, "cell") + "\n";
-    text += "             " + position_text(block.bounds.lower) + " to " + position_text(block.bounds.upper) + "\n";
+    text += "             " + position_text(block.bounds.lower) + " to " + position_text(block.bounds.upper) +
+            "\n";
   }
   for (const std::string& orientation : summary.orientation) text += "  axes       " + orientation + "\n";
   text += "  units      not stated by the file\n";
   for (const ArraySummary& array : summary.arrays) {
-    text += "  array      " + array.info.name + " (" + (array.info.association == Association::kCell ? "cells" : "points") +
-            ", " + std::to_string(array.info.components) + " x " + name_of(array.info.type) + "): " + range_text(array) + "\n";
+    text += "  array      " + array.info.name + " (" +
+            (array.info.association == Association::kCell ? "cells" : "points") + ", " +
+            std::to_string(array.info.components) + " x " + name_of(array.info.type) +
+            "): " + range_text(array) + "\n";
   }
   if (file.times.size() > 1) {
-    text += "  times      " + std::to_string(file.times.size()) + ", " + short_number(file.times.front()) + " … " +
-            short_number(file.times.back()) + "\n";
+    text += "  times      " + std::to_string(file.times.size()) + ", " + short_number(file.times.front()) +
+            " … " + short_number(file.times.back()) + "\n";
   }
   return text;
 }
 
 std::string summary_text(const InfoSummary& summary) {
   const Input& input = *summary.input;
-  std::string text = input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
+  std::string text =
+      input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
   if (!input.file()) {
-    text += "  domain     " + position_text(summary.bounds.lower) + " to " + position_text(summary.bounds.upper) + "\n";
+    text += "  domain     " + position_text(summary.bounds.lower) + " to " +
+            position_text(summary.bounds.upper) + "\n";
   }
   if (summary.field.empty()) {
     text += "  field      no vector field can be made from these arrays\n";
@@ -149,7 +157,8 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
   InfoSummary summary;
   summary.input = &input;
   const bool has_field = !input.file() || !input.choices().empty();
-  if (!options.input.field.empty() && input.file()) (void)input.choice();  // an unknown --field is refused first
+  if (!options.input.field.empty() && input.file())
+    (void)input.choice();  // an unknown --field is refused first
   if (options.common.explain) {
     const bool field = has_field;
     summary.plans = {{"info", plan_scene(input, {.verb = "info", .field = field, .all_arrays = true})}};

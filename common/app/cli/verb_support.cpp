@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <system_error>
-#include <unistd.h>
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/verbs.h"
-#include "common/base/text.h"
+#include "common/field/analytic/examples.h"
 #include "common/scene/seeds.h"
 #include "common/scene/session.h"
 
@@ -28,15 +26,15 @@ InputSpec input_spec(const InputOptions& options) {
 
 bool list_examples(const Options& options, Console& console) {
   if (options.input.example != "list") return false;
-  const auto examples = example_list();
+  const std::vector<ExampleInfo> list = examples();
   std::size_t widest = 0;
-  for (const ExampleInfo& example : examples) widest = std::max(widest, example.name.size());
+  for (const ExampleInfo& entry : list) widest = std::max(widest, entry.name.size());
   std::string text;
-  for (const ExampleInfo& example : examples) {
-    text += example.name + std::string(widest + 2 - example.name.size(), ' ') + example.summary + "\n";
+  for (const ExampleInfo& entry : list) {
+    text += entry.name + std::string(widest + 2 - entry.name.size(), ' ') + entry.summary + "\n";
   }
   console.print(text);
-  console.print_json(examples_json(examples));
+  console.print_json(examples_json(list));
   return true;
 }
 
@@ -69,20 +67,6 @@ TraceOptions trace_options(const Options& options, const std::string& default_di
   for (const std::string& plane : tracing.stop_planes) trace.stop_rules.push_back(stop_plane(plane));
   trace.threads = options.common.threads;
   return trace;
-}
-
-void check_output_file(const std::filesystem::path& out, bool force) {
-  if (out.empty()) throw usage_error("no output: give --out FILE");
-  std::error_code error;
-  if (std::filesystem::is_directory(out, error)) throw usage_error(out.string() + ": is a folder; name a file in it");
-  if (std::filesystem::exists(out, error) && !force) {
-    throw usage_error(out.string() + ": exists already; --force overwrites it");
-  }
-  const auto folder = std::filesystem::absolute(out).parent_path();
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw work_error(folder.string() + ": no such folder for " + out.filename().string() + "; make it first");
-  }
-  if (access(folder.c_str(), W_OK) != 0) throw work_error(folder.string() + ": files cannot be written here");
 }
 
 }  // namespace palpate

@@ -13,16 +13,20 @@
 namespace palpate {
 namespace {
 
-constexpr double kDefaultDiagonals = 10.0;   // --max-length where it is not given (trace.h)
-constexpr std::size_t kMostSeedsNamed = 5;   // the JSON object names them all
+constexpr double kDefaultDiagonals = 10.0;  // --max-length where it is not given (trace.h)
+constexpr std::size_t kMostSeedsNamed = 5;  // the JSON object names them all
 
 std::string position_text(const Vec3& x) {
   return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";
 }
 
-std::string bounds_text(const Box& box) { return position_text(box.lower) + " to " + position_text(box.upper); }
+std::string bounds_text(const Box& box) {
+  return position_text(box.lower) + " to " + position_text(box.upper);
+}
 
-std::size_t count_of(const TraceResult& result, End end) { return result.ends[static_cast<std::size_t>(end)]; }
+std::size_t count_of(const TraceResult& result, End end) {
+  return result.ends[static_cast<std::size_t>(end)];
+}
 
 /// What to change where lines ended by a limit or by the data.
 std::vector<std::string> advice_for(const TraceSummary& summary) {
@@ -30,7 +34,8 @@ std::vector<std::string> advice_for(const TraceSummary& summary) {
   const TraceResult& result = summary.result;
   const auto add = [&](End end, const std::string& what) {
     const std::size_t count = count_of(result, end);
-    if (count > 0) advice.push_back(counted(count, "line") + " ended by " + std::string(name_of(end)) + ": " + what);
+    if (count > 0)
+      advice.push_back(counted(count, "line") + " ended by " + std::string(name_of(end)) + ": " + what);
   };
   add(End::kMaxLength, "--max-length above " + short_number(summary.max_length) + " follows them further");
   add(End::kMaxTime, "a longer --max-time follows them further");
@@ -44,7 +49,8 @@ std::string outside_text(const TraceSummary& summary, const Box& bounds) {
   const auto& outside = summary.result.outside_seeds;
   std::string text = counted(outside.size(), "seed") + " outside the data gave no line:";
   for (std::size_t i = 0; i < std::min(outside.size(), kMostSeedsNamed); ++i) {
-    text += (i == 0 ? " " : ", ") + std::to_string(outside[i]) + " " + position_text(summary.seed_points[outside[i]]);
+    text += (i == 0 ? " " : ", ") + std::to_string(outside[i]) + " " +
+            position_text(summary.seed_points[outside[i]]);
   }
   if (outside.size() > kMostSeedsNamed) text += ", …";
   return text + "; the data spans " + bounds_text(bounds);
@@ -61,7 +67,8 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
   const bool any = std::any_of(result.lines.begin(), result.lines.end(),
                                [](const Line& line) { return line.points.size() > 1; });
   if (any) return {};
-  if (field.max_speed() == 0.0) return "no line: field " + summary.field + " is zero everywhere; try another --field";
+  if (field.max_speed() == 0.0)
+    return "no line: field " + summary.field + " is zero everywhere; try another --field";
   if (count_of(result, End::kBadData) == result.lines.size()) {
     return "no line: every seed lies where the data is NaN, infinite or blanked; choose other --seeds";
   }
@@ -78,12 +85,14 @@ std::string summary_text(const TraceSummary& summary) {
   std::string ends;
   for (int e = 0; e < kEndCount; ++e) {
     const auto count = result.ends[static_cast<std::size_t>(e)];
-    if (count > 0) ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " + std::to_string(count);
+    if (count > 0)
+      ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
+              std::to_string(count);
   }
   text += "  ends       " + ends + "\n";
-  text += "  method     " + std::string(name_of(result.integrator)) + ", tolerance " + short_number(summary.tolerance) +
-          ", longest line allowed " + short_number(summary.max_length) + " (" +
-          short_number(summary.max_length / summary.diagonal) + " diagonals)\n";
+  text += "  method     " + std::string(name_of(result.integrator)) + ", tolerance " +
+          short_number(summary.tolerance) + ", longest line allowed " + short_number(summary.max_length) +
+          " (" + short_number(summary.max_length / summary.diagonal) + " diagonals)\n";
   text += "  error      at most " + short_number(result.error_max) + " by its own estimate, " +
           short_number(result.error_max / summary.diagonal) + " of the diagonal\n";
   text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +

@@ -1,7 +1,6 @@
 /// The verbs that all explorers share; each stands in a file of its own (verb_<name>.cpp).
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "common/app/cli/explorer.h"
@@ -30,10 +29,6 @@ namespace palpate {
 /// @param default_direction where `--direction` is not given.
 /// @throws Error (usage).
 [[nodiscard]] TraceOptions trace_options(const Options& options, const std::string& default_direction);
-
-/// Refuses an output file that exists (without --force) or whose folder cannot be written.
-/// @throws Error (usage for a missing --out or an existing file, work failed for the folder).
-void check_output_file(const std::filesystem::path& out, bool force);
 /// @}
 
 }  // namespace palpate

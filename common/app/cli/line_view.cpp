@@ -1,0 +1,45 @@
+#include "common/app/cli/line_view.h"
+
+#include "common/app/cli/verbs.h"
+#include "common/base/text.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+
+TraceOptions view_trace_options(const Options& options, const VectorField& field) {
+  TraceOptions trace = trace_options(options, "both");
+  if (trace.max_length == 0.0) trace.max_length = kViewDiagonals * field.diagonal();
+  return trace;
+}
+
+CameraAngles camera_angles(const std::string& text) {
+  CameraAngles angles;
+  if (text.empty()) return angles;
+  const auto v =
+      parse_numbers(text, 4, "--camera takes azimuth,elevation,roll,zoom in degrees, such as 30,20,0,1");
+  angles = {.azimuth = v[0], .elevation = v[1], .roll = v[2], .zoom = v[3]};
+  if (!(angles.zoom > 0.0)) throw usage_error("--camera " + text + ": the zoom must be above zero");
+  return angles;
+}
+
+LineStyle line_style(const std::string& color, const Input&) {
+  LineStyle style;
+  if (!color.empty()) style.color_by = color_by_from_name(color);
+  return style;
+}
+
+SceneView make_line_view(const Input& input, const VectorField& field,
+                         std::shared_ptr<const std::vector<Line>> lines, const Options& options,
+                         double aspect) {
+  SceneView view;
+  view.bounds = field.bounds();
+  view.lines = std::move(lines);
+  view.style = line_style(options.view.color, input);
+  view.title = input.title();
+  view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = make_camera(view.bounds, camera_angles(options.view.camera), aspect);
+  return view;
+}
+
+}  // namespace palpate

@@ -1,0 +1,37 @@
+/// What the render verb and the window show of a field: its lines, domain and labels.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/app/cli/options.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+#include "common/trace/trace.h"
+
+namespace palpate {
+
+/// Seeds of a global view where none are given: uniform in the volume, few enough to see through.
+inline constexpr const char* kViewSeeds = "random:300";
+/// Length of its lines in diagonals: longer ones fill the picture with the same few vortices.
+inline constexpr double kViewDiagonals = 1.0;
+
+/// The options of tracing with the defaults of a global view: both directions, lines of kViewDiagonals.
+[[nodiscard]] TraceOptions view_trace_options(const Options& options, const VectorField& field);
+
+/// "azimuth,elevation,roll,zoom"; empty: the default view.
+/// @throws Error (usage).
+[[nodiscard]] CameraAngles camera_angles(const std::string& text);
+
+/// How lines are coloured: a quantity that they carry (speed, time …) or the name of a scalar array.
+/// @throws Error (usage) that lists both.
+[[nodiscard]] LineStyle line_style(const std::string& color, const Input& input);
+
+/// A scene of `lines` seen by the camera that `options` name.
+/// @param aspect width / height of the picture.
+[[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,
+                                       std::shared_ptr<const std::vector<Line>> lines, const Options& options,
+                                       double aspect);
+
+}  // namespace palpate

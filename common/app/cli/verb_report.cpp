@@ -1,0 +1,118 @@
+#include <algorithm>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/text.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/report/report.h"
+#include "common/scene/plan.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+namespace {
+
+std::string default_seeds(Effort effort) {
+  switch (effort) {
+    case Effort::kQuick:
+      return "random:16";
+    case Effort::kThorough:
+      return "random:200";
+    default:
+      return "random:48";
+  }
+}
+
+std::string grid_sentence(const VectorField& field) {
+  if (const TetMesh* mesh = field.tet_mesh()) {
+    return "The grid has " + std::to_string(mesh->cells().size()) + " tetrahedra, linear in each.";
+  }
+  if (const BoxGrid* grid = field.box_grid()) {
+    const Index3 n = grid->points();
+    return "The grid has " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) +
+           " points, trilinear in each cell.";
+  }
+  return "The field is a formula.";
+}
+
+std::string results_text(const Report& report, const std::filesystem::path& out) {
+  std::string text = report.title + " -> " + (out / "index.html").string() + "\n";
+  for (const SweepRow& row : report.sweep.rows) {
+    text += "  " + row.method + std::string(8 - std::min<std::size_t>(7, row.method.size()), ' ') +
+            row.parameter + std::string(22 - std::min<std::size_t>(21, row.parameter.size()), ' ') +
+            "error " + short_number(row.error.p95) + " in " + short_number(row.seconds) + " s\n";
+  }
+  text += "  reference " + report.sweep.reference + ", within " + short_number(report.sweep.agreement.p95) +
+          " of " + report.sweep.second + "\n";
+  for (const StabilityCase& c : report.stability) {
+    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
+            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
+  }
+  return text;
+}
+
+ExitCode run_report(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, console)) return ExitCode::kDone;
+  if (options.out.empty()) throw usage_error("report needs a folder to make: try --out report");
+  const Effort effort = effort_from_name(options.effort);
+  const SeedSpec spec =
+      parse_seeds(options.tracing.seeds.empty() ? default_seeds(effort) : options.tracing.seeds);
+  TraceOptions trace = trace_options(options, "forward");
+  check_report_folder(options.out, options.common.force);
+
+  const Stopwatch watch;
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  Needs plan;
+  if (options.common.explain) plan = plan_scene(input, {.verb = "report", .tracing = true});
+  const auto field = input.load_field(options.common.threads, &context.progress);
+  const auto seeds = make_seeds(spec, *field, options.common.seed);
+
+  Report report;
+  report.title = context.explorer.name + ": " + input.title();
+  report.command_line = context.command_line;
+  report.machine = this_machine();
+  report.scene.push_back(input.choice_sentence());
+  report.scene.push_back(grid_sentence(*field));
+  report.scene.insert(report.scene.end(), field->notes().lines.begin(), field->notes().lines.end());
+  report.sweep = run_sweep(
+      *field,
+      {input.title() + ", " + field->name() + ", " + counted(seeds.size(), "seed"), seeds, trace, effort},
+      &context.progress);
+
+  StabilityRequest stability{.seeds = seeds, .trace = trace};
+  stability.trace.max_length = report.sweep.max_length;
+  if (input.file()) {
+    stability.choice = input.choice();
+    stability.file = input.spec().files.front().string();
+    stability.blocks = input.read(stability.choice.arrays, &context.progress);
+  }
+  report.stability = run_stability(stability, &context.progress);
+  report.seconds = watch.seconds();
+
+  context.interrupt.unfinished(unfinished_report_folder(options.out));
+  write_report(report, options.out, options.common.force);
+  context.interrupt.keep(options.out);
+  const auto failed = std::count_if(report.stability.begin(), report.stability.end(),
+                                    [](const StabilityCase& c) { return !c.row.holds; });
+  if (!plan.empty()) measure_plan(plan, input, *field);
+  console.print(results_text(report, options.out));
+  if (!plan.empty()) console.print(plan_text(plan));
+  console.print_json(report_summary_json(options.out.string(), report.sweep.rows.size(),
+                                         static_cast<std::size_t>(failed), report.seconds));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb report_verb(std::vector<UsageExample> examples) {
+  return {.name = "report",
+          .summary = "measure error against run time and stability on this very data",
+          .groups = {.tracing = true, .out = true, .effort = true},
+          .examples = std::move(examples),
+          .run = run_report};
+}
+
+}  // namespace palpate

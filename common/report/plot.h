@@ -1,0 +1,35 @@
+/// Log-log diagrams as SVG: axes with decades, grid, legend; readable in black and white by their markers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace palpate {
+
+struct PlotPoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+struct PlotSeries {
+  std::string name;
+  std::vector<PlotPoint> points;  ///< in order; those that are not positive and finite are left out
+};
+
+struct LogLogPlot {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<PlotSeries> series;
+  /// A horizontal line across the diagram, where positive: what lies below it means nothing.
+  double floor = 0.0;
+  std::string floor_label;
+};
+
+/// An SVG document. A diagram without a single point says so.
+[[nodiscard]] std::string svg(const LogLogPlot& plot);
+
+/// Text with &, <, > and quotes replaced, for SVG and HTML.
+[[nodiscard]] std::string escaped(const std::string& text);
+
+}  // namespace palpate

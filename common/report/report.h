@@ -1,0 +1,47 @@
+/// The report: what was measured, and the folder it is written to.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/report/machine.h"
+#include "common/report/stability.h"
+#include "common/report/sweep.h"
+
+namespace palpate {
+
+struct Report {
+  std::string title;  ///< "flow: carotid.vtk"
+  std::string command_line;
+  Machine machine;
+  std::vector<std::string> scene;  ///< sentences: what was opened, field, grid, notes
+  Sweep sweep;
+  std::vector<StabilityCase> stability;
+  double seconds = 0.0;  ///< that making the report took
+};
+
+/// Refuses a folder that exists, unless `replace` is set and it is empty or holds a report and nothing else.
+/// @throws Error (usage), (work failed) where it cannot be made.
+void check_report_folder(const std::filesystem::path& folder, bool replace);
+
+/// Name under which the folder is written until it is complete.
+[[nodiscard]] std::filesystem::path unfinished_report_folder(const std::filesystem::path& folder);
+
+/// Writes index.html, report.json, CSV tables and plots into a folder of another name, which then takes the
+/// name.
+/// @throws Error as check_report_folder().
+void write_report(const Report& report, const std::filesystem::path& folder, bool replace);
+
+/// @name The files of the folder
+/// @{
+[[nodiscard]] std::string report_json(const Report& report);
+[[nodiscard]] std::string report_page(const Report& report);
+[[nodiscard]] std::string work_precision_csv(const Report& report);
+[[nodiscard]] std::string stability_csv(const Report& report);
+/// Error against run time, and the stated against the true error.
+[[nodiscard]] std::string work_precision_plot(const Report& report);
+[[nodiscard]] std::string honesty_plot(const Report& report);
+/// @}
+
+}  // namespace palpate

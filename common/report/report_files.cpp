@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/load/output_file.h"
+#include "common/report/report.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 6> kFiles{"index.html",         "report.json",   "work_precision.csv",
+                                                 "work_precision.svg", "stability.csv", "stated_error.svg"};
+
+/// A folder made by write_report(), or an empty one.
+bool holds_only_a_report(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (std::find(kFiles.begin(), kFiles.end(), name) == kFiles.end()) return false;
+  }
+  return !error;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+fs::path without_trailing_slash(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  OutputFile file(path, false);
+  file.write(text);
+  file.finish();
+}
+
+}  // namespace
+
+std::string work_precision_csv(const Report& report) {
+  std::string out =
+      "subject,method,parameter,error_median,error_p95,error_max,error_stated,seconds,repeats,lines,points,"
+      "lines_compared,lines_in_sinks,lines_with_different_ends\n";
+  for (const SweepRow& row : report.sweep.rows) {
+    out += quoted(report.sweep.subject) + "," + row.method + "," + quoted(row.parameter) + "," +
+           exact_number(row.error.median) + "," + exact_number(row.error.p95) + "," +
+           exact_number(row.error.max) + "," + exact_number(row.error_estimate) + "," +
+           exact_number(row.seconds) + "," + std::to_string(row.repeats) + "," + std::to_string(row.lines) +
+           "," + std::to_string(row.points) + "," + std::to_string(row.error.compared) + "," +
+           std::to_string(row.error.sinks) + "," + std::to_string(row.error.different_ends) + "\n";
+  }
+  return out;
+}
+
+std::string stability_csv(const Report& report) {
+  std::string out = "case,measured,limit,holds,unit,meaning\n";
+  for (const StabilityCase& c : report.stability) {
+    out += quoted(c.row.name) + "," + exact_number(c.row.measured) + "," + exact_number(c.row.limit) + "," +
+           (c.row.holds ? "true" : "false") + "," + quoted(c.unit) + "," + quoted(c.meaning) + "\n";
+  }
+  return out;
+}
+
+void check_report_folder(const fs::path& given, bool replace) {
+  const fs::path folder = without_trailing_slash(given);
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) {
+    const bool is_folder = fs::is_directory(folder, error);
+    if (!replace) throw usage_error(given.string() + ": exists already; use --force to replace it");
+    if (!is_folder || !holds_only_a_report(folder)) {
+      throw usage_error(
+          given.string() +
+          ": is not a report; --force replaces only a folder that holds a report and nothing else");
+    }
+  }
+  const fs::path parent = fs::absolute(folder).parent_path();
+  if (!fs::is_directory(parent, error))
+    throw work_error(given.string() + ": there is no folder " + parent.string());
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    throw work_error(given.string() + ": cannot be made in " + parent.string() + " (" + std::strerror(errno) +
+                     ")");
+  }
+}
+
+fs::path unfinished_report_folder(const fs::path& given) {
+  const fs::path folder = without_trailing_slash(given);
+  return folder.parent_path() / ("." + folder.filename().string() + "." + std::to_string(getpid()) + ".part");
+}
+
+void write_report(const Report& report, const fs::path& given, bool replace) {
+  check_report_folder(given, replace);
+  const fs::path folder = without_trailing_slash(given);
+  const fs::path temporary = unfinished_report_folder(given);
+  const auto refuse = [&](const std::error_code& error) {
+    std::error_code ignored;
+    fs::remove_all(temporary, ignored);
+    throw work_error(given.string() + ": cannot be written (" + error.message() + ")");
+  };
+  std::error_code error;
+  if (!fs::create_directory(temporary, error) || error) refuse(error);
+  try {
+    write_file(temporary / "index.html", report_page(report));
+    write_file(temporary / "report.json", report_json(report));
+    write_file(temporary / "work_precision.csv", work_precision_csv(report));
+    write_file(temporary / "stability.csv", stability_csv(report));
+    write_file(temporary / "work_precision.svg", work_precision_plot(report));
+    write_file(temporary / "stated_error.svg", honesty_plot(report));
+  } catch (const Error&) {
+    fs::remove_all(temporary, error);
+    throw;
+  }
+  // The old report steps aside and comes back if the new one cannot take its place.
+  const fs::path old = temporary.string() + ".old";
+  const bool had_old = fs::exists(folder, error);
+  if (had_old) {
+    fs::rename(folder, old, error);
+    if (error) refuse(error);
+  }
+  fs::rename(temporary, folder, error);
+  if (error) {
+    std::error_code ignored;
+    if (had_old) fs::rename(old, folder, ignored);
+    refuse(error);
+  }
+  if (had_old) fs::remove_all(old, error);
+}
+
+}  // namespace palpate

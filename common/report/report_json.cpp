@@ -1,0 +1,66 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "common/report/report.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity; null says "not reached".
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json comparison(const LineComparison& c) {
+  return {{"median", number(c.median)}, {"p95", number(c.p95)},
+          {"max", number(c.max)},       {"lines_compared", c.compared},
+          {"lines_in_sinks", c.sinks},  {"lines_with_different_ends", c.different_ends}};
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json rows = Json::array();
+  for (const WorkPrecision& row : work_precision_rows(report.sweep)) {
+    rows.push_back({{"subject", row.subject},
+                    {"method", row.method},
+                    {"parameter", row.parameter},
+                    {"error", number(row.error)},
+                    {"error_kind", row.error_kind},
+                    {"seconds", row.seconds}});
+  }
+  Json cases = Json::array();
+  for (const StabilityCase& c : report.stability) {
+    cases.push_back({{"case", c.row.name},
+                     {"measured", number(c.row.measured)},
+                     {"limit", c.row.limit},
+                     {"holds", c.row.holds},
+                     {"unit", c.unit},
+                     {"meaning", c.meaning}});
+  }
+  const Machine& machine = report.machine;
+  const Json root{{"machine",
+                   {{"processor", machine.processor},
+                    {"cores", machine.cores},
+                    {"memory_bytes", machine.memory_bytes},
+                    {"system", machine.system},
+                    {"build", machine.build},
+                    {"version", machine.version}}},
+                  {"command_line", report.command_line},
+                  {"scene", report.scene},
+                  {"reference",
+                   {{"method", report.sweep.reference},
+                    {"independent_method", report.sweep.second},
+                    {"agreement", comparison(report.sweep.agreement)}}},
+                  {"threads", report.sweep.threads},
+                  {"seeds", report.sweep.seeds},
+                  {"seeds_outside", report.sweep.seeds_outside},
+                  {"max_length", report.sweep.max_length},
+                  {"work_precision", rows},
+                  {"stability", cases},
+                  {"seconds", report.seconds}};
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace palpate
