@@ -1,4 +1,5 @@
 /// flow: streamlines of CFD data, seen and followed.
+#include "apps/flow/open_verb.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -25,6 +26,16 @@ int main(int argc, char** argv) {
                        "a built-in field; the counts as JSON"},
                       {"flow trace carotid.vtk --seeds seeds.csv --stop-plane 0,0,1,20 --out lines.vtp",
                        "seeds from a table; lines end on the plane z = 20"}}),
+          render_verb({{"flow render carotid.vtk --out carotid.png --size 1920x1080",
+                        "a picture, with or without a display"},
+                       {"flow render --example tornado --camera 60,30,0,1.2 --color time --out tornado.png",
+                        "from another side, coloured by time"}}),
+          report_verb({{"flow report carotid.vtk --out report", "then open report/index.html"},
+                       {"flow report carotid.vtk --quick --seeds grid:3,3,3 --out report --force",
+                        "fewer lines, and in place of the last report"}}),
+          open_verb({{"flow carotid.vtk", "a file in the window"},
+                     {"flow --example abc", "a built-in data set"},
+                     {"flow open --session carotid.palpate.toml", "what Ctrl+S saved"}}),
       }};
   return run_explorer(flow, argc, argv);
 }

@@ -56,6 +56,9 @@ class Input {
   /// Moves to another time step. @pre step < times().size().
   void set_time_step(std::size_t step) noexcept { time_ = {step, true}; }
 
+  /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
+  void set_field(std::string name) { spec_.field = std::move(name); }
+
   /// The recipe of the field that spec().field means. @pre file().
   /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field.
   [[nodiscard]] VectorChoice choice() const;

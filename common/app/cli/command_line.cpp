@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -82,6 +83,12 @@ class VerbParser {
     return values;
   }
 
+  /// Whether a session may hold this option.
+  bool knows(const std::string& name) const {
+    return std::any_of(scene_options_.begin(), scene_options_.end(),
+                       [&](const CLI::Option* option) { return option->get_lnames().front() == name; });
+  }
+
   void check() const {
     const auto positive = [](double value, const char* name) {
       if (!(std::isfinite(value) && value >= 0.0)) {
@@ -118,9 +125,7 @@ class VerbParser {
         ->type_name("N")
         ->check(CLI::Range(0, 4096))
         ->group(group);
-    app_.add_option("--seed", common.seed, "start of the random numbers (random:n seeds)")
-        ->type_name("N")
-        ->group(group);
+    scene("--seed", common.seed, "start of the random numbers (random:n seeds)", "N", group);
   }
 
   void add_input() {
@@ -211,7 +216,15 @@ class VerbParser {
   std::vector<CLI::Option*> scene_options_;
 };
 
-ParsedCommand parse_once(const Explorer& explorer, std::vector<std::string> arguments) {
+/// Names of options that a session may hold: of the verb at hand, and of any verb.
+struct SceneOptionNames {
+  std::function<bool(const std::string&)> of_verb, of_any;
+};
+
+/// @param with_names called with the option names before everything is taken down.
+ParsedCommand parse_once(
+    const Explorer& explorer, std::vector<std::string> arguments,
+    const std::function<void(const ParsedCommand&, const SceneOptionNames&)>& with_names = {}) {
   ParsedCommand parsed;
   CLI::App app(explorer.summary, explorer.name);
   app.set_help_flag("--help,-h", "print this help");
@@ -249,11 +262,19 @@ ParsedCommand parse_once(const Explorer& explorer, std::vector<std::string> argu
   parsed.verb = find_verb(explorer, chosen->get_name());
   parsers.at(chosen)->check();
   parsed.options.given = parsers.at(chosen)->given();
+  if (with_names) {
+    with_names(parsed, {[&](const std::string& name) { return parsers.at(chosen)->knows(name); },
+                        [&](const std::string& name) {
+                          return std::any_of(parsers.begin(), parsers.end(),
+                                             [&](const auto& parser) { return parser.second->knows(name); });
+                        }});
+  }
   return parsed;
 }
 
 /// The arguments with the session's files and options in front, except what was typed.
-std::vector<std::string> with_session(const std::vector<std::string>& arguments, const Options& typed) {
+std::vector<std::string> with_session(const std::vector<std::string>& arguments, const Options& typed,
+                                      const SceneOptionNames& names) {
   const Session session = load_session(typed.session);
   std::vector<std::string> merged{arguments.front()};
   const auto is_typed = [&](const std::string& name) {
@@ -262,7 +283,11 @@ std::vector<std::string> with_session(const std::vector<std::string>& arguments,
   };
   const bool input_typed = !typed.input.files.empty() || !typed.input.example.empty();
   for (const auto& [name, value] : session.options) {
-    if (is_typed(name) || (name == "example" && input_typed)) continue;
+    if (!names.of_any(name)) {
+      throw input_error(
+          {typed.session.string(), "[scene]", "'" + name + "' is no option", "an option's name", ""});
+    }
+    if (is_typed(name) || !names.of_verb(name) || (name == "example" && input_typed)) continue;
     merged.push_back("--" + name + "=" + value);
   }
   if (!input_typed) {
@@ -282,9 +307,12 @@ std::vector<std::string> with_session(const std::vector<std::string>& arguments,
 
 ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std::string>& arguments) {
   const std::vector<std::string> ordered = with_verb_first(explorer, arguments);
-  ParsedCommand parsed = parse_once(explorer, ordered);
-  if (!parsed.verb || parsed.options.session.empty()) return parsed;
-  return parse_once(explorer, with_session(ordered, parsed.options));
+  std::vector<std::string> merged;
+  const auto merge = [&](const ParsedCommand& parsed, const SceneOptionNames& names) {
+    if (!parsed.options.session.empty()) merged = with_session(ordered, parsed.options, names);
+  };
+  ParsedCommand parsed = parse_once(explorer, ordered, merge);
+  return merged.empty() ? std::move(parsed) : parse_once(explorer, merged);
 }
 
 }  // namespace palpate

@@ -1,5 +1,10 @@
 #include "common/app/cli/line_view.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/app/cli/domain_outline.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/text.h"
 #include "common/scene/seeds.h"
@@ -22,6 +27,23 @@ CameraAngles camera_angles(const std::string& text) {
   return angles;
 }
 
+std::string camera_text(const Camera& camera, const Box& bounds, double aspect) {
+  const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
+  // The inverse of make_camera(): the axis towards the viewer gives azimuth and elevation, what is left is
+  // roll.
+  const Vec3 back = camera.axes[2];
+  CameraAngles angles;
+  angles.azimuth = degrees(std::atan2(back.x, -back.y));
+  angles.elevation = degrees(std::asin(std::clamp(back.z, -1.0, 1.0)));
+  const Camera level = make_camera(bounds, angles, aspect, camera.projection);
+  angles.roll =
+      -degrees(std::atan2(glm::dot(camera.axes[0], level.axes[1]), glm::dot(camera.axes[0], level.axes[0])));
+  angles.zoom = level.view_height / camera.view_height;
+  const auto rounded = [](double value) { return short_number(std::round(value * 1e3) / 1e3 + 0.0); };
+  return rounded(angles.azimuth) + "," + rounded(angles.elevation) + "," + rounded(angles.roll) + "," +
+         short_number(angles.zoom);
+}
+
 LineStyle line_style(const std::string& color, const Input&) {
   LineStyle style;
   if (!color.empty()) style.color_by = color_by_from_name(color);
@@ -34,6 +56,7 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   SceneView view;
   view.bounds = field.bounds();
   view.lines = std::move(lines);
+  view.outline = domain_outline(field);
   view.style = line_style(options.view.color, input);
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");

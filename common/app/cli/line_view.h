@@ -24,6 +24,9 @@ inline constexpr double kViewDiagonals = 1.0;
 /// @throws Error (usage).
 [[nodiscard]] CameraAngles camera_angles(const std::string& text);
 
+/// The angles of a camera that looks at the box, as `--camera` writes them; panning is not part of them.
+[[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
+
 /// How lines are coloured: a quantity that they carry (speed, time …) or the name of a scalar array.
 /// @throws Error (usage) that lists both.
 [[nodiscard]] LineStyle line_style(const std::string& color, const Input& input);

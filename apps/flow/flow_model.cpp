@@ -1,0 +1,196 @@
+#include "apps/flow/flow_model.h"
+
+#include <unistd.h>
+
+#include "common/app/cli/domain_outline.h"
+#include "common/app/cli/line_view.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/scene/seeds.h"
+#include "common/scene/session.h"
+
+namespace palpate {
+namespace {
+
+// Saved angles hold for any window; the zoom is stated for a picture of this shape.
+constexpr double kSessionAspect = 1.5;
+
+std::string grid_fact(const VectorField& field) {
+  if (const TetMesh* mesh = field.tet_mesh()) {
+    return std::to_string(mesh->points().size()) + " points, " + std::to_string(mesh->cells().size()) +
+           " tetrahedra";
+  }
+  if (const BoxGrid* grid = field.box_grid()) {
+    const Index3 n = grid->points();
+    return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " points";
+  }
+  return "a formula, exact everywhere";
+}
+
+std::shared_ptr<const SceneInfo> describe(const Input& input, const VectorField& field) {
+  auto info = std::make_shared<SceneInfo>();
+  info->name = input.title();
+  if (const FileInfo* file = input.file()) {
+    info->facts.push_back(file->format);
+    for (const VectorChoice& choice : input.choices()) info->fields.push_back(choice.label);
+    info->times = file->times;
+  } else {
+    info->fields.push_back(field.name());
+  }
+  info->facts.push_back(grid_fact(field));
+  info->facts.push_back("speed up to " + short_number(field.max_speed()));
+  for (const auto integrator : {Integrator::kExact, Integrator::kEuler, Integrator::kRk4, Integrator::kBs32,
+                                Integrator::kRk34, Integrator::kDp54, Integrator::kRodas4}) {
+    if (integrator == Integrator::kExact && !field.tet_mesh()) continue;
+    info->integrators.emplace_back(name_of(integrator));
+  }
+  info->bounds = field.bounds();
+  info->outline = domain_outline(field);
+  return info;
+}
+
+/// The settings as options: one grammar for the panel and the command line.
+Options with_settings(Options options, const SceneSettings& settings) {
+  options.input.field = settings.field;
+  options.tracing.integrator = settings.integrator;
+  options.tracing.seeds = settings.seeds;
+  options.tracing.direction = settings.direction;
+  options.tracing.tolerance = settings.tolerance;
+  options.tracing.step = settings.step;
+  options.tracing.max_length = settings.max_length;
+  options.common.seed = settings.random_seed;
+  return options;
+}
+
+SceneSettings settings_of(const Options& options, const std::string& field, std::size_t time_step) {
+  const TracingOptions& tracing = options.tracing;
+  return {.field = field,
+          .time_step = time_step,
+          .integrator = tracing.integrator,
+          .seeds = tracing.seeds.empty() ? kViewSeeds : tracing.seeds,
+          .direction = tracing.direction.empty() ? "both" : tracing.direction,
+          .tolerance = tracing.tolerance,
+          .step = tracing.step,
+          .max_length = tracing.max_length,
+          .random_seed = options.common.seed};
+}
+
+}  // namespace
+
+FlowModel::FlowModel(Options options, std::string program)
+    : options_(std::move(options)), program_(std::move(program)) {}
+
+FlowModel::Scene FlowModel::load(const Options& options, Progress& progress) {
+  progress.begin("opening", 0);
+  Input input = Input::open(input_spec(options.input), &progress);
+  auto field = input.load_field(options.common.threads, &progress);
+  auto info = describe(input, *field);
+  std::string label = input.file() ? input.choice().label : field->name();
+  const std::size_t time_step = input.time().step;
+  return {std::move(input), std::move(field), std::move(info), std::move(label), time_step};
+}
+
+SceneState FlowModel::trace(const Scene& scene, const Options& options, const SceneSettings& settings,
+                            Progress& progress) const {
+  const VectorField& field = *scene.field;
+  const auto seeds = make_seeds(parse_seeds(settings.seeds), field, settings.random_seed);
+  const TraceOptions trace = view_trace_options(with_settings(options, settings), field);
+  TraceResult result = trace_lines(field, seeds, trace, &progress);
+  SceneState state{
+      .info = scene.info,
+      .settings = settings,
+      .lines = std::make_shared<const std::vector<Line>>(std::move(result.lines)),
+      .ends = result.ends,
+      .seeds = seeds.size(),
+      .outside_seeds = result.outside_seeds.size(),
+      .error_max = result.error_max,
+      .seconds_load = scene.input.seconds_open() + scene.input.seconds_read() + scene.input.seconds_field(),
+      .seconds_trace = result.seconds_prepare + result.seconds_trace};
+  state.settings.integrator = name_of(result.integrator);
+  state.settings.max_length = trace.max_length;
+  if (const FileInfo* file = scene.input.file()) state.notes = file->notes;
+  state.notes.insert(state.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
+  return state;
+}
+
+SceneState FlowModel::start(Progress& progress) {
+  Scene scene = load(options_, progress);
+  SceneState state =
+      trace(scene, options_, settings_of(options_, scene.field_label, scene.time_step), progress);
+  scene_ = std::move(scene);
+  return state;
+}
+
+SceneState FlowModel::open(const std::vector<std::filesystem::path>& files, Progress& progress) {
+  // A new input starts afresh: fields, seeds and lengths of the old one mean nothing to it.
+  Options options;
+  options.common = options_.common;
+  options.input.files = files;
+  Scene scene = load(options, progress);
+  SceneState state =
+      trace(scene, options, settings_of(options, scene.field_label, scene.time_step), progress);
+  scene_ = std::move(scene);
+  options_ = std::move(options);
+  return state;
+}
+
+SceneState FlowModel::update(const SceneSettings& settings, Progress& progress) {
+  Scene& scene = *scene_;
+  if (settings.field != scene.field_label || settings.time_step != scene.time_step) {
+    const std::string old_label = scene.field_label;
+    const std::size_t old_step = scene.time_step;
+    try {
+      if (scene.input.file()) {
+        scene.input.set_field(settings.field);
+        scene.input.set_time_step(settings.time_step);
+      }
+      scene.field = scene.input.load_field(options_.common.threads, &progress);
+    } catch (...) {
+      scene.input.set_field(old_label);
+      scene.input.set_time_step(old_step);
+      throw;
+    }
+    scene.info = describe(scene.input, *scene.field);
+    scene.field_label = settings.field;
+    scene.time_step = settings.time_step;
+  }
+  return trace(scene, options_, settings, progress);
+}
+
+std::string FlowModel::save_session(const SceneSettings& settings, const SceneView& view) {
+  const Scene& scene = *scene_;
+  const InputSpec& spec = scene.input.spec();
+  Session session{.program = program_};
+  for (const auto& file : spec.files) session.inputs.push_back(describe_input(file, false));
+  if (spec.solution) session.inputs.push_back(describe_input(*spec.solution, true));
+  const auto add = [&session](const char* name, const std::string& value) {
+    if (!value.empty()) session.options.emplace_back(name, value);
+  };
+  add("example", spec.example);
+  add("field", scene.field_label);
+  const auto& times = scene.input.times();
+  if (times.size() > 1) add("time", exact_number(times[settings.time_step]));
+  add("seeds", settings.seeds);
+  add("seed", std::to_string(settings.random_seed));
+  add("direction", settings.direction);
+  add("integrator", settings.integrator);
+  add("tolerance", exact_number(settings.tolerance));
+  if (settings.step > 0.0) add("step", exact_number(settings.step));
+  if (settings.max_length > 0.0) add("max-length", exact_number(settings.max_length));
+  add("camera", camera_text(view.camera, view.bounds, kSessionAspect));
+  if (view.style.color_by != ColorBy::kArray) add("color", std::string(name_of(view.style.color_by)));
+
+  const std::string name =
+      (spec.files.empty() ? program_ + "-" + spec.example : spec.files.front().stem().string()) +
+      ".palpate.toml";
+  const auto beside = spec.files.empty() ? std::filesystem::path() : spec.files.front().parent_path();
+  const bool writable = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
+  const std::filesystem::path path = writable ? beside / name : std::filesystem::path(name);
+  palpate::save_session(path, session);
+  return path.string();
+}
+
+}  // namespace palpate

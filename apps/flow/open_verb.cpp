@@ -1,0 +1,76 @@
+#include "apps/flow/open_verb.h"
+
+#include <filesystem>
+
+#include "apps/flow/flow_model.h"
+#include "common/app/cli/line_view.h"
+#include "common/app/cli/verbs.h"
+#include "common/app/window/window.h"
+#include "common/base/version.h"
+#include "common/field/analytic/examples.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+/// The first name that is free: flow-tour.png, flow-tour-2.png, …
+std::filesystem::path free_name(const std::string& stem) {
+  std::filesystem::path path = stem + ".png";
+  for (int n = 2; std::filesystem::exists(path); ++n) path = stem + "-" + std::to_string(n) + ".png";
+  return path;
+}
+
+/// `flow` alone where there is no display: a picture of the first example.
+ExitCode headless_tour(Options options, const VerbContext& context) {
+  const std::string program = context.explorer.name;
+  options.out = free_name(program + "-tour");
+  context.console.note("no display here, so no window: drawing example " + options.input.example + " into " +
+                       options.out.string() + " instead");
+  const ExitCode code = render_verb({}).run(options, context);
+  if (code == ExitCode::kDone) {
+    context.console.note("next: " + program + " --example list, " + program +
+                         " render FILE --out picture.png, " + program +
+                         " trace FILE --seeds grid:8,8,8 --out lines.vtp");
+  }
+  return code;
+}
+
+ExitCode run_open(const Options& given, const VerbContext& context) {
+  Options options = given;
+  if (list_examples(options, context.console)) return ExitCode::kDone;
+  const bool nothing_named = options.input.files.empty() && options.input.example.empty();
+  if (nothing_named) options.input.example = examples().front().name;
+  (void)trace_options(options, "both");
+  const CameraAngles angles = camera_angles(options.view.camera);
+  if (!window_available()) {
+    if (nothing_named) return headless_tour(options, context);
+    throw work_error("no display, so no window; '" + context.explorer.name +
+                     " render' draws a picture without one: add --out picture.png");
+  }
+  if (options.common.explain) {
+    const Input input = open_input(options, context);
+    context.console.print(
+        plan_text(plan_scene(input, {.verb = "open", .tracing = true, .drawing = true, .window = true})));
+  }
+  FlowModel model(options, context.explorer.name);
+  WindowOptions window{.program = context.explorer.name,
+                       .angles = angles,
+                       .command_line = context.command_line,
+                       .version = version_text(context.explorer.name),
+                       .stop_requested = [] { return InterruptGuard::interrupted(); }};
+  if (!options.view.color.empty()) window.view.style.color_by = color_by_from_name(options.view.color);
+  run_window(model, window);
+  return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb open_verb(std::vector<UsageExample> examples) {
+  return {.name = "open",
+          .summary = "look at lines in a window (the verb that FILE alone stands for)",
+          .groups = {.tracing = true, .view = true},
+          .examples = std::move(examples),
+          .run = run_open};
+}
+
+}  // namespace palpate
