@@ -1,0 +1,56 @@
+#include "common/trace/domain.h"
+
+#include "common/trace/tet_crossing.h"
+
+namespace palpate {
+
+bool TetDomain::locate(const Vec3& x) {
+  TetPoint found;
+  if (!mesh_->mesh().locate(x, kNoCell, found)) return false;
+  load(found.cell);
+  return true;
+}
+
+void TetDomain::load(CellIndex cell) {
+  cell_ = cell;
+  AffineCell affine;
+  const TetMesh::Tet& tet = mesh_->mesh().cells()[static_cast<std::size_t>(cell)];
+  bad_ = !affine.load(mesh_->vertices(), tet, sign_);
+  const PackedVertex& corner = mesh_->vertices()[tet[3]];
+  corner_ = Pack4{corner.x, 0.0};
+  origin_ = Pack4{sign_ * corner.v, 0.0};
+  Mat3 gradient{0.0};
+  for (int j = 0; j < 3; ++j) {
+    const Vec3& g = affine.barycentric_gradient(j);
+    const Vec3 dv = sign_ * (mesh_->vertices()[tet[static_cast<std::size_t>(j)]].v - corner.v);
+    for (int axis = 0; axis < 3; ++axis) gradient[axis] += g[axis] * dv;
+    face_[static_cast<std::size_t>(j)] = g;
+  }
+  for (int axis = 0; axis < 3; ++axis) column_[static_cast<std::size_t>(axis)] = Pack4{gradient[axis], 0.0};
+  face_[3] = -(face_[0] + face_[1] + face_[2]);
+  face_offset_ = {0.0, 0.0, 0.0, 1.0};
+  size_ = affine.size();
+}
+
+bool TetDomain::cross(int face, Pack4& y, int& entry) {
+  const TetMesh& mesh = mesh_->mesh();
+  const CellIndex from = cell_;
+  const CellIndex next = mesh.neighbors()[static_cast<std::size_t>(from)][static_cast<std::size_t>(face)];
+  if (next == kNoCell) return false;
+  if (mesh.zero_volume(next)) {
+    const CellIndex beyond = sound_cell_beyond(mesh, next, from, y.xyz());
+    if (beyond == kNoCell) return false;
+    load(beyond);
+    entry = -1;
+    return true;
+  }
+  const TetMesh::Neighbors& back = mesh.neighbors()[static_cast<std::size_t>(next)];
+  entry = -1;
+  for (int i = 0; i < 4; ++i) {
+    if (back[static_cast<std::size_t>(i)] == from) entry = i;
+  }
+  load(next);
+  return true;
+}
+
+}  // namespace palpate

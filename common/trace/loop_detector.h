@@ -1,0 +1,58 @@
+/// Finds out that a line came back to itself, in constant work and storage a step.
+///
+/// Brent's scheme: an anchor is put on the line after 1, 2, 4, 8, … steps; a line that closes passes the
+/// plane through the anchor, normal to the flow there, again within its error. A loop of n steps is found
+/// after at most 3 n.
+#pragma once
+
+#include <cstdint>
+
+#include "common/geometry/line.h"
+#include "common/ode/root.h"
+#include "common/trace/line_builder.h"
+
+namespace palpate {
+
+class LoopDetector {
+ public:
+  void start() noexcept { *this = LoopDetector(); }
+
+  /// Looks at one piece. @param direction unit tangent at its end.
+  [[nodiscard]] bool closes(const DensePiece& piece, const LinePoint& begin, const LinePoint& end,
+                            const Vec3& direction) {
+    const double side = glm::dot(end.position - anchor_, normal_);
+    const bool crossed = side_ < 0.0 && side >= 0.0;
+    if (crossed && near_anchor(piece, begin, end, side)) return true;
+    side_ = side;
+    if (++steps_ >= next_) {
+      next_ = 2 * steps_;
+      anchor_ = end.position;
+      normal_ = direction;
+      side_ = 0.0;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double kErrors = 4.0;  ///< how many error estimates apart still count as the same point
+
+  [[nodiscard]] bool near_anchor(const DensePiece& piece, const LinePoint& begin, const LinePoint& end,
+                                 double side) const {
+    const double reach = (end.arc - begin.arc) + kErrors * end.error;
+    if (glm::distance(end.position, anchor_) > 2.0 * reach) return false;
+    constexpr double kThetaTolerance = 0x1p-46;
+    const double theta =
+        bracketed_root([&](double at) { return glm::dot(piece.at(at).position - anchor_, normal_); }, 0.0,
+                       1.0, side_, side, kThetaTolerance);
+    const LinePoint passing = piece.at(theta);
+    return glm::distance(passing.position, anchor_) <= kErrors * passing.error;
+  }
+
+  Vec3 anchor_{0.0};
+  Vec3 normal_{0.0};
+  double side_ = 0.0;
+  std::int64_t steps_ = 0;
+  std::int64_t next_ = 1;
+};
+
+}  // namespace palpate

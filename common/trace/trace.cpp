@@ -1,0 +1,158 @@
+#include "common/trace/trace.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/trace/exact_walk.h"
+#include "common/trace/line_builder.h"
+#include "common/trace/loop_detector.h"
+#include "common/trace/walk_factory.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::array<std::string_view, 7> kNames{"exact", "euler", "rk4", "bs32", "rk34", "dp54", "rodas4"};
+constexpr double kDefaultLength = 10.0;    // diagonals
+constexpr int kStepsBetweenChecks = 4096;  // a few milliseconds of work
+
+bool fixed_step(Integrator integrator) {
+  return integrator == Integrator::kEuler || integrator == Integrator::kRk4;
+}
+
+/// Follows one line to its end.
+void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
+  LoopDetector loop;
+  builder.start(walk.end());
+  for (std::int64_t n = 1;; ++n) {
+    const std::optional<End> ended = walk.advance();
+    if (walk.has_piece()) {
+      if (builder.add(walk, walk.end(), walk.turn_cosine())) return;
+      if (!ended && loop.closes(walk, walk.begin(), walk.end(), walk.direction())) {
+        builder.finish(End::kLoop);
+        return;
+      }
+    }
+    if (ended) {
+      builder.finish(*ended);
+      return;
+    }
+    if (progress != nullptr && n % kStepsBetweenChecks == 0) progress->check();
+  }
+}
+
+void check_options(const VectorField& field, const TraceOptions& options, Integrator integrator) {
+  const auto refuse = [](const std::string& line) { throw usage_error(line); };
+  if (integrator == Integrator::kExact && field.tet_mesh() == nullptr) {
+    refuse("integrator 'exact' needs a tetrahedral mesh; this field has none: use dp54");
+  }
+  if (!options.forward && !options.backward) refuse("a trace needs a direction: forward, backward or both");
+  if (!(options.tolerance > 0.0) || !(options.tolerance < 1.0)) {
+    refuse("tolerance must lie between 0 and 1, found " + std::to_string(options.tolerance));
+  }
+  const auto not_negative = [&](double value, const char* what) {
+    if (!(value >= 0.0)) refuse(std::string(what) + " must not be negative, found " + std::to_string(value));
+  };
+  not_negative(options.step, "step");
+  not_negative(options.max_length, "max length");
+  not_negative(options.max_time, "max time");
+  if (options.max_steps < 1) refuse("max steps must be at least 1");
+}
+
+}  // namespace
+
+std::string_view name_of(Integrator integrator) noexcept {
+  return kNames[static_cast<std::size_t>(integrator)];
+}
+
+Integrator integrator_from_name(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return static_cast<Integrator>(i);
+  }
+  std::string known;
+  for (const std::string_view each : kNames) known += (known.empty() ? "" : ", ") + std::string(each);
+  throw usage_error("unknown integrator '" + std::string(name) + "'; known are " + known);
+}
+
+Integrator default_integrator(const VectorField& field) noexcept {
+  return field.tet_mesh() != nullptr ? Integrator::kExact : Integrator::kDp54;
+}
+
+TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, const TraceOptions& options,
+                        Progress* progress) {
+  TraceResult result;
+  result.integrator = options.integrator.value_or(default_integrator(field));
+  check_options(field, options, result.integrator);
+
+  Stopwatch watch;
+  if (progress != nullptr) progress->begin("preparing", 0);
+  const LocalFrame& frame = field.frame();
+  const double to_local = power_of_two(-frame.length_exponent);
+  const double diagonal = field.diagonal() * to_local;
+  LineLimits limits;
+  limits.max_length = options.max_length > 0.0 ? options.max_length * to_local : kDefaultLength * diagonal;
+  if (options.max_time > 0.0) {
+    limits.max_time = options.max_time * power_of_two(frame.speed_exponent - frame.length_exponent);
+  }
+  limits.max_steps = options.max_steps;
+  limits.rules = options.stop_rules;
+  const bool fixed = fixed_step(result.integrator);
+  if (!fixed) limits.spacing = options.step * to_local;
+  WalkSettings settings;
+  settings.tolerance = options.tolerance;
+  settings.rest_distance = options.tolerance * diagonal;
+  settings.fixed_step = options.step > 0.0 ? options.step * to_local : default_fixed_step(field);
+  const WalkFactory factory(field, result.integrator, settings, options.threads);
+  result.seconds_prepare = watch.seconds();
+
+  watch.restart();
+  if (progress != nullptr) progress->begin("tracing", seeds.size());
+  const std::size_t per_seed = (options.forward ? 1u : 0u) + (options.backward ? 1u : 0u);
+  std::vector<Line> lines(seeds.size() * per_seed);
+  std::vector<std::uint8_t> inside(seeds.size(), 0);
+  parallel_for(seeds.size(), options.threads, [&](std::size_t first, std::size_t last) {
+    std::array<std::unique_ptr<LineWalk>, 2> walks;
+    for (std::size_t seed = first; seed < last; ++seed) {
+      if (progress != nullptr) progress->check();
+      const Vec3 x = frame.local_from_data(seeds[seed]);
+      std::size_t slot = seed * per_seed;
+      for (const TraceDirection direction : {TraceDirection::kForward, TraceDirection::kBackward}) {
+        const bool forward = direction == TraceDirection::kForward;
+        if (!(forward ? options.forward : options.backward)) continue;
+        std::unique_ptr<LineWalk>& walk = walks[forward ? 0 : 1];
+        if (!walk) walk = factory.make(direction);
+        if (!is_finite(x) || !walk->start(x)) break;
+        LineBuilder builder(frame, limits, direction);
+        follow(*walk, builder, progress);
+        lines[slot] = builder.take();
+        lines[slot].seed = static_cast<std::uint32_t>(seed);
+        ++slot;
+        inside[seed] = 1;
+      }
+      if (progress != nullptr) progress->advance();
+    }
+  });
+
+  for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+    if (inside[seed] == 0) {
+      result.outside_seeds.push_back(static_cast<std::uint32_t>(seed));
+      continue;
+    }
+    for (std::size_t i = 0; i < per_seed; ++i) {
+      Line& line = lines[seed * per_seed + i];
+      ++result.ends[static_cast<std::size_t>(line.end)];
+      result.points += line.points.size();
+      for (const LinePoint& point : line.points) result.error_max = std::max(result.error_max, point.error);
+      result.lines.push_back(std::move(line));
+    }
+  }
+  result.seconds_trace = watch.seconds();
+  return result;
+}
+
+}  // namespace palpate
