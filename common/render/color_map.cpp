@@ -94,27 +94,27 @@ Table make_table(ColorMap map) {
   Table table{};
   switch (map) {
     case ColorMap::kSequential: {
-      // Starts at L* = 27 so that the low end still stands out from a dark background.
-      constexpr std::array<Lch, 8> kColors{{{27, 48, 304},
-                                            {37, 46, 285},
-                                            {47, 37, 258},
-                                            {57, 31, 224},
-                                            {67, 38, 178},
-                                            {77, 54, 141},
-                                            {86, 68, 115},
-                                            {94, 76, 101}}};
+      // Starts at L* = 35 so that the low end still stands out from a dark background.
+      constexpr std::array<Lch, 8> kColors{{{35, 54, 304},
+                                            {43, 50, 286},
+                                            {51, 39, 260},
+                                            {60, 32, 224},
+                                            {69, 39, 178},
+                                            {78, 55, 141},
+                                            {87, 69, 115},
+                                            {94, 70, 102}}};
       fill_evenly(kColors, table);
       break;
     }
     case ColorMap::kHeat: {
-      constexpr std::array<Lch, 8> kColors{{{27, 40, 325},
-                                            {37, 54, 352},
-                                            {47, 66, 14},
-                                            {57, 70, 34},
-                                            {67, 64, 53},
-                                            {77, 57, 70},
-                                            {86, 51, 85},
-                                            {95, 38, 98}}};
+      constexpr std::array<Lch, 8> kColors{{{33, 42, 325},
+                                            {41, 56, 352},
+                                            {49, 67, 14},
+                                            {58, 70, 34},
+                                            {66, 65, 52},
+                                            {74, 60, 67},
+                                            {82, 56, 80},
+                                            {90, 50, 92}}};
       fill_evenly(kColors, table);
       break;
     }

@@ -27,7 +27,8 @@ struct FrameBlock {
 
 struct Palette {
   Rgb top, bottom, outline, plain_line;
-  float fading;  // share of the background that the farthest lines take on
+  float highlight;  // added at most, linear light: a light background swallows bright highlights
+  float fading;     // share of the background that the farthest lines take on
 };
 
 Palette palette(Background background) {
@@ -36,9 +37,15 @@ Palette palette(Background background) {
             {0.055F, 0.060F, 0.068F},
             {0.40F, 0.43F, 0.47F},
             {0.80F, 0.83F, 0.88F},
+            0.26F,
             0.62F};
   }
-  return {{1.0F, 1.0F, 1.0F}, {0.955F, 0.960F, 0.968F}, {0.62F, 0.65F, 0.69F}, {0.32F, 0.36F, 0.42F}, 0.55F};
+  return {{1.0F, 1.0F, 1.0F},
+          {0.955F, 0.960F, 0.968F},
+          {0.62F, 0.65F, 0.69F},
+          {0.32F, 0.36F, 0.42F},
+          0.10F,
+          0.55F};
 }
 
 std::vector<std::vector<Vec3>> box_edges(const Box& box) {

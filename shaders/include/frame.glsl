@@ -6,7 +6,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 up;
   vec4 back;               // toward the viewer
   vec4 size;               // x, y: picture in pixels; z: N units a pixel at the focal point; w: focal distance
-  vec4 depth_cue;          // x, y: depths between which lines fade; z: share of fading at the far end
+  vec4 depth_cue;          // x, y: depths between which lines fade; z: share of fading at the far end; w: strength of highlights
   vec4 background_top;     // sRGB
   vec4 background_bottom;  // sRGB
 } frame;

@@ -38,7 +38,7 @@ void main() {
   vec3 srgb = base_color(t);
 
   if (coloring != 3) {
-    const float kAmbient = 0.18, kDiffuse = 0.92, kSpecular = 0.38;
+    const float kAmbient = 0.20, kDiffuse = 0.92;
     const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
     const float kShininess = 48.0;
     vec3 light = normalize(frame.back.xyz + 0.55 * frame.up.xyz - 0.45 * frame.right.xyz);
@@ -47,7 +47,7 @@ void main() {
     float facing = sqrt(max(0.0, 1.0 - u * u));
     float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
     float specular = pow(shine.y, kShininess) * facing;
-    srgb = encode_srgb(decode_srgb(srgb) * (kAmbient + kDiffuse * diffuse) + kSpecular * specular);
+    srgb = encode_srgb(decode_srgb(srgb) * (kAmbient + kDiffuse * diffuse) + frame.depth_cue.w * specular);
   }
 
   // Depth cue: farther lines take on the background.

@@ -42,9 +42,15 @@ bool choose(const char* label, std::string& chosen, const std::vector<std::strin
   return changed;
 }
 
-bool logarithmic_slider(const char* label, double& value, double lower, double upper) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, "%.1e",
-                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+// A slider over whole decades; a value between them stays until the slider is moved.
+bool decade_slider(const char* label, double& value, int lower, int upper) {
+  int decade = static_cast<int>(std::lround(std::log10(value)));
+  if (!ImGui::SliderInt(label, &decade, lower, upper, short_number(value).c_str(),
+                        ImGuiSliderFlags_AlwaysClamp)) {
+    return false;
+  }
+  value = std::pow(10.0, decade);
+  return true;
 }
 
 void draw_input(const SceneState& scene) {
@@ -104,19 +110,19 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   static const std::vector<std::string> kDirections{"forward", "backward", "both"};
   choose("direction", settings.direction, kDirections);
   choose("integrator", settings.integrator, info.integrators);
-  constexpr double kTightest = 1e-12, kLoosest = 1e-2;
-  if (settings.integrator == "euler" || settings.integrator == "rk4") {
-    const double diagonal = info.bounds.diagonal();
-    double step = settings.step > 0.0 ? settings.step : 1e-3 * diagonal;
-    if (diagonal > 0.0 && logarithmic_slider("step", step, 1e-5 * diagonal, 0.1 * diagonal))
-      settings.step = step;
-  } else {
-    logarithmic_slider("tolerance", settings.tolerance, kTightest, kLoosest);
-  }
   const double diagonal = info.bounds.diagonal();
+  constexpr double kDefaultStep = 1e-3, kDefaultLength = 10.0;  // diagonals
+  if (settings.integrator == "euler" || settings.integrator == "rk4") {
+    constexpr int kFinest = -6, kCoarsest = -1;
+    double step = diagonal > 0.0 && settings.step > 0.0 ? settings.step / diagonal : kDefaultStep;
+    if (decade_slider("step / diagonal", step, kFinest, kCoarsest)) settings.step = step * diagonal;
+  } else {
+    constexpr int kTightest = -12, kLoosest = -2;
+    decade_slider("tolerance", settings.tolerance, kTightest, kLoosest);
+  }
   if (diagonal > 0.0) {
     constexpr double kShortest = 0.01, kLongest = 100.0;
-    double length = settings.max_length > 0.0 ? settings.max_length / diagonal : 10.0;
+    double length = settings.max_length > 0.0 ? settings.max_length / diagonal : kDefaultLength;
     if (ImGui::SliderScalar("max length", ImGuiDataType_Double, &length, &kShortest, &kLongest,
                             "%.2f diagonals", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
       settings.max_length = length * diagonal;
@@ -236,17 +242,27 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::SetNextWindowPos(place(layout.picture.left, layout.picture.top + layout.picture.height));
   ImGui::SetNextWindowSize(place(layout.picture.width, layout.status_height));
   ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
-  if (!state.message.empty() && state.message_is_error) {
-    ImGui::TextColored({0.93F, 0.36F, 0.30F, 1.0F}, "%s", state.message.c_str());
-  } else if (!state.message.empty()) {
-    ImGui::TextUnformatted(state.message.c_str());
-  } else if (state.scene != nullptr) {
-    ImGui::TextUnformatted(status_text(*state.scene).c_str());
-  }
   std::array<char, 48> frame{};
   std::snprintf(frame.data(), frame.size(), "%.1f ms", state.frame_ms);
-  const float width = ImGui::CalcTextSize(frame.data()).x;
-  ImGui::SameLine(ImGui::GetWindowWidth() - width - ImGui::GetStyle().WindowPadding.x);
+  const float frame_width = ImGui::CalcTextSize(frame.data()).x;
+  const float right = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
+
+  // Cut where the time begins; all of it is in the tooltip.
+  const std::string words = !state.message.empty()   ? state.message
+                            : state.scene != nullptr ? status_text(*state.scene)
+                                                     : std::string();
+  const ImVec2 corner = ImGui::GetWindowPos();
+  ImGui::PushClipRect(
+      corner, {corner.x + right - frame_width - ImGui::GetFontSize(), corner.y + ImGui::GetWindowHeight()},
+      true);
+  if (state.message_is_error && !state.message.empty()) {
+    ImGui::TextColored({0.93F, 0.36F, 0.30F, 1.0F}, "%s", words.c_str());
+  } else {
+    ImGui::TextUnformatted(words.c_str());
+  }
+  ImGui::PopClipRect();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
+  ImGui::SameLine(right - frame_width);
   ImGui::TextDisabled("%s", frame.data());
   ImGui::End();
 }

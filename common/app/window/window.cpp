@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-
-#include <epoxy/gl.h>
-// GLFW after epoxy, which brings the OpenGL declarations.
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include "common/app/window/background_job.h"

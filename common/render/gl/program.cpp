@@ -31,34 +31,35 @@ std::string_view included_path(std::string_view line) {
 }
 
 void append_file(std::string_view path, std::string_view who, std::span<const ShaderFile> files,
-                 ShaderSource& source) {
-  if (std::find(source.files.begin(), source.files.end(), path) != source.files.end()) return;
+                 std::vector<std::string>& taken, ShaderSource& source) {
+  if (std::find(taken.begin(), taken.end(), path) != taken.end()) return;
   std::string_view rest = find_file(path, files, who);
-  const std::size_t number = source.files.size();
-  source.files.emplace_back(path);
-  // `#version` has to be the first line of all, so that the file that has it gets no #line before it.
-  if (number > 0) source.text += "#line 1 " + std::to_string(number) + "\n";
-  for (int line_number = 1; !rest.empty(); ++line_number) {
+  taken.emplace_back(path);
+  for (int number = 1; !rest.empty(); ++number) {
     const auto end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (const std::string_view wanted = included_path(line); !wanted.empty()) {
-      append_file(wanted, path, files, source);
-      source.text += "#line " + std::to_string(line_number + 1) + " " + std::to_string(number) + "\n";
+      append_file(wanted, path, files, taken, source);
     } else {
       source.text.append(line).append("\n");
+      source.lines.push_back({std::string(path), number});
     }
   }
 }
 
-// Drivers write "0:12(5): error: ..." (Mesa) or "0(12) : error ..." (others): file number, then line.
+// The first line of the driver's log with the file's own name and line. Drivers write "0:12(5): error: ..."
+// (Mesa) or "0(12) : error ..." (others): number of the string, then the line in it.
 std::string readable(const std::string& log, const ShaderSource& source) {
-  const std::string line = log.substr(0, log.find('\n'));
-  std::size_t number = 0;
-  const char* end = line.data() + line.size();
-  const auto [after, problem] = std::from_chars(line.data(), end, number);
-  if (problem != std::errc() || number >= source.files.size()) return line;
-  return source.files[number] + std::string(after, end);
+  const std::string first = log.substr(0, log.find('\n'));
+  const auto digits = first.find_first_of("0123456789", first.find_first_of(":("));
+  if (digits == std::string::npos) return first;
+  std::size_t line = 0;
+  const char* const end = first.data() + first.size();
+  const auto [after, problem] = std::from_chars(first.data() + digits, end, line);
+  if (problem != std::errc() || line < 1 || line > source.lines.size()) return first;
+  const ShaderSource::Origin& origin = source.lines[line - 1];
+  return origin.file + ":" + std::to_string(origin.line) + std::string(after, end);
 }
 
 GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile> files) {
@@ -83,7 +84,8 @@ GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile
 
 ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files) {
   ShaderSource source;
-  append_file(path, {}, files, source);
+  std::vector<std::string> taken;
+  append_file(path, {}, files, taken, source);
   return source;
 }
 

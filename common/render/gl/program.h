@@ -25,8 +25,13 @@ struct ShaderFile {
 
 /// A source with its includes put in.
 struct ShaderSource {
+  /// Where a line of the text comes from. Not told through `#line`: drivers drop its file number.
+  struct Origin {
+    std::string file;
+    int line = 1;
+  };
   std::string text;
-  std::vector<std::string> files;  ///< file k stands in `#line n k`
+  std::vector<Origin> lines;  ///< one a line of the text
 };
 
 /// Puts in the includes of `path`, looked up in `files`.

@@ -1,0 +1,137 @@
+#include "common/render/line/line_geometry.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/render/line/line_values.h"
+#include "tests/common/render/sample_scenes.h"
+
+namespace palpate {
+namespace {
+
+const SceneFrame kUnit{};
+
+TEST(LineGeometry, TangentsBisectTheChords) {
+  const LineGeometry g =
+      make_line_geometry(std::vector<std::vector<Vec3>>{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}}, kUnit);
+  ASSERT_EQ(g.vertices.size(), 3U);
+  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 1}));
+  const float s = std::sqrt(0.5F);
+  EXPECT_EQ(g.vertices[0].tangent, Vec3f(1, 0, 0));
+  EXPECT_NEAR(glm::distance(g.vertices[1].tangent, Vec3f(s, s, 0)), 0.0F, 1e-6F);
+  EXPECT_EQ(g.vertices[2].tangent, Vec3f(0, 1, 0));
+}
+
+TEST(LineGeometry, DoublePointsAndNanLeaveSegmentsOutAndNothingElse) {
+  const double nan = std::nan("");
+  const LineGeometry g =
+      make_line_geometry(std::vector<std::vector<Vec3>>{{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}},
+                                                        {},
+                                                        {{5, 5, 5}},
+                                                        {{0, 1, 0}, {nan, 1, 0}, {2, 1, 0}, {3, 1, 0}}},
+                         kUnit);
+  EXPECT_EQ(g.vertices.size(), 9U);
+  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 2, 7}));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(g.vertices[static_cast<std::size_t>(i)].tangent, Vec3f(1, 0, 0)) << i;
+}
+
+TEST(LineGeometry, LineThatTurnsBackHasATangent) {
+  const LineGeometry g =
+      make_line_geometry(std::vector<std::vector<Vec3>>{{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}}, kUnit);
+  EXPECT_EQ(g.vertices[1].tangent, Vec3f(1, 0, 0));
+}
+
+TEST(LineGeometry, SegmentsAreSortedFromFarToNear) {
+  LineGeometry g = make_line_geometry(
+      std::vector<std::vector<Vec3>>{{{0, 0, 3}, {1, 0, 3}}, {{0, 0, 1}, {1, 0, 1}}, {{0, 0, 2}, {1, 0, 2}}},
+      kUnit);
+  sort_back_to_front(g.segments, g.vertices, {0, 0, 1});
+  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{2, 4, 0}));
+  sort_back_to_front(g.segments, g.vertices, {0, 0, -1});
+  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 4, 2}));
+}
+
+std::vector<Line> one_line(const std::vector<double>& speeds) {
+  Line line;
+  for (const double speed : speeds) line.points.push_back({Vec3(0.0), 0.0, 0.0, speed, speed});
+  return {line};
+}
+
+TEST(ValueRange, LeavesOutliersAndNonsenseAside) {
+  std::vector<double> speeds;
+  for (int i = 0; i <= 1000; ++i) speeds.push_back(i);
+  speeds.push_back(1e9);
+  speeds.push_back(std::nan(""));
+  speeds.push_back(std::numeric_limits<double>::infinity());
+  const ValueRange range = value_range(one_line(speeds), {});
+  EXPECT_NEAR(range.lower, 5.0, 1.0);
+  EXPECT_NEAR(range.upper, 996.0, 1.0);
+}
+
+TEST(ValueRange, DivergingMapsAreCentredAndLogarithmsPositive) {
+  LineStyle style;
+  style.color_map = ColorMap::kDiverging;
+  const ValueRange centred = value_range(one_line({-1.0, 2.0, 4.0}), style);
+  EXPECT_EQ(centred.lower, -4.0);
+  EXPECT_EQ(centred.upper, 4.0);
+  LineStyle errors;
+  errors.color_by = ColorBy::kError;
+  const ValueRange positive = value_range(one_line({0.0, 1e-9, 1e-3}), errors);
+  EXPECT_EQ(positive.lower, 1e-9);
+  EXPECT_EQ(positive.upper, 1e-3);
+  EXPECT_EQ(value_range({}, {}), ValueRange{});
+}
+
+TEST(MapCoordinates, GoFromZeroToOneOverTheRange) {
+  EXPECT_EQ(map_coordinates({1.0, 2.0, 3.0, -7.0, 9.0}, {}, {1.0, 3.0}),
+            (std::vector<float>{0, 0.5F, 1, 0, 1}));
+  EXPECT_EQ(map_coordinates({5.0}, {}, {5.0, 5.0}), (std::vector<float>{0.5F}));
+  EXPECT_TRUE(std::isnan(map_coordinates({std::nan("")}, {}, {0.0, 1.0}).front()));
+  LineStyle errors;
+  errors.color_by = ColorBy::kError;
+  const auto decades = map_coordinates({1e-9, 1e-7, 1e-5, 0.0}, errors, {1e-9, 1e-5});
+  EXPECT_NEAR(decades[1], 0.5F, 1e-6F);
+  EXPECT_EQ(decades[3], 0.0F);
+}
+
+TEST(MapCoordinates, ScalingByAPowerOfTwoChangesNothing) {
+  const double scale = std::ldexp(1.0, 60);
+  std::vector<double> values, scaled;
+  for (int i = 0; i < 100; ++i) {
+    values.push_back(std::sqrt(i + 1.0));
+    scaled.push_back(values.back() * scale);
+  }
+  EXPECT_EQ(map_coordinates(values, {}, {1.1, 9.7}), map_coordinates(scaled, {}, {1.1 * scale, 9.7 * scale}));
+}
+
+TEST(LineValues, ArrayOfTheWrongLengthIsRefused) {
+  LineStyle style;
+  style.color_by = ColorBy::kArray;
+  auto array = std::make_shared<LineArray>();
+  array->values = {1.0F, 2.0F};
+  style.array = array;
+  EXPECT_THROW((void)line_values(one_line({1.0, 2.0, 3.0}), style), Error);
+  EXPECT_EQ(line_values(one_line({7.0, 8.0}), style), (std::vector<double>{1.0, 2.0}));
+}
+
+TEST(ColorLabel, SaysTheUnitWhereItIsKnown) {
+  LineStyle style;
+  EXPECT_EQ(color_label(style, {}), "speed");
+  EXPECT_EQ(color_label(style, {"m", "s"}), "speed [m/s]");
+  style.color_by = ColorBy::kError;
+  EXPECT_EQ(color_label(style, {"mm", ""}), "error estimate [mm]");
+}
+
+TEST(ColorBy, NamesAreReadBack) {
+  for (int i = 0; i < kColorByCount; ++i) {
+    const auto by = static_cast<ColorBy>(i);
+    EXPECT_EQ(color_by_from_name(name_of(by)), by);
+  }
+  EXPECT_THROW((void)color_by_from_name("charm"), Error);
+}
+
+}  // namespace
+}  // namespace palpate
