@@ -9,8 +9,6 @@
 namespace palpate {
 namespace {
 
-/// Bytes that may follow the data.
-constexpr std::uint64_t kMaxPadding = 4096;
 /// No file holds more points than this; products of dimensions stay below 2^63.
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 40;
 constexpr std::uint32_t kMaxGrids = 100'000;
@@ -90,6 +88,13 @@ std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
   return size;
 }
 
+/// Whether the last `padding` bytes of the file are known to be zeros.
+bool zero_padding(std::span<const std::byte> tail, std::uint64_t padding) {
+  if (padding > tail.size()) return false;
+  const auto end = tail.last(padding);
+  return std::all_of(end.begin(), end.end(), [](std::byte b) { return b == std::byte{0}; });
+}
+
 /// Whether the first numbers could be coordinates or flow values: a wrong byte order or precision shows as
 /// NaN or as absurd magnitudes.
 bool plausible_numbers(const Reader& reader, const Plot3dLayout& layout) {
@@ -126,7 +131,7 @@ std::optional<Plot3dLayout> find_plot3d_layout(const Plot3dBytes& bytes, Plot3dF
     const auto layout = read_dimensions(reader, assumed);
     if (!layout) continue;
     const std::uint64_t expected = expected_size(*layout, kind);
-    if (expected > bytes.file_size || bytes.file_size - expected > kMaxPadding) continue;
+    if (expected > bytes.file_size || !zero_padding(bytes.tail, bytes.file_size - expected)) continue;
     // The right size to the byte counts more than numbers that look right; both beat the order above.
     const int score = (expected == bytes.file_size ? 2 : 0) + (plausible_numbers(reader, *layout) ? 1 : 0);
     if (score > best_score) {

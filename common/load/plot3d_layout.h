@@ -34,14 +34,17 @@ enum class Plot3dFile : std::uint8_t { kGrid, kSolution };
 /// What a reader of bytes needs to know of a file: its size and some bytes of it.
 struct Plot3dBytes {
   std::span<const std::byte> head;  ///< from the start of the file, up to kPlot3dHeadBytes
+  std::span<const std::byte> tail;  ///< the end of the file, up to kPlot3dTailBytes
   std::uint64_t file_size = 0;
 };
 /// Enough for the dimensions of some five thousand grids.
 inline constexpr std::size_t kPlot3dHeadBytes = std::size_t{64} << 10;
+/// Some programs pad their files with zeros, up to this.
+inline constexpr std::size_t kPlot3dTailBytes = 4096;
 
 /// The layout under which the file's size fits its own dimensions, or nothing. Three-dimensional files only
 /// (every dimension at least 2). Where several fit (rare), one whose first numbers are finite is taken.
-/// Up to 4 KiB of anything after the data is allowed: some programs pad.
+/// Zeros after the data are allowed, up to kPlot3dTailBytes.
 [[nodiscard]] std::optional<Plot3dLayout> find_plot3d_layout(const Plot3dBytes& bytes, Plot3dFile kind);
 
 /// "big endian, 1 grid, single precision, no record marks, no blanking"

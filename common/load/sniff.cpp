@@ -136,14 +136,15 @@ Sniffed sniff(const FileHead& head) {
   if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {
     return {Format::kOpenFoam, "", ""};
   }
-  if (find_plot3d_layout({head.bytes, head.file_size}, Plot3dFile::kGrid)) return {Format::kPlot3d, "", ""};
-  if (find_plot3d_layout({head.bytes, head.file_size}, Plot3dFile::kSolution)) {
+  if (find_plot3d_layout({head.bytes, head.tail, head.file_size}, Plot3dFile::kGrid))
+    return {Format::kPlot3d, "", ""};
+  if (find_plot3d_layout({head.bytes, head.tail, head.file_size}, Plot3dFile::kSolution)) {
     return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
   }
   return {{}, "not recognised (it starts with \"" + printable(text) + "\")", ""};
 }
 
-HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes) {
+HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::size_t tail_bytes) {
   // O_NONBLOCK: opening a pipe must not wait for a writer.
   const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!fd) {
@@ -158,16 +159,23 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes) {
 
   HeadOfFile head;
   head.file_size = static_cast<std::uint64_t>(status.st_size);
-  head.bytes.resize(std::min<std::uint64_t>(bytes, head.file_size));
-  std::size_t have = 0;
-  while (have < head.bytes.size()) {
-    const ssize_t got = ::read(fd.get(), head.bytes.data() + have, head.bytes.size() - have);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
-    if (got == 0) break;
-    have += static_cast<std::size_t>(got);
-  }
-  head.bytes.resize(have);
+  const auto read_part = [&](std::uint64_t offset, std::uint64_t count) {
+    std::string part(count, '\0');
+    std::size_t have = 0;
+    while (have < part.size()) {
+      const ssize_t got =
+          ::pread(fd.get(), part.data() + have, part.size() - have, static_cast<off_t>(offset + have));
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+      if (got == 0) break;
+      have += static_cast<std::size_t>(got);
+    }
+    part.resize(have);
+    return part;
+  };
+  head.bytes = read_part(0, std::min<std::uint64_t>(bytes, head.file_size));
+  const std::uint64_t tail = std::min<std::uint64_t>(tail_bytes, head.file_size);
+  head.tail = read_part(head.file_size - tail, tail);
   return head;
 }
 
@@ -177,7 +185,7 @@ Format find_format(const std::filesystem::path& path) {
     if (is_openfoam_case(path)) return Format::kOpenFoam;
     refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
   }
-  const HeadOfFile head = read_head(path, kSniffBytes);
+  const HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);
   const std::string ending = lower_ending(path);
   if (ending == ".foam" || ending == ".openfoam") {
     // By custom an empty file that only marks the case's folder.
@@ -186,7 +194,8 @@ Format find_format(const std::filesystem::path& path) {
     refuse(path, "marks no OpenFOAM case", "system/controlDict and constant/ beside it");
   }
   if (head.file_size == 0) refuse(path, "is empty", kReadable);
-  const Sniffed sniffed = sniff({std::as_bytes(std::span(head.bytes)), head.file_size, ending});
+  const Sniffed sniffed = sniff(
+      {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size, ending});
   if (!sniffed.format) refuse(path, sniffed.found, kReadable, sniffed.remedy);
   return *sniffed.format;
 }

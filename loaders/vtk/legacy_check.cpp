@@ -83,6 +83,7 @@ class Walk {
  private:
   void section(const std::string& keyword) {
     keyword_ = keyword;
+    section_place_ = place();
     if (keyword == "DATASET") {
       (void)word();
     } else if (keyword == "DIMENSIONS" || keyword == "EXTENT") {
@@ -90,9 +91,11 @@ class Walk {
     } else if (keyword == "SPACING" || keyword == "ASPECT_RATIO" || keyword == "ORIGIN") {
       (void)line();
     } else if (keyword == "POINTS") {
-      values(times(count(), 3), word());
+      const std::uint64_t number = count();
+      values(times(number, 3), word());
     } else if (keyword == "X_COORDINATES" || keyword == "Y_COORDINATES" || keyword == "Z_COORDINATES") {
-      values(count(), word());
+      const std::uint64_t number = count();
+      values(number, word());
     } else if (keyword == "CELLS" || keyword == "VERTICES" || keyword == "LINES" || keyword == "POLYGONS" ||
                keyword == "TRIANGLE_STRIPS") {
       const std::uint64_t cells = count();
@@ -152,6 +155,7 @@ class Walk {
           throw Impossible{place() + "the file ends after " + std::to_string(i) + " of " +
                            std::to_string(arrays) + " arrays"};
         keyword_ = name;
+        section_place_ = place();
         const std::uint64_t components = count();
         const std::uint64_t tuples = count();
         values(times(components, tuples), word());
@@ -188,7 +192,7 @@ class Walk {
   }
 
   [[noreturn]] void impossible(std::uint64_t number, std::string_view type, std::uint64_t left) {
-    throw Impossible{place() + keyword_.substr(0, 60) + " claims " +
+    throw Impossible{section_place_ + keyword_.substr(0, 60) + " claims " +
                      (number == kHuge ? "over 2^63" : std::to_string(number)) + " values of type " +
                      std::string(type.substr(0, 20)) + ", but " + std::to_string(left) +
                      " bytes are left in the file"};
@@ -265,6 +269,7 @@ class Walk {
   int binary_sections_ = 0;
   std::uint64_t tuples_ = 0;
   std::string keyword_;
+  std::string section_place_;  ///< where the keyword stands
 };
 
 }  // namespace

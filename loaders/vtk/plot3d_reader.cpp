@@ -17,8 +17,9 @@ namespace palpate {
 namespace {
 
 Plot3dLayout layout_of(const std::string& file, Plot3dFile kind) {
-  const HeadOfFile head = read_head(file, kPlot3dHeadBytes);
-  const auto layout = find_plot3d_layout({std::as_bytes(std::span(head.bytes)), head.file_size}, kind);
+  const HeadOfFile head = read_head(file, kPlot3dHeadBytes, kPlot3dTailBytes);
+  const auto layout = find_plot3d_layout(
+      {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size}, kind);
   if (!layout) {
     throw input_error({file, "",
                        "its " + std::to_string(head.file_size) + " bytes fit no layout of a binary PLOT3D " +
@@ -66,17 +67,30 @@ class Plot3dReader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    const std::set<std::string> wanted(names.begin(), names.end());
+    std::set<std::string> wanted(names.begin(), names.end());
+    if (grid_.blanking) wanted.insert("IBlank");
     vtkDataObject* data = run(!solution_file_.empty() && !names.empty());
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : leaves_of(data)) {
       blocks.push_back(convert_block(block.data, block.name, wanted, grid_file_));
+      if (grid_.blanking) apply_blanking(blocks.back());
     }
     check_blocks(blocks.size());
     return blocks;
   }
 
  private:
+  /// The blanked points are those where iblank is 0. VTK hides the cells around them, from which they could
+  /// not be told apart from their neighbours.
+  static void apply_blanking(DataSet& block) {
+    const auto iblank = std::find_if(block.arrays.begin(), block.arrays.end(),
+                                     [](const DataArray& array) { return array.name == "IBlank"; });
+    if (iblank == block.arrays.end()) return;
+    block.visible.resize(iblank->tuples);
+    for (std::size_t p = 0; p < iblank->tuples; ++p) block.visible[p] = iblank->at(p) != 0.0 ? 1 : 0;
+    block.arrays.erase(iblank);
+  }
+
   void check_solution() const {
     if (solution_.grids != grid_.grids) {
       const Index3 n = grid_.grids.front();

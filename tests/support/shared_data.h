@@ -12,7 +12,7 @@ namespace palpate::test {
 
 }  // namespace palpate::test
 
-/// Defines `path`, or skips the test saying what was missing.
-#define PALPATE_NEED_DATA(path, relative)                                    \
-  const std::filesystem::path path = ::palpate::test::shared_data(relative); \
-  if (path.empty()) GTEST_SKIP() << "sample data missing: " << (relative)
+/// Defines the path `variable`, or skips the test saying what was missing.
+#define PALPATE_NEED_DATA(variable, relative)                                    \
+  const std::filesystem::path variable = ::palpate::test::shared_data(relative); \
+  if (variable.empty()) GTEST_SKIP() << "sample data missing: " << (relative)

@@ -1,0 +1,157 @@
+// The cheap checks that look at a file before its reader does.
+#include <gtest/gtest.h>
+
+#include "loaders/nrrd/nrrd_check.h"
+#include "loaders/vtk/legacy_check.h"
+#include "loaders/vtk/netcdf_check.h"
+#include "loaders/vtk/xml_scan.h"
+
+namespace palpate {
+namespace {
+
+const std::string kLegacyHead =
+    "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n"
+    "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\n";
+
+TEST(LegacyCheck, AGoodTextFilePasses) {
+  EXPECT_EQ(legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\n"), "");
+}
+
+TEST(LegacyCheck, AMissingValueIsNamedWithItsLine) {
+  const std::string problem =
+      legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6\n");
+  EXPECT_NE(problem.find("7 of 8 values"), std::string::npos) << problem;
+}
+
+TEST(LegacyCheck, AHugeCountIsRefusedWithItsLine) {
+  const std::string problem = legacy_problem(
+      "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1099511627776 float\n");
+  EXPECT_EQ(problem.find("line 5"), 0U) << problem;
+  EXPECT_NE(problem.find("POINTS claims 3298534883328 values"), std::string::npos) << problem;
+}
+
+TEST(LegacyCheck, ACountThatWrapsIsRefused) {
+  // 2^64 / 3 + 1 points have 2 values modulo 2^64.
+  EXPECT_NE(legacy_problem("# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+                           "6148914691236517206 float\nxxxx"),
+            "");
+}
+
+TEST(LegacyCheck, UnknownSectionsAreLeftToVtk) {
+  EXPECT_EQ(legacy_problem(kLegacyHead + "SOMETHING_NEW 1 2 3\n"), "");
+}
+
+TEST(XmlTags, AttributesMayHoldEntitiesAndAngleBrackets) {
+  XmlTags tags("<?xml version='1.0'?><!-- <no/> --><a b=\"x &lt; y\" c='1>0'/></d>");
+  XmlTag tag;
+  ASSERT_TRUE(tags.next(tag));
+  EXPECT_EQ(tag.name, "a");
+  EXPECT_EQ(tag.at("b"), "x < y");
+  EXPECT_EQ(tag.at("c"), "1>0");
+  EXPECT_TRUE(tag.opens && tag.closes);
+  ASSERT_TRUE(tags.next(tag));
+  EXPECT_EQ(tag.name, "d");
+  EXPECT_FALSE(tag.opens);
+  EXPECT_FALSE(tags.next(tag));
+}
+
+std::string unstructured(const std::string& points) {
+  return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"" + points +
+         "\" NumberOfCells=\"1\"><PointData><DataArray type=\"Float64\" Name=\"p\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">"
+         "0 0 0 0 0 0 0 0 0 0 0 0</DataArray></PointData></Piece></UnstructuredGrid></VTKFile>";
+}
+
+TEST(XmlScan, ListsArraysWithTheirShapes) {
+  const XmlScan scan = scan_xml(unstructured("4"));
+  EXPECT_EQ(scan.problem, "");
+  ASSERT_EQ(scan.arrays.size(), 1U);
+  EXPECT_EQ(scan.arrays[0].name, "p");
+  EXPECT_EQ(scan.arrays[0].components, 3);
+  EXPECT_TRUE(scan.arrays[0].on_points);
+}
+
+TEST(XmlScan, CountsThatCannotBeTrueAreRefused) {
+  for (const char* count :
+       {"1099511627776", "99999999999999999999999", "6148914691236517206", "-1", "many"}) {
+    EXPECT_NE(scan_xml(unstructured(count)).problem, "") << count;
+  }
+}
+
+TEST(XmlScan, AMissingEndIsNoticed) {
+  const std::string text = unstructured("4");
+  EXPECT_NE(scan_xml(text.substr(0, text.size() - 12)).problem, "");
+}
+
+TEST(XmlScan, PiecesMustCoverTheWholeExtent) {
+  const auto image = [](const char* piece) {
+    return std::string(
+               "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 4 0 4 0 4\"><Piece Extent=\"") +
+           piece + "\"></Piece></ImageData></VTKFile>";
+  };
+  EXPECT_EQ(scan_xml(image("0 4 0 4 0 4")).problem, "");
+  EXPECT_NE(scan_xml(image("0 4 0 4 0 2")).problem, "");
+}
+
+/// A netCDF classic header with one dimension and one float variable of that length.
+std::string netcdf(std::uint32_t length, std::uint32_t begin, std::size_t data) {
+  std::string text("CDF\1", 4);
+  const auto put = [&text](std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(value >> shift & 0xff);
+  };
+  put(0);  // records
+  for (const std::uint32_t v : {10U, 1U, 1U}) put(v);
+  text += std::string("n\0\0\0", 4);
+  put(length);
+  put(0);
+  put(0);  // no attributes
+  for (const std::uint32_t v : {11U, 1U, 1U}) put(v);
+  text += std::string("v\0\0\0", 4);
+  for (const std::uint32_t v : {1U, 0U, 0U, 0U, 5U, length * 4U, begin}) put(v);
+  return text + std::string(data, '\0');
+}
+
+TEST(NetcdfCheck, AVariableInsideTheFilePasses) {
+  const std::string file = netcdf(10, 80, 40);
+  ASSERT_EQ(file.size(), 120U);
+  EXPECT_EQ(netcdf_problem(file, file.size()), "");
+}
+
+TEST(NetcdfCheck, AVariablePastTheEndIsNamed) {
+  for (const auto& file : {netcdf(10, 80, 39), netcdf(0x7fffffff, 80, 40), netcdf(10, 0x7fffffff, 40)}) {
+    EXPECT_NE(netcdf_problem(file, file.size()).find("'v'"), std::string::npos);
+  }
+}
+
+TEST(NetcdfCheck, EveryTruncationOfTheHeaderIsNoticed) {
+  const std::string file = netcdf(10, 80, 40);
+  for (std::size_t size = 4; size < file.size(); ++size) {
+    EXPECT_NE(netcdf_problem(std::string_view(file).substr(0, size), size), "") << size;
+  }
+}
+
+TEST(NrrdCheck, ClaimsAreComparedWithTheData) {
+  const auto problem = [](const std::string& sizes, const std::string& encoding, std::uint64_t bytes) {
+    const NrrdClaims claims = read_nrrd_claims("NRRD0004\ntype: short\ndimension: 3\nsizes: " + sizes +
+                                               "\nencoding: " + encoding + "\n\n");
+    return claims.problem.empty() ? nrrd_size_problem(claims, bytes) : claims.problem;
+  };
+  EXPECT_EQ(problem("2 3 4", "raw", 48), "");
+  EXPECT_NE(problem("2 3 4", "raw", 47), "");
+  EXPECT_NE(problem("1099511627776 2 2", "raw", 1000), "");
+  EXPECT_NE(problem("4294967296 4294967296 4294967296", "gzip", 1000), "");
+  EXPECT_NE(problem("2 0 4", "raw", 48), "");
+  EXPECT_NE(problem("2 -3 4", "raw", 48), "");
+  EXPECT_EQ(problem("100 100 100", "gzip", 2000), "");
+  EXPECT_NE(problem("100 100 1000", "gzip", 2000), "");
+  EXPECT_NE(problem("2 3 4", "morse", 48), "");
+}
+
+TEST(NrrdCheck, NumberedDataFilesAreExpanded) {
+  const NrrdClaims claims =
+      read_nrrd_claims("NRRD0004\ntype: short\nsizes: 2 2 2\ndata file: slice%03d.raw 8 12 2\n");
+  EXPECT_EQ(claims.data_files, (std::vector<std::string>{"slice008.raw", "slice010.raw", "slice012.raw"}));
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,155 @@
+// Small NRRD files written by hand, read through the helper program.
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+template <typename T>
+std::string raw(const std::vector<T>& values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<float> counting(std::size_t count) {
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<float>(i);
+  return values;
+}
+
+const std::string kScalarHead = "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 3 4\nendian: little\n";
+
+std::vector<DataSet> read_all(const std::filesystem::path& file) {
+  Source source = Source::open({{file}, {}});
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+  return source.read(names);
+}
+
+TEST(Nrrd, RawAsciiAndDetachedFilesGiveTheSameValues) {
+  const test::TempFolder folder;
+  std::string text;
+  for (int i = 0; i < 24; ++i) text += std::to_string(i) + "\n";
+  folder.write("values.raw", raw(counting(24)));
+  const std::vector<std::filesystem::path> files{
+      folder.write("raw.nrrd", kScalarHead + "encoding: raw\n\n" + raw(counting(24))),
+      folder.write("text.nrrd", kScalarHead + "encoding: ascii\n\n" + text),
+      folder.write("detached.nhdr", kScalarHead + "encoding: raw\ndata file: values.raw\n")};
+  for (const auto& file : files) {
+    const auto blocks = read_all(file);
+    ASSERT_EQ(blocks.size(), 1U) << file;
+    EXPECT_EQ(std::get<UniformTopology>(blocks[0].topology).points, Index3(2, 3, 4));
+    ASSERT_EQ(blocks[0].arrays.size(), 1U);
+    for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(blocks[0].arrays[0].at(p), static_cast<double>(p)) << file;
+  }
+}
+
+TEST(Nrrd, SpacingsAndAxisMinimaPlaceTheSamples) {
+  const test::TempFolder folder;
+  const auto file = folder.write(
+      "a.nrrd", kScalarHead +
+                    "spacings: 0.5 2 4\naxis mins: 1 2 3\ncenterings: node node node\nencoding: raw\n\n" +
+                    raw(counting(24)));
+  const auto blocks = read_all(file);
+  const auto& grid = std::get<UniformTopology>(blocks.at(0).topology);
+  EXPECT_EQ(grid.axes, Mat3(Vec3(0.5, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 4)));
+  EXPECT_EQ(grid.origin, Vec3(1, 2, 3));
+}
+
+TEST(Nrrd, LpsIsTurnedIntoRasPositionsAndVectorsAlike) {
+  const test::TempFolder folder;
+  std::vector<float> vectors;
+  for (int p = 0; p < 8; ++p) {
+    vectors.insert(vectors.end(), {1.0F, 2.0F, 3.0F});
+  }
+  const auto file =
+      folder.write("a.nrrd",
+                   "NRRD0005\ntype: float\ndimension: 4\nsizes: 3 2 2 2\nendian: little\nencoding: raw\n"
+                   "space: left-posterior-superior\nkinds: 3-vector domain domain domain\n"
+                   "space directions: none (2,0,0) (0,0,3) (0,4,0)\nspace origin: (10,20,30)\n\n" +
+                       raw(vectors));
+  const auto blocks = read_all(file);
+  const auto& grid = std::get<UniformTopology>(blocks.at(0).topology);
+  EXPECT_EQ(grid.origin, Vec3(-10, -20, 30));
+  EXPECT_EQ(grid.axes, Mat3(Vec3(-2, 0, 0), Vec3(0, 0, 3), Vec3(0, -4, 0)));
+  const DataArray& array = blocks[0].arrays.at(0);
+  ASSERT_EQ(array.components, 3);
+  EXPECT_EQ(array.at(5, 0), -1.0);
+  EXPECT_EQ(array.at(5, 1), -2.0);
+  EXPECT_EQ(array.at(5, 2), 3.0);
+}
+
+TEST(Nrrd, TheMeasurementFrameTurnsVectors) {
+  const test::TempFolder folder;
+  std::vector<float> vectors;
+  for (int p = 0; p < 8; ++p) vectors.insert(vectors.end(), {1.0F, 2.0F, 3.0F});
+  // The frame's columns: component 0 lies along +y, 1 along -x, 2 along +z.
+  const auto file =
+      folder.write("a.nrrd",
+                   "NRRD0005\ntype: float\ndimension: 4\nsizes: 3 2 2 2\nendian: little\nencoding: raw\n"
+                   "space: right-anterior-superior\nkinds: 3-vector domain domain domain\n"
+                   "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+                   "measurement frame: (0,1,0) (-1,0,0) (0,0,1)\n\n" +
+                       raw(vectors));
+  const auto blocks = read_all(file);
+  const DataArray& array = blocks.at(0).arrays.at(0);
+  EXPECT_EQ(Vec3(array.at(0, 0), array.at(0, 1), array.at(0, 2)), Vec3(-2.0, 1.0, 3.0));
+}
+
+TEST(Nrrd, ComponentsOnTheLastAxisComeFirst) {
+  const test::TempFolder folder;
+  const auto file =
+      folder.write("a.nrrd",
+                   "NRRD0005\ntype: float\ndimension: 4\nsizes: 2 2 2 3\nendian: little\nencoding: raw\n"
+                   "kinds: domain domain domain 3-vector\n\n" +
+                       raw(counting(24)));
+  const auto blocks = read_all(file);
+  const DataArray& array = blocks.at(0).arrays.at(0);
+  ASSERT_EQ(array.components, 3);
+  for (std::size_t p = 0; p < 8; ++p) {
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(array.at(p, c), static_cast<double>(p) + 8.0 * c);
+  }
+}
+
+/// Names of the programs that are children of this process.
+std::set<std::string> children() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream stat(entry.path() / "stat");
+    std::string line;
+    if (!std::getline(stat, line)) continue;
+    const std::size_t close = line.rfind(')');
+    std::istringstream rest(line.substr(close + 2));
+    char state = 0;
+    pid_t parent = 0;
+    rest >> state >> parent;
+    std::error_code ignored;
+    if (parent == ::getpid())
+      names.insert(std::filesystem::read_symlink(entry.path() / "exe", ignored).filename().string());
+  }
+  return names;
+}
+
+TEST(Nrrd, ReadingOneStartsNoVtkHelperAndMapsNoVtk) {
+  const test::TempFolder folder;
+  const auto file = folder.write("a.nrrd", kScalarHead + "encoding: raw\n\n" + raw(counting(24)));
+  Source source = Source::open({{file}, {}});
+  EXPECT_EQ(source.info().loader, "palpate-load-nrrd");
+  EXPECT_EQ(children(), (std::set<std::string>{"palpate-load-nrrd"}));
+  const std::string maps = test::read_file("/proc/self/maps");
+  EXPECT_EQ(maps.find("libvtk"), std::string::npos);
+  EXPECT_EQ(maps.find("libteem"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate

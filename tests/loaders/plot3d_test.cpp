@@ -1,0 +1,236 @@
+// PLOT3D files of every layout, written here byte by byte after the manual (NASA TM-101067, ch. 8).
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "common/load/plot3d_layout.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+struct Layout {
+  bool big = false;
+  bool marks = false;
+  bool multi = false;
+  bool blanking = false;
+  bool doubles = false;
+};
+
+std::string name(const Layout& l) {
+  return std::string(l.big ? "big" : "little") + (l.marks ? " marks" : "") + (l.multi ? " multi" : "") +
+         (l.blanking ? " blanking" : "") + (l.doubles ? " doubles" : "");
+}
+
+/// Builds a file item by item.
+class Writer {
+ public:
+  explicit Writer(const Layout& layout) : layout_(layout) {}
+
+  template <typename T>
+  void put(T value) {
+    std::array<char, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if (layout_.big != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
+    record_.append(bytes.data(), bytes.size());
+  }
+  void number(double value) {
+    if (layout_.doubles) {
+      put(value);
+    } else {
+      put(static_cast<float>(value));
+    }
+  }
+  void end_record() {
+    std::string record;
+    record.swap(record_);
+    const auto bytes = static_cast<std::int32_t>(record.size());
+    if (layout_.marks) put(bytes);
+    record_ += record;
+    if (layout_.marks) put(bytes);
+    file_ += record_;
+    record_.clear();
+  }
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+ private:
+  Layout layout_;
+  std::string record_;
+  std::string file_;
+};
+
+const std::vector<Index3> kDims{{5, 4, 3}, {3, 6, 2}};
+
+std::vector<Index3> dims_of(const Layout& l) { return l.multi ? kDims : std::vector<Index3>{kDims[0]}; }
+
+void put_dimensions(Writer& w, const Layout& l) {
+  if (l.multi) {
+    w.put(static_cast<std::int32_t>(kDims.size()));
+    w.end_record();
+  }
+  for (const Index3& n : dims_of(l)) {
+    for (int axis = 0; axis < 3; ++axis) w.put(static_cast<std::int32_t>(n[axis]));
+  }
+  w.end_record();
+}
+
+double coordinate(std::size_t grid, int axis, int i, int j, int k) {
+  const std::array<int, 3> index{i, j, k};
+  return 10.0 * static_cast<double>(grid) + index[static_cast<std::size_t>(axis)] * (1.0 + axis) +
+         0.125 * (i + j + k);
+}
+
+template <typename Visit>
+void for_points(const Index3& n, const Visit& visit) {
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) visit(i, j, k);
+    }
+  }
+}
+
+std::string grid_file(const Layout& l) {
+  Writer w(l);
+  put_dimensions(w, l);
+  for (std::size_t g = 0; g < dims_of(l).size(); ++g) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for_points(kDims[g], [&](int i, int j, int k) { w.number(coordinate(g, axis, i, j, k)); });
+    }
+    if (l.blanking) {
+      for_points(kDims[g], [&](int i, int, int) { w.put(static_cast<std::int32_t>(i == 1 ? 0 : 1)); });
+    }
+    w.end_record();
+  }
+  return w.file();
+}
+
+double value(std::size_t grid, int variable, int i, int j, int k) {
+  return 1.0 + variable + 0.25 * i + 0.5 * j - 0.125 * k + static_cast<double>(grid);
+}
+
+std::string solution_file(const Layout& l) {
+  Writer w(l);
+  put_dimensions(w, l);
+  for (std::size_t g = 0; g < dims_of(l).size(); ++g) {
+    for (const double condition : {2.95, 0.0, 2.1e6, 0.5}) w.number(condition);
+    w.end_record();
+    for (int variable = 0; variable < 5; ++variable) {
+      for_points(kDims[g], [&](int i, int j, int k) { w.number(value(g, variable, i, j, k)); });
+    }
+    w.end_record();
+  }
+  return w.file();
+}
+
+std::vector<Layout> all_layouts() {
+  std::vector<Layout> layouts;
+  for (int bits = 0; bits < 32; ++bits) {
+    layouts.push_back({(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0});
+  }
+  return layouts;
+}
+
+std::optional<Plot3dLayout> find(const std::string& file, Plot3dFile kind) {
+  const auto bytes = std::as_bytes(std::span(file));
+  return find_plot3d_layout({bytes, bytes.last(std::min(bytes.size(), kPlot3dTailBytes)), bytes.size()},
+                            kind);
+}
+
+TEST(Plot3dLayout, EveryLayoutIsFoundFromTheFileSize) {
+  for (const Layout& l : all_layouts()) {
+    const std::string file = grid_file(l);
+    const auto found = find(file, Plot3dFile::kGrid);
+    ASSERT_TRUE(found) << name(l);
+    EXPECT_EQ(found->big_endian, l.big) << name(l);
+    EXPECT_EQ(found->record_marks, l.marks) << name(l);
+    EXPECT_EQ(found->multi_grid, l.multi) << name(l);
+    EXPECT_EQ(found->blanking, l.blanking) << name(l);
+    EXPECT_EQ(found->double_precision, l.doubles) << name(l);
+    EXPECT_EQ(found->grids, dims_of(l)) << name(l);
+  }
+}
+
+TEST(Plot3dLayout, ATruncatedFileFitsNoLayout) {
+  for (const Layout& l : all_layouts()) {
+    const std::string file = grid_file(l);
+    for (const std::size_t size :
+         {file.size() - 4, file.size() / 2, std::size_t{12}, std::size_t{3}, std::size_t{0}}) {
+      const std::string cut = file.substr(0, size);
+      EXPECT_FALSE(find(cut, Plot3dFile::kGrid)) << name(l) << " cut to " << size;
+    }
+  }
+}
+
+TEST(Plot3dLayout, DimensionsWhoseProductOverflowsFitNoLayout) {
+  Writer w({});
+  for (int axis = 0; axis < 3; ++axis) w.put(std::int32_t{0x7fffffff});
+  w.end_record();
+  const std::string file = w.file() + std::string(4096, '\0');
+  EXPECT_FALSE(find(file, Plot3dFile::kGrid));
+}
+
+TEST(Plot3d, EveryLayoutReadsBackGridAndSolution) {
+  const test::TempFolder folder;
+  for (const Layout& l : all_layouts()) {
+    const auto grid = folder.write("grid.xyz", grid_file(l));
+    const auto solution = folder.write("solution.q", solution_file(l));
+    Source source = Source::open({{grid}, solution});
+    const auto blocks = source.read({"Density", "Momentum", "StagnationEnergy"});
+    ASSERT_EQ(blocks.size(), dims_of(l).size()) << name(l);
+    for (std::size_t g = 0; g < blocks.size(); ++g) {
+      const auto& topology = std::get<StructuredTopology>(blocks[g].topology);
+      ASSERT_EQ(topology.points, kDims[g]) << name(l);
+      ASSERT_EQ(blocks[g].arrays.size(), 3U) << name(l);
+      std::size_t p = 0;
+      for_points(kDims[g], [&](int i, int j, int k) {
+        for (int axis = 0; axis < 3; ++axis) {
+          ASSERT_EQ(topology.positions.at(p, axis), coordinate(g, axis, i, j, k)) << name(l);
+          ASSERT_EQ(blocks[g].find("Momentum", Association::kPoint)->at(p, axis), value(g, 1 + axis, i, j, k))
+              << name(l);
+        }
+        ASSERT_EQ(blocks[g].find("Density", Association::kPoint)->at(p), value(g, 0, i, j, k)) << name(l);
+        ASSERT_EQ(blocks[g].find("StagnationEnergy", Association::kPoint)->at(p), value(g, 4, i, j, k))
+            << name(l);
+        ASSERT_EQ(blocks[g].visible.empty(), !l.blanking) << name(l);
+        if (l.blanking) {
+          ASSERT_EQ(blocks[g].visible[p] != 0, i != 1) << name(l);
+        }
+        ++p;
+      });
+    }
+  }
+}
+
+TEST(Plot3d, ASolutionOfAnotherGridIsRefused) {
+  const test::TempFolder folder;
+  const auto grid = folder.write("grid.xyz", grid_file({}));
+  Layout multi;
+  multi.multi = true;
+  const auto solution = folder.write("solution.q", solution_file(multi));
+  try {
+    (void)Source::open({{grid}, solution});
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("solution.q"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Plot3d, ASolutionAloneSaysHowToOpenIt) {
+  const test::TempFolder folder;
+  const auto solution = folder.write("solution.q", solution_file({}));
+  try {
+    (void)Source::open({{solution}, {}});
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--solution"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace palpate
