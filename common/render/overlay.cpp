@@ -38,6 +38,10 @@ ImU32 packed(const Rgb& color, float opacity = 1.0F) {
   return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity});
 }
 
+// Fonts of the atlas, in the order in which they are added.
+enum class Lettering { kText, kTitle };
+constexpr float kTitleScale = 1.35F;
+
 // Draws text and shapes in the colours of the background.
 class Pen {
  public:
@@ -53,27 +57,32 @@ class Pen {
     return dark_ ? IM_COL32(16, 18, 21, opacity) : IM_COL32(255, 255, 255, opacity);
   }
 
-  [[nodiscard]] ImVec2 size_of(const std::string& text, float scale = 1.0F) const {
-    return ImGui::GetFont()->CalcTextSizeA(text_height_ * scale, FLT_MAX, 0.0F, text.c_str());
+  [[nodiscard]] static ImVec2 size_of(const std::string& text, Lettering lettering = Lettering::kText) {
+    const ImFont* const font = font_of(lettering);
+    return font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0F, text.c_str());
   }
 
   // `align` is the share of the text's width that lies left of x.
   void text(float x, float y, const std::string& words, ImU32 color, float align = 0.0F,
-            float scale = 1.0F) const {
-    const float size = text_height_ * scale;
-    x = std::round(x - align * size_of(words, scale).x);
+            Lettering lettering = Lettering::kText) const {
+    const ImFont* const font = font_of(lettering);
+    x = std::round(x - align * size_of(words, lettering).x);
     y = std::round(y);
     // A rim in the colour of the background keeps letters readable over lines.
     const float rim = std::max(1.0F, std::round(text_height_ / 14.0F));
     for (const ImVec2 shift : {ImVec2(-rim, 0), ImVec2(rim, 0), ImVec2(0, -rim), ImVec2(0, rim)}) {
-      list_.AddText(nullptr, size, {x + shift.x, y + shift.y}, paper(110), words.c_str());
+      list_.AddText(font, font->FontSize, {x + shift.x, y + shift.y}, paper(110), words.c_str());
     }
-    list_.AddText(nullptr, size, {x, y}, color, words.c_str());
+    list_.AddText(font, font->FontSize, {x, y}, color, words.c_str());
   }
 
   ImDrawList& list() const { return list_; }
 
  private:
+  static ImFont* font_of(Lettering lettering) {
+    return ImGui::GetIO().Fonts->Fonts[static_cast<int>(lettering)];
+  }
+
   ImDrawList& list_;
   float text_height_;
   bool dark_;
@@ -83,8 +92,7 @@ void draw_title(const Pen& pen, const SceneView& view) {
   const float em = pen.text_height();
   float y = em;
   if (!view.title.empty()) {
-    constexpr float kTitleScale = 1.3F;
-    pen.text(1.2F * em, y, view.title, pen.ink(), 0.0F, kTitleScale);
+    pen.text(1.2F * em, y, view.title, pen.ink(), 0.0F, Lettering::kTitle);
     y += 1.75F * em;
   }
   if (!view.subtitle.empty()) pen.text(1.2F * em, y, view.subtitle, pen.faint_ink());
@@ -261,6 +269,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   if (text_height != state_->text_height) {
     io.Fonts->Clear();
     add_font(*io.Fonts, text_height);
+    add_font(*io.Fonts, std::round(kTitleScale * text_height));
     if (state_->text_height > 0.0F) ImGui_ImplOpenGL3_DestroyFontsTexture();
     io.Fonts->Build();
     if (state_->text_height > 0.0F) ImGui_ImplOpenGL3_CreateFontsTexture();

@@ -37,8 +37,8 @@ Palette palette(Background background) {
             {0.055F, 0.060F, 0.068F},
             {0.40F, 0.43F, 0.47F},
             {0.80F, 0.83F, 0.88F},
-            0.26F,
-            0.62F};
+            0.42F,
+            0.52F};
   }
   return {{1.0F, 1.0F, 1.0F},
           {0.955F, 0.960F, 0.968F},

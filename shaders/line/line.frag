@@ -47,7 +47,10 @@ void main() {
     float facing = sqrt(max(0.0, 1.0 - u * u));
     float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
     float specular = pow(shine.y, kShininess) * facing;
-    srgb = encode_srgb(decode_srgb(srgb) * (kAmbient + kDiffuse * diffuse) + frame.depth_cue.w * specular);
+    // Highlights keep some of the line's hue, or they would take its colour's meaning away.
+    vec3 linear = decode_srgb(srgb);
+    vec3 gloss = mix(vec3(1.0), linear / max(max(linear.r, max(linear.g, linear.b)), 1e-3), 0.5);
+    srgb = encode_srgb(linear * (kAmbient + kDiffuse * diffuse) + gloss * (frame.depth_cue.w * specular));
   }
 
   // Depth cue: farther lines take on the background.
