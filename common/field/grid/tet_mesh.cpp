@@ -151,12 +151,18 @@ void TetMesh::find_neighbors(int threads) {
                around[end].largest == around[i].largest) {
           ++end;
         }
-        if (end - i == 2) {
+        std::span<Face> sharing = around.subspan(i, end - i);
+        if (sharing.size() > 2) {
+          // Zero-volume cells, of which polyhedra with coplanar faces have equal ones, give way to others.
+          const auto rest = std::ranges::partition(
+              sharing, [this](const Face& face) { return zero_volume_[face.cell] == 0; });
+          sharing = sharing.first(sharing.size() - rest.size());
+          if (sharing.size() > 2) ++non_manifold;
+        }
+        if (sharing.size() == 2) {
           const auto smallest = static_cast<std::uint32_t>(v);
-          place(around[i], smallest) = static_cast<CellIndex>(around[i + 1].cell);
-          place(around[i + 1], smallest) = static_cast<CellIndex>(around[i].cell);
-        } else if (end - i > 2) {
-          ++non_manifold;
+          place(sharing[0], smallest) = static_cast<CellIndex>(sharing[1].cell);
+          place(sharing[1], smallest) = static_cast<CellIndex>(sharing[0].cell);
         }
         i = end;
       }

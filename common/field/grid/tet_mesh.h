@@ -32,7 +32,8 @@ class TetMesh {
   /// Orients the cells (inverted ones are turned and counted), puts them in an order that keeps neighbours
   /// close in memory (cell_order()), finds neighbours, flags zero-volume cells (least height <= 2^-40 of the
   /// longest edge: below it barycentric coordinates are rounding alone) and builds the index for point
-  /// location. A face that more than two cells share is a border to all of them, and counted.
+  /// location. A face that more than two cells of some volume share is a
+  /// border to all of them, and counted.
   /// @throws Error (bad input, without file) where there is no cell, on a vertex out of range or not finite,
   /// or on more than 2^31 - 2 cells.
   TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads = 0);
