@@ -145,10 +145,10 @@ struct SceneRenderer::State {
 SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
 SceneRenderer::~SceneRenderer() = default;
 
-void SceneRenderer::draw(const SceneView& view, int width, int height) {
+void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution) {
   State& s = *state_;
   s.since_draw.restart();
-  s.target.resize(width, height);
+  s.target.resize(width, height, resolution);
   s.update_geometry(view);
   s.update_colors(view);
 
@@ -156,16 +156,18 @@ void SceneRenderer::draw(const SceneView& view, int width, int height) {
   const ViewTransform transform = view_transform(view.camera, s.frame, s.reach, aspect);
   const Palette colors = palette(view.background);
   const bool perspective = view.camera.projection == Projection::kPerspective;
-  const double pixel = transform.view_height / height;
+  // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
+  const int scene_height = s.target.scene_height();
+  const double pixel = transform.view_height / scene_height;
   FrameBlock block;
   block.clip_from_scene = glm::mat4(transform.clip_from_scene);
   block.eye = {Vec3f(transform.eye), perspective ? 1.0F : 0.0F};
   block.right = {Vec3f(view.camera.axes[0]), 0.0F};
   block.up = {Vec3f(view.camera.axes[1]), 0.0F};
   block.back = {Vec3f(view.camera.axes[2]), 0.0F};
-  block.size = {width, height, pixel, transform.distance};
+  block.size = {s.target.scene_width(), scene_height, pixel, transform.distance};
   block.depth_cue = {transform.near_depth, transform.far_depth, view.style.depth_cue ? colors.fading : 0.0F,
-                     0.0F};
+                     colors.highlight};
   block.background_top = {colors.top, 1.0F};
   block.background_bottom = {colors.bottom, 1.0F};
   const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
@@ -188,7 +190,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 
   s.line_program.use(color_map_of(view.style));
-  const float unit = static_cast<float>(height) / 1000.0F;
+  const float unit = static_cast<float>(scene_height) / 1000.0F;
   LineDraw how;
   how.back = Vec3f(view.camera.axes[2]);
   if (view.show_outline) {

@@ -16,8 +16,10 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
+  /// @param resolution in (0, 1]: less draws lines with fewer pixels along either edge and enlarges them,
+  /// while the mouse moves a scene that is slow to draw; text stays sharp.
   /// @throws Error (usage) for a size that cannot be drawn.
-  void draw(const SceneView& view, int width, int height);
+  void draw(const SceneView& view, int width, int height, double resolution = 1.0);
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

@@ -21,6 +21,7 @@ struct PanelState {
   std::string message;
   bool message_is_error = false;
   double frame_ms = 0.0;
+  double resolution = 1.0;  ///< share of the pixels along either edge that were drawn
   double frames_per_second = 0.0;
   bool show_help = false;
   bool show_rates = false;

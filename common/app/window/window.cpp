@@ -28,6 +28,9 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
+// Frames slower than this lower the resolution while the camera moves [ms], down to this share of the
+// pixels along either edge.
+constexpr double kSlowFrame = 60.0, kCoarsest = 0.35;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 
@@ -399,8 +402,16 @@ class Window {
 
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
-    if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(view_, shown_)) {
-      renderer_->draw(view_, w, h);
+    // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
+    const bool moving = control_.dragging() || state_.playing;
+    if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(view_, shown_) ||
+        (!moving && state_.resolution < 1.0)) {
+      if (!moving) {
+        state_.resolution = 1.0;
+      } else if (state_.frame_ms > kSlowFrame) {
+        state_.resolution = std::max(kCoarsest, 0.7 * state_.resolution);
+      }
+      renderer_->draw(view_, w, h, state_.resolution);
       state_.frame_ms = renderer_->finish();
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();

@@ -1,10 +1,12 @@
 #include "common/render/gl/target.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <epoxy/gl.h>
 
+#include "common/base/check.h"
 #include "common/base/error.h"
 
 namespace palpate {
@@ -39,31 +41,44 @@ GlFramebuffer make_framebuffer(const GlRenderbuffer& color, const GlRenderbuffer
 
 }  // namespace
 
-void RenderTarget::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
+void RenderTarget::resize(int width, int height, double resolution) {
+  PALPATE_CHECK(resolution > 0.0 && resolution <= 1.0);
+  const int scene_width = std::max(1, static_cast<int>(std::lround(resolution * width)));
+  const int scene_height = std::max(1, static_cast<int>(std::lround(resolution * height)));
+  if (width == width_ && height == height_ && scene_width == scene_width_ && scene_height == scene_height_)
+    return;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (width < 1 || height < 1 || width > largest || height > largest) {
     throw usage_error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                       " pixels cannot be drawn; each side is 1 to " + std::to_string(largest));
   }
-  scene_color_ = make_storage(GL_RGBA8, kSamples, width, height);
-  scene_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, width, height);
+  scene_color_ = make_storage(GL_RGBA8, kSamples, scene_width, scene_height);
+  scene_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width, scene_height);
+  averaged_color_ = make_storage(GL_RGBA8, 1, scene_width, scene_height);
   resolved_color_ = make_storage(GL_RGBA8, 1, width, height);
   scene_ = make_framebuffer(scene_color_, scene_depth_);
+  averaged_ = make_framebuffer(averaged_color_, {});
   resolved_ = make_framebuffer(resolved_color_, {});
   width_ = width;
   height_ = height;
+  scene_width_ = scene_width;
+  scene_height_ = scene_height;
 }
 
 void RenderTarget::bind_scene() {
   glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, scene_width_, scene_height_);
 }
 
 void RenderTarget::resolve() {
-  glBlitNamedFramebuffer(scene_.name(), resolved_.name(), 0, 0, width_, height_, 0, 0, width_, height_,
-                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  const bool same_size = scene_width_ == width_ && scene_height_ == height_;
+  // Samples can only be averaged between framebuffers of one size.
+  glBlitNamedFramebuffer(scene_.name(), same_size ? resolved_.name() : averaged_.name(), 0, 0, scene_width_,
+                         scene_height_, 0, 0, scene_width_, scene_height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (same_size) return;
+  glBlitNamedFramebuffer(averaged_.name(), resolved_.name(), 0, 0, scene_width_, scene_height_, 0, 0, width_,
+                         height_, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 void RenderTarget::bind_resolved() {

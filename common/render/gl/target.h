@@ -11,9 +11,10 @@ namespace palpate {
 
 class RenderTarget {
  public:
-  /// Makes framebuffers of this size (both > 0), unless they are there already.
+  /// Makes framebuffers of this size (both > 0), unless they are there already. The multisampled one has
+  /// `resolution` in (0, 1] as many pixels along either edge.
   /// @throws Error (usage) where the driver cannot draw that large.
-  void resize(int width, int height);
+  void resize(int width, int height, double resolution);
 
   void bind_scene();                 ///< draw into the multisampled framebuffer, with depth
   void resolve();                    ///< copies it, averaged, to the plain one
@@ -23,13 +24,15 @@ class RenderTarget {
   /// lower left corner.
   void show(int left, int bottom) const;
 
-  [[nodiscard]] int width() const noexcept { return width_; }
-  [[nodiscard]] int height() const noexcept { return height_; }
+  [[nodiscard]] int scene_width() const noexcept { return scene_width_; }
+  [[nodiscard]] int scene_height() const noexcept { return scene_height_; }
 
  private:
   int width_ = 0, height_ = 0;
-  GlRenderbuffer scene_color_, scene_depth_, resolved_color_;
+  int scene_width_ = 0, scene_height_ = 0;
+  GlRenderbuffer scene_color_, scene_depth_, averaged_color_, resolved_color_;
   GlFramebuffer scene_, resolved_;
+  GlFramebuffer averaged_;  // between the two where their sizes differ
 };
 
 }  // namespace palpate
