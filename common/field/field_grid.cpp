@@ -422,15 +422,19 @@ std::size_t FieldGrid::point_count() const noexcept {
 
 std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
                                                  int threads) {
+  std::shared_ptr<FieldGrid> grid;
   if (blocks.size() == 1) {
     const DataSet& block = blocks.front();
     check_block(block, 0, 1, file);
-    if (std::holds_alternative<RectilinearTopology>(block.topology)) return make_rectilinear(block, file);
-    if (std::holds_alternative<UniformTopology>(block.topology)) {
-      if (auto grid = make_uniform(block, file)) return grid;
-    }
+    if (std::holds_alternative<RectilinearTopology>(block.topology)) grid = make_rectilinear(block, file);
+    if (std::holds_alternative<UniformTopology>(block.topology)) grid = make_uniform(block, file);
   }
-  return make_tetrahedra(blocks, file, threads);
+  if (!grid) grid = make_tetrahedra(blocks, file, threads);
+  for (const DataSet& block : blocks) {
+    grid->input_points += block.point_count();
+    grid->input_cells += block.cell_count();
+  }
+  return grid;
 }
 
 GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,

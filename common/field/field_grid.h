@@ -28,6 +28,8 @@ struct FieldGrid {
   bool blanked = false;                       ///< box: some points are blanked
   std::vector<std::uint32_t> point_of_input;  ///< tets: see SplitMesh; empty where every point is its own
   std::vector<std::uint32_t> source_cell;     ///< tets: for each, its cell in the data
+  std::size_t input_points = 0;               ///< of all blocks
+  std::size_t input_cells = 0;
   FieldNotes notes;
 
   [[nodiscard]] std::size_t point_count() const noexcept;

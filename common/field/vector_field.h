@@ -21,7 +21,7 @@ namespace palpate {
 class BoxGrid;        // grid/box_grid.h: uniform and rectilinear
 class TetMesh;        // grid/tet_mesh.h
 class AnalyticField;  // analytic/analytic_field.h
-struct FieldGrid;      // field_grid.h
+struct FieldGrid;     // field_grid.h
 
 /// Values at the points of a grid, in local units (multiplied by `scale` on reading), as stored.
 struct PointVectors {
