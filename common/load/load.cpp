@@ -176,9 +176,23 @@ std::vector<DataSet> Source::read(const std::vector<std::string>& array_names, s
     throw usage_error(state_->file + ": has " + std::to_string(steps) + " time steps, not " +
                       std::to_string(time_step + 1));
   }
-  return state_->ask(ReadMessage{array_names, time_step}, progress, [](const HelperProcess::Reply& reply) {
-    return decode_blocks(reply.json, reply.memory->bytes(), reply.memory);
-  });
+  auto blocks =
+      state_->ask(ReadMessage{array_names, time_step}, progress, [](const HelperProcess::Reply& reply) {
+        return decode_blocks(reply.json, reply.memory->bytes(), reply.memory);
+      });
+  // A reader that finds an array damaged or missing at this time step may leave it out without a word.
+  for (const ArrayInfo& array : arrays()) {
+    if (std::find(array_names.begin(), array_names.end(), array.name) == array_names.end()) continue;
+    const bool there = std::any_of(blocks.begin(), blocks.end(), [&array](const DataSet& block) {
+      return block.find(array.name, array.association) != nullptr;
+    });
+    if (!there) {
+      const std::string step = state_->info.times.empty() ? "" : "time step " + std::to_string(time_step + 1);
+      throw input_error({state_->file, step, "array '" + array.name + "' is missing or damaged", "",
+                         "leave it out or repair the file"});
+    }
+  }
+  return blocks;
 }
 
 }  // namespace palpate

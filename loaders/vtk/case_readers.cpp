@@ -11,6 +11,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "common/base/error.h"
+#include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -40,6 +41,14 @@ void choose_parts(vtkOpenFOAMReader& reader) {
   reader.SetPatchArrayStatus("internalMesh", 1);
   reader.DisableAllLagrangianArrays();
 }
+
+/// VTK's EnSight readers take what is there of a truncated file: its size has to account for the values.
+void check_values(const vtkGenericEnSightReader&, const std::string& file, const DataArray& total,
+                  std::size_t step, std::size_t steps) {
+  check_ensight_values(file, total.name, total.association,
+                       total.tuples * static_cast<std::size_t>(total.components), step, steps);
+}
+void check_values(const vtkOpenFOAMReader&, const std::string&, const DataArray&, std::size_t, std::size_t) {}
 
 template <class Reader>
 class CaseReader : public Loader {
@@ -81,6 +90,19 @@ class CaseReader : public Loader {
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : volumes(nullptr))
       blocks.push_back(convert_block(block.data, block.name, wanted, file_));
+    // The values of an array in all blocks together.
+    std::map<std::pair<std::string, Association>, DataArray> totals;
+    for (const DataSet& block : blocks) {
+      for (const DataArray& array : block.arrays) {
+        DataArray& total = totals[{array.name, array.association}];
+        const std::size_t before = total.tuples;
+        total = array;
+        total.tuples += before;
+      }
+    }
+    for (const auto& [key, total] : totals) {
+      check_values(*reader_, file_, total, step, std::max<std::size_t>(1, times_.size()));
+    }
     return blocks;
   }
 

@@ -107,7 +107,7 @@ class Walk {
         if (upper(word()) != "CONNECTIVITY") throw Stop{};
         values(size, word());
       } else {
-        values(size, "int");
+        cell_list(cells, size);
       }
     } else if (keyword == "CELL_TYPES") {
       values(count(), "int");
@@ -164,8 +164,47 @@ class Walk {
       while (!line().empty()) {
       }
     } else {
+      // A word at the very end, without a line end, is one that was cut off.
+      if (at_ == text_.size()) throw Impossible{place() + "the file ends in '" + printable(keyword) + "'"};
       throw Stop{};
     }
+  }
+
+  /// Passes over `size` integers that must be `cells` lists: a count, then as many points. VTK believes the
+  /// counts.
+  void cell_list(std::uint64_t cells, std::uint64_t size) {
+    const std::size_t start = at_;
+    const std::uint64_t start_line = lines_;
+    values(size, "int");
+    const std::size_t end = at_;
+    const std::uint64_t end_line = lines_;
+    at_ = binary_ ? end - 4 * size : start;
+    lines_ = start_line;
+    std::uint64_t used = 0;
+    std::uint64_t list = 0;
+    for (; list < cells && used < size; ++list) {
+      const std::uint64_t points = binary_ ? big_endian_integer() : count();
+      if (points > size - used - 1) break;
+      if (binary_) {
+        at_ += 4 * points;
+      } else {
+        for (std::uint64_t i = 0; i < points; ++i) (void)word();
+      }
+      used += 1 + points;
+    }
+    if (list != cells || used != size) {
+      throw Impossible{section_place_ + keyword_ + " claims " + std::to_string(cells) + " cells in " +
+                       std::to_string(size) + " integers, but cell " + std::to_string(list) +
+                       " does not fit"};
+    }
+    at_ = end;
+    lines_ = end_line;
+  }
+
+  std::uint64_t big_endian_integer() {
+    std::uint64_t value = 0;
+    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(text_[at_++]);
+    return value;
   }
 
   /// Passes over `number` values, which must be there.

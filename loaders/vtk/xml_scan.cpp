@@ -80,8 +80,17 @@ struct Broken {
   std::string what;
 };
 
+/// An array in the appended data: where, and how many bytes its values take (0: not known from the tags).
+struct Appended {
+  std::string name;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+
 /// What the tags before a DataArray said about it.
 struct Context {
+  bool big_endian = false;
+  std::uint64_t header_bytes = 4;  ///< of the numbers that precede binary data
   std::uint64_t file_size = 0;
   bool compressed = false;
   bool structured = false;
@@ -91,7 +100,7 @@ struct Context {
   std::uint64_t points = 0;  ///< of the current piece
   std::uint64_t cells = 0;
   std::string section;  ///< "PointData"
-  std::uint64_t largest_offset = 0;
+  std::vector<Appended> appended;
 };
 
 void begin_piece(const XmlTag& tag, Context& context) {
@@ -156,8 +165,75 @@ void check_array(const XmlTag& tag, Context& context) {
       throw Broken{"array '" + name + "' lies at offset \"" + tag.at("offset").substr(0, 40) +
                    "\", past the end of the file"};
     }
-    context.largest_offset = std::max(context.largest_offset, *offset);
+    const bool sized =
+        context.section == "PointData" || context.section == "Points" || context.section == "CellData";
+    const bool text = tag.at("type") == "String" || tag.at("type") == "Bit";
+    context.appended.push_back({name, *offset, sized && !text ? needed : 0});
   }
+}
+
+/// Checks that the arrays of raw appended data lie inside it and have the sizes that the tags say. `data`
+/// goes from behind the underscore to the end of the file. VTK would read a short array as far as it goes.
+void check_raw(std::string_view data, const Context& context) {
+  const auto number = [&](std::uint64_t offset) {
+    std::uint64_t value = 0;
+    if (offset > data.size() || data.size() - offset < context.header_bytes) return kHuge;
+    for (std::uint64_t i = 0; i < context.header_bytes; ++i) {
+      const std::uint64_t at = context.big_endian ? offset + i : offset + context.header_bytes - 1 - i;
+      value = value << 8 | static_cast<unsigned char>(data[at]);
+    }
+    return value;
+  };
+  for (const Appended& array : context.appended) {
+    const auto refuse = [&](const std::string& what) {
+      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) + " " + what};
+    };
+    const std::uint64_t first = number(array.offset);
+    std::uint64_t stored = first;
+    std::uint64_t header = context.header_bytes;
+    if (context.compressed) {
+      // Block count, block size, size of a last partial block, then the compressed size of every block.
+      const std::uint64_t blocks = first;
+      if (blocks > data.size()) refuse("reaches past the end of the file");
+      header = (3 + blocks) * context.header_bytes;
+      stored = 0;
+      for (std::uint64_t block = 0; block < blocks; ++block) {
+        const std::uint64_t size = number(array.offset + (3 + block) * context.header_bytes);
+        if (size > data.size()) refuse("reaches past the end of the file");
+        stored += size;
+      }
+      const std::uint64_t block_bytes = number(array.offset + context.header_bytes);
+      const std::uint64_t partial = number(array.offset + 2 * context.header_bytes);
+      const std::uint64_t full = blocks - (partial > 0 && blocks > 0 ? 1 : 0);
+      const std::uint64_t bytes =
+          times(full, block_bytes) == kHuge ? kHuge : times(full, block_bytes) + partial;
+      if (array.bytes > 0 && bytes != array.bytes)
+        refuse("does not have its " + std::to_string(array.bytes) + " bytes");
+    } else if (array.bytes > 0 && stored != array.bytes) {
+      refuse("does not have its " + std::to_string(array.bytes) + " bytes");
+    }
+    if (header > data.size() - array.offset || stored > data.size() - array.offset - header) {
+      refuse("reaches past the end of the file");
+    }
+  }
+}
+
+/// The same for base64: four characters for three bytes, so a lower bound only.
+void check_base64(std::string_view data, const Context& context) {
+  for (const Appended& array : context.appended) {
+    const std::uint64_t characters = context.compressed ? 0 : array.bytes / 3 * 4;
+    if (array.offset > data.size() || characters > data.size() - array.offset) {
+      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) +
+                   " reaches past the end of the file"};
+    }
+  }
+}
+
+/// Whether the file closes its root element; what follows it may be white space only.
+bool has_end(std::string_view text) {
+  constexpr std::size_t kLook = 256;
+  const std::string_view tail = text.substr(text.size() - std::min(text.size(), kLook));
+  return tail.rfind("</VTKFile>") != std::string_view::npos;
 }
 
 void scan(std::string_view text, XmlScan& result) {
@@ -165,17 +241,18 @@ void scan(std::string_view text, XmlScan& result) {
   context.file_size = text.size();
   XmlTags tags(text);
   XmlTag tag;
-  bool complete = false;
+  std::string encoding;
   bool appended = false;
   while (tags.next(tag)) {
     if (tag.closes && !tag.opens) {
-      if (tag.name == "VTKFile") complete = true;
       if (tag.name == context.section) context.section.clear();
       continue;
     }
     if (tag.name == "VTKFile") {
       result.data_type = tag.at("type");
       context.compressed = !tag.at("compressor").empty();
+      context.big_endian = tag.at("byte_order") == "BigEndian";
+      context.header_bytes = tag.at("header_type") == "UInt64" ? 8 : 4;
       context.structured = result.data_type == "ImageData" || result.data_type == "RectilinearGrid" ||
                            result.data_type == "StructuredGrid";
     } else if (context.structured && tag.name == result.data_type) {
@@ -199,18 +276,22 @@ void scan(std::string_view text, XmlScan& result) {
       }
     } else if (tag.name == "AppendedData") {
       appended = true;
+      encoding = tag.at("encoding");
       break;
     }
   }
+  if (!has_end(text)) throw Broken{"its end is missing (no </VTKFile>)"};
   if (appended) {
-    // The end of raw data cannot be found by its tag alone, but offsets cannot lie behind it.
-    const std::uint64_t left = text.size() - tags.position();
-    if (context.largest_offset > left) {
-      throw Broken{"arrays reach offset " + std::to_string(context.largest_offset) + ", but " +
-                   std::to_string(left) + " bytes of appended data are left"};
+    const std::size_t underscore = text.find('_', tags.position());
+    if (underscore == std::string_view::npos) throw Broken{"its appended data does not begin"};
+    const std::string_view data = text.substr(underscore + 1);
+    if (encoding == "raw") {
+      check_raw(data, context);
+    } else {
+      check_base64(data, context);
     }
-  } else if (!complete) {
-    throw Broken{"its end is missing (no </VTKFile>)"};
+  } else if (!context.appended.empty()) {
+    throw Broken{"its appended data is missing"};
   }
   if (context.structured && context.cells_in_pieces < context.whole.cells) {
     throw Broken{"its pieces cover " + std::to_string(context.cells_in_pieces) + " cells of " +

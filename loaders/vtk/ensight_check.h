@@ -1,0 +1,30 @@
+/// A check of EnSight variable files: VTK's readers take what is there of a truncated one.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/field/data_set.h"
+
+namespace palpate {
+
+/// One line of a case file's section VARIABLE: "vector per node: 1 velocity flow.vel***".
+struct EnsightVariable {
+  std::string name;
+  Association association = Association::kPoint;
+  std::string pattern;  ///< file name, with asterisks for the number of the step
+};
+
+/// The variables that the text of a case file lists.
+[[nodiscard]] std::vector<EnsightVariable> ensight_variables(std::string_view case_text);
+
+/// Checks that the file of a variable at time step `step` of `steps` is large enough for `values` numbers: 12
+/// characters each in text, 4 bytes in binary (EnSight User Manual, ch. 9).
+/// @throws Error (bad input).
+void check_ensight_values(const std::string& case_file, const std::string& variable, Association association,
+                          std::size_t values, std::size_t step, std::size_t steps);
+
+}  // namespace palpate

@@ -1,0 +1,67 @@
+#include "common/load/sniff.h"
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+Sniffed sniffed(const std::string& content, std::string_view ending = "") {
+  const auto bytes = std::as_bytes(std::span(content));
+  return sniff({bytes, bytes, bytes.size(), ending});
+}
+
+std::string netcdf_with(const std::string& name) { return std::string("CDF\1\0\0\0\0", 8) + name; }
+
+TEST(Sniff, FormatsAreFoundByContentWhateverTheEnding) {
+  const std::vector<std::pair<std::string, Format>> known{
+      {"# vtk DataFile Version 3.0\n", Format::kLegacyVtk},
+      {"NRRD0005\ntype: float\n", Format::kNrrd},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\">", Format::kVtkXml},
+      {"\xef\xbb\xbf \n<VTKFile version='1.0' type='UnstructuredGrid'>", Format::kVtkXml},
+      {"<VTKFile type=\"vtkMultiBlockDataSet\">", Format::kVtkMultiBlock},
+      {"<VTKFile type=\"Collection\">", Format::kParaviewSeries},
+      {"{\n \"file-series-version\" : \"1.0\"", Format::kParaviewSeries},
+      {netcdf_with("num_nodes"), Format::kExodus},
+      {"# comment\nFORMAT\ntype:  ensight gold\nGEOMETRY\nmodel: a.geo\n", Format::kEnsight},
+      {"FoamFile\n{\n object controlDict;\n}\n", Format::kOpenFoam}};
+  for (const auto& [content, format] : known) {
+    for (const char* ending : {".dat", ".vtk", ".nrrd", ""})
+      EXPECT_EQ(sniffed(content, ending).format, format) << content;
+  }
+}
+
+TEST(Sniff, TheEndingBreaksTheTieOfHdf5) {
+  const std::string hdf5 = "\x89HDF\r\n\x1a\n";
+  EXPECT_EQ(sniffed(hdf5, ".ex2").format, Format::kExodus);
+  EXPECT_FALSE(sniffed(hdf5, ".h5").format);
+}
+
+TEST(Sniff, OthersAreDescribed) {
+  for (const auto& [content, word] :
+       std::vector<std::pair<std::string, std::string>>{{"\x1f\x8b\x08", "gzip"},
+                                                        {"<html></html>", "XML"},
+                                                        {"<VTKFile type=\"Table\">", "Table"},
+                                                        {netcdf_with("time"), "netCDF"},
+                                                        {"hello\x01", "hello\\x01"},
+                                                        {"", "not recognised"}}) {
+    const Sniffed result = sniffed(content);
+    EXPECT_FALSE(result.format) << content;
+    EXPECT_NE(result.found.find(word), std::string::npos) << result.found;
+  }
+}
+
+TEST(FindFormat, AnEmptyFoamFileMarksTheCaseAroundIt) {
+  const test::TempFolder folder;
+  const auto foam = folder.write("case.foam", "");
+  EXPECT_THROW((void)find_format(foam), Error);
+  folder.write("system/controlDict", "FoamFile");
+  folder.write("constant/x", "");
+  EXPECT_EQ(find_format(foam), Format::kOpenFoam);
+  EXPECT_EQ(find_format(folder.path()), Format::kOpenFoam);
+}
+
+}  // namespace
+}  // namespace palpate
