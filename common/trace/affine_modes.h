@@ -1,19 +1,14 @@
 /// The robust path of the exact cell: any matrix, any stiffness, the first exit for certain.
 ///
-/// The solution b(t) = exp(tB) b(0) of exact_cell.h (1) is written in Newton's form with the eigenvalues
-/// nu_1 .. nu_4 of B (one of them is 0), sorted by real part:
+/// With the Schur form C = Q T Q^H of the rates (exact_cell.h) and y = Q^H w(0),
 ///
-///   b(t) = sum_k Z_k E[nu_1 .. nu_(k+1)](t),   Z_0 = b(0),   Z_k = (B - nu_k) Z_(k-1)                    (1)
+///   w(t) = Q exp(tT) y,   b(t) = b(0) + Q (integral of exp(tT)) y                                     (1)
 ///
-/// with E the divided differences of exp(nu t) (Putzer 1966; McCurdy, Ng, Parlett 1984). It holds for equal
-/// and for defective eigenvalues, and does not cancel for stiff ones since the fastest decay comes first.
-///
-/// Zeros of f = b_i: between two zeros of f lies one of (D - nu) f for real nu (Rolle, applied to
-/// exp(-nu t) f). The chain f, (D - nu_1) f, (D - nu_2)(D - nu_1) f ends with a function whose zeros are
-/// known in closed form: at most one where all eigenvalues are real, spaced by half periods where two are
-/// complex. Each function is monotone, up to a positive factor, between the zeros of the next, so its own
-/// are bracketed for certain. Slow spirals do not cost work by the turn: where the lower envelope of the
-/// turns (a sum of real exponentials) is positive there is no zero, and the search jumps to where it ends.
+/// are written out in divided differences of the exponential on the eigenvalues (exponential_form.h), the
+/// integral by the node 0 more in every set. Nothing is divided by a difference of eigenvalues, so defective
+/// and singular matrices are no exception; and what has decayed in one direction is not brought back by
+/// rounding of another, however stiff (Davies and Higham 2003 on Schur-Parlett methods). The first exit is
+/// that of first_zero.h.
 ///
 /// Computed in `long double` from the vertices: beside a rate of 1e12 a double leaves a slow one no digits.
 #pragma once
@@ -24,14 +19,15 @@
 
 #include "common/field/grid/tet_mesh.h"
 #include "common/trace/exact_cell.h"
+#include "common/trace/exponential_form.h"
 
 namespace palpate {
 
 class AffineModes {
  public:
-  using Real = long double;
-  using Complex = std::complex<long double>;
-  using Four = std::array<Real, 4>;
+  using Real = ExponentialNodes::Real;
+  using Complex = ExponentialNodes::Complex;
+  using Four = ExponentialForm::Four;
 
   struct Exit {
     int face = -1;  ///< -1: never
@@ -54,29 +50,18 @@ class AffineModes {
   [[nodiscard]] Real rate() const noexcept { return rate_; }
 
  private:
-  /// A function of time for every face: sum_k coefficient_k E[nodes in mask_k].
-  struct Form {
-    int count = 0;
-    std::array<unsigned, 4> mask{};
-    std::array<std::array<Complex, 4>, 4> coefficient{};
-  };
-  class Differences;
-  class FaceSearch;
-
   void make_rates(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign);
-  void make_nodes();
-  /// The form of exp(tB) z over the nodes in `use`, in their order; exact where z has no part in the others.
-  [[nodiscard]] Form form_of(const Four& z, unsigned use) const;
-  [[nodiscard]] Four times_minus(const Four& z, Real nu) const;
-  [[nodiscard]] Four value(const Form& form, Real t) const;
+  void make_schur();
+  [[nodiscard]] Four rates_of(const Four& z) const;  ///< B z
+  [[nodiscard]] ExponentialForm rate_form(const Four& w) const;
   void find_rest(Real horizon);
 
-  std::array<Four, 4> matrix_{};    ///< B, rows first
-  std::array<Complex, 4> nodes_{};  ///< sorted by real part, a complex pair side by side
-  bool complex_ = false;
-  int pair_ = -1;  ///< index of the first of the complex pair
+  std::array<Four, 4> matrix_{};  ///< B, rows first
+  std::array<std::array<Complex, 3>, 3> q_{}, t_{};
+  ExponentialNodes nodes_;  ///< 0 and the eigenvalues, in the order of T
+  int annihilated_ = 1;     ///< the node that the chain of first_zero.h takes out
   Real rate_ = 0.0L;
-  Form form_;
+  ExponentialForm position_;
   Exit exit_;
   std::optional<Four> rest_;
 };

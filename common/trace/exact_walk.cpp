@@ -213,8 +213,21 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     const double interpolation = theta2 * theta2 * theta * time * fastest * (1.0 / 46080.0) * std::exp(theta);
     const auto smaller = [](double x, double y) { return x < y ? x : y; };
     const double lowest = smaller(smaller(min_lane(b1), min_lane(b2)), smaller(min_lane(b3), min_lane(b4)));
-    const double lowest_end = face >= 0 ? 0.0 : min_lane(b5);
-    if (!(lowest > interpolation) || lowest_end < 0.0 || !sound) {
+    // Another face may have been crossed shortly before: then that one is the exit.
+    int earlier = -1;
+    double deepest = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      if (i != face && b5[i] < deepest) {
+        deepest = b5[i];
+        earlier = i;
+      }
+    }
+    if (earlier >= 0 && flow.w[earlier] < 0.0) {
+      face = earlier;
+      h = std::max(time - deepest / flow.w[earlier], 0.5 * time);
+      continue;
+    }
+    if (!(lowest > interpolation) || earlier >= 0 || !sound) {
       h = 0.5 * time;
       face = -1;
       continue;

@@ -1,0 +1,149 @@
+#include "common/trace/exponential_form.h"
+
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+namespace palpate {
+
+template <class Number>
+Number DividedDifferences::node(int k) const {
+  if constexpr (std::is_same_v<Number, Real>) {
+    return nodes_.nu[static_cast<std::size_t>(k)].real();
+  } else {
+    return nodes_.nu[static_cast<std::size_t>(k)];
+  }
+}
+
+template <class Number>
+Number DividedDifferences::get(unsigned set) {
+  if ((known_ & (1u << set)) == 0u) {
+    values_[set] = compute<Number>(set);
+    known_ |= 1u << set;
+  }
+  if constexpr (std::is_same_v<Number, Real>) {
+    return values_[set].real();
+  } else {
+    return values_[set];
+  }
+}
+
+template <class Number>
+Number DividedDifferences::compute(unsigned set) {
+  std::array<int, 4> index{};
+  int count = 0;
+  for (int k = 0; k < 4; ++k) {
+    if ((set & (1u << k)) != 0u) index[static_cast<std::size_t>(count++)] = k;
+  }
+  if (count == 1) return std::exp(node<Number>(index[0]) * t_);
+
+  // The recurrence over the two nodes farthest apart, unless all are so close that it would cancel.
+  int p = index[0], q = index[1];
+  Real farthest = -1.0L;
+  for (int i = 0; i < count; ++i) {
+    for (int j = i + 1; j < count; ++j) {
+      const int a = index[static_cast<std::size_t>(i)], b = index[static_cast<std::size_t>(j)];
+      const Real distance = std::abs(node<Number>(a) - node<Number>(b));
+      if (distance > farthest) {
+        farthest = distance;
+        p = a;
+        q = b;
+      }
+    }
+  }
+  if (farthest * t_ > 1.0L) {
+    return (get<Number>(set & ~(1u << p)) - get<Number>(set & ~(1u << q))) /
+           (node<Number>(q) - node<Number>(p));
+  }
+  return series<Number>(index, count);
+}
+
+/// exp(m t) t^n sum_k h_k((nu - m) t) / (k + n)!, n = count - 1, with the complete homogeneous symmetric
+/// polynomials h_k and the mean m.
+template <class Number>
+Number DividedDifferences::series(const std::array<int, 4>& index, int count) const {
+  Number mean{};
+  for (int i = 0; i < count; ++i) mean += node<Number>(index[static_cast<std::size_t>(i)]);
+  mean /= static_cast<Real>(count);
+  std::array<Number, 4> shift{}, h{};
+  for (int i = 0; i < count; ++i) {
+    shift[static_cast<std::size_t>(i)] = (node<Number>(index[static_cast<std::size_t>(i)]) - mean) * t_;
+    h[static_cast<std::size_t>(i)] = Number(1.0L);
+  }
+  Real factor = 1.0L;  // t^n / (k + n)!
+  for (int i = 1; i < count; ++i) factor *= t_ / static_cast<Real>(i);
+  Number sum = Number(factor);
+  // |shift| <= 1: the terms fall like 1 / k!. A vanishing one ends nothing, since h_k of symmetric nodes is
+  // zero for every other k, or two in three.
+  constexpr int kTerms = 24;
+  for (int k = 1; k < kTerms; ++k) {
+    factor /= static_cast<Real>(k + count - 1);
+    Number below{};
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      h[at] = below + shift[at] * h[at];
+      below = h[at];
+    }
+    sum += below * factor;
+  }
+  return std::exp(mean * t_) * sum;
+}
+
+void ExponentialForm::add(unsigned set, const std::array<Complex, 4>& c) {
+  for (std::size_t i = 0; i < 4; ++i) coefficient_[set][i] += c[i];
+  used_ |= 1u << set;
+}
+
+ExponentialForm ExponentialForm::annihilated(const ExponentialNodes& nodes, int node) const {
+  ExponentialForm out;
+  const unsigned bit = 1u << node;
+  for (unsigned set = 1u; set < 16u; ++set) {
+    if ((used_ & (1u << set)) == 0u) continue;
+    const std::array<Complex, 4>& c = coefficient_[set];
+    if ((set & bit) != 0u) {
+      if (set != bit) out.add(set & ~bit, c);
+      continue;
+    }
+    const int s = std::countr_zero(set);
+    const Complex gap = nodes.nu[static_cast<std::size_t>(s)] - nodes.nu[static_cast<std::size_t>(node)];
+    out.add(set, {gap * c[0], gap * c[1], gap * c[2], gap * c[3]});
+    const unsigned rest = set & ~(1u << s);
+    if (rest != 0u) out.add(rest, c);
+  }
+  return out;
+}
+
+ExponentialForm::Four ExponentialForm::value(const ExponentialNodes& nodes, Real t) const {
+  DividedDifferences e(nodes, t);
+  Four sum{};
+  for (unsigned set = 1u; set < 16u; ++set) {
+    if ((used_ & (1u << set)) == 0u) continue;
+    const std::array<Complex, 4>& c = coefficient_[set];
+    if (nodes.complex) {
+      const Complex factor = e.get<Complex>(set);
+      for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor.real() - c[i].imag() * factor.imag();
+    } else {
+      const Real factor = e.get<Real>(set);
+      for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor;
+    }
+  }
+  return sum;
+}
+
+ExponentialForm::Real ExponentialForm::value(const ExponentialNodes& nodes, Real t, std::size_t face) const {
+  DividedDifferences e(nodes, t);
+  Real sum = 0.0L;
+  for (unsigned set = 1u; set < 16u; ++set) {
+    if ((used_ & (1u << set)) == 0u) continue;
+    const Complex c = coefficient_[set][face];
+    if (nodes.complex) {
+      const Complex factor = e.get<Complex>(set);
+      sum += c.real() * factor.real() - c.imag() * factor.imag();
+    } else {
+      sum += c.real() * e.get<Real>(set);
+    }
+  }
+  return sum;
+}
+
+}  // namespace palpate

@@ -1,0 +1,77 @@
+/// Sums of divided differences of exponentials: the functions of time that an affine flow is made of.
+///
+///   f(t) = sum_S c_S E[S](t)                                                                       (1)
+///
+/// over subsets S of four nodes nu, with E[S](t) the divided difference of exp(nu t) on S (McCurdy, Ng,
+/// Parlett 1984). It is defined for equal nodes, and has no cancellation where nodes are far apart.
+/// Differentiation maps such sums to such sums:
+///
+///   (D - nu_a) E[S] = E[S without a]                            if a is in S,
+///                   = (nu_s - nu_a) E[S] + E[S without s]         for any s in S                       (2)
+#pragma once
+
+#include <array>
+#include <complex>
+
+namespace palpate {
+
+/// Four nodes, real or with one complex pair.
+struct ExponentialNodes {
+  using Real = long double;
+  using Complex = std::complex<long double>;
+
+  std::array<Complex, 4> nu{};
+  bool complex = false;  ///< if not, all imaginary parts are zero
+};
+
+/// Divided differences at one time, computed when asked for.
+class DividedDifferences {
+ public:
+  using Real = ExponentialNodes::Real;
+  using Complex = ExponentialNodes::Complex;
+
+  DividedDifferences(const ExponentialNodes& nodes, Real t) : nodes_(nodes), t_(t) {}
+
+  /// E[S], S given by its bits. `Number` is Real where the nodes are real, else Complex.
+  template <class Number>
+  [[nodiscard]] Number get(unsigned set);
+
+ private:
+  template <class Number>
+  [[nodiscard]] Number node(int k) const;
+  template <class Number>
+  [[nodiscard]] Number compute(unsigned set);
+  template <class Number>
+  [[nodiscard]] Number series(const std::array<int, 4>& index, int count) const;
+
+  const ExponentialNodes& nodes_;
+  Real t_;
+  unsigned known_ = 0u;
+  std::array<Complex, 16> values_{};
+};
+
+/// Four functions (1), one a face, over the same nodes.
+class ExponentialForm {
+ public:
+  using Real = ExponentialNodes::Real;
+  using Complex = ExponentialNodes::Complex;
+  using Four = std::array<Real, 4>;
+
+  [[nodiscard]] std::array<Complex, 4>& operator[](unsigned set) { return coefficient_[set]; }
+  [[nodiscard]] const std::array<Complex, 4>& operator[](unsigned set) const { return coefficient_[set]; }
+  /// Adds c to the coefficient of `set`, face by face.
+  void add(unsigned set, const std::array<Complex, 4>& c);
+
+  /// (D - nu_node) f, by (2).
+  [[nodiscard]] ExponentialForm annihilated(const ExponentialNodes& nodes, int node) const;
+
+  [[nodiscard]] Four value(const ExponentialNodes& nodes, Real t) const;
+  /// Of one face.
+  [[nodiscard]] Real value(const ExponentialNodes& nodes, Real t, std::size_t face) const;
+
+ private:
+  std::array<std::array<Complex, 4>, 16> coefficient_{};
+  unsigned used_ = 0u;  ///< sets with a coefficient
+};
+
+}  // namespace palpate
