@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 
+#include <vtkLogger.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
@@ -20,14 +22,20 @@ class Collector : public vtkOutputWindow {
   }
 
   void DisplayText(const char*) override {}
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
+  void DisplayWarningText(const char* text) override { keep_if_data_lost(text); }
+  void DisplayGenericWarningText(const char* text) override { keep_if_data_lost(text); }
   void DisplayDebugText(const char*) override {}
   void DisplayErrorText(const char* text) override {
     if (first.empty()) first = text;
   }
 
   std::string first;
+
+ private:
+  /// Text that is no number is only a warning to VTK's legacy reader, which goes on without the values.
+  void keep_if_data_lost(const char* text) {
+    if (std::strstr(text, "Error reading") != nullptr) DisplayErrorText(text);
+  }
 };
 
 /// VTK writes "ERROR: In file.cxx, line 12\nvtkReader (0x55…): what\n\n": the last part is what counts.
@@ -45,6 +53,7 @@ std::string one_line(std::string text) {
 }  // namespace
 
 VtkErrors::VtkErrors() {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   const auto collector = vtkSmartPointer<Collector>::New();
   vtkOutputWindow::SetInstance(collector);
 }

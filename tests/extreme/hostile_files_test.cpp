@@ -215,6 +215,16 @@ TEST(HostileFiles, ClaimedSizesOfTwoToTheFortyAreRefused) {
   refuse(".xyz", std::string("\0\0\x10\0\0\0\x10\0\0\0\x10\0", 12) + floats(81));
 }
 
+TEST(HostileFiles, WordsInPlaceOfNumbersAreRefused) {
+  const test::TempFolder folder;
+  std::string legacy = legacy_cells();
+  legacy.replace(legacy.rfind("2 3 4"), 1, "x");
+  expect_refused(folder.write("a.vtk", legacy), "a word among legacy values");
+  std::string xml = xml_mesh();
+  xml.replace(xml.find("1 2 3 4"), 7, "1 2 3  ");
+  expect_refused(folder.write("a.vtu", xml), "three of four values");
+}
+
 TEST(HostileFiles, DeepNestingAndManyBlocksAreRefused) {
   const test::TempFolder folder;
   const auto self = folder.write("self.vtm",
