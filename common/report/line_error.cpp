@@ -19,9 +19,27 @@ std::size_t point_at(const Line& line, double arc, double slack, std::size_t fro
   return found ? i : line.points.size();
 }
 
-bool in_sink(const Line& line) { return line.end == End::kStagnation || line.end == End::kLoop; }
+/// The smallest value that a part `q` of the values does not exceed. @pre not empty.
+double quantile(std::vector<double>& values, double q) {
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+constexpr double kWoundUp = 0.05;  // of the diagonal
 
 }  // namespace
+
+bool ends_inside(const Line& line, double diagonal) {
+  if (line.end == End::kStagnation || line.end == End::kLoop) return true;
+  if (line.points.empty() || !(line.points.back().arc > diagonal)) return false;
+  Box reach;
+  for (auto p = line.points.rbegin(); p != line.points.rend() && p->arc >= 0.5 * line.points.back().arc;
+       ++p) {
+    reach.include(p->position);
+  }
+  return reach.diagonal() < kWoundUp * diagonal;
+}
 
 double line_distance(const Line& line, const Line& reference, double spacing, bool with_ends) {
   if (line.points.empty() || reference.points.empty()) return std::nan("");
@@ -53,11 +71,13 @@ LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> 
 
   LineComparison result;
   std::vector<double> errors;
+  std::vector<double> stated;
+  std::size_t covered = 0;
   for (const Line& line : lines) {
     const auto found = references.find({line.seed, line.direction});
     if (found == references.end()) continue;
     const Line& other = *found->second;
-    if (in_sink(line) || in_sink(other)) {
+    if (ends_inside(line, diagonal) || ends_inside(other, diagonal)) {
       ++result.sinks;
       continue;
     }
@@ -66,17 +86,19 @@ LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> 
     const double distance = line_distance(line, other, spacing, same_end);
     if (std::isnan(distance)) continue;
     errors.push_back(distance / diagonal);
+    stated.push_back(line.points.back().error / diagonal);
+    if (distance <= line.points.back().error) ++covered;
   }
   result.compared = errors.size();
-  if (errors.empty()) return result;
-  std::sort(errors.begin(), errors.end());
-  const auto quantile = [&errors](double q) {
-    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(errors.size())));
-    return errors[std::clamp<std::size_t>(rank, 1, errors.size()) - 1];
-  };
-  result.median = quantile(0.5);
-  result.p95 = quantile(0.95);
-  result.max = errors.back();
+  if (errors.empty()) {
+    result.median = result.p95 = result.max = result.stated = result.covered = std::nan("");
+    return result;
+  }
+  result.median = quantile(errors, 0.5);
+  result.p95 = quantile(errors, 0.95);
+  result.max = quantile(errors, 1.0);
+  result.stated = quantile(stated, 0.95);
+  result.covered = static_cast<double>(covered) / static_cast<double>(errors.size());
   return result;
 }
 

@@ -28,6 +28,10 @@ std::string three_digits(double value) {
   return text.data();
 }
 
+std::string percent(double fraction) {
+  return std::isfinite(fraction) ? std::to_string(std::lround(100.0 * fraction)) + " %" : "none";
+}
+
 std::string machine_text(const Machine& m) {
   return m.processor + ", " + counted(static_cast<std::uint64_t>(m.cores), "core") + ", " +
          bytes_text(m.memory_bytes) + " of memory; " + m.system + "; Palpate " + m.version + " built with " +
@@ -37,11 +41,13 @@ std::string machine_text(const Machine& m) {
 std::string sweep_table(const Sweep& sweep) {
   std::string out =
       "<table><tr><th>method</th><th class=\"text\">setting</th><th>error, 95 % of lines</th><th>median</th>"
-      "<th>worst</th><th>stated</th><th>seconds</th><th>lines/s</th><th>ended otherwise</th></tr>\n";
+      "<th>worst</th><th>stated, 95 %</th><th>within stated</th><th>seconds</th><th>lines/s</th><th>ended "
+      "otherwise</th></tr>\n";
   for (const SweepRow& row : sweep.rows) {
     out += "<tr>" + cell(row.method) + cell(row.parameter, true) + cell(three_digits(row.error.p95)) +
            cell(three_digits(row.error.median)) + cell(three_digits(row.error.max)) +
-           cell(three_digits(row.error_estimate)) + cell(three_digits(row.seconds)) +
+           cell(three_digits(row.error.stated)) + cell(percent(row.error.covered)) +
+           cell(three_digits(row.seconds)) +
            cell(three_digits(static_cast<double>(row.lines) / row.seconds)) +
            cell(std::to_string(row.error.different_ends)) + "</tr>\n";
   }
@@ -92,14 +98,15 @@ std::string work_precision_plot(const Report& report) {
 
 std::string honesty_plot(const Report& report) {
   return svg({.title = "Stated against true error",
-              .x_label = "largest error that the method states / diagonal",
-              .y_label = "true error of the worst line / diagonal",
+              .x_label = "error that the lines state / diagonal (95 % of the lines)",
+              .y_label = "error that they have / diagonal (95 % of the lines)",
               .series = series_by_method(report.sweep,
                                          [](const SweepRow& r) {
-                                           return PlotPoint{r.error_estimate, r.error.max};
+                                           return PlotPoint{r.error.stated, r.error.p95};
                                          }),
-              .floor = report.sweep.agreement.max,
-              .floor_label = "agreement of " + report.sweep.reference + " and " + report.sweep.second});
+              .floor = report.sweep.agreement.p95,
+              .floor_label = "agreement of " + report.sweep.reference + " and " + report.sweep.second,
+              .diagonal = true});
 }
 
 std::string report_page(const Report& report) {
@@ -115,14 +122,14 @@ std::string report_page(const Report& report) {
       "<h2>Error against run time</h2>\n<img src=\"work_precision.svg\" alt=\"error against run time, "
       "log-log\">\n";
   out += paragraph(
-      counted(sweep.reference_lines.size(), "line") + " from " + counted(sweep.seeds, "seed") + " (" +
-      std::to_string(sweep.seeds_outside) + " outside the data), up to " + short_number(sweep.max_length) +
+      counted(sweep.reference_lines.size(), "line") + " of " + counted(sweep.seeds, "seed") + ", up to " +
+      short_number(sweep.max_length) +
       " data units long. The error of a line is its largest distance from the reference line at equal arc "
       "length, taken every " +
       short_number(sweep.spacing) +
-      " data units and at the end, divided by the diagonal of the domain. Lines that run into sinks or close "
-      "on themselves are left out (" +
-      std::to_string(agreement.sinks) + " here).");
+      " data units and at the end, divided by the diagonal of the domain. Left out of errors and times: " +
+      counted(sweep.lines_inside, "line") + " that end inside (sinks and closed orbits) and " +
+      counted(sweep.seeds_outside, "seed") + " outside the data.");
   out += paragraph("Reference: " + sweep.reference + ". The independent method " + sweep.second +
                    " agrees with it to " + three_digits(agreement.median) + " (median), " +
                    three_digits(agreement.p95) + " (95 % of lines), " + three_digits(agreement.max) +
@@ -133,10 +140,8 @@ std::string report_page(const Report& report) {
       "<h2>Is the stated error honest?</h2>\n<img src=\"stated_error.svg\" alt=\"stated against true error, "
       "log-log\">\n";
   out += paragraph(
-      "Every line carries its own estimate of its error. Here the largest estimate of a run stands against "
-      "the "
-      "error that the worst line really has; where a point lies above its stated error the estimate was too "
-      "low.");
+      "Every line carries its own estimate of its error. Below the dotted line it states more than it has; "
+      "the column 'within stated' counts the lines that do.");
   out += "<h2>Stability</h2>\n" + stability_table(report.stability);
   out +=
       "<h2>Files</h2>\n<p><a href=\"report.json\">report.json</a>, <a "

@@ -195,6 +195,14 @@ std::string svg(const LogLogPlot& plot) {
     out += line_between(kLeft, y, kRight, y, "stroke=\"#777\" stroke-width=\"1.4\" stroke-dasharray=\"7 5\"");
     out += text_at(kRight - 6, y - 6, "end", plot.floor_label, 12);
   }
+  if (plot.diagonal) {
+    const double low = std::max(axes.x.lower, axes.y.lower);
+    const double high = std::min(axes.x.upper, axes.y.upper);
+    if (low < high) {
+      out += line_between(axes.px(low), axes.py(low), axes.px(high), axes.py(high),
+                          "stroke=\"#777\" stroke-width=\"1.4\" stroke-dasharray=\"2 4\"");
+    }
+  }
   double legend_y = kTop + 10;
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     out += curve(plot.series[s], s, axes);

@@ -24,6 +24,7 @@ struct LogLogPlot {
   /// A horizontal line across the diagram, where positive: what lies below it means nothing.
   double floor = 0.0;
   std::string floor_label;
+  bool diagonal = false;  ///< draws y = x, dotted
 };
 
 /// An SVG document. A diagram without a single point says so.

@@ -49,15 +49,17 @@ void write_file(const fs::path& path, const std::string& text) {
 
 std::string work_precision_csv(const Report& report) {
   std::string out =
-      "subject,method,parameter,error_median,error_p95,error_max,error_stated,seconds,repeats,lines,points,"
-      "lines_compared,lines_in_sinks,lines_with_different_ends\n";
+      "subject,method,parameter,error_median,error_p95,error_max,error_stated,lines_within_stated,seconds,"
+      "repeats,lines,points,"
+      "lines_compared,lines_ending_inside,lines_with_different_ends\n";
   for (const SweepRow& row : report.sweep.rows) {
     out += quoted(report.sweep.subject) + "," + row.method + "," + quoted(row.parameter) + "," +
            exact_number(row.error.median) + "," + exact_number(row.error.p95) + "," +
-           exact_number(row.error.max) + "," + exact_number(row.error_estimate) + "," +
-           exact_number(row.seconds) + "," + std::to_string(row.repeats) + "," + std::to_string(row.lines) +
-           "," + std::to_string(row.points) + "," + std::to_string(row.error.compared) + "," +
-           std::to_string(row.error.sinks) + "," + std::to_string(row.error.different_ends) + "\n";
+           exact_number(row.error.max) + "," + exact_number(row.error.stated) + "," +
+           exact_number(row.error.covered) + "," + exact_number(row.seconds) + "," +
+           std::to_string(row.repeats) + "," + std::to_string(row.lines) + "," + std::to_string(row.points) +
+           "," + std::to_string(row.error.compared) + "," + std::to_string(row.error.sinks) + "," +
+           std::to_string(row.error.different_ends) + "\n";
   }
   return out;
 }

@@ -13,9 +13,9 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json comparison(const LineComparison& c) {
-  return {{"median", number(c.median)}, {"p95", number(c.p95)},
-          {"max", number(c.max)},       {"lines_compared", c.compared},
-          {"lines_in_sinks", c.sinks},  {"lines_with_different_ends", c.different_ends}};
+  return {{"median", number(c.median)},     {"p95", number(c.p95)},
+          {"max", number(c.max)},           {"lines_compared", c.compared},
+          {"lines_ending_inside", c.sinks}, {"lines_with_different_ends", c.different_ends}};
 }
 
 }  // namespace
@@ -56,6 +56,8 @@ std::string report_json(const Report& report) {
                   {"threads", report.sweep.threads},
                   {"seeds", report.sweep.seeds},
                   {"seeds_outside", report.sweep.seeds_outside},
+                  {"lines_compared", report.sweep.reference_lines.size()},
+                  {"lines_ending_inside", report.sweep.lines_inside},
                   {"max_length", report.sweep.max_length},
                   {"work_precision", rows},
                   {"stability", cases},

@@ -14,18 +14,19 @@ namespace {
 
 /// What the effort buys.
 struct EffortPlan {
-  int repeats = 1;             // runs of a setting, of which the median counts
-  double seconds_setting = 0;  // a method's sweep ends where its next setting is expected to take longer
+  int repeats = 1;              // runs of a setting, of which the median counts
+  double seconds_setting = 0;   // a method's sweep ends where its next setting is expected to take longer
+  double second_tolerance = 0;  // of the independent method on trilinear data and formulas
 };
 
 EffortPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::kQuick:
-      return {1, 0.4};
+      return {1, 0.2, 1e-8};
     case Effort::kThorough:
-      return {5, 20.0};
+      return {5, 10.0, 1e-10};
     default:
-      return {3, 1.0};
+      return {3, 0.5, 1e-9};
   }
 }
 
@@ -39,7 +40,6 @@ struct MethodSweep {
 
 constexpr double kLoosestTolerance = 1e-3;
 constexpr double kReferenceTolerance = 1e-12;
-constexpr double kSecondTolerance = 1e-10;
 constexpr int kComparedPerDiagonal = 16;   // S = D / 16
 constexpr int kFewestStepsPerSpacing = 2;  // loosest fixed step: S / 2
 constexpr int kMostHalvings = 14;
@@ -91,25 +91,44 @@ class Sweeper {
     options.step = step;
     options.max_length = sweep_.max_length;
     options.threads = sweep_.threads;
-    return trace_lines(field_, request_.seeds, options, nullptr);
+    return trace_lines(field_, seeds_, options, progress_);
+  }
+
+  TraceResult tightest(bool tets) const {
+    return trace(tets ? Integrator::kExact : Integrator::kDp54, kReferenceTolerance, sweep_.spacing);
   }
 
   void make_reference() {
     const bool tets = field_.tet_mesh() != nullptr;
     stage("tightest method");
-    TraceResult reference = tets ? trace(Integrator::kExact, kReferenceTolerance, sweep_.spacing)
-                                 : trace(Integrator::kDp54, kReferenceTolerance, sweep_.spacing);
-    if (reference.lines.empty()) {
-      throw work_error("no line to compare: all " + counted(request_.seeds.size(), "seed") +
-                       " lie outside the data");
-    }
+    seeds_ = request_.seeds;
+    TraceResult reference = tightest(tets);
     sweep_.seeds_outside = reference.outside_seeds.size();
+    if (reference.lines.empty()) {
+      throw work_error("no line to compare: all " + counted(seeds_.size(), "seed") + " lie outside the data");
+    }
+    // Seeds whose line ends inside in any direction are dropped, then those beyond what the effort allows.
+    std::vector<bool> inside(seeds_.size(), false), traced(seeds_.size(), false);
+    for (const Line& line : reference.lines) {
+      traced[line.seed] = true;
+      if (!ends_inside(line, field_.diagonal())) continue;
+      inside[line.seed] = true;
+      ++sweep_.lines_inside;
+    }
+    std::vector<Vec3> kept;
+    for (std::size_t s = 0; s < seeds_.size() && kept.size() < request_.most_lines; ++s) {
+      if (traced[s] && !inside[s]) kept.push_back(seeds_[s]);
+    }
+    if (kept.empty())
+      throw work_error(
+          "no line to compare: every line ends inside, in a sink or on itself; give other --seeds");
+    seeds_ = std::move(kept);
+    sweep_.reference_lines = tightest(tets).lines;
     sweep_.reference = tets ? "exact" : "dp54 tolerance=" + short_number(kReferenceTolerance);
-    sweep_.reference_lines = std::move(reference.lines);
 
     stage("independent method");
     const Integrator other = tets ? Integrator::kDp54 : Integrator::kRk34;
-    const double tolerance = tets ? kReferenceTolerance : kSecondTolerance;
+    const double tolerance = tets ? kReferenceTolerance : plan_.second_tolerance;
     sweep_.second = std::string(name_of(other)) + " tolerance=" + short_number(tolerance);
     const TraceResult second = trace(other, tolerance, sweep_.spacing);
     sweep_.agreement = compare_lines(second.lines, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
@@ -132,7 +151,6 @@ class Sweeper {
     row.repeats = plan_.repeats;
     row.lines = result.lines.size();
     row.points = result.points;
-    row.error_estimate = result.error_max / field_.diagonal();
     row.error = compare_lines(result.lines, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
     sweep_.rows.push_back(row);
     return row.seconds;
@@ -166,6 +184,7 @@ class Sweeper {
   const SweepRequest& request_;
   EffortPlan plan_;
   Progress* progress_;
+  std::vector<Vec3> seeds_;  ///< of the lines that are compared
   Sweep sweep_;
 };
 

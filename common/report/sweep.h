@@ -32,7 +32,6 @@ struct SweepRow {
   int repeats = 1;
   std::size_t lines = 0;
   std::size_t points = 0;
-  double error_estimate = 0.0;  ///< the largest that the method states, divided by the diagonal
 };
 
 struct Sweep {
@@ -44,9 +43,10 @@ struct Sweep {
   double max_length = 0.0;     ///< data units
   double spacing = 0.0;        ///< S of the comparison, data units
   int threads = 1;
-  std::size_t seeds = 0;
+  std::size_t seeds = 0;  ///< given
   std::size_t seeds_outside = 0;
-  std::vector<Line> reference_lines;
+  std::size_t lines_inside = 0;  ///< that run into sinks or close on themselves: neither compared nor timed
+  std::vector<Line> reference_lines;  ///< compared and timed
 };
 
 struct SweepRequest {
@@ -54,6 +54,7 @@ struct SweepRequest {
   std::vector<Vec3> seeds;
   TraceOptions trace;  ///< directions, limits and stop rules; method and tolerance are swept
   Effort effort = Effort::kNormal;
+  std::size_t most_lines = 48;  ///< seeds whose lines end inside are replaced by later ones up to this many
 };
 
 /// Length of the lines where the request does not say: long enough for errors to grow, short enough that a

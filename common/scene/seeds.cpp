@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kGrammar =
     "seeds are file.csv, point:x,y,z, line:x,y,z,x,y,z,n, plane:o(x,y,z),a(x,y,z),b(x,y,z),na,nb, "
-    "grid:nx,ny,nz or random:n";
+    "grid:nx,ny,nz, random:n or speed:n";
 
 // A line holds its seed's index in 32 bits, and a hundred million seeds take 2.4 GB: more is a slip.
 constexpr double kMostSeeds = 1e8;
@@ -131,51 +131,81 @@ double tet_volume(const TetMesh& mesh, std::size_t cell) {
   return std::abs(glm::dot(glm::cross(x[v[1]] - a, x[v[2]] - a), x[v[3]] - a)) / 6.0;
 }
 
-std::vector<Vec3> random_in_tets(const TetMesh& mesh, const LocalFrame& frame, std::size_t count,
-                                 std::mt19937_64& random) {
-  std::vector<double> volume_up_to(mesh.cells().size());
-  double sum = 0.0;
-  for (std::size_t c = 0; c < volume_up_to.size(); ++c) {
-    if (!mesh.zero_volume(static_cast<CellIndex>(c))) sum += tet_volume(mesh, c);
-    volume_up_to[c] = sum;
+/// Draws points of a field's domain, uniform in volume.
+class PointSource {
+ public:
+  explicit PointSource(const VectorField& field) : field_(field) {
+    const TetMesh* mesh = field.tet_mesh();
+    if (mesh == nullptr) return;
+    volume_up_to_.reserve(mesh->cells().size());
+    double sum = 0.0;
+    for (std::size_t c = 0; c < mesh->cells().size(); ++c) {
+      if (!mesh->zero_volume(static_cast<CellIndex>(c))) sum += tet_volume(*mesh, c);
+      volume_up_to_.push_back(sum);
+    }
   }
-  std::vector<Vec3> seeds;
-  if (!(sum > 0.0)) return seeds;
-  seeds.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto place = std::upper_bound(volume_up_to.begin(), volume_up_to.end(), uniform(random) * sum);
-    const auto cell =
-        static_cast<std::size_t>(std::min(place, volume_up_to.end() - 1) - volume_up_to.begin());
+
+  /// False for a mesh without volume.
+  [[nodiscard]] bool usable() const {
+    return !field_.tet_mesh() || (!volume_up_to_.empty() && volume_up_to_.back() > 0.0);
+  }
+
+  [[nodiscard]] Vec3 draw(std::mt19937_64& random) const {
+    const LocalFrame& frame = field_.frame();
+    if (const TetMesh* mesh = field_.tet_mesh()) return frame.data_from_local(draw_in(*mesh, random));
+    // The grid's own box, which may be turned against the data's axes.
+    if (const BoxGrid* grid = field_.box_grid())
+      return frame.data_from_local(draw_in(grid->bounds(), random));
+    Vec3 x{0.0};
+    CellHint hint;
+    for (int attempt = 0; attempt < kMostTries; ++attempt) {
+      x = draw_in(field_.bounds(), random);
+      if (field_.sample(x, hint).status != SampleStatus::kOutside) break;
+    }
+    return x;
+  }
+
+  // A domain, or a flow, that fills less than a thousandth of its box gives up.
+  static constexpr int kMostTries = 1000;
+
+ private:
+  static Vec3 draw_in(const Box& box, std::mt19937_64& random) {
+    const double x = uniform(random);
+    const double y = uniform(random);
+    return box.lower + Vec3{x, y, uniform(random)} * box.size();
+  }
+
+  [[nodiscard]] Vec3 draw_in(const TetMesh& mesh, std::mt19937_64& random) const {
+    const double wanted = uniform(random) * volume_up_to_.back();
+    const auto place = std::upper_bound(volume_up_to_.begin(), volume_up_to_.end() - 1, wanted);
     // The spacings of three sorted uniform numbers are uniform on the simplex.
-    std::array<double, 3> u{uniform(random), uniform(random), uniform(random)};
+    std::array<double, 3> u{};
+    for (double& part : u) part = uniform(random);
     std::sort(u.begin(), u.end());
     const Vec4 b{u[0], u[1] - u[0], u[2] - u[1], 1.0 - u[2]};
-    seeds.push_back(frame.data_from_local(mesh.position(static_cast<CellIndex>(cell), b)));
+    return mesh.position(static_cast<CellIndex>(place - volume_up_to_.begin()), b);
   }
-  return seeds;
-}
 
-std::vector<Vec3> random_seeds(const VectorField& field, std::size_t count, std::uint64_t random_seed) {
+  const VectorField& field_;
+  std::vector<double> volume_up_to_;  ///< of the cells up to each, frame L
+};
+
+std::vector<Vec3> random_seeds(const VectorField& field, const SeedRandom& wanted,
+                               std::uint64_t random_seed) {
+  const PointSource source(field);
+  if (!source.usable()) return {};
   std::mt19937_64 random{random_seed};
-  if (const TetMesh* mesh = field.tet_mesh()) return random_in_tets(*mesh, field.frame(), count, random);
-
-  // Drawn in the grid's own box, which may be turned against the data's axes.
-  const bool boxed = field.box_grid() != nullptr;
-  const Box box = boxed ? field.box_grid()->bounds() : field.bounds();
+  const bool by_speed = wanted.by_speed && field.max_speed() > 0.0;
   std::vector<Vec3> seeds;
-  seeds.reserve(count);
-  constexpr int kMostTries = 1000;  // a domain that fills less than a thousandth of its box gives up
+  seeds.reserve(wanted.count);
   CellHint hint;
-  while (seeds.size() < count) {
-    Vec3 x{0.0};
-    for (int attempt = 0; attempt < kMostTries; ++attempt) {
-      const Vec3 u{uniform(random), uniform(random), uniform(random)};
-      x = box.lower + u * box.size();
-      if (boxed) {
-        x = field.frame().data_from_local(x);
-        break;
-      }
-      if (field.sample(x, hint).status != SampleStatus::kOutside) break;
+  while (seeds.size() < wanted.count) {
+    Vec3 x = source.draw(random);
+    for (int attempt = 1; by_speed && attempt < PointSource::kMostTries; ++attempt) {
+      const VectorSample v = field.sample(x, hint);
+      const double speed = v.status == SampleStatus::kOk ? glm::length(v.value) : 0.0;
+      if (uniform(random) * field.max_speed() < speed) break;
+      x = source.draw(random);
     }
     seeds.push_back(x);
   }
@@ -248,7 +278,9 @@ SeedSpec parse_seeds(const std::string& text) {
     check_total(std::max(v[0], 1.0) * std::max(v[1], 1.0) * std::max(v[2], 1.0), text);
     return SeedGrid{{count_from(v[0], text), count_from(v[1], text), count_from(v[2], text)}};
   }
-  if (kind == "random") return SeedRandom{static_cast<std::size_t>(count_from(numbers(1)[0], text))};
+  if (kind == "random" || kind == "speed") {
+    return SeedRandom{static_cast<std::size_t>(count_from(numbers(1)[0], text)), kind == "speed"};
+  }
   if (text.ends_with(".csv") || std::filesystem::exists(text)) return read_csv(text);
   throw usage_error("--seeds " + text + ": not understood; " + kGrammar);
 }
@@ -256,7 +288,7 @@ SeedSpec parse_seeds(const std::string& text) {
 std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field, std::uint64_t random_seed) {
   if (const auto* list = std::get_if<SeedList>(&spec)) return list->points;
   if (const auto* grid = std::get_if<SeedGrid>(&spec)) return grid_seeds(field.bounds(), grid->n);
-  return random_seeds(field, std::get<SeedRandom>(spec).count, random_seed);
+  return random_seeds(field, std::get<SeedRandom>(spec), random_seed);
 }
 
 }  // namespace palpate

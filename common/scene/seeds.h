@@ -7,6 +7,9 @@
 ///                                     neighbours are the corners a and b, borders included
 ///   grid:nx,ny,nz                     at ((i + 1/2) / nx, ...) of the field's bounds
 ///   random:n                          uniform in volume
+///   speed:n                           random too, with a probability in proportion to the speed: more lines
+///   where
+///                                     more flows, few in fluid at rest
 ///
 /// Coordinates are the data's own.
 #pragma once
@@ -32,9 +35,10 @@ struct SeedGrid {
   Index3 n{0};
 };
 
-/// `count` seeds, uniform in volume.
+/// `count` seeds, uniform in volume or in volume times speed.
 struct SeedRandom {
   std::size_t count = 0;
+  bool by_speed = false;
 };
 
 using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
@@ -45,7 +49,8 @@ using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 
 /// The seeds in data coordinates. Random ones depend on `random_seed` and the field alone: on tetrahedra a
 /// cell is drawn by its volume and a point in it by the spacings of three sorted uniform numbers, on other
-/// grids a point is drawn in the grid's box (for a formula until it lies in the domain).
+/// grids a point is drawn in the grid's box (for a formula until it lies in the domain). By speed: such a
+/// point is kept with the probability |v| / max |v|, else drawn anew.
 [[nodiscard]] std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field,
                                            std::uint64_t random_seed);
 

@@ -153,7 +153,7 @@ class VerbParser {
     TracingOptions& tracing = options_.tracing;
     scene("--seeds", tracing.seeds,
           "file.csv | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three corners as x,y,z) | "
-          "grid:nx,ny,nz | random:n",
+          "grid:nx,ny,nz | random:n | speed:n (random, denser where the speed is high)",
           "S", group);
     scene("--direction", tracing.direction, "which way from each seed", "forward|backward|both", group)
         ->check(CLI::IsMember({"forward", "backward", "both"}));
@@ -216,6 +216,23 @@ class VerbParser {
   std::vector<CLI::Option*> scene_options_;
 };
 
+/// CLI11's help with the usage line that a user of verbs expects.
+class HelpText : public CLI::Formatter {
+ public:
+  explicit HelpText(const Explorer& explorer) : explorer_(explorer) {}
+
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    if (const Verb* verb = find_verb(explorer_, app->get_name())) {
+      return "Usage: " + name + (verb->groups.input ? " FILE... | --example NAME" : "") + " [options]\n";
+    }
+    return "Usage: " + name + " [VERB] FILE... [options]\n       " + name +
+           " [VERB] --example NAME [options]\n";
+  }
+
+ private:
+  const Explorer& explorer_;
+};
+
 /// Names of options that a session may hold: of the verb at hand, and of any verb.
 struct SceneOptionNames {
   std::function<bool(const std::string&)> of_verb, of_any;
@@ -230,13 +247,15 @@ ParsedCommand parse_once(
   app.set_help_flag("--help,-h", "print this help");
   app.set_version_flag("--version", version_text(explorer.name));
   app.require_subcommand(0, 1);
-  std::string footer = "'" + explorer.name + " FILE' is '" + explorer.name + " " + explorer.default_verb +
-                       " FILE'; '" + explorer.name + " VERB --help' lists a verb's options.\n\n";
+  app.formatter(std::make_shared<HelpText>(explorer));
+  const std::string footer = "'" + explorer.name + " FILE' is '" + explorer.name + " " +
+                             explorer.default_verb + " FILE'; '" + explorer.name +
+                             " VERB --help' lists a verb's options.\n\n";
   app.footer(footer + examples_text(explorer.examples));
 
   std::map<const CLI::App*, std::unique_ptr<VerbParser>> parsers;
   for (const Verb& verb : explorer.verbs) {
-    CLI::App* sub = app.add_subcommand(verb.name, verb.summary);
+    CLI::App* sub = app.add_subcommand(verb.name, verb.summary)->group("Verbs");
     sub->set_help_flag("--help,-h", "print this help");
     sub->set_version_flag("--version", version_text(explorer.name));
     parsers[sub] = std::make_unique<VerbParser>(*sub, verb, parsed.options);

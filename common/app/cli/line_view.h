@@ -12,8 +12,8 @@
 
 namespace palpate {
 
-/// Seeds of a global view where none are given: uniform in the volume, few enough to see through.
-inline constexpr const char* kViewSeeds = "random:300";
+/// Seeds of a global view where none are given: where the fluid moves, few enough to see through.
+inline constexpr const char* kViewSeeds = "speed:300";
 /// Length of its lines in diagonals: longer ones fill the picture with the same few vortices.
 inline constexpr double kViewDiagonals = 1.0;
 

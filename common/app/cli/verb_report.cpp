@@ -13,14 +13,21 @@
 namespace palpate {
 namespace {
 
-std::string default_seeds(Effort effort) {
+/// Seeds to draw where none are given, and how many of their lines are compared: some end inside and are
+/// dropped.
+struct SeedPlan {
+  const char* seeds;
+  std::size_t lines;
+};
+
+SeedPlan seed_plan(Effort effort) {
   switch (effort) {
     case Effort::kQuick:
-      return "random:16";
+      return {"random:200", 16};
     case Effort::kThorough:
-      return "random:200";
+      return {"random:2000", 200};
     default:
-      return "random:48";
+      return {"random:500", 48};
   }
 }
 
@@ -58,7 +65,7 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   if (options.out.empty()) throw usage_error("report needs a folder to make: try --out report");
   const Effort effort = effort_from_name(options.effort);
   const SeedSpec spec =
-      parse_seeds(options.tracing.seeds.empty() ? default_seeds(effort) : options.tracing.seeds);
+      parse_seeds(options.tracing.seeds.empty() ? seed_plan(effort).seeds : options.tracing.seeds);
   TraceOptions trace = trace_options(options, "forward");
   check_report_folder(options.out, options.common.force);
 
@@ -77,12 +84,18 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   report.scene.push_back(input.choice_sentence());
   report.scene.push_back(grid_sentence(*field));
   report.scene.insert(report.scene.end(), field->notes().lines.begin(), field->notes().lines.end());
-  report.sweep = run_sweep(
-      *field,
-      {input.title() + ", " + field->name() + ", " + counted(seeds.size(), "seed"), seeds, trace, effort},
-      &context.progress);
+  report.sweep =
+      run_sweep(*field,
+                {.subject = input.title() + ", " + field->name(),
+                 .seeds = seeds,
+                 .trace = trace,
+                 .effort = effort,
+                 .most_lines = options.tracing.seeds.empty() ? seed_plan(effort).lines : seeds.size()},
+                &context.progress);
 
+  constexpr std::size_t kStabilitySeeds = 64;
   StabilityRequest stability{.seeds = seeds, .trace = trace};
+  stability.seeds.resize(std::min(seeds.size(), kStabilitySeeds));
   stability.trace.max_length = report.sweep.max_length;
   if (input.file()) {
     stability.choice = input.choice();
