@@ -5,7 +5,7 @@
 namespace palpate {
 namespace {
 
-// The number of terms of (2) after which what is left is below 2^-55, by |h C|: theta^n / (n + 1)! plus the
+// The number of terms of (2) after which what is left is below 2^-52, by |h C|: theta^n / (n + 1)! plus the
 // geometric tail.
 constexpr int kMinTerms = 4;
 constexpr int kMaxTerms = 26;
@@ -13,13 +13,13 @@ constexpr int kMaxTerms = 26;
 consteval std::array<double, kMaxTerms + 1> make_term_limits() {
   std::array<double, kMaxTerms + 1> limit{};
   for (int n = kMinTerms; n <= kMaxTerms; ++n) {
-    // Largest theta with theta^n / (n + 1)! / (1 - theta / (n + 2)) <= 2^-55, by bisection.
+    // Largest theta with theta^n / (n + 1)! / (1 - theta / (n + 2)) <= 2^-52, by bisection.
     double low = 0.0, high = 4.0;
     for (int i = 0; i < 60; ++i) {
       const double theta = 0.5 * (low + high);
       double term = 1.0;
       for (int k = 1; k <= n; ++k) term *= theta / (k + 1);
-      (term / (1.0 - theta / (n + 2)) <= 0x1p-55 ? low : high) = theta;
+      (term / (1.0 - theta / (n + 2)) <= 0x1p-52 ? low : high) = theta;
     }
     limit[static_cast<std::size_t>(n)] = low;
   }
@@ -94,8 +94,8 @@ bool AffineCell::load(const PackedVertex* vertices, const TetMesh::Tet& tet, dou
 AffineCell::Flow AffineCell::flow(const Pack4& b, const Pack4& w, double h) const noexcept {
   const Pack4 d0 = h * column_[0], d1 = h * column_[1], d2 = h * column_[2];
   const int terms = term_count(std::abs(h) * norm_);
-  Pack4 u = w;
   Flow out{.b = w, .w = w, .inner = {w, w, w}};
+  Pack4 u = w;
   for (int k = 1; k <= terms; ++k) {
     const TermWeights& weight = kTerm[static_cast<std::size_t>(k)];
     u = weight.inverse * ((u[0] * d0 + u[1] * d1) + u[2] * d2);
@@ -107,8 +107,8 @@ AffineCell::Flow AffineCell::flow(const Pack4& b, const Pack4& w, double h) cons
   return out;
 }
 
-double AffineCell::arc(const Pack4& w, const Flow& flow, double h, bool& sound) const noexcept {
-  const double first = glm::length(velocity(w)), last = glm::length(velocity(flow.w));
+double AffineCell::arc(double first, const Flow& flow, double h, bool& sound) const noexcept {
+  const double last = glm::length(velocity(flow.w));
   const double left = glm::length(velocity(flow.inner[0])), middle = glm::length(velocity(flow.inner[1]));
   const double right = glm::length(velocity(flow.inner[2]));
   const double lobatto = kEndWeight * (first + last) + kOuterWeight * (left + right) + kMiddleWeight * middle;

@@ -71,8 +71,9 @@ class AffineCell {
   /// Evaluates (2). @pre |h| norm() <= kMaxRate.
   [[nodiscard]] Flow flow(const Pack4& b, const Pack4& w, double h) const noexcept;
 
-  /// Arc length of a flow from w(0) to w(h). `sound` is set to false where the rule has not converged.
-  [[nodiscard]] double arc(const Pack4& w, const Flow& flow, double h, bool& sound) const noexcept;
+  /// Arc length of a flow of duration h that begins at speed `first`. `sound` is set to false where the rule
+  /// has not converged.
+  [[nodiscard]] double arc(double first, const Flow& flow, double h, bool& sound) const noexcept;
 
  private:
   std::array<Pack4, 3> column_;

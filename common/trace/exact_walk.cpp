@@ -22,16 +22,13 @@ Pack4 to_pack(const AffineModes::Four& b) {
           static_cast<double>(b[3])};
 }
 
-/// Smallest t > 0 with b + w t + a t^2 / 2 = 0, or infinity.
-double quadratic_exit(double b, double w, double a) {
-  const double disc = w * w - 2.0 * a * b;
-  if (disc < 0.0) return HUGE_VAL;
-  const double root = std::sqrt(disc);
-  if (w <= 0.0) {
-    const double below = root - w;
-    return below > 0.0 ? 2.0 * b / below : HUGE_VAL;
-  }
-  return a < 0.0 ? (w + root) / -a : HUGE_VAL;
+/// For each face the smallest t > 0 with b + w t + a t^2 / 2 = 0, by a formula for both signs of w; negative,
+/// infinite or NaN where there is none, and where b is 0.
+Pack4 quadratic_exits(const Pack4& b, const Pack4& w, const Pack4& a) {
+  const Pack4 disc = w * w - 2.0 * (a * b);
+  const Pack2 root_lo{std::sqrt(disc.lo[0]), std::sqrt(disc.lo[1])};
+  const Pack2 root_hi{std::sqrt(disc.hi[0]), std::sqrt(disc.hi[1])};
+  return {2.0 * b.lo / (root_lo - w.lo), 2.0 * b.hi / (root_hi - w.hi)};
 }
 
 }  // namespace
@@ -141,9 +138,10 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
   const double longest = AffineCell::kMaxRate / cell_.norm();
   double h = longest;
   int face = -1;
+  const Pack4 exits = quadratic_exits(b_, w_, a);
   for (int i = 0; i < 4; ++i) {
-    const double t = quadratic_exit(b_[i], w_[i], a[i]);
-    if (t < h) {
+    const double t = b_[i] > 0.0 ? exits[i] : -2.0 * w_[i] / a[i];
+    if (t > 0.0 && t < h) {
       h = t;
       face = i;
     }
@@ -158,10 +156,18 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     if (better > 0.5 * h && better < 2.0 * h && better < longest) h = better;
   }
 
+  // The cell beyond the predicted exit lies anywhere in memory: fetch it while this one is computed.
+  if (face >= 0) {
+    const CellIndex next = neighbors(cell_index_)[static_cast<std::size_t>(face)];
+    if (next != kNoCell) {
+      __builtin_prefetch(&mesh_->mesh().cells()[static_cast<std::size_t>(next)]);
+      __builtin_prefetch(&neighbors(next));
+    }
+  }
   for (int attempt = 0; attempt < kMaxHalvings; ++attempt) {
     AffineCell::Flow flow = cell_.flow(b_, w_, h);
     bool sound = false;
-    double arc = cell_.arc(w_, flow, h, sound);
+    double arc = cell_.arc(end_.speed, flow, h, sound);
     double time = h;
     Pack4 a_end = cell_.apply(flow.w);
     if (face >= 0) {
@@ -210,7 +216,8 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     const Pack4 b1 = b0 + s0, b2 = b1 + s0 + c0, b4 = b5 - s1, b3 = b4 - s1 + c1;
     const double theta = time * cell_.norm();
     const double theta2 = theta * theta;
-    const double interpolation = theta2 * theta2 * theta * time * fastest * (1.0 / 46080.0) * std::exp(theta);
+    const double interpolation = theta2 * theta2 * theta * time * fastest * (1.0 / 46080.0) *
+                                 (1.0 + 3.2 * theta);  // the last factor bounds exp(theta) up to kMaxRate
     const auto smaller = [](double x, double y) { return x < y ? x : y; };
     const double lowest = smaller(smaller(min_lane(b1), min_lane(b2)), smaller(min_lane(b3), min_lane(b4)));
     // Another face may have been crossed shortly before: then that one is the exit.
@@ -236,6 +243,12 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     if (face >= 0) {
       flow.b.set(face, 0.0);
       exit_face_ = face;
+      const CellIndex next = neighbors(cell_index_)[static_cast<std::size_t>(face)];
+      if (next != kNoCell) {
+        for (const std::uint32_t vertex : mesh_->mesh().cells()[static_cast<std::size_t>(next)]) {
+          __builtin_prefetch(mesh_->vertices() + vertex);
+        }
+      }
     }
     piece_b_ = b_;
     piece_w_ = w_;
@@ -262,8 +275,12 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
 
   // (1) of error_transport.h by two terms; on the robust path the modes carry it.
   if (!piece_robust_) {
-    const Vec3 first = time * cell_.gradient_times(error_.vector());
-    error_.set(error_.vector() + first + 0.5 * time * cell_.gradient_times(first));
+    const Vec3& e = error_.vector();
+    Vec3 change = time * cell_.gradient_times(e);
+    constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which the second term is left out
+    if (glm::dot(change, change) > kSmall * glm::dot(e, e))
+      change += 0.5 * time * cell_.gradient_times(change);
+    error_.set(e + change);
   }
   error_.add(local_error);
   end_.position = cell_.position(b_);
@@ -278,7 +295,7 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
 std::optional<End> ExactWalk::cross(int face) {
   const TetMesh& mesh = mesh_->mesh();
   const CellIndex from = cell_index_;
-  const CellIndex next = mesh.neighbors()[static_cast<std::size_t>(from)][static_cast<std::size_t>(face)];
+  const CellIndex next = neighbors(from)[static_cast<std::size_t>(face)];
   if (next == kNoCell) return End::kLeftDomain;
   modes_.reset();
   ignored_face_ = -1;
@@ -291,22 +308,20 @@ std::optional<End> ExactWalk::cross(int face) {
     settle(beyond, x);
     return std::nullopt;
   }
-  // The three shared vertices keep their coordinates under the neighbour's numbering.
+  // The three shared vertices keep their coordinates under the neighbour's numbering; what is left of its
+  // four numbers is its own vertex, opposite to the face of entry.
   const TetMesh::Tet& here = mesh.cells()[static_cast<std::size_t>(from)];
   const TetMesh::Tet& there = mesh.cells()[static_cast<std::size_t>(next)];
   double shared[4] = {0.0, 0.0, 0.0, 0.0};
-  int entry = -1;
+  int entry = 0 + 1 + 2 + 3;
   double sum = 0.0;
-  for (int j = 0; j < 4; ++j) {
-    bool found = false;
-    for (int k = 0; k < 4; ++k) {
-      if (k != face && there[static_cast<std::size_t>(j)] == here[static_cast<std::size_t>(k)]) {
-        shared[j] = b_[k];
-        found = true;
-      }
-    }
-    if (!found) entry = j;
-    sum += shared[j];
+  for (int k = 0; k < 4; ++k) {
+    if (k == face) continue;
+    const std::uint32_t vertex = here[static_cast<std::size_t>(k)];
+    const int j = (there[1] == vertex ? 1 : 0) + (there[2] == vertex ? 2 : 0) + (there[3] == vertex ? 3 : 0);
+    shared[j] = b_[k];
+    sum += b_[k];
+    entry -= j;
   }
   // Rounding must not let the sum drift over thousands of cells: 1/sum to first order.
   b_ = (2.0 - sum) * Pack4{shared[0], shared[1], shared[2], shared[3]};
@@ -394,7 +409,7 @@ std::optional<End> ExactWalk::robust_piece() {
     }
     turned(flow.w);
     bool sound = false;
-    const double arc = cell_.arc(w_, flow, static_cast<double>(h), sound);
+    const double arc = cell_.arc(end_.speed, flow, static_cast<double>(h), sound);
     const bool still = max_abs(flow.w) <= 0.0 || arc <= kUlp * cell_.size();
     if ((turn < kMaxTurn || !sound) && !still && attempt + 1 < kMaxTries) continue;
     // A step that no longer moves the line, away from any exit: it has come to rest to rounding.
@@ -448,7 +463,7 @@ LinePoint ExactWalk::at(double theta) const {
   bool sound = false;
   point.position = cell_.position(flow.b);
   point.time += h;
-  point.arc += cell_.arc(piece_w_, flow, h, sound);
+  point.arc += cell_.arc(begin_.speed, flow, h, sound);
   point.speed = glm::length(cell_.velocity(flow.w));
   point.error += theta * (end_.error - begin_.error);
   return point;

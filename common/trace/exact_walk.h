@@ -47,6 +47,9 @@ class ExactWalk final : public LineWalk {
   enum class Outcome { kPiece, kCross, kRobust, kStandstill };
 
   void load_cell();
+  [[nodiscard]] const TetMesh::Neighbors& neighbors(CellIndex cell) const {
+    return mesh_->mesh().neighbors()[static_cast<std::size_t>(cell)];
+  }
   [[nodiscard]] Outcome fast_piece();
   [[nodiscard]] std::optional<End> robust_piece();
   [[nodiscard]] std::optional<End> cross(int face);

@@ -38,9 +38,7 @@ LinePoint LineBuilder::to_data(const LinePoint& local) const {
 }
 
 void LineBuilder::start(const LinePoint& seed) {
-  constexpr std::size_t kTypicalPoints = 256;
   line_.points.clear();
-  line_.points.reserve(kTypicalPoints);
   steps_ = 0;
   last_ = seed;
   push(seed);

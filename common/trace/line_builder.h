@@ -63,7 +63,8 @@ class LineBuilder {
 
   [[nodiscard]] const LinePoint& last() const noexcept { return last_; }
   [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
-  [[nodiscard]] Line take() { return std::move(line_); }
+  /// The line, in storage of its own size; the builder keeps its larger one for the next.
+  [[nodiscard]] Line take() const { return line_; }
 
  private:
   static constexpr double kStraight =

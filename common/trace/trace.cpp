@@ -116,7 +116,11 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   std::vector<Line> lines(seeds.size() * per_seed);
   std::vector<std::uint8_t> inside(seeds.size(), 0);
   parallel_for(seeds.size(), options.threads, [&](std::size_t first, std::size_t last) {
-    std::array<std::unique_ptr<LineWalk>, 2> walks;
+    struct Tracer {
+      std::unique_ptr<LineWalk> walk;
+      LineBuilder builder;
+    };
+    std::array<std::optional<Tracer>, 2> tracers;
     for (std::size_t seed = first; seed < last; ++seed) {
       if (progress != nullptr) progress->check();
       const Vec3 x = frame.local_from_data(seeds[seed]);
@@ -124,12 +128,11 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
       for (const TraceDirection direction : {TraceDirection::kForward, TraceDirection::kBackward}) {
         const bool forward = direction == TraceDirection::kForward;
         if (!(forward ? options.forward : options.backward)) continue;
-        std::unique_ptr<LineWalk>& walk = walks[forward ? 0 : 1];
-        if (!walk) walk = factory.make(direction);
-        if (!is_finite(x) || !walk->start(x)) break;
-        LineBuilder builder(frame, limits, direction);
-        follow(*walk, builder, progress);
-        lines[slot] = builder.take();
+        std::optional<Tracer>& tracer = tracers[forward ? 0 : 1];
+        if (!tracer) tracer.emplace(Tracer{factory.make(direction), LineBuilder(frame, limits, direction)});
+        if (!is_finite(x) || !tracer->walk->start(x)) break;
+        follow(*tracer->walk, tracer->builder, progress);
+        lines[slot] = tracer->builder.take();
         lines[slot].seed = static_cast<std::uint32_t>(seed);
         ++slot;
         inside[seed] = 1;
