@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
+#include "common/math/power_of_two.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
@@ -84,6 +85,14 @@ bool same_colors(const LineStyle& a, const LineStyle& b) {
   return a.color_by == b.color_by && a.array == b.array && is_logarithmic(a) == is_logarithmic(b) &&
          color_map_of(a) == color_map_of(b) && a.range.has_value() == b.range.has_value() &&
          (!a.range || (a.range->lower == b.range->lower && a.range->upper == b.range->upper));
+}
+
+// How far a line may be moved unseen [scene frame]: a part of a pixel where the scene is nearest. A
+// power of two, so that it changes rarely while the camera moves.
+double line_tolerance(const ViewTransform& view, bool perspective, double pixel) {
+  constexpr double kPartOfPixel = 0.25, kNearest = 0.05;
+  const double enlarged = perspective ? std::clamp(view.near_depth / view.distance, kNearest, 1.0) : 1.0;
+  return power_of_two(binary_exponent(kPartOfPixel * pixel * enlarged));
 }
 
 bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
@@ -192,6 +201,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   s.line_program.use(color_map_of(view.style));
   const float unit = static_cast<float>(scene_height) / 1000.0F;
   LineDraw how;
+  how.tolerance = line_tolerance(transform, perspective, pixel);
   how.back = Vec3f(view.camera.axes[2]);
   if (view.show_outline) {
     how.coloring = LineDraw::Coloring::kUnlit;

@@ -1,6 +1,7 @@
 #include "common/render/line/line_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace palpate {
@@ -30,7 +31,8 @@ void append(LineGeometry& geometry, std::size_t count, const SceneFrame& frame, 
     }
     geometry.vertices.push_back({.position = Vec3f(here), .tangent = Vec3f(tangent)});
     if (i + 1 < count && length > 0.0 && is_finite(here) && is_finite(next)) {
-      geometry.segments.push_back(static_cast<std::uint32_t>(first + i));
+      const auto number = static_cast<std::uint32_t>(first + i);
+      geometry.segments.push_back({number, number + 1});
     }
     if (length > 0.0) chord_before = chord;
     here = next;
@@ -60,11 +62,53 @@ LineGeometry make_line_geometry(const std::vector<std::vector<Vec3>>& polylines,
   return geometry;
 }
 
-void sort_back_to_front(std::vector<std::uint32_t>& segments, std::span<const LineVertex> vertices,
+std::vector<LineSegment> simplify(const LineGeometry& geometry, std::span<const float> coordinates,
+                                  double tolerance) {
+  // Points that one new segment may span: bounds the work, which grows with the square of it.
+  constexpr std::uint32_t kMostJoined = 24;
+  // Differences that light and colour do not show: cosine of 8 degrees, and two steps of the table.
+  constexpr float kSameTangent = 0.99F, kSameColor = 2.0F / 256.0F;
+  const auto largest = static_cast<float>(tolerance * tolerance);
+
+  // Whether the points between `first` and `last` lie on the straight piece between these.
+  const auto straight = [&](std::uint32_t first, std::uint32_t last) {
+    const Vec3f start = geometry.vertices[first].position;
+    const Vec3f chord = geometry.vertices[last].position - start;
+    const float square = glm::dot(chord, chord);
+    if (!(square > 0.0F)) return false;
+    const Vec3f along = chord / std::sqrt(square);
+    for (std::uint32_t i = first; i <= last; ++i) {
+      const LineVertex& vertex = geometry.vertices[i];
+      if (!(glm::dot(vertex.tangent, along) >= kSameTangent)) return false;
+      const Vec3f offset = vertex.position - start;
+      const float part = glm::dot(offset, chord) / square;
+      const Vec3f beside = offset - part * chord;
+      if (!(glm::dot(beside, beside) <= largest)) return false;
+      if (coordinates.empty()) continue;
+      const float between = coordinates[first] + part * (coordinates[last] - coordinates[first]);
+      if (!(std::abs(coordinates[i] - between) <= kSameColor)) return false;  // NaN too
+    }
+    return true;
+  };
+
+  std::vector<LineSegment> joined;
+  joined.reserve(geometry.segments.size());
+  for (const LineSegment& segment : geometry.segments) {
+    if (!joined.empty() && joined.back().last == segment.first &&
+        segment.last - joined.back().first <= kMostJoined && straight(joined.back().first, segment.last)) {
+      joined.back().last = segment.last;
+    } else {
+      joined.push_back(segment);
+    }
+  }
+  return joined;
+}
+
+void sort_back_to_front(std::vector<LineSegment>& segments, std::span<const LineVertex> vertices,
                         const Vec3f& back) {
-  std::vector<std::pair<float, std::uint32_t>> keys(segments.size());
-  std::transform(segments.begin(), segments.end(), keys.begin(), [&](std::uint32_t s) {
-    return std::pair{glm::dot(vertices[s].position + vertices[s + 1].position, back), s};
+  std::vector<std::pair<float, LineSegment>> keys(segments.size());
+  std::transform(segments.begin(), segments.end(), keys.begin(), [&](const LineSegment& s) {
+    return std::pair{glm::dot(vertices[s.first].position + vertices[s.last].position, back), s};
   });
   std::sort(keys.begin(), keys.end());
   std::transform(keys.begin(), keys.end(), segments.begin(), [](const auto& key) { return key.second; });

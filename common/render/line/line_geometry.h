@@ -1,6 +1,7 @@
 /// Lines as the GPU draws them: points in the scene frame with tangents, and the segments between them.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,9 +19,17 @@ struct LineVertex {
   float padding1 = 0.0F;
 };
 
+/// A straight piece between two vertices of one line, first < last.
+struct LineSegment {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+
+  auto operator<=>(const LineSegment&) const = default;
+};
+
 struct LineGeometry {
   std::vector<LineVertex> vertices;
-  std::vector<std::uint32_t> segments;  ///< index of the first point of each segment; the next is its end
+  std::vector<LineSegment> segments;  ///< in the order of the lines
 };
 
 /// Vertices of all points in order, line after line. Segments whose ends coincide, or are not finite,
@@ -29,9 +38,17 @@ struct LineGeometry {
 [[nodiscard]] LineGeometry make_line_geometry(const std::vector<std::vector<Vec3>>& polylines,
                                               const SceneFrame& frame);
 
-/// Orders segments from far to near along `back` (toward the viewer), by their middle; equal ones keep
-/// their order.
-void sort_back_to_front(std::vector<std::uint32_t>& segments, std::span<const LineVertex> vertices,
+/// Joins segments that follow each other where the picture does not change by it: the points between
+/// lie within `tolerance` (scene frame) of the new segment, and their tangents and map coordinates are
+/// nearly those that are interpolated along it. Exact tracing gives a point a cell: far more than a
+/// picture of the whole shows.
+/// @param coordinates in the colour map, one a vertex, or empty.
+[[nodiscard]] std::vector<LineSegment> simplify(const LineGeometry& geometry,
+                                                std::span<const float> coordinates, double tolerance);
+
+/// Orders segments from far to near along `back` (toward the viewer), by their middle; equal ones are
+/// ordered by number.
+void sort_back_to_front(std::vector<LineSegment>& segments, std::span<const LineVertex> vertices,
                         const Vec3f& back);
 
 }  // namespace palpate

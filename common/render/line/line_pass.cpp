@@ -46,45 +46,51 @@ void LineProgram::use(ColorMap map) {
 
 void LineSet::set_geometry(LineGeometry geometry) {
   geometry_ = std::move(geometry);
-  has_values_ = false;
+  coordinates_.clear();
+  arrangement_ = {};
   if (!vertex_array_) vertex_array_ = make_vertex_array();
   points_ = make_buffer(std::span<const LineVertex>(geometry_.vertices));
   values_ = make_buffer(std::span<const float>());
-  upload_segments();
-  sorted_ = false;
 }
 
-void LineSet::set_values(std::span<const float> coordinates) {
+void LineSet::set_values(std::vector<float> coordinates) {
   PALPATE_CHECK(coordinates.size() == geometry_.vertices.size());
-  values_ = make_buffer(coordinates);
-  has_values_ = true;
+  coordinates_ = std::move(coordinates);
+  arrangement_ = {};
+  values_ = make_buffer(std::span<const float>(coordinates_));
 }
 
-void LineSet::upload_segments() {
-  std::vector<std::uint32_t> corners;
-  corners.reserve(6 * geometry_.segments.size());
-  for (const std::uint32_t s : geometry_.segments) {
-    const std::uint32_t a = 2 * s;
-    corners.insert(corners.end(), {a, a + 1, a + 2, a + 2, a + 1, a + 3});
+void LineSet::arrange(const Arrangement& wanted) {
+  if (wanted == arrangement_) return;
+  if (wanted.tolerance != arrangement_.tolerance) {
+    simplified_ = simplify(geometry_, coordinates_, wanted.tolerance);
   }
+  std::vector<LineSegment> sorted;
+  if (wanted.sorted) {
+    sorted = simplified_;
+    sort_back_to_front(sorted, geometry_.vertices, wanted.along);
+  }
+  std::vector<std::uint32_t> corners;
+  corners.reserve(6 * simplified_.size());
+  for (const LineSegment& s : wanted.sorted ? sorted : simplified_) {
+    const std::uint32_t a = 2 * s.first, b = 2 * s.last;
+    corners.insert(corners.end(), {a, a + 1, b, b, a + 1, b + 1});
+  }
+  corner_count_ = corners.size();
   indices_ = make_buffer(std::span<const std::uint32_t>(corners));
   glVertexArrayElementBuffer(vertex_array_.name(), indices_.name());
+  arrangement_ = wanted;
 }
 
 void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
   const bool transparent = how.opacity < 1.0F;
-  if (transparent && !(sorted_ && sorted_along_ == how.back)) {
-    sort_back_to_front(geometry_.segments, geometry_.vertices, how.back);
-    upload_segments();
-    sorted_ = true;
-    sorted_along_ = how.back;
-  }
+  arrange({how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 
   glUniform1f(kWidth, how.width);
   glUniform1f(kHaloWidth, transparent ? 0.0F : how.halo_width);
   glUniform1f(kMinWidth, how.min_width);
-  glUniform1i(kHasValues, has_values_ ? 1 : 0);
+  glUniform1i(kHasValues, coordinates_.empty() ? 0 : 1);
   glUniform1i(kColoring, static_cast<GLint>(how.coloring));
   glUniform4f(kLineColor, how.color.r, how.color.g, how.color.b, how.opacity);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPointsBinding, points_.name());
@@ -100,7 +106,7 @@ void LineSet::draw(const LineDraw& how) {
   } else {
     glDisable(GL_BLEND);
   }
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * geometry_.segments.size()), GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corner_count_), GL_UNSIGNED_INT, nullptr);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
 }

@@ -21,6 +21,7 @@ struct LineDraw {
   float min_width = 1.0F;   ///< [pixels] anywhere
   float halo_width = 0.0F;  ///< [pixels] beyond either edge; 0: none
   float opacity = 1.0F;
+  double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
 };
 
@@ -40,17 +41,26 @@ class LineSet {
  public:
   void set_geometry(LineGeometry geometry);
   /// One place in the colour map for each vertex.
-  void set_values(std::span<const float> coordinates);
+  void set_values(std::vector<float> coordinates);
   /// @pre LineProgram::use().
   void draw(const LineDraw& how);
 
  private:
-  void upload_segments();
+  // The segments that were uploaded depend on these.
+  struct Arrangement {
+    double tolerance = -1.0;
+    bool sorted = false;
+    Vec3f along{0.0F};
+
+    bool operator==(const Arrangement&) const = default;
+  };
+  void arrange(const Arrangement& wanted);
 
   LineGeometry geometry_;
-  bool has_values_ = false;
-  bool sorted_ = false;
-  Vec3f sorted_along_{0.0F};
+  std::vector<float> coordinates_;
+  std::vector<LineSegment> simplified_;  // for arrangement_.tolerance
+  Arrangement arrangement_;
+  std::size_t corner_count_ = 0;
   GlVertexArray vertex_array_;
   GlBuffer points_, values_, indices_;
 };

