@@ -11,8 +11,9 @@
 namespace palpate {
 namespace {
 
-// Room between the fitted box and the border of the picture.
-constexpr double kFitMargin = 1.10;
+// Room between the fitted box and the border of the picture; more of it at the sides, where the colour
+// bar stands.
+constexpr double kFitMargin = 1.10, kFitMarginAcross = 1.22;
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
@@ -71,7 +72,7 @@ void fit(Camera& camera, const Box& bounds, double aspect) {
   double height = 0.0;
   for (const Vec3& corner : corners(box)) {
     const Vec3 v = (corner - camera.focal_point) * camera.axes;  // transposed product: along r, u, b
-    const double reach = std::max(std::abs(v.y), std::abs(v.x) / aspect);
+    const double reach = std::max(kFitMargin * std::abs(v.y), kFitMarginAcross * std::abs(v.x) / aspect);
     // Perspective: |v.y| <= (d - v.z) tan(alpha/2) for every corner, and (1).
     const double needed =
         camera.projection == Projection::kPerspective ? 2.0 * (reach + v.z * slope) : 2.0 * reach;
@@ -80,7 +81,7 @@ void fit(Camera& camera, const Box& bounds, double aspect) {
   // A box seen edge-on (a plane from its side) still needs some height.
   const Vec3 size = box.size();
   height = std::max(height, 1e-3 * std::max({size.x, size.y, size.z}) / across);
-  camera.view_height = kFitMargin * height;
+  camera.view_height = height;
 }
 
 void turn(Camera& camera, double to_right, double to_top) {

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSize = 200;
 
 // An orthographic view along +y of the box [-1, 1]^3 without anything but lines: x to the right, z up.
-// The fitted height is 2.2, so a data unit is kSize / 2.2 pixels.
+// The view is 2.44 high (22 % of room at the sides), so a data unit is kSize / 2.44 pixels.
 SceneView front_view(std::vector<Line> lines) {
   SceneView view;
   view.bounds = {Vec3(-1.0), Vec3(1.0)};
@@ -33,7 +33,7 @@ struct Pixel {
 };
 
 Pixel where(double x, double z) {
-  const double unit = kSize / 2.2;
+  const double unit = kSize / 2.44;
   return {static_cast<int>(0.5 * kSize + unit * x), static_cast<int>(0.5 * kSize - unit * z)};
 }
 
@@ -94,7 +94,7 @@ TEST(RenderImage, HaloCutsTheLineBehind) {
                                test::polyline({{0.0, 0.5, -0.5}, {0.0, 0.5, 0.5}})});
   view.style.color_by = ColorBy::kDirection;
   // Just outside the edge of the near line (3 pixels from its middle), upon the far one.
-  const double beside = 4.0 * 2.2 / kSize;
+  const double beside = 4.0 * 2.44 / kSize;
   EXPECT_TRUE(is_background(at(render_image(view, kSize, kSize).image, 0.0, beside)));
   view.style.halo = false;
   EXPECT_FALSE(is_background(at(render_image(view, kSize, kSize).image, 0.0, beside)));
