@@ -106,10 +106,11 @@ std::vector<LineSegment> simplify(const LineGeometry& geometry, std::span<const 
 
 void sort_back_to_front(std::vector<LineSegment>& segments, std::span<const LineVertex> vertices,
                         const Vec3f& back) {
-  std::vector<std::pair<float, LineSegment>> keys(segments.size());
-  std::transform(segments.begin(), segments.end(), keys.begin(), [&](const LineSegment& s) {
-    return std::pair{glm::dot(vertices[s.first].position + vertices[s.last].position, back), s};
-  });
+  std::vector<std::pair<float, LineSegment>> keys;
+  keys.reserve(segments.size());
+  for (const LineSegment& s : segments) {
+    keys.emplace_back(glm::dot(vertices[s.first].position + vertices[s.last].position, back), s);
+  }
   std::sort(keys.begin(), keys.end());
   std::transform(keys.begin(), keys.end(), segments.begin(), [](const auto& key) { return key.second; });
 }
