@@ -73,7 +73,7 @@ void draw_time(PanelState& state, const std::vector<double>& times) {
 }
 
 void draw_seeds(PanelState& state) {
-  static const std::vector<std::string> kKinds{"grid", "random", "other"};
+  static const std::vector<std::string> kKinds{"grid", "random", "speed", "other"};
   std::string kind = kKinds[static_cast<std::size_t>(state.seeds.kind)];
   if (choose("seeds", kind, kKinds)) {
     // `other` starts from the text of what was chosen before.
@@ -88,7 +88,8 @@ void draw_seeds(PanelState& state) {
                       ImGuiSliderFlags_AlwaysClamp);
       break;
     case SeedChoice::Kind::kRandom:
-      ImGui::DragInt("number", &state.seeds.random, 2.0F, 1, kMost, "%d",
+    case SeedChoice::Kind::kSpeed:
+      ImGui::DragInt("number", &state.seeds.count, 2.0F, 1, kMost, "%d",
                      ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
       break;
     case SeedChoice::Kind::kText:

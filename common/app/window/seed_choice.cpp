@@ -34,9 +34,9 @@ SeedChoice seed_choice(std::string_view seeds) {
       colon == std::string_view::npos ? std::nullopt : whole_numbers(seeds.substr(colon + 1));
   if (kind == "grid" && numbers && numbers->size() == 3) {
     choice.grid = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-  } else if (kind == "random" && numbers && numbers->size() == 1) {
-    choice.kind = SeedChoice::Kind::kRandom;
-    choice.random = numbers->front();
+  } else if ((kind == "random" || kind == "speed") && numbers && numbers->size() == 1) {
+    choice.kind = kind == "random" ? SeedChoice::Kind::kRandom : SeedChoice::Kind::kSpeed;
+    choice.count = numbers->front();
   } else {
     choice.kind = SeedChoice::Kind::kText;
   }
@@ -49,7 +49,9 @@ std::string seeds_text(const SeedChoice& choice) {
       return "grid:" + std::to_string(choice.grid[0]) + "," + std::to_string(choice.grid[1]) + "," +
              std::to_string(choice.grid[2]);
     case SeedChoice::Kind::kRandom:
-      return "random:" + std::to_string(choice.random);
+      return "random:" + std::to_string(choice.count);
+    case SeedChoice::Kind::kSpeed:
+      return "speed:" + std::to_string(choice.count);
     case SeedChoice::Kind::kText:
       break;
   }

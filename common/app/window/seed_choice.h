@@ -8,10 +8,10 @@
 namespace palpate {
 
 struct SeedChoice {
-  enum class Kind { kGrid, kRandom, kText };
+  enum class Kind { kGrid, kRandom, kSpeed, kText };
   Kind kind = Kind::kGrid;
   std::array<int, 3> grid{8, 8, 8};
-  int random = 200;
+  int count = 200;   ///< kRandom, kSpeed
   std::string text;  ///< kText: any other seeds, as typed
 
   bool operator==(const SeedChoice&) const = default;

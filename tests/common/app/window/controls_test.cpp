@@ -119,12 +119,13 @@ TEST(KeyBindings, ModifiersHaveToMatchButLocksDoNotCount) {
 }
 
 TEST(SeedChoice, TextsAreReadAndWrittenBack) {
-  for (const char* text : {"grid:4,5,6", "random:1000", "point:0,1,2", "seeds.csv", "grid:2,2", "random:-3",
-                           "random:", "", "line:0,0,0,1,1,1,20"}) {
+  for (const char* text : {"grid:4,5,6", "random:1000", "speed:300", "point:0,1,2", "seeds.csv", "grid:2,2",
+                           "random:-3", "random:", "", "line:0,0,0,1,1,1,20"}) {
     EXPECT_EQ(seeds_text(seed_choice(text)), text);
   }
   EXPECT_EQ(seed_choice("grid:4,5,6").kind, SeedChoice::Kind::kGrid);
-  EXPECT_EQ(seed_choice("random:1000").random, 1000);
+  EXPECT_EQ(seed_choice("random:1000").count, 1000);
+  EXPECT_EQ(seed_choice("speed:300").kind, SeedChoice::Kind::kSpeed);
   EXPECT_EQ(seed_choice("grid:2,2").kind, SeedChoice::Kind::kText);
 }
 
