@@ -108,15 +108,19 @@ class BoxDomain : public BoxFaces {
     return first;
   }
 
-  /// Lands on a face that was reached to rounding. False where the line leaves the grid by it.
+  /// Goes on behind `face`, onto which a point that reached it to rounding is put. False where the line
+  /// leaves the grid by it.
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry) {
     const int axis = face >> 1;
     const bool up = (face & 1) != 0;
-    y.set(axis, up ? upper_[axis] : lower_[axis]);
+    const double border = up ? upper_[axis] : lower_[axis];
+    constexpr double kReached = 1e-9;  // of the cell
+    const bool on_face = std::abs(y[axis] - border) <= kReached * size_;
+    if (on_face) y.set(axis, border);
     const int next = index_[axis] + (up ? 1 : -1);
     if (next < 0 || next >= grid_->points()[axis] - 1) return false;
     index_[axis] = next;
-    entry = up ? face - 1 : face + 1;
+    entry = !on_face ? -1 : up ? face - 1 : face + 1;
     load();
     return true;
   }

@@ -114,8 +114,8 @@ double AffineCell::arc(double first, const Flow& flow, double h, bool& sound) co
   const double lobatto = kEndWeight * (first + last) + kOuterWeight * (left + right) + kMiddleWeight * middle;
   const double simpson = (first + 4.0 * middle + last) * (1.0 / 6.0);
   // The error of Simpson's rule falls with the fourth power of the step, that of the longer rule with the
-  // eighth: where they differ by 2e-5 the latter is right to some 1e-9.
-  constexpr double kConverged = 2e-5;
+  // eighth: where they differ by 2e-7 the latter is right to some 1e-12.
+  constexpr double kConverged = 2e-7;
   sound = std::abs(lobatto - simpson) <= kConverged * lobatto;
   return h * lobatto;
 }

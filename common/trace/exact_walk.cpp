@@ -176,14 +176,13 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
       if (!(wf < 0.0)) return Outcome::kRobust;
       double delta = -flow.b[face] / wf;
       delta -= 0.5 * delta * delta * a_end[face] / wf;
-      constexpr double kNear = 0.02;
-      if (!(std::abs(delta) <= kNear * h)) {
+      constexpr double kNear = 0.004;  // |delta C|: its fifth power over 5! is rounding
+      if (!(std::abs(delta) * cell_.norm() <= kNear && std::abs(delta) <= 0.5 * h)) {
         h += delta;
         if (!(h > 0.0) || h > longest) return Outcome::kRobust;
         continue;
       }
       const double speed_before = glm::length(cell_.velocity(flow.w));
-      Pack4 term = flow.w;
       const double remaining = flow.b[face];
       Pack4 b = flow.b;
       // Newton on the series itself: three passes settle it to rounding, since delta is small.
@@ -198,13 +197,17 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
             wf + delta * (a_end[face] + delta * (0.5 * j_end[face] + delta * k_end[face] * (1.0 / 6.0)));
         delta -= f / df;
       }
+      const Pack4 w_middle = flow.w + (0.5 * delta) * (a_end + (0.25 * delta) * j_end);
       b += delta *
-           (term + delta * (0.5 * a_end + delta * ((1.0 / 6.0) * j_end + (delta * (1.0 / 24.0)) * k_end)));
+           (flow.w + delta * (0.5 * a_end + delta * ((1.0 / 6.0) * j_end + (delta * (1.0 / 24.0)) * k_end)));
       flow.w += delta * (a_end + delta * (0.5 * j_end + (delta * (1.0 / 6.0)) * k_end));
       flow.b = b;
       a_end += delta * (j_end + (0.5 * delta) * k_end);
       time = h + delta;
-      arc += 0.5 * delta * (speed_before + glm::length(cell_.velocity(flow.w)));
+      // Simpson's rule over the last bit.
+      arc +=
+          delta * (1.0 / 6.0) *
+          (speed_before + 4.0 * glm::length(cell_.velocity(w_middle)) + glm::length(cell_.velocity(flow.w)));
     }
 
     // Certificate: Bernstein coefficients of the quintic that shares value, slope and curvature with b_i at

@@ -104,6 +104,7 @@ class FaceWalk final : public LineWalk {
   static constexpr double kStanding = 1e-13;  ///< of the cell: closer to a face counts as on it
   static constexpr int kMaxStanding = 64;     ///< crossings without progress
   static constexpr int kMaxAttempts = 80;
+  static constexpr int kMaxReaimed = 12;  ///< new aims at another face within a step
 
   static double magnitude(const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
@@ -159,12 +160,23 @@ class FaceWalk final : public LineWalk {
     return first;
   }
 
+  /// The face, other than `reached`, that lies farthest back along the line from a point outside it.
+  [[nodiscard]] Crossing behind(const Pack4& y, const Pack4& k, int reached) const {
+    Crossing farthest{.face = -1, .distance = 0.0};
+    for (int face = 0; face < Domain::face_count(); ++face) {
+      if (face == reached) continue;
+      const double value = domain_.face_value(face, y), rate = domain_.face_rate(face, k);
+      if (value < 0.0 && rate < 0.0 && value / rate > farthest.distance) farthest = {face, value / rate};
+    }
+    return farthest;
+  }
+
   [[nodiscard]] std::optional<End> take_step(const Crossing& predicted) {
     const auto f = [this](const Pack4& y) { return slope(y); };
     const auto jacobian = [this](const Pack4& y, const Pack4& k) { return slope_jacobian(y, k); };
     int face = predicted.distance <= h_ ? predicted.face : -1;
     double h = face >= 0 ? predicted.distance : std::min(h_, settings_.largest_step);
-    double last_theta = 2.0;
+    int reaimed = 0;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const double smallest = 4.0 * kUlp * (magnitude(y_.xyz()) + domain_.size());
       if (!(h > smallest)) return standing_cross(face);
@@ -232,16 +244,22 @@ class FaceWalk final : public LineWalk {
           length = h + delta;
         }
       }
+      // The end may lie behind another face that was crossed shortly before: aim at that one.
+      if (!domain_.inside(y_end, face)) {
+        const Crossing earlier = behind(y_end, k_end, face);
+        if (earlier.face >= 0 && earlier.distance < 0.5 * length && ++reaimed < kMaxReaimed) {
+          face = earlier.face;
+          h = length - earlier.distance;
+          continue;
+        }
+      }
       const Pack4 p1 = y_ + (length * (1.0 / 3.0)) * k_;
       const Pack4 p2 = y_end - (length * (1.0 / 3.0)) * k_end;
-      const bool inside = domain_.inside(p1, face) && domain_.inside(p2, face) && domain_.inside(y_end, face);
-      if (!inside) {
+      if (!(domain_.inside(p1, face) && domain_.inside(p2, face) && domain_.inside(y_end, face))) {
         const Crossing exit = first_exit();
-        const double theta = exit.distance;
-        const bool same = face >= 0 && exit.face == face && theta > 1.0 - 2.0 * near_;
-        if (theta < 1.0 && !same && std::abs(theta - last_theta) > 1e-6) {
-          last_theta = theta;
-          h *= std::max(theta, 0.01);
+        const bool same = face >= 0 && exit.face == face && exit.distance > 1.0 - 2.0 * near_;
+        if (exit.distance < 1.0 && !same && ++reaimed < kMaxReaimed) {
+          h *= std::max(exit.distance, 0.01);
           face = exit.face;
           continue;
         }
