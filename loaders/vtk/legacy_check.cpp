@@ -75,6 +75,7 @@ class Walk {
     binary_ = encoding == "BINARY";
     while (true) {
       const std::string keyword = upper(word());
+      if (keyword.empty() && !dataset_) throw Impossible{place() + "the file ends before DATASET"};
       if (keyword.empty()) return;
       section(keyword);
     }
@@ -85,7 +86,17 @@ class Walk {
     keyword_ = keyword;
     section_place_ = place();
     if (keyword == "DATASET") {
-      (void)word();
+      const std::string kind = upper(word());
+      static constexpr std::array<std::string_view, 5> kKinds{
+          "STRUCTURED_POINTS", "STRUCTURED_GRID", "RECTILINEAR_GRID", "UNSTRUCTURED_GRID", "POLYDATA"};
+      if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
+        throw Impossible{
+            place() + "found DATASET '" + printable(kind) +
+            "', expected STRUCTURED_POINTS, STRUCTURED_GRID, RECTILINEAR_GRID or UNSTRUCTURED_GRID"};
+      }
+      dataset_ = true;
+    } else if (!dataset_) {
+      throw Impossible{place() + "found '" + printable(keyword) + "', expected DATASET"};
     } else if (keyword == "DIMENSIONS" || keyword == "EXTENT") {
       (void)line();
     } else if (keyword == "SPACING" || keyword == "ASPECT_RATIO" || keyword == "ORIGIN") {
@@ -164,8 +175,11 @@ class Walk {
       while (!line().empty()) {
       }
     } else {
-      // A word at the very end, without a line end, is one that was cut off.
-      if (at_ == text_.size()) throw Impossible{place() + "the file ends in '" + printable(keyword) + "'"};
+      static constexpr std::array<std::string_view, 5> kLeftToVtk{"GLOBAL_IDS", "PEDIGREE_IDS", "EDGE_FLAGS",
+                                                                  "HIGHER_ORDER_DEGREES", "RATIONAL_WEIGHTS"};
+      if (std::find(kLeftToVtk.begin(), kLeftToVtk.end(), keyword) == kLeftToVtk.end()) {
+        throw Impossible{place() + "found '" + printable(keyword) + "', expected a keyword"};
+      }
       throw Stop{};
     }
   }
@@ -210,15 +224,26 @@ class Walk {
   /// Passes over `number` values, which must be there.
   void values(std::uint64_t number, std::string_view type) {
     const auto bits = bits_of(type);
-    if (!bits) throw Stop{};
+    const std::string name = upper(type);
+    if (!bits && (name == "STRING" || name == "UTF8_STRING" || name == "VARIANT")) throw Stop{};
+    if (!bits) {
+      throw Impossible{section_place_ + keyword_.substr(0, 60) + ": found '" + printable(type) +
+                       "', expected a number type"};
+    }
     const std::uint64_t left = text_.size() - at_;
     if (!binary_) {
       // A value takes a character, and a separator before the next.
       if (number > left / 2 + 1) impossible(number, type, left);
       for (std::uint64_t i = 0; i < number; ++i) {
-        if (word().empty())
+        const std::string_view value = word();
+        if (value.empty()) {
           throw Impossible{place() + keyword_.substr(0, 60) + ": the file ends after " + std::to_string(i) +
                            " of " + std::to_string(number) + " values"};
+        }
+        if (!looks_numeric(value)) {
+          throw Impossible{place() + keyword_.substr(0, 60) + ": found '" + printable(value) +
+                           "', expected a number"};
+        }
       }
       return;
     }
@@ -228,6 +253,12 @@ class Walk {
     if (bytes > text_.size() - at_) impossible(number, type, text_.size() - at_);
     at_ += bytes;
     ++binary_sections_;
+  }
+
+  /// Digits, a sign or point, or the beginning of nan or inf.
+  static bool looks_numeric(std::string_view value) {
+    constexpr std::string_view kFirst = "0123456789+-.nNiI";
+    return kFirst.find(value.front()) != std::string_view::npos;
   }
 
   [[noreturn]] void impossible(std::uint64_t number, std::string_view type, std::uint64_t left) {
@@ -305,6 +336,7 @@ class Walk {
   std::size_t at_ = 0;
   std::uint64_t lines_ = 1;
   bool binary_ = false;
+  bool dataset_ = false;
   int binary_sections_ = 0;
   std::uint64_t tuples_ = 0;
   std::string keyword_;

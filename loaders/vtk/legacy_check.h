@@ -10,7 +10,7 @@
 namespace palpate {
 
 /// What is wrong with the legacy file `text`, with its place ("line 9: POINTS 5000000000 float: …"), or
-/// empty. Sections that the walk does not know end it without complaint: VTK judges them.
+/// empty. Sections that the walk knows of but does not understand end it without complaint: VTK judges them.
 [[nodiscard]] std::string legacy_problem(std::string_view text);
 
 /// @throws Error (bad input).

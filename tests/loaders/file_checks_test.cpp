@@ -37,8 +37,11 @@ TEST(LegacyCheck, ACountThatWrapsIsRefused) {
             "");
 }
 
-TEST(LegacyCheck, UnknownSectionsAreLeftToVtk) {
-  EXPECT_EQ(legacy_problem(kLegacyHead + "SOMETHING_NEW 1 2 3\n"), "");
+TEST(LegacyCheck, UnknownWordsAreNamedAndRareSectionsLeftToVtk) {
+  EXPECT_EQ(legacy_problem(kLegacyHead + "GLOBAL_IDS 1 2 3\n"), "");
+  EXPECT_NE(legacy_problem(kLegacyHead + "SOMETHING_NEW 1 2 3\n").find("SOMETHING_NEW"), std::string::npos);
+  EXPECT_NE(legacy_problem("# vtk DataFile Version 3.0\nt\nASCII\nDATASET TABLE\n").find("TABLE"),
+            std::string::npos);
 }
 
 TEST(XmlTags, AttributesMayHoldEntitiesAndAngleBrackets) {
