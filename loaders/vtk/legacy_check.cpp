@@ -156,9 +156,7 @@ class Walk {
       for (std::uint64_t i = 0; i < arrays; ++i) {
         const std::string name(word());
         if (upper(name) == "METADATA") {
-          // Ends with an empty line.
-          while (!line().empty()) {
-          }
+          skip_metadata();
           --i;
           continue;
         }
@@ -172,8 +170,7 @@ class Walk {
         values(times(components, tuples), word());
       }
     } else if (keyword == "METADATA") {
-      while (!line().empty()) {
-      }
+      skip_metadata();
     } else {
       static constexpr std::array<std::string_view, 5> kLeftToVtk{"GLOBAL_IDS", "PEDIGREE_IDS", "EDGE_FLAGS",
                                                                   "HIGHER_ORDER_DEGREES", "RATIONAL_WEIGHTS"};
@@ -181,6 +178,13 @@ class Walk {
         throw Impossible{place() + "found '" + printable(keyword) + "', expected a keyword"};
       }
       throw Stop{};
+    }
+  }
+
+  /// Passes over the lines behind METADATA, which end with an empty one.
+  void skip_metadata() {
+    (void)line();
+    while (!line().empty()) {
     }
   }
 

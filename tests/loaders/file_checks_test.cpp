@@ -17,6 +17,15 @@ TEST(LegacyCheck, AGoodTextFilePasses) {
   EXPECT_EQ(legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\n"), "");
 }
 
+TEST(LegacyCheck, MetadataIsPassedOver) {
+  EXPECT_EQ(
+      legacy_problem(kLegacyHead +
+                     "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\nMETADATA\nINFORMATION 1\n"
+                     "NAME RANGE LOCATION array\nDATA 2 0 7\n\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+                     "0 0 0 0 0 0 0 0 0 0\n"),
+      "");
+}
+
 TEST(LegacyCheck, AMissingValueIsNamedWithItsLine) {
   const std::string problem =
       legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6\n");
