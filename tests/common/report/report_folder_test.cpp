@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/report/report.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+Report sample_report() {
+  Report report;
+  report.title = "flow: a<b>.vtk";
+  report.machine = this_machine();
+  report.sweep.subject = "a, \"velocity\"";
+  report.sweep.rows.push_back(
+      {.method = "dp54", .parameter = "tolerance=1e-06", .error = {.p95 = 1e-7}, .seconds = 0.5});
+  report.sweep.rows.back().error.max = HUGE_VAL;
+  report.stability.push_back({{"NaN hole", 1.0, 0.0, false}, "points", "what was done"});
+  return report;
+}
+
+ExitCode code_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return ExitCode::kDone;
+}
+
+TEST(ReportFolder, HoldsPageTablesAndPlots) {
+  const TempFolder folder;
+  write_report(sample_report(), folder.path("r"), false);
+  for (const char* name : {"index.html", "report.json", "work_precision.csv", "work_precision.svg",
+                           "stability.csv", "stated_error.svg"}) {
+    EXPECT_GT(std::filesystem::file_size(folder.path("r") / name), 0U) << name;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+      << "no temporary name stays";
+}
+
+TEST(ReportFolder, KeepsTheSchemaOfReportJson) {
+  const std::string json = report_json(sample_report());
+  for (const char* key : {"\"machine\"", "\"work_precision\"", "\"subject\"", "\"method\"", "\"parameter\"",
+                          "\"error\"", "\"error_kind\"", "\"seconds\"", "\"stability\"", "\"case\"",
+                          "\"measured\"", "\"limit\"", "\"holds\""}) {
+    EXPECT_NE(json.find(key), std::string::npos) << key;
+  }
+  EXPECT_NE(json.find("\"error\": null"), std::string::npos) << "JSON has no infinity";
+}
+
+TEST(ReportFolder, ShowsFailuresAndEscapesNames) {
+  const std::string page = report_page(sample_report());
+  EXPECT_NE(page.find("class=\"fails\""), std::string::npos);
+  EXPECT_EQ(page.find("a<b>"), std::string::npos);
+  EXPECT_NE(page.find(this_machine().processor), std::string::npos);
+}
+
+TEST(ReportFolder, IsReplacedOnlyWhenAskedAndOnlyIfItIsAReport) {
+  const TempFolder folder;
+  const auto target = folder.path("r");
+  write_report(sample_report(), target, false);
+  EXPECT_EQ(code_of([&] { check_report_folder(target, false); }), ExitCode::kUsage);
+  write_report(sample_report(), target.string() + "/", true);
+
+  folder.write("r/thesis.tex", "years of work");
+  EXPECT_EQ(code_of([&] { write_report(sample_report(), target, true); }), ExitCode::kUsage);
+  EXPECT_TRUE(std::filesystem::exists(target / "thesis.tex"));
+  EXPECT_EQ(code_of([&] { check_report_folder(folder.write("file", ""), true); }), ExitCode::kUsage);
+  EXPECT_EQ(code_of([&] { check_report_folder(folder.path("no/such/place"), false); }),
+            ExitCode::kWorkFailed);
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,327 @@
+// The built program, run as a user runs it.
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/e2e/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Flow : public ::testing::Test {
+ protected:
+  ProgramResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), bin("flow").string());
+    // Without a display: what opens a window in front of a user must not do so in front of a test.
+    return Program(arguments, folder_.path(), {"DISPLAY=", "WAYLAND_DISPLAY="}).finish();
+  }
+
+  /// The one JSON object on stdout; anything else there fails to parse.
+  Json json(std::vector<std::string> arguments, int exit_code = 0) {
+    arguments.emplace_back("--json");
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    const Json object = Json::parse(result.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << result.out;
+    return object;
+  }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  TempFolder folder_;
+};
+
+std::size_t sum_of(const Json& ends) {
+  std::size_t sum = 0;
+  for (const auto& item : ends.items()) sum += item.value().get<std::size_t>();
+  return sum;
+}
+
+TEST_F(Flow, HelpsWithExamplesAndListsItsVerbs) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"trace", "--help"},
+                                                    {"info", "-h"},
+                                                    {"render", "--help"},
+                                                    {"report", "--help"},
+                                                    {"open", "--help"}}) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.out.find("Examples:"), std::string::npos) << arguments[0];
+    EXPECT_NE(result.out.find("  flow "), std::string::npos) << arguments[0];
+    EXPECT_EQ(result.err, "");
+  }
+  EXPECT_EQ(run({"--version"}).out.rfind("flow (Palpate) ", 0), 0U);
+}
+
+TEST_F(Flow, ListsTheBuiltInExamples) {
+  const ProgramResult result = run({"--example", "list"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : {"tornado", "abc", "hill", "cavity", "saddle", "boundary-layer"}) {
+    EXPECT_NE(result.out.find(name), std::string::npos) << name;
+  }
+  EXPECT_GE(json({"info", "--example", "list"})["examples"].size(), 6U);
+}
+
+TEST_F(Flow, TracesAnExampleIntoEveryFormat) {
+  for (const char* name : {"a.vtp", "a.csv", "a.tck", "a.trk"}) {
+    const ProgramResult result = run({"trace", "--example", "abc", "--seeds", "grid:2,2,2", "--out", name});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_GT(std::filesystem::file_size(folder_.path(name)), 100U) << name;
+  }
+  const std::string csv = read_file(folder_.path("a.csv"));
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "line,seed,point,x,y,z,time,arc,speed,error,termination");
+  EXPECT_EQ(files().size(), 4U) << "temporary files stay";
+}
+
+TEST_F(Flow, StatesTheKeysOfTheContract) {
+  const Json object =
+      json({"trace", "--example", "abc", "--seeds", "random:20", "--direction", "both", "--out", "l.vtp"});
+  for (const char* key : {"seeds", "lines", "points", "ends", "integrator", "tolerance", "threads",
+                          "seconds_load", "seconds_prepare", "seconds_trace", "error_max"}) {
+    EXPECT_TRUE(object.contains(key)) << key;
+  }
+  EXPECT_EQ(object["seeds"], 20);
+  EXPECT_EQ(object["lines"], 40);
+  EXPECT_EQ(sum_of(object["ends"]), 40U);
+  EXPECT_GT(object["error_max"].get<double>(), 0.0);
+}
+
+TEST_F(Flow, CountsAndNamesSeedsOutside) {
+  folder_.write("s.csv", "x,y,z\n1,1,1\n99,0,0\n");
+  const ProgramResult result = run({"trace", "--example", "abc", "--seeds", "s.csv", "--out", "l.csv"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("1 seed outside"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("(99, 0, 0)"), std::string::npos) << result.err;
+  const Json object = json({"trace", "--example", "abc", "--seeds", "s.csv", "--out", "l.csv", "--force"});
+  EXPECT_EQ(object["seeds"], 2);
+  EXPECT_EQ(object["lines"], 1);
+  EXPECT_EQ(object["seeds_outside"][0]["seed"], 1);
+}
+
+TEST_F(Flow, SaysWhyThereIsNoLineAndWritesNothing) {
+  const ProgramResult result =
+      run({"trace", "--example", "abc", "--seeds", "point:99,0,0", "--out", "l.vtp"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("no line"), std::string::npos);
+  EXPECT_TRUE(files().empty());
+  EXPECT_TRUE(
+      json({"trace", "--example", "abc", "--seeds", "point:99,0,0", "--out", "l.vtp"}, 1).contains("error"));
+}
+
+TEST_F(Flow, SaysWhatToChangeWhereALimitEndsLines) {
+  const ProgramResult result =
+      run({"trace", "--example", "abc", "--seeds", "grid:2,2,2", "--max-length", "0.5", "--out", "l.vtp"});
+  EXPECT_NE(result.out.find("--max-length"), std::string::npos) << result.out;
+}
+
+TEST_F(Flow, EndsLinesOnAPlane) {
+  const ProgramResult result = run({"trace", "--example", "abc", "--seeds", "point:3,3,3", "--stop-plane",
+                                    "-1,0,0,-3.5", "--direction", "both", "--out", "l.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_file(folder_.path("l.csv")).find("stopped_by_rule"), std::string::npos);
+}
+
+TEST_F(Flow, RefusesToOverwriteBeforeAnyWorkIsDone) {
+  folder_.write("l.vtp", "precious");
+  // The input does not exist either: the output is looked at first.
+  const ProgramResult refused = run({"trace", "missing.vtk", "--seeds", "grid:2,2,2", "--out", "l.vtp"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--force"), std::string::npos);
+  EXPECT_EQ(read_file(folder_.path("l.vtp")), "precious");
+  EXPECT_EQ(
+      run({"trace", "--example", "abc", "--seeds", "grid:2,2,2", "--out", "l.vtp", "--force"}).exit_code, 0);
+  EXPECT_NE(read_file(folder_.path("l.vtp")), "precious");
+}
+
+TEST_F(Flow, ListsTheKnownWordsForAnUnknownOne) {
+  const ProgramResult integrator =
+      run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--integrator", "rk5", "--out", "l.vtp"});
+  EXPECT_EQ(integrator.exit_code, 2);
+  for (const char* name : {"exact", "euler", "rk4", "bs32", "rk34", "dp54", "rodas4"}) {
+    EXPECT_NE(integrator.err.find(name), std::string::npos) << name;
+  }
+  EXPECT_EQ(run({"info", "--example", "nothing"}).exit_code, 2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "cube:1", "--out", "l.vtp"}).exit_code, 2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--direction", "up", "--out", "l.vtp"})
+                .exit_code,
+            2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--out", "l.doc"}).exit_code, 2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "grid:1,1,1"}).exit_code, 2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--out", "l.vtp"}).exit_code, 2);
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--out", "l.vtp", "--tolerance", "0"})
+                .exit_code,
+            2);
+  EXPECT_EQ(run({"info", "--no-such-option"}).exit_code, 2);
+  EXPECT_EQ(run({"info"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "--example", "abc", "--out", "p.png", "--size", "0x10"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "--example", "abc", "--out", "p.png", "--color", "smell"}).exit_code, 2);
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Flow, EndsWithThreeForInputsThatAreMissingOrBroken) {
+  folder_.write("noise.vtk", "this is no data file");
+  folder_.write("empty.vtk", "");
+  for (const char* name : {"missing.vtk", "noise.vtk", "empty.vtk", "."}) {
+    const ProgramResult result = run({"info", name});
+    EXPECT_EQ(result.exit_code, 3) << name << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "one clear line: " << result.err;
+    EXPECT_EQ(json({"info", name}, 3)["exit"], 3);
+  }
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "missing.csv", "--out", "l.vtp"}).exit_code, 3);
+  EXPECT_EQ(run({"missing.vtk"}).exit_code, run({"open", "missing.vtk"}).exit_code);
+}
+
+TEST_F(Flow, EndsWithOneForAnOutputThatCannotBeWritten) {
+  EXPECT_EQ(
+      run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--out", "no/such/folder/l.vtp"}).exit_code,
+      1);
+  EXPECT_EQ(run({"render", "--example", "abc", "--out", "no/such/folder/p.png"}).exit_code, 1);
+}
+
+TEST_F(Flow, GivesTheSameBytesForAnyNumberOfThreads) {
+  for (const char* threads : {"1", "2", "7"}) {
+    ASSERT_EQ(run({"trace", "--example", "tornado", "--seeds", "random:60", "--seed", "5", "--direction",
+                   "both", "--threads", threads, "--out", std::string("t") + threads + ".vtp"})
+                  .exit_code,
+              0);
+  }
+  EXPECT_EQ(read_file(folder_.path("t1.vtp")), read_file(folder_.path("t2.vtp")));
+  EXPECT_EQ(read_file(folder_.path("t1.vtp")), read_file(folder_.path("t7.vtp")));
+  ASSERT_EQ(run({"trace", "--example", "tornado", "--seeds", "random:60", "--seed", "6", "--direction",
+                 "both", "--out", "s.vtp"})
+                .exit_code,
+            0);
+  EXPECT_NE(read_file(folder_.path("t1.vtp")), read_file(folder_.path("s.vtp")));
+}
+
+TEST_F(Flow, KeepsQuietWhenAsked) {
+  const ProgramResult result =
+      run({"trace", "--example", "abc", "--seeds", "grid:2,2,2", "--quiet", "--out", "l.vtp"});
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Flow, ExplainsWhatItUsesAndLeavesOut) {
+  const ProgramResult result = run({"info", "--example", "abc", "--explain"});
+  EXPECT_NE(result.out.find("used:"), std::string::npos);
+  EXPECT_NE(result.out.find("left out:"), std::string::npos);
+  EXPECT_GT(json({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--explain"})["plan"].size(), 3U);
+}
+
+TEST_F(Flow, TakesOptionsFromASessionUnlessTheyAreTyped) {
+  folder_.write("s.toml",
+                "format = 1\nprogram = \"flow\"\n[scene]\nexample = \"abc\"\nseeds = \"grid:2,2,2\"\n"
+                "integrator = \"rk34\"\ncamera = \"0,90,0,1\"\n");
+  const Json read = json({"trace", "--session", "s.toml", "--out", "a.vtp"});
+  EXPECT_EQ(read["seeds"], 8);
+  EXPECT_EQ(read["integrator"], "rk34");
+  const Json typed = json({"trace", "--session", "s.toml", "--integrator", "dp54", "--out", "b.vtp"});
+  EXPECT_EQ(typed["integrator"], "dp54");
+  EXPECT_EQ(run({"trace", "--session", "missing.toml", "--out", "c.vtp"}).exit_code, 3);
+}
+
+TEST_F(Flow, DrawsAPictureThatSaysHowItWasMade) {
+  const Json object = json({"render", "--example", "abc", "--seeds", "grid:3,3,3", "--size", "160x120",
+                            "--repeat", "2", "--out", "p.png"});
+  EXPECT_EQ(object["frames_timed"], 2);
+  for (const char* key : {"frame_ms", "seconds_load", "image_error"})
+    EXPECT_TRUE(object[key].is_number()) << key;
+  const std::string png = read_file(folder_.path("p.png"));
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_NE(png.find("flow render --example abc"), std::string::npos);
+}
+
+TEST_F(Flow, MakesATourWhereThereIsNoDisplay) {
+  const ProgramResult result = run({});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"flow-tour.png"});
+  EXPECT_NE((result.out + result.err).find("flow-tour.png"), std::string::npos);
+  // A file, though, is not silently turned into a picture.
+  const ProgramResult open = run({"--example", "abc"});
+  EXPECT_EQ(open.exit_code, 1);
+  EXPECT_NE(open.err.find("render"), std::string::npos);
+}
+
+TEST_F(Flow, ReportsErrorAgainstTime) {
+  const Json summary = json({"report", "--example", "saddle", "--quick", "--seeds", "grid:2,2,2",
+                             "--max-length", "1", "--out", "r"});
+  EXPECT_EQ(summary["stability_cases_failed"], 0);
+  const Json report = Json::parse(read_file(folder_.path("r/report.json")));
+  EXPECT_TRUE(report.contains("machine"));
+  EXPECT_GT(report["work_precision"].size(), 20U);
+  for (const char* key : {"subject", "method", "parameter", "error", "error_kind", "seconds"}) {
+    EXPECT_TRUE(report["work_precision"][0].contains(key)) << key;
+  }
+  for (const Json& row : report["stability"]) EXPECT_TRUE(row["holds"].get<bool>()) << row["case"];
+  EXPECT_EQ(run({"report", "--example", "saddle", "--quick", "--out", "r"}).exit_code, 2);
+}
+
+TEST_F(Flow, StopsWithinASecondOfCtrlC) {
+  // Lines without end at a tolerance without mercy: minutes of work.
+  Program program({bin("flow").string(), "trace", "--example", "abc", "--seeds", "random:20000",
+                   "--integrator", "bs32", "--tolerance", "1e-11", "--max-length", "1e6", "--out", "l.vtp"},
+                  folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const double before = program.seconds();
+  program.signal(SIGINT);
+  const ProgramResult result = program.finish(30.0);
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_LT(result.seconds - before, 1.5);  // a second, and slack for a busy machine
+  EXPECT_NE(result.err.find("nothing was kept"), std::string::npos) << result.err;
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Flow, GivesLinesWhoseEndsAddUpOnRealData) {
+  struct Case {
+    const char* file;
+    const char* solution;
+    const char* integrator;
+  };
+  int found = 0;
+  for (const Case& c : {Case{"flow/carotid/carotid.vtk", nullptr, "dp54"},
+                        Case{"flow/bluntfin/bluntfinxyz.bin", "flow/bluntfin/bluntfinq.bin", "exact"},
+                        Case{"flow/disk/disk_out_ref.ex2", nullptr, "exact"}}) {
+    const auto file = shared_data(c.file);
+    if (file.empty()) continue;
+    ++found;
+    std::vector<std::string> arguments{
+        "trace",       file.string(), "--seeds", "grid:5,5,5",
+        "--direction", "both",        "--out",   std::to_string(found) + ".vtp"};
+    if (c.solution) arguments.insert(arguments.end(), {"--solution", shared_data(c.solution).string()});
+    const Json object = json(arguments);
+    EXPECT_EQ(object["integrator"], c.integrator) << c.file;
+    const auto outside = object["seeds_outside"].size();
+    EXPECT_EQ(object["lines"].get<std::size_t>(), 2 * (125 - outside)) << c.file;
+    EXPECT_EQ(sum_of(object["ends"]), object["lines"].get<std::size_t>()) << c.file;
+    EXPECT_EQ(object["ends"]["max_steps"], 0) << c.file;
+    EXPECT_EQ(object["ends"]["bad_data"], 0) << c.file;
+  }
+  if (found == 0) GTEST_SKIP() << "sample data missing: flow/";
+}
+
+TEST_F(Flow, NamesTheFieldsForAnUnknownOne) {
+  PALPATE_NEED_DATA(file, "flow/bluntfin/bluntfinxyz.bin");
+  const std::string solution = shared_data("flow/bluntfin/bluntfinq.bin").string();
+  const ProgramResult result = run({"trace", file.string(), "--solution", solution, "--field", "wind",
+                                    "--seeds", "grid:1,1,1", "--out", "l.vtp"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("Momentum"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,136 @@
+// `flow` stays small: whatever file it opens, no library of a reader, mesher or device is mapped into it, and
+// a NRRD file does not even start the helper that knows VTK.
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include <dirent.h>
+#include <gtest/gtest.h>
+
+#include "tests/e2e/program.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+struct Observation {
+  std::set<std::string> libraries;  ///< files mapped by the program
+  std::set<std::string> helpers;    ///< programs that it started
+  ProgramResult result;
+};
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// Looks at the program's memory map and children a thousand times a second until it ends.
+Observation observe(const std::vector<std::string>& command, const std::filesystem::path& folder) {
+  Observation seen;
+  Program program(command, folder, {"DISPLAY=", "WAYLAND_DISPLAY="});
+  const std::string process = "/proc/" + std::to_string(program.pid());
+  const std::string self = std::filesystem::path(command[0]).filename();
+  while (true) {
+    std::istringstream maps(read_text(process + "/maps"));
+    bool alive = false;
+    bool ours = false;
+    for (std::string line; std::getline(maps, line);) {
+      alive = true;
+      const auto slash = line.find('/');
+      if (slash == std::string::npos) continue;
+      const std::string file = std::filesystem::path(line.substr(slash)).filename();
+      ours = ours || file == self;  // before exec it is a copy of this test
+      if (file.find(".so") != std::string::npos && ours) seen.libraries.insert(file);
+    }
+    if (!alive) break;
+    for (const auto& task : {read_text(process + "/task/" + std::to_string(program.pid()) + "/children")}) {
+      std::istringstream children(task);
+      for (int child = 0; children >> child;) {
+        std::error_code ignored;
+        const auto target =
+            std::filesystem::read_symlink("/proc/" + std::to_string(child) + "/exe", ignored).filename();
+        if (!target.empty() && target != self) seen.helpers.insert(target);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  seen.result = program.finish();
+  return seen;
+}
+
+void expect_small(const Observation& seen) {
+  EXPECT_FALSE(seen.libraries.empty());
+  for (const std::string& library : seen.libraries) {
+    for (const char* unwanted :
+         {"vtk", "CGAL", "libtet", "openvdb", "libusb", "hdf5", "netcdf", "teem", "libmpi"}) {
+      EXPECT_EQ(library.find(unwanted), std::string::npos) << library;
+    }
+  }
+}
+
+std::string minimal_nrrd() {
+  std::string text =
+      "NRRD0004\ntype: float\ndimension: 4\nsizes: 3 4 4 4\nencoding: ascii\nkinds: vector space space "
+      "space\n\n";
+  for (int i = 0; i < 64; ++i) text += "1 0.5 0\n";
+  return text;
+}
+
+TEST(MappedLibraries, AreFewWhateverFileIsOpened) {
+  const TempFolder folder;
+  std::vector<std::vector<std::string>> inputs;
+  inputs.push_back({folder.write("v.nrrd", minimal_nrrd()).string()});
+  for (const char* file : {"flow/carotid/carotid.vtk", "flow/disk/disk_out_ref.ex2"}) {
+    const auto path = shared_data(file);
+    if (!path.empty()) inputs.push_back({path.string()});
+  }
+  const auto grid = shared_data("flow/bluntfin/bluntfinxyz.bin");
+  if (!grid.empty())
+    inputs.push_back({grid.string(), "--solution", shared_data("flow/bluntfin/bluntfinq.bin").string()});
+  int number = 0;
+  for (const auto& input : inputs) {
+    std::vector<std::string> command{bin("flow").string(), "trace"};
+    command.insert(command.end(), input.begin(), input.end());
+    const std::string out = std::to_string(++number) + ".vtp";
+    command.insert(command.end(), {"--seeds", "random:4000", "--out", out});
+    const Observation seen = observe(command, folder.path());
+    EXPECT_EQ(seen.result.exit_code, 0) << input[0] << ": " << seen.result.err;
+    expect_small(seen);
+    EXPECT_EQ(seen.helpers.size(), 1U) << input[0];
+  }
+}
+
+TEST(MappedLibraries, NrrdStartsNoVtkHelper) {
+  // A copy of the installed layout without the helpers that know VTK: reading NRRD must not miss them.
+  const TempFolder folder;
+  const std::filesystem::path build = PALPATE_BUILD_DIR;
+  std::filesystem::create_directories(folder.path("bin"));
+  std::filesystem::create_directories(folder.path("lib/palpate"));
+  std::filesystem::copy(build / "bin/flow", folder.path("bin/flow"));
+  std::filesystem::copy(build / "lib/palpate/palpate-load-nrrd",
+                        folder.path("lib/palpate/palpate-load-nrrd"));
+  folder.write("v.nrrd", minimal_nrrd());
+  const Observation seen = observe(
+      {folder.path("bin/flow").string(), "trace", "v.nrrd", "--seeds", "grid:2,2,2", "--out", "l.vtp"},
+      folder.path());
+  EXPECT_EQ(seen.result.exit_code, 0) << seen.result.err;
+  expect_small(seen);
+
+  // And a VTK file says which program is missing instead of trying another.
+  folder.write(
+      "v.vtk",
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+      "SPACING 1 1 1\nPOINT_DATA 8\nVECTORS v float\n1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0\n");
+  const ProgramResult vtk =
+      Program({folder.path("bin/flow").string(), "info", "v.vtk"}, folder.path()).finish();
+  EXPECT_NE(vtk.exit_code, 0);
+  EXPECT_NE(vtk.err.find("palpate-load-vtk"), std::string::npos) << vtk.err;
+}
+
+}  // namespace
+}  // namespace palpate::test
