@@ -137,7 +137,7 @@ Four AffineModes::carried(const Four& d, Real t) const {
 }
 
 AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b,
-                         int entry, int ignore) {
+                         int ignore) {
   make_rates(vertices, tet, sign);
   position_.add(1u, {b[0], b[1], b[2], b[3]});  // E[0] = 1
   if (!(rate_ > 0.0L)) {
@@ -162,15 +162,21 @@ AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, 
     const auto i = static_cast<std::size_t>(face);
     const FirstZero search(nodes_, position_, rate, last, annihilated_, face);
     Real from = 0.0L;
-    if (face == entry && slope[i] <= 0.0L) {
-      // The line grazes the face that it came in by: a slope within rounding of zero is none, and the
-      // curvature tells whether the line comes back inside.
-      Real scale = 0.0L;
-      for (std::size_t j = 0; j < 4; ++j) scale += std::abs(matrix_[i][j] * b[j]);
+    if (!(b[i] > 0.0L)) {
+      // On the face: a slope within rounding of zero is none, and the curvature tells whether the line comes
+      // back inside; where that is none either, it runs along the face and does not leave by it.
+      Real slope_scale = 0.0L, curvature_scale = 0.0L;
+      for (std::size_t j = 0; j < 4; ++j) {
+        slope_scale += std::abs(matrix_[i][j] * b[j]);
+        curvature_scale += std::abs(matrix_[i][j] * slope[j]);
+      }
       constexpr Real kGrazing = 1e-12L;
-      if (slope[i] >= -kGrazing * scale && curvature[i] > 0.0L) {
-        from = 4.0L * -slope[i] / curvature[i];
-        if (!(search.value(from) > 0.0L)) from = 0.0L;
+      if (std::abs(slope[i]) <= kGrazing * slope_scale) {
+        if (std::abs(curvature[i]) <= kGrazing * curvature_scale) continue;
+        if (curvature[i] > 0.0L && slope[i] < 0.0L) {
+          from = 4.0L * -slope[i] / curvature[i];
+          if (!(search.value(from) > 0.0L)) from = 0.0L;
+        }
       }
     }
     if (from >= until) continue;
@@ -179,31 +185,25 @@ AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, 
       until = exit_.time;
     }
   }
-  if (exit_.face < 0) {
-    find_rest(horizon);
-    return;
-  }
-  // A line that creeps onto a face where the flow rests gets there by rounding alone: it does not leave.
-  constexpr Real kAtRest = 0x1p-45L;
-  const Four late = at(exit_.time);
-  const Four late_slope = rates_of(late);
-  Real first = 0.0L, then = 0.0L;
-  for (std::size_t i = 0; i < 4; ++i) {
-    first = std::max(first, std::abs(slope[i]));
-    then = std::max(then, std::abs(late_slope[i]));
-  }
-  if (exit_.time > 0.0L && then <= kAtRest * first) {
-    exit_ = Exit{};
-    rest_ = late;
-  }
+  find_rest(slope, horizon);
 }
 
-void AffineModes::find_rest(Real horizon) {
-  constexpr Real kAtRest = 1e-12L;
-  const Four late = at(horizon), earlier = at(0.5L * horizon);
-  Real moved = 0.0L;
-  for (std::size_t i = 0; i < 4; ++i) moved = std::max(moved, std::abs(late[i] - earlier[i]));
-  if (moved <= kAtRest) rest_ = late;
+/// A line that creeps towards a point (or a face) at rest may cross it later by rounding alone, or drift away
+/// from it: where the rate has died out before the exit, the line rests there and does not leave.
+void AffineModes::find_rest(const Four& slope, Real horizon) {
+  constexpr Real kAtRest = 0x1p-45L;
+  constexpr Real kSoonest = 16.0L;  // no rate dies out sooner than this many times its inverse
+  const auto largest = [](const Four& z) {
+    return std::max(std::max(std::abs(z[0]), std::abs(z[1])), std::max(std::abs(z[2]), std::abs(z[3])));
+  };
+  const Real until = exit_.face >= 0 ? exit_.time : horizon, start = largest(slope);
+  for (Real t = kSoonest / rate_; t < 2.0L * until; t *= 2.0L) {
+    const Four late = at(std::min(t, until));
+    if (largest(rates_of(late)) > kAtRest * start) continue;
+    exit_ = Exit{};
+    rest_ = late;
+    return;
+  }
 }
 
 }  // namespace palpate

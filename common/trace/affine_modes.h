@@ -34,10 +34,9 @@ class AffineModes {
     Real time = 0.0L;
   };
 
-  /// Solves the cell from `b`. `entry`: the face that the line came in by, or -1. `ignore`: a face that the
-  /// line slides along and is not to leave by, or -1. @param sign 1, or -1 to trace backward.
-  AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b, int entry,
-              int ignore);
+  /// Solves the cell from `b`. `ignore`: a face that the line is not to leave by, or -1.
+  /// @param sign 1, or -1 to trace backward.
+  AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b, int ignore);
 
   [[nodiscard]] const Exit& exit() const noexcept { return exit_; }
   /// Barycentric coordinates at time `t` >= 0.
@@ -54,7 +53,7 @@ class AffineModes {
   void make_schur();
   [[nodiscard]] Four rates_of(const Four& z) const;  ///< B z
   [[nodiscard]] ExponentialForm rate_form(const Four& w) const;
-  void find_rest(Real horizon);
+  void find_rest(const Four& slope, Real horizon);
 
   std::array<Four, 4> matrix_{};  ///< B, rows first
   std::array<std::array<Complex, 3>, 3> q_{}, t_{};

@@ -16,6 +16,8 @@ constexpr double kUlp = std::numeric_limits<double>::epsilon();
 constexpr double kRoundingPerCell = 16.0;
 // Coordinates are stored with 2^-53 of their size; that much is uncertain of every point.
 constexpr double kRoundingOfPoint = 2.0;
+// A rate of a barycentric coordinate below this part of the largest one is zero but for rounding.
+constexpr double kTangent = 1e-14;
 
 Pack4 to_pack(const AffineModes::Four& b) {
   return {static_cast<double>(b[0]), static_cast<double>(b[1]), static_cast<double>(b[2]),
@@ -111,12 +113,29 @@ std::optional<End> ExactWalk::advance() {
       case Outcome::kCross: {
         const int face = exit_face_;
         exit_face_ = -1;
-        if (++standing_ > kMaxStandingSteps) return End::kStagnation;
-        if (const std::optional<End> ended = cross(face)) return ended;
+        if (const std::optional<End> ended = cross_standing(face)) return ended;
         break;
       }
     }
   }
+}
+
+/// Crosses a face without having moved: on a vertex or an edge, where several cells meet. The cells around it
+/// are walked through, and if that does not come to an end soon, the one that lies ahead is looked up.
+std::optional<End> ExactWalk::cross_standing(int face) {
+  constexpr int kWalk = 8;
+  constexpr double kAhead = 1e-8;  // of the cell: beyond rounding, well within the next cell
+  if (++standing_ > kMaxStandingSteps) return End::kStagnation;
+  if (standing_ % kWalk != 0) return cross(face);
+  const Vec3 x = cell_.position(b_);
+  TetPoint ahead;
+  const double distance = kAhead * cell_.size();
+  if (!mesh_->mesh().locate(x + distance * direction_, cell_index_, ahead)) return cross(face);
+  modes_.reset();
+  ignored_face_ = -1;
+  pieces_in_cell_ = 0;
+  settle(ahead.cell, x);
+  return std::nullopt;
 }
 
 ExactWalk::Outcome ExactWalk::fast_piece() {
@@ -127,7 +146,7 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
   // Already on a face and on the way out: cross it without a piece. By the face of entry only the robust path
   // may send a line back.
   for (int i = 0; i < 4; ++i) {
-    if (b_[i] <= 0.0 && w_[i] < 0.0) {
+    if (b_[i] <= 0.0 && w_[i] < -kTangent * fastest) {
       if (i == entry_) return Outcome::kRobust;
       exit_face_ = i;
       return Outcome::kCross;
@@ -141,7 +160,7 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
   const Pack4 exits = quadratic_exits(b_, w_, a);
   for (int i = 0; i < 4; ++i) {
     const double t = b_[i] > 0.0 ? exits[i] : -2.0 * w_[i] / a[i];
-    if (t > 0.0 && t < h) {
+    if (t > 0.0 && t < h && (b_[i] > 0.0 || w_[i] > kTangent * fastest)) {
       h = t;
       face = i;
     }
@@ -222,12 +241,19 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     const double interpolation = theta2 * theta2 * theta * time * fastest * (1.0 / 46080.0) *
                                  (1.0 + 3.2 * theta);  // the last factor bounds exp(theta) up to kMaxRate
     const auto smaller = [](double x, double y) { return x < y ? x : y; };
-    const double lowest = smaller(smaller(min_lane(b1), min_lane(b2)), smaller(min_lane(b3), min_lane(b4)));
+    double lowest = HUGE_VAL;
+    for (int i = 0; i < 4; ++i) {
+      // A line that lies in a face stays there.
+      if (b0[i] <= 0.0 && std::abs(w_[i]) <= kTangent * fastest &&
+          std::abs(a[i]) * time <= kTangent * fastest)
+        continue;
+      lowest = smaller(lowest, smaller(smaller(b1[i], b2[i]), smaller(b3[i], b4[i])));
+    }
     // Another face may have been crossed shortly before: then that one is the exit.
     int earlier = -1;
     double deepest = 0.0;
     for (int i = 0; i < 4; ++i) {
-      if (i != face && b5[i] < deepest) {
+      if (i != face && b5[i] < deepest - kUlp) {
         deepest = b5[i];
         earlier = i;
       }
@@ -353,7 +379,7 @@ void ExactWalk::enter_robust() {
   for (int i = 0; i < 4; ++i) sum += b[static_cast<std::size_t>(i)] = b_[i];
   for (AffineModes::Real& value : b) value /= sum;
   modes_.emplace(mesh_->vertices(), mesh_->mesh().cells()[static_cast<std::size_t>(cell_index_)], sign_, b,
-                 entry_, ignored_face_);
+                 ignored_face_);
   mode_time_ = 0.0L;
   mode_step_ = 0.25L / modes_->rate();
 }
@@ -366,15 +392,15 @@ std::optional<End> ExactWalk::robust_piece() {
   if (leaves && !(exit.time > mode_time_)) {
     // Sent on at once. Where two cells send the line back and forth it slides along their common face: the
     // second time it stays, and leaves by another face.
-    if (++standing_ > kMaxStandingSteps) return End::kStagnation;
     if (exit.face == entry_ && standing_ > 1) {
+      ++standing_;
       ignored_face_ = entry_;
       modes_.reset();
       enter_robust();
       return advance();
     }
     const int face = exit.face;
-    if (const std::optional<End> ended = cross(face)) return ended;
+    if (const std::optional<End> ended = cross_standing(face)) return ended;
     return advance();
   }
 

@@ -53,6 +53,7 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] Outcome fast_piece();
   [[nodiscard]] std::optional<End> robust_piece();
   [[nodiscard]] std::optional<End> cross(int face);
+  [[nodiscard]] std::optional<End> cross_standing(int face);
   void settle(CellIndex cell, const Vec3& x);
   void close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error);
   void enter_robust();
