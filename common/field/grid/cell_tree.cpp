@@ -16,19 +16,33 @@ struct Centre {
   std::uint32_t cell;
 };
 
-/// A part of the order that is still to be split.
+/// A part of the order that is still to be split: places [first, first + 2^level) of the complete tree.
 struct Range {
+  std::size_t node;
   std::size_t first;
-  std::size_t last;
+  std::size_t level;
 };
 
-/// Puts the cells of `range` that belong before `cut` there, across the longest side of the centres' box.
-void halve(std::vector<Centre>& centres, const Range& range, std::size_t cut) {
+/// Packs a place and an axis.
+std::uint32_t pack(float split, std::size_t axis) noexcept {
+  return (std::bit_cast<std::uint32_t>(split) & ~3U) | static_cast<std::uint32_t>(axis);
+}
+
+/// Splits the cells of a range across the longest side of their centres' box, the left part taking the full
+/// 2^(level - 1) places. False where there is nothing to the right.
+bool halve(std::vector<Centre>& centres, const Range& range, std::uint32_t& split) {
+  const std::size_t first = range.first;
+  const std::size_t last = std::min(centres.size(), first + (std::size_t{1} << range.level));
+  const std::size_t cut = first + (std::size_t{1} << (range.level - 1));
+  if (cut >= last) {
+    split = pack(std::numeric_limits<float>::infinity(), 0);
+    return false;
+  }
   std::array<float, 3> lower;
   std::array<float, 3> upper;
   lower.fill(std::numeric_limits<float>::infinity());
   upper.fill(-std::numeric_limits<float>::infinity());
-  for (std::size_t i = range.first; i < range.last; ++i) {
+  for (std::size_t i = first; i < last; ++i) {
     for (std::size_t a = 0; a < 3; ++a) {
       lower[a] = std::min(lower[a], centres[i].x[a]);
       upper[a] = std::max(upper[a], centres[i].x[a]);
@@ -39,28 +53,21 @@ void halve(std::vector<Centre>& centres, const Range& range, std::size_t cut) {
     if (upper[a] - lower[a] > upper[axis] - lower[axis]) axis = a;
   }
   // Ties fall to the index, so that the order is the same on every library.
-  std::nth_element(centres.begin() + static_cast<std::ptrdiff_t>(range.first),
-                   centres.begin() + static_cast<std::ptrdiff_t>(cut),
-                   centres.begin() + static_cast<std::ptrdiff_t>(range.last),
-                   [axis](const Centre& a, const Centre& b) {
-                     return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.cell < b.cell;
-                   });
+  const auto at = [&](std::size_t i) { return centres.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(first), at(cut), at(last), [axis](const Centre& a, const Centre& b) {
+    return a.x[axis] != b.x[axis] ? a.x[axis] < b.x[axis] : a.cell < b.cell;
+  });
+  split = pack(centres[cut].x[axis], axis);
+  return true;
 }
 
-/// Where the complete tree over leaves cuts a range: the left part takes a power of two of leaves.
-std::size_t cut_of(const Range& range) {
-  const std::size_t leaves = (range.last - range.first + CellTree::kLeafCells - 1) / CellTree::kLeafCells;
-  return range.first + std::bit_ceil(leaves) / 2 * CellTree::kLeafCells;
-}
-
-/// Splits down to single leaves.
-void split(std::vector<Centre>& centres, Range range) {
-  while (range.last - range.first > CellTree::kLeafCells) {
-    const std::size_t cut = cut_of(range);
-    halve(centres, range, cut);
-    split(centres, {range.first, cut});
-    range.first = cut;
-  }
+/// Splits a range down to single cells.
+void split_range(std::vector<Centre>& centres, const Range& range, std::span<std::uint32_t> splits) {
+  if (range.level == 0) return;
+  const bool both = halve(centres, range, splits[range.node]);
+  const std::size_t half = std::size_t{1} << (range.level - 1);
+  split_range(centres, {2 * range.node, range.first, range.level - 1}, splits);
+  if (both) split_range(centres, {2 * range.node + 1, range.first + half, range.level - 1}, splits);
 }
 
 float round_down(double x) noexcept {
@@ -75,15 +82,23 @@ float round_up(double x) noexcept {
 
 }  // namespace
 
-std::vector<std::uint32_t> CellTree::order(std::span<const Vec3> points, std::span<const Tet> cells,
-                                           int threads) {
+CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, const Box& bounds, int threads)
+    : cell_count_(cells.size()), origin_(bounds.lower) {
+  // A query's own rounding to single precision must not lose it: boxes grow by one unit in the last place
+  // of the mesh's size, and by what double precision cannot tell at these coordinates.
+  double largest = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    largest = std::max({largest, std::abs(bounds.lower[a]), std::abs(bounds.upper[a])});
+  }
+  const Vec3 size = bounds.size();
+  margin_ = std::max({size.x, size.y, size.z}) * std::numeric_limits<float>::epsilon() +
+            16.0 * largest * std::numeric_limits<double>::epsilon();
+
   std::vector<Centre> centres(cells.size());
-  Box bounds;
-  for (const Tet& cell : cells) bounds.include(points[cell[0]]);
   parallel_for(cells.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       Vec3 sum{0.0};
-      for (const std::uint32_t v : cells[c]) sum += points[v] - bounds.lower;
+      for (const std::uint32_t v : cells[c]) sum += points[v] - origin_;
       for (int a = 0; a < 3; ++a) {
         centres[c].x[static_cast<std::size_t>(a)] = static_cast<float>(0.25 * sum[a]);
       }
@@ -91,43 +106,36 @@ std::vector<std::uint32_t> CellTree::order(std::span<const Vec3> points, std::sp
     }
   });
 
+  while ((std::size_t{1} << splits_) < cells.size()) ++splits_;
+  split_.assign(std::size_t{1} << splits_, pack(std::numeric_limits<float>::infinity(), 0));
+
   // The first cuts are made one by one; the parts that they leave are independent.
-  constexpr std::size_t kPartCells = 1U << 14U;
+  constexpr std::size_t kPartLevel = 14;
   std::vector<Range> parts;
-  std::vector<Range> pending{{0, cells.size()}};
+  std::vector<Range> pending{{1, 0, splits_}};
   while (!pending.empty()) {
     const Range range = pending.back();
     pending.pop_back();
-    if (range.last - range.first <= kPartCells) {
+    if (range.level <= kPartLevel) {
       parts.push_back(range);
       continue;
     }
-    const std::size_t cut = cut_of(range);
-    halve(centres, range, cut);
-    pending.push_back({range.first, cut});
-    pending.push_back({cut, range.last});
+    const std::size_t half = std::size_t{1} << (range.level - 1);
+    const bool both = halve(centres, range, split_[range.node]);
+    pending.push_back({2 * range.node, range.first, range.level - 1});
+    if (both) pending.push_back({2 * range.node + 1, range.first + half, range.level - 1});
   }
   parallel_for(parts.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) split(centres, parts[p]);
+    for (std::size_t p = first; p < last; ++p) split_range(centres, parts[p], split_);
   });
 
-  std::vector<std::uint32_t> order(cells.size());
-  std::ranges::transform(centres, order.begin(), &Centre::cell);
-  return order;
+  order_.resize(cells.size());
+  std::ranges::transform(centres, order_.begin(), &Centre::cell);
 }
 
-CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, const Box& bounds, int threads)
-    : cell_count_(cells.size()), origin_(bounds.lower) {
+void CellTree::finish(std::span<const Vec3> points, std::span<const Tet> cells, int threads) {
+  PALPATE_ASSERT(cells.size() == cell_count_);
   if (cells.empty()) return;
-  // A query's own rounding to single precision must not lose it: boxes grow by one unit in the last place
-  // of the mesh's size, and by what double precision cannot tell at these coordinates.
-  const Vec3 size = bounds.size();
-  const double largest =
-      std::max({std::abs(bounds.lower.x), std::abs(bounds.lower.y), std::abs(bounds.lower.z),
-                std::abs(bounds.upper.x), std::abs(bounds.upper.y), std::abs(bounds.upper.z)});
-  const double margin = std::max({size.x, size.y, size.z}) * std::numeric_limits<float>::epsilon() +
-                        16.0 * largest * std::numeric_limits<double>::epsilon();
-
   std::size_t count = (cells.size() + kLeafCells - 1) / kLeafCells;  // boxes of the level below
   bool leaves = true;
   do {
@@ -151,8 +159,8 @@ CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, con
               for (const std::uint32_t v : cells[c]) box.include(points[v] - origin_);
             }
             for (int a = 0; a < 3; ++a) {
-              node.lower[static_cast<std::size_t>(a)][i] = round_down(box.lower[a] - margin);
-              node.upper[static_cast<std::size_t>(a)][i] = round_up(box.upper[a] + margin);
+              node.lower[static_cast<std::size_t>(a)][i] = round_down(box.lower[a] - margin_);
+              node.upper[static_cast<std::size_t>(a)][i] = round_up(box.upper[a] + margin_);
             }
             continue;
           }
@@ -171,31 +179,16 @@ CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, con
 }
 
 std::size_t CellTree::near(const Vec3& x) const noexcept {
-  PALPATE_ASSERT(!levels_.empty());
-  const std::array<float, 3> q = query(x);
-  std::size_t node = 0;
-  for (std::size_t level = levels_.size(); level-- > 0;) {
-    const Node& boxes = levels_[level][node];
-    // Of the boxes that hold x the one whose centre is nearest, measured in the box's own size; where
-    // none does, the one that is left by least. Children that do not exist have empty boxes.
-    std::size_t best = 0;
-    float best_distance = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      if (!(boxes.lower[0][i] <= boxes.upper[0][i])) continue;
-      float distance = 0.0F;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const float half = 0.5F * (boxes.upper[a][i] - boxes.lower[a][i]);
-        const float off = std::abs(q[a] - 0.5F * (boxes.upper[a][i] + boxes.lower[a][i]));
-        distance = std::max(distance, off / half);
-      }
-      if (distance < best_distance) {
-        best_distance = distance;
-        best = i;
-      }
-    }
-    node = node * kWidth + best;
+  const std::array<float, 3> at = query(x);
+  const std::array<float, 4> q{at[0], at[1], at[2], 0.0F};
+  std::size_t node = 1;
+  for (std::size_t level = 0; level < splits_; ++level) {
+    // The sixteen nodes four levels down lie in one cache line.
+    __builtin_prefetch(split_.data() + std::min(16 * node, split_.size() - 1));
+    const std::uint32_t packed = split_[node];
+    node = 2 * node + static_cast<std::size_t>(q[packed & 3U] >= std::bit_cast<float>(packed & ~3U));
   }
-  return std::min(node * kLeafCells, cell_count_ - 1);
+  return std::min(node - (std::size_t{1} << splits_), cell_count_ - 1);
 }
 
 }  // namespace palpate

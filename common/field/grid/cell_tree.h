@@ -1,16 +1,20 @@
-/// Bounding-volume tree over the cells of a tetrahedral mesh: which cells may hold a point.
+/// Index over the cells of a tetrahedral mesh: a cell near a point, and all cells that may hold it.
 ///
 /// Cells are put in the order of a k-d tree (halving the longest side of the centres' box), so that runs of
-/// kLeafCells neighbours are compact; the tree over these runs is then complete and needs no links: node n
-/// of a level covers nodes 4 n … 4 n + 3 of the level below. Boxes are stored in single precision, relative
-/// to the mesh's lower corner and rounded outwards.
+/// neighbours are compact. Two trees over the cells need no links then:
+///   - the k-d tree itself, one number a node: where it was halved. Followed down, it gives a cell near x.
+///   - boxes around runs of kLeafCells, four to a node: node n of a level covers nodes 4 n … 4 n + 3 of the
+///     level below. They name every cell that may hold x.
+/// Numbers are stored in single precision, relative to the mesh's lower corner; boxes are rounded outwards.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "common/base/large_pages.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -21,15 +25,16 @@ class CellTree {
   static constexpr std::size_t kLeafCells = 4;
   static constexpr std::size_t kWidth = 4;
 
-  /// The order of cells that the tree wants: a permutation of their indices.
-  [[nodiscard]] static std::vector<std::uint32_t> order(std::span<const Vec3> points,
-                                                        std::span<const Tet> cells, int threads);
-
   CellTree() = default;
-  /// @pre `cells` are in the order of order().
+  /// Plans the order of the cells and keeps the k-d tree. Call finish() when they are in that order.
   CellTree(std::span<const Vec3> points, std::span<const Tet> cells, const Box& bounds, int threads);
 
-  /// The first cell of a leaf whose box holds `x`, or which lies near; follows one path. @rt Safe.
+  /// The order that the tree wants: a permutation of the cells' indices. Leaves the tree without it.
+  [[nodiscard]] std::vector<std::uint32_t> take_order() { return std::move(order_); }
+  /// Puts boxes around the cells. @pre `cells` are in the order of take_order().
+  void finish(std::span<const Vec3> points, std::span<const Tet> cells, int threads);
+
+  /// A cell near `x`. @rt Safe.
   [[nodiscard]] std::size_t near(const Vec3& x) const noexcept;
 
   /// Calls `visit(first, last)` for the cells of every leaf whose box holds `x`, until it returns true.
@@ -61,6 +66,12 @@ class CellTree {
 
   std::size_t cell_count_ = 0;
   Vec3 origin_{0.0};
+  double margin_ = 0.0;               ///< by which boxes grow
+  std::vector<std::uint32_t> order_;  ///< until taken
+  std::size_t splits_ = 0;            ///< levels of the k-d tree
+  /// Node n has the children 2 n and 2 n + 1, the root is 1. A single-precision number whose two lowest bits
+  /// are the axis: it costs nothing that matters to a place to begin at.
+  LargeVector<std::uint32_t> split_;
   std::vector<std::vector<Node>> levels_;  ///< [0]: nodes whose children are leaves; back(): the root
 };
 

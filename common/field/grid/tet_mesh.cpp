@@ -63,14 +63,37 @@ TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threa
   }
   slack_ *= kRounding;
 
-  cell_order_ = CellTree::order(points_, cells, threads);
+  tree_ = CellTree(points_, cells, bounds_, threads);
+  cell_order_ = tree_.take_order();
   cells_.resize(cells.size());
   parallel_for(cells.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) cells_[c] = cells[cell_order_[c]];
   });
   orient_cells(threads);
   find_neighbors(threads);
-  tree_ = CellTree(points_, cells_, bounds_, threads);
+  tree_.finish(points_, cells_, threads);
+  const bool single = std::ranges::all_of(points_, [](const Vec3& x) {
+    return x.x == static_cast<float>(x.x) && x.y == static_cast<float>(x.y) && x.z == static_cast<float>(x.z);
+  });
+  if (single) {
+    fill_steps(single_steps_, threads);
+  } else {
+    fill_steps(double_steps_, threads);
+  }
+}
+
+template <typename T>
+void TetMesh::fill_steps(LargeVector<Step<T>>& steps, int threads) {
+  steps.resize(cells_.size());
+  parallel_for(cells_.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3& x = points_[cells_[c][i]];
+        steps[c].x[i] = {static_cast<T>(x.x), static_cast<T>(x.y), static_cast<T>(x.z)};
+      }
+      steps[c].behind = neighbors_[c];
+    }
+  });
 }
 
 void TetMesh::orient_cells(int threads) {
@@ -129,7 +152,7 @@ void TetMesh::find_neighbors(int threads) {
     }
   }
 
-  neighbors_.assign(cells_.size(), {kNoCell, kNoCell, kNoCell, kNoCell});
+  neighbors_.assign(cells_.size(), Neighbors{kNoCell, kNoCell, kNoCell, kNoCell});
   std::atomic<std::size_t> non_manifold{0};
   parallel_for(points_.size(), threads, [&](std::size_t first, std::size_t last) {
     const auto place = [&](const Face& face, std::uint32_t smallest) -> CellIndex& {
@@ -154,9 +177,9 @@ void TetMesh::find_neighbors(int threads) {
         std::span<Face> sharing = around.subspan(i, end - i);
         if (sharing.size() > 2) {
           // Zero-volume cells, of which polyhedra with coplanar faces have equal ones, give way to others.
-          const auto rest = std::ranges::partition(
-              sharing, [this](const Face& face) { return zero_volume_[face.cell] == 0; });
-          sharing = sharing.first(sharing.size() - rest.size());
+          const auto rest = std::partition(sharing.begin(), sharing.end(),
+                                           [this](const Face& face) { return zero_volume_[face.cell] == 0; });
+          sharing = sharing.first(static_cast<std::size_t>(rest - sharing.begin()));
           if (sharing.size() > 2) ++non_manifold;
         }
         if (sharing.size() == 2) {
@@ -194,20 +217,33 @@ bool TetMesh::locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexc
     // False for NaN.
     if (!(x[axis] >= bounds_.lower[axis] - slack_ && x[axis] <= bounds_.upper[axis] + slack_)) return false;
   }
-  if (hint >= 0 && static_cast<std::size_t>(hint) < cells_.size() && walk(x, hint, found)) return true;
-  return walk(x, static_cast<CellIndex>(tree_.near(x)), found) || search(x, found);
+  if (hint >= 0 && static_cast<std::size_t>(hint) < cells_.size() && walk(x, hint, kFarHint, found)) {
+    return true;
+  }
+  constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+  return walk(x, static_cast<CellIndex>(tree_.near(x)), kAnyDistance, found) || search(x, found);
 }
 
-bool TetMesh::walk(const Vec3& x, CellIndex start, TetPoint& found) const noexcept {
+bool TetMesh::walk(const Vec3& x, CellIndex start, double farthest, TetPoint& found) const noexcept {
+  return single_steps_.empty() ? walk_over(double_steps_, x, start, farthest, found)
+                               : walk_over(single_steps_, x, start, farthest, found);
+}
+
+template <typename T>
+bool TetMesh::walk_over(const LargeVector<Step<T>>& steps, const Vec3& x, CellIndex start, double farthest,
+                        TetPoint& found) const noexcept {
   CellIndex cell = start;
   for (int step = 0; step < kMaxWalk; ++step) {
     const auto c = static_cast<std::size_t>(cell);
     if (zero_volume_count_ != 0 && zero_volume_[c] != 0) return false;
-    const Neighbors& behind = neighbors_[c];
-    __builtin_prefetch(&behind);
-    const Tet& v = cells_[c];
-    const TetShape shape(points_.data(), v);
-    const Vec4 b = shape.barycentric(x - points_[v[0]]);
+    const Step<T>& here = steps[c];
+    // Whoever located a point reads its cell's vertices next; else the walk goes on behind a face.
+    __builtin_prefetch(cells_.data() + c);
+    for (const CellIndex other : here.behind) __builtin_prefetch(steps.data() + std::max(other, 0));
+    const auto corner = [&here](std::size_t i) { return Vec3(here.x[i][0], here.x[i][1], here.x[i][2]); };
+    const Vec3 x0 = corner(0);
+    const TetShape shape(x0, corner(1), corner(2), corner(3));
+    const Vec4 b = shape.barycentric(x - x0);
     int face = least(b);
     if (b[face] >= 0.0) {
       found = {cell, b};
@@ -230,8 +266,8 @@ bool TetMesh::walk(const Vec3& x, CellIndex start, TetPoint& found) const noexce
       }
       face = other;
     }
-    if (step == 0 && b[face] < -kFarHint) return false;
-    cell = behind[static_cast<std::size_t>(face)];
+    if (step == 0 && b[face] < -farthest) return false;
+    cell = here.behind[static_cast<std::size_t>(face)];
     if (cell == kNoCell) return false;
   }
   return false;

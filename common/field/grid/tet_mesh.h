@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/large_pages.h"
 #include "common/field/grid/cell_tree.h"
 #include "common/math/vec.h"
 
@@ -68,14 +69,30 @@ class TetMesh {
   [[nodiscard]] Vec3 position(CellIndex cell, const Vec4& b) const noexcept;
 
  private:
-  [[nodiscard]] bool walk(const Vec3& x, CellIndex start, TetPoint& found) const noexcept;
+  /// What a walk needs of a cell, side by side: its corners and what lies behind its faces. One cache line
+  /// where the coordinates are single-precision numbers, as they are in most files; else two.
+  template <typename T>
+  struct alignas(16 * sizeof(T)) Step {
+    std::array<std::array<T, 3>, 4> x;
+    Neighbors behind;
+  };
+
+  /// From `start`, unless a barycentric coordinate there is below -farthest.
+  [[nodiscard]] bool walk(const Vec3& x, CellIndex start, double farthest, TetPoint& found) const noexcept;
+  template <typename T>
+  [[nodiscard]] bool walk_over(const LargeVector<Step<T>>& steps, const Vec3& x, CellIndex start,
+                               double farthest, TetPoint& found) const noexcept;
+  template <typename T>
+  void fill_steps(LargeVector<Step<T>>& steps, int threads);
   [[nodiscard]] bool search(const Vec3& x, TetPoint& found) const noexcept;
   void orient_cells(int threads);
   void find_neighbors(int threads);
 
   std::vector<Vec3> points_;
-  std::vector<Tet> cells_;
-  std::vector<Neighbors> neighbors_;
+  LargeVector<Tet> cells_;
+  LargeVector<Neighbors> neighbors_;
+  LargeVector<Step<float>> single_steps_;   ///< filled if every coordinate is a single-precision number
+  LargeVector<Step<double>> double_steps_;  ///< filled otherwise
   std::vector<std::uint8_t> zero_volume_;
   std::vector<std::uint32_t> cell_order_;
   std::size_t zero_volume_count_ = 0;
