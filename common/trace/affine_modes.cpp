@@ -107,7 +107,7 @@ Four AffineModes::rates_of(const Four& z) const {
 
 /// exp(tT) is upper triangular with t_ij E[i, j] + sum_k t_ik t_kj E[i, k, j] above its diagonal (Parlett's
 /// recurrence written out); node k + 1 is the k-th of T.
-ExponentialForm AffineModes::rate_form(const Four& w) const {
+ExponentialForm AffineModes::make_rate_form(const Four& w) const {
   std::array<Complex, 3> y{};
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t i = 0; i < 3; ++i) y[j] += std::conj(q_[i][j]) * w[i];
@@ -131,9 +131,11 @@ ExponentialForm AffineModes::rate_form(const Four& w) const {
 
 Four AffineModes::at(Real t) const { return position_.value(nodes_, t); }
 
+Four AffineModes::rate_at(Real t) const { return rate_form_.value(nodes_, t); }
+
 Four AffineModes::carried(const Four& d, Real t) const {
   if (!(rate_ > 0.0L)) return d;
-  return rate_form(d).value(nodes_, t);
+  return make_rate_form(d).value(nodes_, t);
 }
 
 AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b,
@@ -146,7 +148,8 @@ AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, 
   }
   make_schur();
   const Four slope = rates_of(b), curvature = rates_of(slope);
-  const ExponentialForm rate = rate_form(slope);
+  rate_form_ = make_rate_form(slope);
+  const ExponentialForm& rate = rate_form_;
   // Integration from 0 puts the node 0 into every set.
   for (unsigned set = 2u; set < 16u; set += 2u) position_.add(set | 1u, rate[set]);
   const ExponentialForm last = rate.annihilated(nodes_, annihilated_);
@@ -199,7 +202,7 @@ void AffineModes::find_rest(const Four& slope, Real horizon) {
   const Real until = exit_.face >= 0 ? exit_.time : horizon, start = largest(slope);
   for (Real t = kSoonest / rate_; t < 2.0L * until; t *= 2.0L) {
     const Four late = at(std::min(t, until));
-    if (largest(rates_of(late)) > kAtRest * start) continue;
+    if (largest(rate_at(std::min(t, until))) > kAtRest * start) continue;
     exit_ = Exit{};
     rest_ = late;
     return;

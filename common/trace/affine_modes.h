@@ -41,6 +41,8 @@ class AffineModes {
   [[nodiscard]] const Exit& exit() const noexcept { return exit_; }
   /// Barycentric coordinates at time `t` >= 0.
   [[nodiscard]] Four at(Real t) const;
+  /// Their rates of change then, to full relative precision however stiff the cell is.
+  [[nodiscard]] Four rate_at(Real t) const;
   /// Where a small displacement `d` (barycentric, sum 0) of the line is after `t`.
   [[nodiscard]] Four carried(const Four& d, Real t) const;
   /// Where the line comes to rest if it never leaves; absent where it circles or leaves.
@@ -52,7 +54,7 @@ class AffineModes {
   void make_rates(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign);
   void make_schur();
   [[nodiscard]] Four rates_of(const Four& z) const;  ///< B z
-  [[nodiscard]] ExponentialForm rate_form(const Four& w) const;
+  [[nodiscard]] ExponentialForm make_rate_form(const Four& w) const;
   void find_rest(const Four& slope, Real horizon);
 
   std::array<Four, 4> matrix_{};  ///< B, rows first
@@ -60,7 +62,7 @@ class AffineModes {
   ExponentialNodes nodes_;  ///< 0 and the eigenvalues, in the order of T
   int annihilated_ = 1;     ///< the node that the chain of first_zero.h takes out
   Real rate_ = 0.0L;
-  ExponentialForm position_;
+  ExponentialForm position_, rate_form_;
   Exit exit_;
   std::optional<Four> rest_;
 };

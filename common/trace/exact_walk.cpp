@@ -421,7 +421,7 @@ std::optional<End> ExactWalk::robust_piece() {
     constexpr std::array<Real, 3> kNodes{0.17267316464601142810L, 0.5L, 0.82732683535398857190L};
     AffineCell::Flow flow;
     flow.b = to_pack(modes_->at(stop));
-    flow.w = cell_.rate(flow.b);
+    flow.w = to_pack(modes_->rate_at(stop));
     Vec3 before = direction_;
     double turn = 1.0;
     const auto turned = [&](const Pack4& w) {
@@ -433,7 +433,7 @@ std::optional<End> ExactWalk::robust_piece() {
       }
     };
     for (std::size_t m = 0; m < 3; ++m) {
-      flow.inner[m] = cell_.rate(to_pack(modes_->at(mode_time_ + kNodes[m] * h)));
+      flow.inner[m] = to_pack(modes_->rate_at(mode_time_ + kNodes[m] * h));
       turned(flow.inner[m]);
     }
     turned(flow.w);
@@ -482,9 +482,9 @@ LinePoint ExactWalk::at(double theta) const {
   if (piece_robust_) {
     constexpr std::array<double, 3> kNodes{0.17267316464601142810, 0.5, 0.82732683535398857190};
     flow.b = to_pack(modes_->at(piece_mode_start_ + h));
-    flow.w = cell_.rate(flow.b);
+    flow.w = to_pack(modes_->rate_at(piece_mode_start_ + h));
     for (std::size_t m = 0; m < 3; ++m) {
-      flow.inner[m] = cell_.rate(to_pack(modes_->at(piece_mode_start_ + kNodes[m] * h)));
+      flow.inner[m] = to_pack(modes_->rate_at(piece_mode_start_ + kNodes[m] * h));
     }
   } else {
     flow = cell_.flow(piece_b_, piece_w_, h);

@@ -34,7 +34,7 @@ LinePoint LineBuilder::to_data(const LinePoint& local) const {
           .time = local.time * time_scale_,
           .arc = local.arc * length_scale_,
           .speed = local.speed * speed_scale_,
-          .error = local.error * length_scale_};
+          .error = std::min(local.error, limits_.max_error) * length_scale_};
 }
 
 void LineBuilder::start(const LinePoint& seed) {

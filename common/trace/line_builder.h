@@ -30,6 +30,7 @@ class DensePiece {
 
 /// What ends a line from outside the field, frame L.
 struct LineLimits {
+  double max_error = HUGE_VAL;  ///< an estimate beyond this (the domain's size) says no more than this
   double max_length = HUGE_VAL;
   double max_time = HUGE_VAL;
   double spacing = 0.0;  ///< arc between output points; 0: one at the end of each piece

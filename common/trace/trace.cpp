@@ -95,6 +95,7 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   const double to_local = power_of_two(-frame.length_exponent);
   const double diagonal = field.diagonal() * to_local;
   LineLimits limits;
+  limits.max_error = diagonal;
   limits.max_length = options.max_length > 0.0 ? options.max_length * to_local : kDefaultLength * diagonal;
   if (options.max_time > 0.0) {
     limits.max_time = options.max_time * power_of_two(frame.speed_exponent - frame.length_exponent);
