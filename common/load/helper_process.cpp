@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/load/errno_text.h"
 
 namespace palpate {
 namespace {
@@ -53,7 +54,7 @@ void limit(__rlimit_resource resource, std::uint64_t value) {
   ::signal(SIGINT, SIG_IGN);
   sigset_t none;
   sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);  // NOLINT(concurrency-mt-unsafe): the child has one thread
 
   limit(RLIMIT_CORE, 0);
   // Memory files count as files, not as address space: both limits are needed.
@@ -103,7 +104,7 @@ HelperProcess::HelperProcess(const std::filesystem::path& program, const LoadLim
     : limits_(limits) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    throw work_error(std::string("cannot start a loader: ") + std::strerror(errno));
+    throw work_error(std::string("cannot start a loader: ") + errno_text());
   }
   socket_.reset(ends[0]);
   const UniqueFd theirs(ends[1]);
@@ -119,7 +120,7 @@ HelperProcess::HelperProcess(const std::filesystem::path& program, const LoadLim
   environment.push_back(nullptr);
 
   pid_ = ::fork();
-  if (pid_ < 0) throw work_error(std::string("cannot start a loader: ") + std::strerror(errno));
+  if (pid_ < 0) throw work_error(std::string("cannot start a loader: ") + errno_text());
   if (pid_ == 0) {
     become_helper(program.c_str(), theirs.get(), errors_.get(), limits_.memory_bytes, environment.data());
   }

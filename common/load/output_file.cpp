@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/load/errno_text.h"
 
 namespace palpate {
 namespace {
@@ -38,7 +39,7 @@ void check_output(const std::filesystem::path& path, bool overwrite) {
     throw work_error(path.string() + ": there is no folder " + folder.string());
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw work_error(path.string() + ": cannot write into its folder (" + std::strerror(errno) + ")");
+    throw work_error(path.string() + ": cannot write into its folder (" + errno_text() + ")");
   }
 }
 
@@ -57,7 +58,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::refuse(const char* what) {
-  throw work_error(path_.string() + ": " + what + " (" + std::strerror(errno) + ")");
+  throw work_error(path_.string() + ": " + what + " (" + errno_text() + ")");
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {

@@ -295,8 +295,9 @@ UniformTopology decode_uniform(const json& object) {
   points_of(t.points, "points");
   t.origin = vector_at(object, "origin");
   const json& axes = array_at(object, "axes", 9);
+  std::size_t next = 0;
   for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) t.axes[c][r] = number_of(axes[static_cast<std::size_t>(3 * c + r)], "axes");
+    for (int r = 0; r < 3; ++r) t.axes[c][r] = number_of(axes[next++], "axes");
   }
   return t;
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/load/errno_text.h"
 #include "common/load/plot3d_layout.h"
 #include "common/load/unique_fd.h"
 
@@ -149,11 +150,10 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::
   const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (!fd) {
     if (errno == ENOENT || errno == ENOTDIR) refuse(path, "no such file");
-    refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")", "", "check its permissions");
+    refuse(path, std::string("cannot be read (") + errno_text() + ")", "", "check its permissions");
   }
   struct stat status {};
-  if (::fstat(fd.get(), &status) != 0)
-    refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+  if (::fstat(fd.get(), &status) != 0) refuse(path, std::string("cannot be read (") + errno_text() + ")");
   if (S_ISDIR(status.st_mode)) refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
   if (!S_ISREG(status.st_mode)) refuse(path, "is a pipe or device", "a regular file");
 
@@ -166,7 +166,7 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::
       const ssize_t got =
           ::pread(fd.get(), part.data() + have, part.size() - have, static_cast<off_t>(offset + have));
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) refuse(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+      if (got < 0) refuse(path, std::string("cannot be read (") + errno_text() + ")");
       if (got == 0) break;
       have += static_cast<std::size_t>(got);
     }

@@ -155,6 +155,7 @@ std::vector<FileStep> read_index(const std::filesystem::path& file, Format forma
   }
   if (steps.empty()) throw input_error({file.string(), "", "names no file"});
   std::vector<FileStep> list;
+  list.reserve(steps.size());
   for (auto& [time, step] : steps) list.push_back(std::move(step));
   return list;
 }
@@ -176,6 +177,7 @@ std::vector<FileStep> arrange_files(const std::vector<std::filesystem::path>& fi
     note = count + " taken as a time series: their names differ in one number only";
     std::sort(numbered.begin(), numbered.end());
     std::vector<FileStep> steps;
+    steps.reserve(numbered.size());
     for (const auto& [number, file] : numbered) steps.push_back({number, {{file, ""}}});
     return steps;
   }

@@ -97,9 +97,8 @@ class Walk {
       dataset_ = true;
     } else if (!dataset_) {
       throw Impossible{place() + "found '" + printable(keyword) + "', expected DATASET"};
-    } else if (keyword == "DIMENSIONS" || keyword == "EXTENT") {
-      (void)line();
-    } else if (keyword == "SPACING" || keyword == "ASPECT_RATIO" || keyword == "ORIGIN") {
+    } else if (keyword == "DIMENSIONS" || keyword == "EXTENT" || keyword == "SPACING" ||
+               keyword == "ASPECT_RATIO" || keyword == "ORIGIN") {
       (void)line();
     } else if (keyword == "POINTS") {
       const std::uint64_t number = count();

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "common/base/error.h"
+#include "common/load/errno_text.h"
 #include "common/load/unique_fd.h"
 
 namespace palpate {
@@ -16,14 +17,14 @@ MappedFile::MappedFile(const std::string& file) {
   const UniqueFd fd(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0) {
-    throw input_error({file, "", std::string("cannot be read (") + std::strerror(errno) + ")"});
+    throw input_error({file, "", std::string("cannot be read (") + errno_text() + ")"});
   }
   if (!S_ISREG(status.st_mode)) throw input_error({file, "", "is not a regular file"});
   size_ = static_cast<std::size_t>(status.st_size);
   if (size_ == 0) return;
   void* data = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd.get(), 0);
   if (data == MAP_FAILED)
-    throw input_error({file, "", std::string("cannot be mapped (") + std::strerror(errno) + ")"});
+    throw input_error({file, "", std::string("cannot be mapped (") + errno_text() + ")"});
   data_ = static_cast<const char*>(data);
 }
 

@@ -94,7 +94,8 @@ UniformTopology uniform(vtkImageData* image, const std::string& file) {
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) t.axes[c][r] = direction->GetElement(r, c) * spacing[c];
     // An extent that does not begin at 0 shifts the first point.
-    if (extent[2 * c] != 0) t.origin += static_cast<double>(extent[2 * c]) * t.axes[c];
+    const int first = extent[std::ptrdiff_t{2} * c];
+    if (first != 0) t.origin += static_cast<double>(first) * t.axes[c];
   }
   for (int c = 0; c < 3; ++c) {
     const double step = glm::length(t.axes[c]);

@@ -126,7 +126,8 @@ class VtkFiles : public Loader {
       const std::string name = name_of_block(piece, block);
       if (std::string reason = why_not_volume(block.data); !reason.empty()) {
         why = reason;
-        info.notes.push_back("block '" + name + "' " + reason + "; left out");
+        info.notes.push_back(
+            std::string("block '").append(name).append("' ").append(reason).append("; left out"));
         continue;
       }
       BlockInfo about = describe_block(block.data, name);
