@@ -275,6 +275,26 @@ TEST(TetMesh, PowersOfTwoChangeNothing) {
   }
 }
 
+// Coordinates that are single-precision numbers are walked in a smaller layout: the same numbers, the same
+// bits. A point that no cell uses, and that is no such number, switches it off.
+TEST(TetMesh, SinglePrecisionCoordinatesGiveTheSameBits) {
+  const DataSet block = test::mixed_cells(4, 0.2, 13, still);
+  SplitMesh split = split_into_tetrahedra(std::span(&block, 1), "test");
+  for (Vec3& x : split.points) x = Vec3(Vec3f(x));
+  const TetMesh mesh(split.points, split.tets);
+  split.points.emplace_back(0.1, 0.2, 0.3);
+  const TetMesh other(split.points, split.tets);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x = random_point(random);
+    TetPoint a;
+    TetPoint b;
+    ASSERT_EQ(mesh.locate(x, kNoCell, a), other.locate(x, kNoCell, b));
+    EXPECT_EQ(a.cell, b.cell);
+    EXPECT_EQ(a.b, b.b);
+  }
+}
+
 TEST(TetMesh, TheNumberOfThreadsChangesNothing) {
   const DataSet block = sample_tetrahedra(*example("cavity"), {24, 24, 24});
   SplitMesh split = split_into_tetrahedra(std::span(&block, 1), "test");
