@@ -35,7 +35,8 @@ Observation observe(const std::vector<std::string>& command, const std::filesyst
   Program program(command, folder, {"DISPLAY=", "WAYLAND_DISPLAY="});
   const std::string process = "/proc/" + std::to_string(program.pid());
   const std::string self = std::filesystem::path(command[0]).filename();
-  while (true) {
+  constexpr double kLimit = 60.0;  // [s]
+  while (program.seconds() < kLimit) {
     std::istringstream maps(read_text(process + "/maps"));
     bool alive = false;
     bool ours = false;
@@ -59,7 +60,7 @@ Observation observe(const std::vector<std::string>& command, const std::filesyst
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  seen.result = program.finish();
+  seen.result = program.finish(kLimit);
   return seen;
 }
 
@@ -97,7 +98,7 @@ TEST(MappedLibraries, AreFewWhateverFileIsOpened) {
     std::vector<std::string> command{bin("flow").string(), "trace"};
     command.insert(command.end(), input.begin(), input.end());
     const std::string out = std::to_string(++number) + ".vtp";
-    command.insert(command.end(), {"--seeds", "random:4000", "--out", out});
+    command.insert(command.end(), {"--seeds", "random:300", "--out", out});
     const Observation seen = observe(command, folder.path());
     EXPECT_EQ(seen.result.exit_code, 0) << input[0] << ": " << seen.result.err;
     expect_small(seen);
