@@ -18,6 +18,7 @@
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
@@ -112,7 +113,7 @@ class Window {
       }
       glfwSwapBuffers(glfw_.get());
     }
-    WindowResult result{frame_, view_.camera, state_.settings, state_.message, 0.0};
+    WindowResult result{frame_, view_, state_.settings, state_.message, 0.0};
     if (!frame_ms_.empty()) {
       const auto middle = frame_ms_.begin() + static_cast<std::ptrdiff_t>(frame_ms_.size() / 2);
       std::nth_element(frame_ms_.begin(), middle, frame_ms_.end());
@@ -217,6 +218,11 @@ class Window {
     view_.outline = scene_->info->outline;
     view_.units = scene_->info->units;
     view_.title = scene_->info->name;
+    view_.subtitle = scene_->settings.field + ", " + counted(scene_->lines->size(), "line");
+    const std::vector<double>& times = scene_->info->times;
+    if (times.size() > 1 && scene_->settings.time_step < times.size()) {
+      view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
+    }
     if (job_kind_ != JobKind::kUpdate) {
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;

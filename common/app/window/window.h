@@ -39,7 +39,7 @@ struct WindowOptions {
 /// What happened, for tests.
 struct WindowResult {
   int frames = 0;          ///< drawn since the first scene was shown
-  Camera camera;           ///< at the end
+  SceneView view;          ///< at the end
   SceneSettings settings;  ///< at the end
   std::string message;     ///< last line that the window said to the user
   double median_frame_ms = 0.0;

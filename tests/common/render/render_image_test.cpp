@@ -8,6 +8,8 @@
 #include <stb_image.h>
 
 #include "common/base/error.h"
+#include "common/render/gl/context.h"
+#include "common/render/scene_renderer.h"
 #include "tests/common/render/sample_scenes.h"
 
 namespace palpate {
@@ -195,6 +197,23 @@ TEST(RenderImage, EmptyAndDegenerateScenesGiveAPicture) {
     point.style.color_by = by;
     EXPECT_TRUE(is_background(render_image(point, 64, 48).image.pixel(32, 24)));
   }
+}
+
+// While a slow scene is turned: coarser lines, the same text at the same place.
+TEST(SceneRenderer, CoarserResolutionGivesNearlyTheSamePicture) {
+  const OffscreenContext context;
+  SceneRenderer renderer;
+  SceneView view = test::whirlwind(1.0);
+  view.style.width = 8.0;
+  renderer.draw(view, kSize, kSize);
+  const Image fine = renderer.read();
+  renderer.draw(view, kSize, kSize, 0.5);
+  const Image coarse = renderer.read();
+  EXPECT_EQ(coarse.width, kSize);
+  EXPECT_GT(mean_difference(fine, coarse), 0.1);
+  EXPECT_LT(mean_difference(fine, coarse), 8.0);
+  renderer.draw(view, kSize, kSize);
+  EXPECT_EQ(renderer.read().rgba, fine.rgba);
 }
 
 TEST(RenderImage, SizesThatCannotBeDrawnAreRefused) {

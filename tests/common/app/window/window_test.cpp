@@ -6,9 +6,12 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <stb_image.h>
 
+#include "common/app/window/panel.h"
 #include "common/base/error.h"
 #include "common/render/png.h"
+#include "common/render/render_image.h"
 #include "tests/common/render/sample_scenes.h"
 
 namespace palpate {
@@ -111,8 +114,8 @@ TEST_F(WindowTest, LeftDragTurnsTheView) {
   const Camera before = make_camera({Vec3(-1.0), Vec3(1.0)}, {}, aspect);
   Camera turned = before;
   turn(turned, 3.14159265358979 * 100.0 / 606.0, 0.0);  // 640 less the status line
-  EXPECT_GT(glm::distance(before.axes[2], result.camera.axes[2]), 0.3);
-  EXPECT_LT(glm::distance(turned.axes[2], result.camera.axes[2]), 1e-9);
+  EXPECT_GT(glm::distance(before.axes[2], result.view.camera.axes[2]), 0.3);
+  EXPECT_LT(glm::distance(turned.axes[2], result.view.camera.axes[2]), 1e-9);
 }
 
 TEST_F(WindowTest, EnterResetsTheCamera) {
@@ -123,7 +126,7 @@ TEST_F(WindowTest, EnterResetsTheCamera) {
   key(7, kEnter);
   const WindowResult result = run_window(model_, options_);
   const Camera first = make_camera({Vec3(-1.0), Vec3(1.0)}, {}, 1.0);
-  EXPECT_LT(glm::distance(first.axes[2], result.camera.axes[2]), 1e-12);
+  EXPECT_LT(glm::distance(first.axes[2], result.view.camera.axes[2]), 1e-12);
 }
 
 TEST_F(WindowTest, DragOverThePanelLeavesTheViewAlone) {
@@ -133,7 +136,7 @@ TEST_F(WindowTest, DragOverThePanelLeavesTheViewAlone) {
   release(5, MouseButton::kLeft);
   const WindowResult result = run_window(model_, options_);
   const Camera first = make_camera({Vec3(-1.0), Vec3(1.0)}, {}, 1.0);
-  EXPECT_LT(glm::distance(first.axes[2], result.camera.axes[2]), 1e-12);
+  EXPECT_LT(glm::distance(first.axes[2], result.view.camera.axes[2]), 1e-12);
 }
 
 TEST_F(WindowTest, FileThatCannotBeOpenedGivesALineAndTheSceneStays) {
@@ -166,6 +169,38 @@ TEST_F(WindowTest, SpacePlaysTheTimeSteps) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_GT(model_.updated, 2);
   EXPECT_LT(result.settings.time_step, 3U);
+}
+
+Image read_picture(const std::filesystem::path& path) {
+  Image image;
+  int channels = 0;
+  stbi_uc* pixels = stbi_load(path.c_str(), &image.width, &image.height, &channels, 4);
+  if (pixels != nullptr) image.rgba.assign(pixels, pixels + 4 * image.width * image.height);
+  std::free(pixels);
+  return image;
+}
+
+TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
+  options_.screenshot = std::filesystem::temp_directory_path() / "palpate_same_picture.png";
+  move(2, 600, 300);
+  press(3, MouseButton::kLeft);
+  move(4, 650, 280);
+  release(5, MouseButton::kLeft);
+  const WindowResult result = run_window(model_, options_);
+  const Image window = read_picture(options_.screenshot);
+  std::filesystem::remove(options_.screenshot);
+  ASSERT_EQ(window.width, options_.width);
+  constexpr float kTextHeight = 14.0F;
+  const PictureArea area = layout(options_.width, options_.height, kTextHeight).picture;
+  const auto left = static_cast<int>(area.left);
+  const Image expected =
+      render_image(result.view, static_cast<int>(area.width), static_cast<int>(area.height)).image;
+  int different = 0;
+  for (int y = 0; y < expected.height; ++y) {
+    for (int x = 0; x < expected.width; ++x)
+      different += window.pixel(left + x, y) == expected.pixel(x, y) ? 0 : 1;
+  }
+  EXPECT_EQ(different, 0);
 }
 
 TEST_F(WindowTest, QuitEndsIt) {
