@@ -175,7 +175,8 @@ class VerbParser {
           "nx,ny,nz,d", group)
         ->delimiter(';')
         ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);  // or it would swallow the FILE behind it
   }
 
   void add_view() {

@@ -16,7 +16,7 @@ std::shared_ptr<const VectorField> field_of(const DataSet& data) {
 
 Sweep quick_sweep(const VectorField& field) {
   SweepRequest request{.subject = "made", .effort = Effort::kQuick};
-  for (int i = 0; i < 6; ++i) request.seeds.push_back({-0.5 + 0.15 * i, 0.1 * i, -0.8});
+  for (int i = 0; i < 6; ++i) request.seeds.push_back({-0.513 + 0.149 * i, 0.107 * i, -0.81});
   request.seeds.push_back({99.0, 0.0, 0.0});
   return run_sweep(field, request, nullptr);
 }
@@ -30,7 +30,8 @@ void expect_converging(const Sweep& sweep) {
     double tightest = 1.0;
     for (const SweepRow& row : sweep.rows) {
       if (row.method != method) continue;
-      EXPECT_EQ(row.error.compared, sweep.reference_lines.size()) << method << " " << row.parameter;
+      EXPECT_EQ(row.error.compared + row.error.sinks, sweep.reference_lines.size())
+          << method << row.parameter;
       EXPECT_GT(row.seconds, 0.0);
       if (loosest == 0.0) loosest = row.error.p95;
       tightest = row.error.p95;
