@@ -77,7 +77,7 @@ ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
   if (values.empty()) return {};
 
   const auto quantile = [&](double part) {
-    const auto n = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1) + 0.5);
+    const std::ptrdiff_t n = std::lround(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + n, values.end());
     return values[static_cast<std::size_t>(n)];
   };

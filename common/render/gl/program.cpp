@@ -51,7 +51,7 @@ void append_file(std::string_view path, std::string_view who, std::span<const Sh
 // The first line of the driver's log with the file's own name and line. Drivers write "0:12(5): error: ..."
 // (Mesa) or "0(12) : error ..." (others): number of the string, then the line in it.
 std::string readable(const std::string& log, const ShaderSource& source) {
-  const std::string first = log.substr(0, log.find('\n'));
+  std::string first = log.substr(0, log.find('\n'));
   const auto digits = first.find_first_of("0123456789", first.find_first_of(":("));
   if (digits == std::string::npos) return first;
   std::size_t line = 0;

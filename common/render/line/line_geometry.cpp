@@ -111,7 +111,9 @@ void sort_back_to_front(std::vector<LineSegment>& segments, std::span<const Line
   for (const LineSegment& s : segments) {
     keys.emplace_back(glm::dot(vertices[s.first].position + vertices[s.last].position, back), s);
   }
-  std::sort(keys.begin(), keys.end());
+  std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
+    return a.first < b.first || (a.first == b.first && a.second.first < b.second.first);
+  });
   std::transform(keys.begin(), keys.end(), segments.begin(), [](const auto& key) { return key.second; });
 }
 

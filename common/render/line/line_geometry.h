@@ -1,7 +1,6 @@
 /// Lines as the GPU draws them: points in the scene frame with tangents, and the segments between them.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,7 +23,7 @@ struct LineSegment {
   std::uint32_t first = 0;
   std::uint32_t last = 0;
 
-  auto operator<=>(const LineSegment&) const = default;
+  bool operator==(const LineSegment&) const = default;
 };
 
 struct LineGeometry {
