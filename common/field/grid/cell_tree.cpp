@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/math/power_of_two.h"
 
 namespace palpate {
 namespace {
@@ -130,7 +131,10 @@ CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, con
   });
 
   order_.resize(cells.size());
+  std::vector<std::array<float, 3>> places(cells.size());
   std::ranges::transform(centres, order_.begin(), &Centre::cell);
+  std::ranges::transform(centres, places.begin(), &Centre::x);
+  make_bins(size, places, threads);
 }
 
 void CellTree::finish(std::span<const Vec3> points, std::span<const Tet> cells, int threads) {
@@ -178,17 +182,63 @@ void CellTree::finish(std::span<const Vec3> points, std::span<const Tet> cells, 
   } while (count > 1);
 }
 
+void CellTree::make_bins(const Vec3& size, std::span<const std::array<float, 3>> centres, int threads) {
+  // Cubes of the mean volume of a cell, larger where the mesh is so flat that they would be more than cells.
+  constexpr double kMostAlong = 4096.0;
+  const double unit = power_of_two(binary_exponent(std::max({size.x, size.y, size.z})));
+  const Vec3 length = size / unit;
+  const double cells_in_all = static_cast<double>(std::max<std::size_t>(1, cell_count_));
+  double side = std::max(std::cbrt(length.x * length.y * length.z / cells_in_all), 1.0 / kMostAlong);
+  double in_all = 0.0;
+  do {
+    in_all = 1.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double along = length[static_cast<int>(a)];
+      bins_[a] = static_cast<int>(std::clamp(along / side, 1.0, kMostAlong));
+      bins_per_length_[a] = along > 0.0 ? static_cast<float>(bins_[a] / along / unit) : 0.0F;
+      in_all *= bins_[a];
+    }
+    side *= 1.25;
+  } while (in_all > 2.0 * cells_in_all);
+  const auto count = static_cast<std::size_t>(in_all);
+
+  constexpr std::uint32_t kFew = 8;  // cells in a bin that a walk crosses faster than the tree is followed
+  std::vector<std::uint32_t> cells(count, 0);
+  for (const auto& centre : centres) ++cells[bin_of(centre)];
+  bin_node_.resize(count);
+  parallel_for(count, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t bin = first; bin < last; ++bin) {
+      std::size_t rest = bin;
+      std::array<float, 3> lower{};
+      std::array<float, 3> middle{};
+      std::array<float, 3> upper{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto i = static_cast<float>(rest % static_cast<std::size_t>(bins_[a]));
+        rest /= static_cast<std::size_t>(bins_[a]);
+        const float width = bins_per_length_[a] > 0.0F ? 1.0F / bins_per_length_[a] : 0.0F;
+        lower[a] = i * width;
+        middle[a] = (i + 0.5F) * width;
+        upper[a] = (i + 1.0F) * width;
+      }
+      if (cells[bin] <= kFew) {
+        bin_node_[bin] = static_cast<std::uint32_t>(descend(1, middle));
+        continue;
+      }
+      // The lowest node above both corners is above the whole bin.
+      std::size_t low = descend(1, lower);
+      std::size_t high = descend(1, upper);
+      while (low != high) {
+        low /= 2;
+        high /= 2;
+      }
+      bin_node_[bin] = static_cast<std::uint32_t>(low);
+    }
+  });
+}
+
 std::size_t CellTree::near(const Vec3& x) const noexcept {
-  const std::array<float, 3> at = query(x);
-  const std::array<float, 4> q{at[0], at[1], at[2], 0.0F};
-  std::size_t node = 1;
-  for (std::size_t level = 0; level < splits_; ++level) {
-    // The sixteen nodes four levels down lie in one cache line.
-    __builtin_prefetch(split_.data() + std::min(16 * node, split_.size() - 1));
-    const std::uint32_t packed = split_[node];
-    node = 2 * node + static_cast<std::size_t>(q[packed & 3U] >= std::bit_cast<float>(packed & ~3U));
-  }
-  return std::min(node - (std::size_t{1} << splits_), cell_count_ - 1);
+  const std::array<float, 3> q = query(x);
+  return std::min(descend(bin_node_[bin_of(q)], q) - (std::size_t{1} << splits_), cell_count_ - 1);
 }
 
 }  // namespace palpate

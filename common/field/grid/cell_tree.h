@@ -2,13 +2,16 @@
 ///
 /// Cells are put in the order of a k-d tree (halving the longest side of the centres' box), so that runs of
 /// neighbours are compact. Two trees over the cells need no links then:
-///   - the k-d tree itself, one number a node: where it was halved. Followed down, it gives a cell near x.
+///   - the k-d tree itself, one number a node: where it was halved. Followed down, it gives a cell near x. A
+///     table of even bins, about as many as cells, says at which node to begin: at the bottom where cells are
+///     about as large as bins, higher up where they are finer.
 ///   - boxes around runs of kLeafCells, four to a node: node n of a level covers nodes 4 n … 4 n + 3 of the
 ///     level below. They name every cell that may hold x.
 /// Numbers are stored in single precision, relative to the mesh's lower corner; boxes are rounded outwards.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -43,6 +46,29 @@ class CellTree {
   void visit_leaves(const Vec3& x, Visit&& visit) const noexcept;
 
  private:
+  void make_bins(const Vec3& size, std::span<const std::array<float, 3>> centres, int threads);
+  [[nodiscard]] std::size_t bin_of(const std::array<float, 3>& q) const noexcept {
+    std::array<int, 3> at{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto i = static_cast<int>(q[a] * bins_per_length_[a]);
+      at[a] = i < 0 ? 0 : i < bins_[a] ? i : bins_[a] - 1;
+    }
+    return static_cast<std::size_t>(at[0]) +
+           static_cast<std::size_t>(bins_[0]) *
+               (static_cast<std::size_t>(at[1]) +
+                static_cast<std::size_t>(bins_[1]) * static_cast<std::size_t>(at[2]));
+  }
+  /// From `node` down to the bottom.
+  [[nodiscard]] std::size_t descend(std::size_t node, const std::array<float, 3>& at) const noexcept {
+    const std::array<float, 4> q{at[0], at[1], at[2], 0.0F};
+    const std::size_t bottom = std::size_t{1} << splits_;
+    while (node < bottom) {
+      const std::uint32_t packed = split_[node];
+      node = 2 * node + static_cast<std::size_t>(q[packed & 3U] >= std::bit_cast<float>(packed & ~3U));
+    }
+    return node;
+  }
+
   /// Boxes of the four children of a node.
   struct alignas(32) Node {
     std::array<std::array<float, kWidth>, 3> lower;
@@ -72,6 +98,9 @@ class CellTree {
   /// Node n has the children 2 n and 2 n + 1, the root is 1. A single-precision number whose two lowest bits
   /// are the axis: it costs nothing that matters to a place to begin at.
   LargeVector<std::uint32_t> split_;
+  std::array<int, 3> bins_{1, 1, 1};  ///< along the axes
+  std::array<float, 3> bins_per_length_{};
+  LargeVector<std::uint32_t> bin_node_;    ///< node of the k-d tree; x fastest
   std::vector<std::vector<Node>> levels_;  ///< [0]: nodes whose children are leaves; back(): the root
 };
 
