@@ -254,6 +254,31 @@ TEST(TetMesh, AFaceOfThreeCellsIsABorderAndCounted) {
   EXPECT_TRUE(mesh.locate({0.1, 0.1, -0.3}, 0, found));
 }
 
+// Sizes of 1, 1e-3 and 1e-6 along the axes, and half of all cells in a corner of 1e-4 of the size.
+TEST(TetMesh, StretchedAndGradedMeshesAreLocated) {
+  const DataSet block = test::mixed_cells(6, 0.1, 14, still);
+  SplitMesh split = split_into_tetrahedra(std::span(&block, 1), "test");
+  const auto stretch = [](const Vec3& x) { return x * Vec3(1.0, 1e-3, 1e-6); };
+  const auto grade = [](const Vec3& x) {
+    return Vec3(x.x < 0.5 ? 2e-4 * x.x : 1e-4 + (x.x - 0.5) * 2.0 * (1.0 - 1e-4), x.y, x.z);
+  };
+  std::vector<Vec3> stretched;
+  std::vector<Vec3> graded;
+  for (const Vec3& x : split.points) {
+    stretched.push_back(stretch(x));
+    graded.push_back(grade(x));
+  }
+  const TetMesh first(stretched, split.tets);
+  const TetMesh second(graded, split.tets);
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x = random_point(random);
+    TetPoint found;
+    ASSERT_TRUE(first.locate(stretch(x), kNoCell, found));
+    ASSERT_TRUE(second.locate(grade(x), kNoCell, found));
+  }
+}
+
 // Coordinates times a power of two: the same cells and the same bits of barycentric coordinates.
 TEST(TetMesh, PowersOfTwoChangeNothing) {
   const DataSet block = test::mixed_cells(4, 0.2, 12, still);
