@@ -5,7 +5,9 @@
 /// after at most 3 n.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "common/geometry/line.h"
 #include "common/ode/root.h"
@@ -18,22 +20,31 @@ class LoopDetector {
   void start() noexcept { *this = LoopDetector(); }
 
   /// Looks at one piece. @param direction unit tangent at its end.
-  [[nodiscard]] bool closes(const DensePiece& piece, const LinePoint& begin, const LinePoint& end,
-                            const Vec3& direction) {
-    const double side = glm::dot(end.position - anchor_, normal_);
+  /// @return kLoop where the line has closed; kStagnation where the loop is no larger than the error of the
+  /// line, so that it cannot be told from a point.
+  [[nodiscard]] std::optional<End> closes(const DensePiece& piece, const LinePoint& begin,
+                                          const LinePoint& end, const Vec3& direction) {
+    const Vec3 apart = end.position - anchor_;
+    const double side = glm::dot(apart, normal_);
+    farthest_ = std::max(farthest_, glm::dot(apart, apart));
     const bool crossed = side_ < 0.0 && side >= 0.0;
-    if (crossed && near_anchor(piece, begin, end, side)) return true;
+    if (crossed && near_anchor(piece, begin, end, side)) {
+      const double point = kPoint * end.error;
+      return farthest_ > point * point ? End::kLoop : End::kStagnation;
+    }
     side_ = side;
     if (++steps_ >= next_) {
       next_ = 2 * steps_;
       anchor_ = end.position;
       normal_ = direction;
       side_ = 0.0;
+      farthest_ = 0.0;
     }
-    return false;
+    return std::nullopt;
   }
 
  private:
+  static constexpr double kPoint = 30.0;  ///< loops of fewer error estimates across are points
   static constexpr double kErrors = 4.0;  ///< how many error estimates apart still count as the same point
 
   [[nodiscard]] bool near_anchor(const DensePiece& piece, const LinePoint& begin, const LinePoint& end,
@@ -51,6 +62,7 @@ class LoopDetector {
   Vec3 anchor_{0.0};
   Vec3 normal_{0.0};
   double side_ = 0.0;
+  double farthest_ = 0.0;  ///< square of the largest distance from the anchor since it was put
   std::int64_t steps_ = 0;
   std::int64_t next_ = 1;
 };

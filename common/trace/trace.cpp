@@ -18,7 +18,8 @@ namespace palpate {
 namespace {
 
 constexpr std::array<std::string_view, 7> kNames{"exact", "euler", "rk4", "bs32", "rk34", "dp54", "rodas4"};
-constexpr double kDefaultLength = 10.0;    // diagonals
+constexpr double kDefaultLength = 10.0;  // diagonals
+constexpr double kLoosestRest = 1e-6;    // diagonals: slow regions are passed through, whatever the tolerance
 constexpr int kStepsBetweenChecks = 4096;  // a few milliseconds of work
 
 bool fixed_step(Integrator integrator) {
@@ -33,9 +34,11 @@ void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
     const std::optional<End> ended = walk.advance();
     if (walk.has_piece()) {
       if (builder.add(walk, walk.end(), walk.turn_cosine())) return;
-      if (!ended && loop.closes(walk, walk.begin(), walk.end(), walk.direction())) {
-        builder.finish(End::kLoop);
-        return;
+      if (!ended) {
+        if (const std::optional<End> closed = loop.closes(walk, walk.begin(), walk.end(), walk.direction())) {
+          builder.finish(*closed);
+          return;
+        }
       }
     }
     if (ended) {
@@ -106,7 +109,7 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   if (!fixed) limits.spacing = options.step * to_local;
   WalkSettings settings;
   settings.tolerance = options.tolerance;
-  settings.rest_distance = options.tolerance * diagonal;
+  settings.rest_distance = std::min(options.tolerance, kLoosestRest) * diagonal;
   settings.fixed_step = options.step > 0.0 ? options.step * to_local : default_fixed_step(field);
   const WalkFactory factory(field, result.integrator, settings, options.threads);
   result.seconds_prepare = watch.seconds();

@@ -25,6 +25,10 @@ WalkFactory::WalkFactory(const VectorField& field, Integrator integrator, const 
                          int threads)
     : field_(field), integrator_(integrator), settings_(settings) {
   if (field.tet_mesh() != nullptr) mesh_ = std::make_unique<const ExactMesh>(field, threads);
+  // A fixed step comes no nearer to a point of rest than its own length.
+  if (integrator == Integrator::kEuler || integrator == Integrator::kRk4) {
+    settings_.rest_distance = std::max(settings_.rest_distance, settings_.fixed_step);
+  }
   if (field.analytic() != nullptr) {
     // Long enough to be quick, short enough not to step over what the formula does in between.
     constexpr double kLargestStep = 1.0 / 32;
