@@ -246,6 +246,26 @@ TEST_F(Flow, DrawsAPictureThatSaysHowItWasMade) {
   EXPECT_NE(png.find("flow render --example abc"), std::string::npos);
 }
 
+TEST_F(Flow, ColoursLinesByMeasuresAndArrays) {
+  const auto picture = [&](const std::vector<std::string>& input, const std::string& color) {
+    std::vector<std::string> arguments{"render"};
+    arguments.insert(arguments.end(), input.begin(), input.end());
+    arguments.insert(arguments.end(), {"--seeds", "grid:3,3,3", "--size", "120x90", "--color", color, "--out",
+                                       "p.png", "--force"});
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << color << ": " << result.err;
+    const std::string png = read_file(folder_.path("p.png"));
+    return png.substr(png.find("IDAT"));  // without the text, which names the colour
+  };
+  EXPECT_NE(picture({"--example", "abc"}, "speed"), picture({"--example", "abc"}, "vorticity"));
+  const auto disk = shared_data("flow/disk/disk_out_ref.ex2");
+  if (disk.empty()) GTEST_SKIP() << "sample data missing: flow/disk/disk_out_ref.ex2";
+  EXPECT_NE(picture({disk.string()}, "speed"), picture({disk.string()}, "Temp"));
+  const ProgramResult unknown = run({"render", disk.string(), "--color", "smell", "--out", "q.png"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("Temp"), std::string::npos) << unknown.err;
+}
+
 TEST_F(Flow, MakesATourWhereThereIsNoDisplay) {
   const ProgramResult result = run({});
   EXPECT_EQ(result.exit_code, 0) << result.err;

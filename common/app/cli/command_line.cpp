@@ -183,7 +183,10 @@ class VerbParser {
     const char* group = "View";
     scene("--camera", options_.view.camera, "direction of view in degrees, and zoom",
           "azimuth,elevation,roll,zoom", group);
-    scene("--color", options_.view.color, "what colours the lines: speed, time, error or a scalar array",
+    scene("--color", options_.view.color,
+          "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, q, "
+          "lambda2, "
+          "divergence, or an array of the file",
           "NAME", group);
   }
 

@@ -44,20 +44,14 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
          short_number(angles.zoom);
 }
 
-LineStyle line_style(const std::string& color, const Input&) {
-  LineStyle style;
-  if (!color.empty()) style.color_by = color_by_from_name(color);
-  return style;
-}
-
 SceneView make_line_view(const Input& input, const VectorField& field,
                          std::shared_ptr<const std::vector<Line>> lines, const Options& options,
-                         double aspect) {
+                         const LineStyle& style, double aspect) {
   SceneView view;
   view.bounds = field.bounds();
   view.lines = std::move(lines);
   view.outline = domain_outline(field);
-  view.style = line_style(options.view.color, input);
+  view.style = style;
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);

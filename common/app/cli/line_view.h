@@ -27,14 +27,10 @@ inline constexpr double kViewDiagonals = 1.0;
 /// The angles of a camera that looks at the box, as `--camera` writes them; panning is not part of them.
 [[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
 
-/// How lines are coloured: a quantity that they carry (speed, time …) or the name of a scalar array.
-/// @throws Error (usage) that lists both.
-[[nodiscard]] LineStyle line_style(const std::string& color, const Input& input);
-
 /// A scene of `lines` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,
                                        std::shared_ptr<const std::vector<Line>> lines, const Options& options,
-                                       double aspect);
+                                       const LineStyle& style, double aspect);
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "common/app/cli/json_output.h"
+#include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
@@ -86,11 +87,14 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
+  const LineColor color = line_color(options.view.color, input);
   RenderSummary summary{
       .input = input.title(), .output = options.out.string(), .width = size.width, .height = size.height};
   if (options.common.explain)
-    summary.plan = plan_scene(input, {.verb = "render", .tracing = true, .drawing = true});
-  (void)line_style(options.view.color, input);
+    summary.plan = plan_scene(input, {.verb = "render",
+                                      .tracing = true,
+                                      .drawing = true,
+                                      .color_array = color.array ? color.name : std::string()});
 
   const auto field = input.load_field(options.common.threads, &context.progress);
   summary.field = field->name();
@@ -103,8 +107,9 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
   if (traced.lines.empty()) console.note("no seed lies in the data: the picture shows the domain alone");
 
   const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
+  const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
   const SceneView view =
-      make_line_view(input, *field, lines, options, static_cast<double>(size.width) / size.height);
+      make_line_view(input, *field, lines, options, style, static_cast<double>(size.width) / size.height);
   context.progress.begin("drawing", 0);
   const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
   const RenderedImage rendered = render_image(view, size.width, size.height, repeat);

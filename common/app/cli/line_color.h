@@ -1,0 +1,33 @@
+/// What `--color` may name: a quantity that lines carry, a measure of the velocity gradient, or an array of
+/// the file.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/field/derived.h"
+#include "common/field/scalar_field.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+
+namespace palpate {
+
+struct LineColor {
+  ColorBy by = ColorBy::kSpeed;
+  std::optional<Measure> measure;  ///< with ColorBy::kArray
+  std::optional<ScalarChoice>
+      array;  ///< with ColorBy::kArray; the magnitude of an array of several components
+  std::string name;
+};
+
+/// @throws Error (usage) that lists what is known.
+[[nodiscard]] LineColor line_color(const std::string& name, const Input& input);
+
+/// The style of `color` for `lines`: samples the measure or array at their points, NaN where there is none.
+/// @throws Error, Cancelled where an array has to be read.
+[[nodiscard]] LineStyle line_style(const LineColor& color, Input& input, const VectorField& field,
+                                   const std::vector<Line>& lines, int threads, Progress* progress);
+
+}  // namespace palpate
