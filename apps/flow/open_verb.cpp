@@ -44,6 +44,8 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   const CameraAngles angles = camera_angles(options.view.camera);
   if (!window_available()) {
     if (nothing_named) return headless_tour(options, context);
+    // A file that is missing or broken is the first thing to know.
+    (void)Input::open(input_spec(options.input), &context.progress);
     throw work_error("no display, so no window; '" + context.explorer.name +
                      " render' draws a picture without one: add --out picture.png");
   }

@@ -184,7 +184,11 @@ TEST_F(Flow, EndsWithThreeForInputsThatAreMissingOrBroken) {
     EXPECT_EQ(json({"info", name}, 3)["exit"], 3);
   }
   EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "missing.csv", "--out", "l.vtp"}).exit_code, 3);
-  EXPECT_EQ(run({"missing.vtk"}).exit_code, run({"open", "missing.vtk"}).exit_code);
+  EXPECT_EQ(run({"missing.vtk"}).exit_code, 3);
+  EXPECT_EQ(run({"open", "missing.vtk"}).exit_code, 3);
+  const ProgramResult word = run({"tarce"});
+  EXPECT_EQ(word.exit_code, 3);
+  EXPECT_NE(word.err.find("trace"), std::string::npos) << "the verbs are named: " << word.err;
 }
 
 TEST_F(Flow, EndsWithOneForAnOutputThatCannotBeWritten) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,6 +29,17 @@ const Verb* find_verb(const Explorer& explorer, std::string_view name) {
   return nullptr;
 }
 
+/// A bare word that is no file was meant as a verb, or lacks its ending.
+void refuse_unknown_verb(const Explorer& explorer, const std::string& word) {
+  const bool bare =
+      std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  std::error_code ignored;
+  if (!bare || std::filesystem::exists(word, ignored)) return;
+  std::string verbs;
+  for (const Verb& verb : explorer.verbs) verbs += (verbs.empty() ? "" : ", ") + verb.name;
+  throw input_error({word, "", "there is no such file, and no such verb", "", "verbs are " + verbs});
+}
+
 /// Puts the verb first, whatever was written before it, and the default verb where there is none.
 std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<std::string> arguments) {
   const auto is_valued = [](const std::string& text) {
@@ -39,6 +52,7 @@ std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<s
                 arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     return arguments;
   }
+  if (i < arguments.size()) refuse_unknown_verb(explorer, arguments[i]);
   const bool only_asks =
       i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
         return a == "--help" || a == "-h" || a == "--version";
