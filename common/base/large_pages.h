@@ -24,7 +24,8 @@ struct LargePages {
     if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     const bool large = bytes >= 2 * kPage;
-    const std::size_t alignment = large ? kPage : std::size_t{64};
+    constexpr std::size_t kLine = alignof(T) > 64 ? alignof(T) : 64;  // a cache line, or what T wants
+    const std::size_t alignment = large ? kPage : kLine;
     const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, rounded);
     if (memory == nullptr) throw std::bad_alloc();
