@@ -33,7 +33,9 @@ struct TraceOptions {
   bool forward = true;
   bool backward = false;    ///< both: two lines a seed
   double tolerance = 1e-6;  ///< accumulated position error per diagonal travelled, relative to the diagonal
-  double step = 0.0;  ///< fixed-step methods: step length; others: spacing of output points; 0: a default
+  /// Fixed-step methods: step length, by default half a mean cell (1/200 of the diagonal for a formula).
+  /// Others: spacing of the output points, by default one at each face of a cell and more where it turns.
+  double step = 0.0;
   double max_length = 0.0;  ///< data units; 0: 10 diagonals
   double max_time = 0.0;    ///< data units; 0: no limit
   std::int64_t max_steps = 1'000'000;
@@ -54,7 +56,7 @@ struct TraceResult {
 
 /// Traces from every seed (data coordinates).
 /// @throws Error (usage) for options that make no sense together (exact on a grid that is not
-/// tetrahedral, a fixed-step method without a step); Cancelled.
+/// tetrahedral, no direction, negative limits); Cancelled.
 [[nodiscard]] TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds,
                                       const TraceOptions& options, Progress* progress = nullptr);
 
