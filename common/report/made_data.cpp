@@ -30,6 +30,7 @@ DataArray changed(const DataArray& array, const Change& change) {
 
 std::vector<double> even_coordinates(int n) {
   std::vector<double> x;
+  x.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) x.push_back(-1.0 + 2.0 * i / (n - 1));
   return x;
 }
@@ -87,6 +88,7 @@ DataSet tetrahedral_data(const std::vector<double>& x, const std::vector<double>
   DataSet data;
   data.topology = std::move(mesh);
   std::vector<Vec3> values;
+  values.reserve(points.size());
   for (const Vec3& p : points) values.push_back(velocity(p));
   data.arrays.push_back(vectors("velocity", values));
   return data;

@@ -52,7 +52,8 @@ Vec3 linear_solution(const Vec3& eigenvalues, const Vec3& x0, double t) {
 std::vector<Vec3> seeds_within(double half_size) {
   std::vector<Vec3> seeds;
   for (int i = 0; i < 27; ++i) {
-    const Vec3 u{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
+    const Index3 place{i % 3, i / 3 % 3, i / 9};
+    const Vec3 u = Vec3(place) - 1.0;
     seeds.push_back(half_size * (u + Vec3{0.11, -0.07, 0.05}));
   }
   return seeds;
