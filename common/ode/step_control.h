@@ -29,8 +29,8 @@ class StepControl {
       rejected_ = true;
       return {false, std::clamp(factor, kSmallest, kSafety)};
     }
-    const double r = std::max(ratio, kFloor);
-    double factor = kSafety * std::pow(r, -alpha_) * std::pow(previous_, beta_);
+    const double r = std::log(std::max(ratio, kFloor));
+    double factor = kSafety * std::exp(beta_ * previous_ - alpha_ * r);
     factor = std::clamp(factor, kSmallest, rejected_ ? 1.0 : kLargest);
     previous_ = r;
     rejected_ = false;
@@ -44,7 +44,7 @@ class StepControl {
  private:
   static constexpr double kFloor = 1e-4;  ///< below it a step's error says nothing about the next one's
   double alpha_, beta_, plain_;
-  double previous_ = 1.0;
+  double previous_ = 0.0;  ///< logarithm of the last accepted ratio
   bool rejected_ = false;
 };
 

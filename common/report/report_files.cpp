@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <string_view>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -89,8 +89,8 @@ void check_report_folder(const fs::path& given, bool replace) {
   if (!fs::is_directory(parent, error))
     throw work_error(given.string() + ": there is no folder " + parent.string());
   if (access(parent.c_str(), W_OK | X_OK) != 0) {
-    throw work_error(given.string() + ": cannot be made in " + parent.string() + " (" + std::strerror(errno) +
-                     ")");
+    throw work_error(given.string() + ": cannot be made in " + parent.string() + " (" +
+                     std::generic_category().message(errno) + ")");
   }
 }
 

@@ -173,9 +173,10 @@ class Sweeper {
   void sweep_tolerances(const MethodSweep& method) {
     // A method of order p takes 10^(1/p) times as many steps for one digit more.
     const double growth = std::pow(10.0, 1.0 / method.order);
-    for (double digits = -std::log10(kLoosestTolerance); digits <= -std::log10(method.tightest) + 0.5;
-         digits += 1.0) {
-      const double tolerance = std::pow(10.0, -digits);
+    const double loosest = -std::log10(kLoosestTolerance);
+    const int settings = static_cast<int>(std::lround(-std::log10(method.tightest) - loosest)) + 1;
+    for (int i = 0; i < settings; ++i) {
+      const double tolerance = std::pow(10.0, -(loosest + i));
       const double seconds =
           add_row(method.integrator, "tolerance=" + short_number(tolerance), tolerance, tolerance);
       if (growth * seconds > plan_.seconds_setting) return;

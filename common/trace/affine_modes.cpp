@@ -200,12 +200,15 @@ void AffineModes::find_rest(const Four& slope, Real horizon) {
     return std::max(std::max(std::abs(z[0]), std::abs(z[1])), std::max(std::abs(z[2]), std::abs(z[3])));
   };
   const Real until = exit_.face >= 0 ? exit_.time : horizon, start = largest(slope);
-  for (Real t = kSoonest / rate_; t < 2.0L * until; t *= 2.0L) {
+  Real t = kSoonest / rate_;
+  while (t < 2.0L * until) {
     const Four late = at(std::min(t, until));
-    if (largest(rate_at(std::min(t, until))) > kAtRest * start) continue;
-    exit_ = Exit{};
-    rest_ = late;
-    return;
+    if (largest(rate_at(std::min(t, until))) <= kAtRest * start) {
+      exit_ = Exit{};
+      rest_ = late;
+      return;
+    }
+    t *= 2.0L;
   }
 }
 

@@ -39,7 +39,7 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
 
  private:
-  static constexpr int kMaxPiecesInCell = 4;  ///< after that the robust path takes the cell
+  static constexpr int kMaxPiecesInCell = 64;  ///< after that the robust path takes the cell
   static constexpr int kMaxHalvings = 5;
   static constexpr int kMaxStandingSteps =
       256;  ///< crossings without progress: more than cells meet at a point

@@ -30,7 +30,7 @@ class FaceWalk final : public LineWalk {
   FaceWalk(const Domain& domain, const WalkSettings& settings)
       : domain_(domain), settings_(settings), control_(Method::kPower) {
     // What the series over the last bit neglects falls with the fourth power of its part of the step.
-    near_ = Method::kAdaptive ? std::min(0.05, 2.0 * std::sqrt(std::sqrt(settings.tolerance))) : 0.02;
+    near_ = Method::kAdaptive ? std::min(0.12, 2.0 * std::sqrt(std::sqrt(settings.tolerance))) : 0.02;
   }
 
   [[nodiscard]] bool start(const Vec3& seed) override {

@@ -147,10 +147,9 @@ void check_array(const XmlTag& tag, Context& context) {
   const std::string& format = tag.at("format");
   const std::uint64_t values = times(tuples, components);
   std::uint64_t possible = context.file_size;
-  std::uint64_t needed = values;
+  std::uint64_t needed = 0;
   if (format == "ascii") {
-    needed = values / 2;  // a digit and a separator
-    needed *= 2;
+    needed = 2 * (values / 2);  // a digit and a separator
   } else {
     needed = times(values, bytes_of_type(tag.at("type")));
     if (context.compressed) possible = times(possible, kMaxCompression);

@@ -248,6 +248,8 @@ std::vector<Curve> vtk_lines(const Case& c, const VtkSetting& s, double& seconds
   const double start = processor_seconds();
   tracer->Update();
   seconds = processor_seconds() - start;
+  double bounds[6];
+  c.vtk->GetBounds(bounds);
   std::vector<Curve> curves(c.seeds.size());
   vtkPolyData* out = tracer->GetOutput();
   vtkDataArray* ids = out->GetCellData()->GetArray("SeedIds");
@@ -258,6 +260,13 @@ std::vector<Curve> vtk_lines(const Case& c, const VtkSetting& s, double& seconds
     for (vtkIdType k = 0; k < cell->GetNumberOfIds(); ++k) {
       double p[3];
       out->GetPoint(cell->GetId(k), p);
+      // What VTK adds a little outside the data has nothing to be held against.
+      bool outside = false;
+      for (int a = 0; a < 3; ++a) outside = outside || p[a] < bounds[2 * a] || p[a] > bounds[2 * a + 1];
+      if (outside && k > 0) {
+        curve.points.push_back(curve.points.back());  // the last point is not judged
+        break;
+      }
       curve.points.push_back({p[0], p[1], p[2]});
     }
   }
@@ -344,8 +353,8 @@ std::vector<std::pair<Row, VtkSetting>> sweep_vtk(const Case& c, const std::vect
       std::snprintf(text, sizeof text, "h=%.2e cells%s", h, note);
       if (!add({false, true, locator, h, 0.0}, "VTK RK4", text)) break;
     }
-    for (double e = 1e-4; e > 1e-11; e *= 0.1) {
-      std::snprintf(text, sizeof text, "max error %.0e, start 0.5 cells%s", e, note);
+    for (double e = 1e-4; e > 1e-11; e *= std::sqrt(0.1)) {
+      std::snprintf(text, sizeof text, "max error %.1e, start 0.5 cells%s", e, note);
       if (!add({true, true, locator, 0.5, e}, "VTK RK45", text)) break;
     }
   }
@@ -413,16 +422,19 @@ void run(Case c, std::size_t wanted, bool beside_vtk) {
   std::vector<Row> ours;
   const auto add = [&](Integrator integrator, double tolerance) {
     const double seconds = trace_seconds(*field, c, options_of(integrator, tolerance, 1), 5, result);
-    std::snprintf(text, sizeof text, "tolerance %.0e", tolerance);
+    std::snprintf(text, sizeof text, "tolerance %.1e", tolerance);
     ours.push_back({std::string(name_of(integrator)), text,
                     quantile_error(curves_of(result, c.seeds.size()), exact, c.diagonal), count / seconds});
     print(ours.back());
-    return seconds < 0.2;
+    return seconds < 0.05;
   };
   if (tets) add(Integrator::kExact, 1e-6);
   for (const Integrator integrator :
-       {Integrator::kBs32, Integrator::kRk34, Integrator::kDp54, Integrator::kRodas4}) {
-    for (double tolerance = 1e-2; tolerance > 1e-10; tolerance *= 0.1) add(integrator, tolerance);
+       {Integrator::kDp54, Integrator::kRk34, Integrator::kBs32, Integrator::kRodas4}) {
+    for (double tolerance = 1e-2; tolerance > 1e-9; tolerance *= std::sqrt(std::sqrt(0.1))) {
+      // A low order at a tight tolerance: minutes, and no row that anyone would choose.
+      if (!add(integrator, tolerance)) break;
+    }
   }
   std::vector<Row> usual;
   std::copy_if(ours.begin(), ours.end(), std::back_inserter(usual),

@@ -325,7 +325,9 @@ std::vector<std::string> with_session(const std::vector<std::string>& arguments,
           {typed.session.string(), "[scene]", "'" + name + "' is no option", "an option's name", ""});
     }
     if (is_typed(name) || !names.of_verb(name) || (name == "example" && input_typed)) continue;
-    merged.push_back("--" + name + "=" + value);
+    std::string option = "--";
+    option.append(name).append("=").append(value);
+    merged.push_back(std::move(option));
   }
   if (!input_typed) {
     for (const SessionInput& input : session.inputs) {

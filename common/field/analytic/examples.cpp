@@ -10,7 +10,6 @@ namespace palpate {
 namespace {
 
 using std::cos;
-using std::exp;
 using std::sin;
 using std::sqrt;
 
