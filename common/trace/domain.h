@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/grid/box_grid.h"
@@ -19,16 +20,21 @@
 
 namespace palpate {
 
+/// Depth behind a face, relative to the numbers it is computed from, that is rounding.
+inline constexpr double kGrazing = 4.0 * std::numeric_limits<double>::epsilon();
+
 /// The first crossing that a parabola predicts.
 struct Crossing {
   int face = -1;
   double distance = HUGE_VAL;
 };
 
-/// Smallest s > 0 with value + rate s + curvature s^2 / 2 = 0; infinite where there is none.
-[[nodiscard]] inline double first_root(double value, double rate, double curvature) {
+/// Smallest s > 0 with value + rate s + curvature s^2 / 2 = 0; infinite where there is none, and where the
+/// parabola dips below zero by no more than `grazing`: a line that only touches a face would else be handed
+/// to and fro between the cells beside it.
+[[nodiscard]] inline double first_root(double value, double rate, double curvature, double grazing) {
   const double disc = rate * rate - 2.0 * curvature * value;
-  if (disc < 0.0) return HUGE_VAL;
+  if (disc < 0.0 || (curvature > 0.0 && disc <= 2.0 * curvature * grazing)) return HUGE_VAL;
   const double root = std::sqrt(disc);
   if (rate <= 0.0) {
     const double below = root - rate;
@@ -129,7 +135,8 @@ class BoxDomain : public BoxFaces {
   void consider(int face, const Pack4& y, double rate, double bend, int entry, Crossing& first) const {
     const bool upper = (face & 1) != 0;
     const double value = face == entry ? 0.0 : face_value(face, y);
-    const double s = first_root(value, upper ? -rate : rate, upper ? -bend : bend);
+    const double grazing = kGrazing * (size_ + std::abs(y[face >> 1]));
+    const double s = first_root(value, upper ? -rate : rate, upper ? -bend : bend, grazing);
     if (s < first.distance) first = {face, s};
   }
 
@@ -195,7 +202,7 @@ class TetDomain {
     Crossing first;
     for (int face = 0; face < 4; ++face) {
       const double value = face == entry ? 0.0 : face_value(face, y);
-      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature));
+      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), kGrazing);
       if (s < first.distance) first = {face, s};
     }
     return first;
@@ -240,7 +247,7 @@ class FormulaDomain : public BoxFaces {
     Crossing first;
     for (int face = 0; face < 6; ++face) {
       const double value = face == entry ? 0.0 : face_value(face, y);
-      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature));
+      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), kGrazing * size_);
       if (s < first.distance) first = {face, s};
     }
     return first;

@@ -79,7 +79,7 @@ bool ExactWalk::start(const Vec3& seed) {
   load_cell();
   w_ = cell_.rate(b_);
   const Vec3 v = cell_.velocity(w_);
-  const double speed = glm::length(v);
+  const double speed = finite_ ? glm::length(v) : 0.0;
   direction_ = speed > 0.0 ? v / speed : Vec3{0.0};
   const double rounding = kUlp * (cell_.size() + glm::length(seed));
   error_.start(direction_, rounding);

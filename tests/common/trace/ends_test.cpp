@@ -298,5 +298,34 @@ TEST(Ends, OptionsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(integrator_from_name("rodas4"), Integrator::kRodas4);
 }
 
+// A line that touches a grid edge: at x = 0, y = 1/4 the swirl turns back from the face y = 1/4 that it has
+// just reached. Cell after cell predicted a crossing of no length, and the line was taken for standing still.
+TEST(Ends, LineThatTouchesAFaceOnAnEdgeGoesOn) {
+  constexpr int kPoints = 9;
+  std::vector<double> values;
+  for (int k = 0; k < kPoints; ++k) {
+    for (int j = 0; j < kPoints; ++j) {
+      for (int i = 0; i < kPoints; ++i) {
+        const double x = -1.0 + 0.25 * i, y = -1.0 + 0.25 * j;
+        values.insert(values.end(), {-y + 0.3, x, 0.4 + 0.1 * x * y});
+      }
+    }
+  }
+  DataSet block;
+  block.topology = UniformTopology{.points = Index3{kPoints}, .origin = Vec3{-1.0}, .axes = Mat3{0.25}};
+  block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const double>(values)));
+  const ArrayInfo info{"velocity", Association::kPoint, 3, ScalarType::kFloat64, values.size() / 3};
+  const Field field = make_vector_field({block}, choose_vector({info}, "velocity", "swirl"), "swirl");
+  const std::vector<Vec3> seeds{{-0.05, 0.3, -0.8}};
+  for (const Integrator integrator : {Integrator::kRk4, Integrator::kDp54, Integrator::kRodas4}) {
+    TraceOptions options;
+    options.integrator = integrator;
+    options.step = 0.000422864;
+    const TraceResult result = trace_lines(*field, seeds, options);
+    ASSERT_EQ(result.lines.size(), 1U);
+    EXPECT_EQ(result.lines[0].end, End::kLeftDomain) << name_of(integrator);
+  }
+}
+
 }  // namespace
 }  // namespace palpate
