@@ -192,13 +192,21 @@ ExactWalk::Outcome ExactWalk::fast_piece() {
     if (face >= 0) {
       // From the predicted crossing to the true one, by the series about the end of the flow.
       const double wf = flow.w[face];
-      if (!(wf < 0.0)) return Outcome::kRobust;
+      if (!(wf < 0.0)) {  // the curve turns back before the face, or has come in again
+        h *= 0.5;
+        face = -1;
+        continue;
+      }
       double delta = -flow.b[face] / wf;
       delta -= 0.5 * delta * delta * a_end[face] / wf;
       constexpr double kNear = 0.004;  // |delta C|: its fifth power over 5! is rounding
       if (!(std::abs(delta) * cell_.norm() <= kNear && std::abs(delta) <= 0.5 * h)) {
         h += delta;
-        if (!(h > 0.0) || h > longest) return Outcome::kRobust;
+        if (!(h > 0.0)) return Outcome::kRobust;
+        if (h > longest) {  // the face is beyond the reach of the series: a piece on the way to it
+          h = longest;
+          face = -1;
+        }
         continue;
       }
       const double speed_before = glm::length(cell_.velocity(flow.w));

@@ -40,7 +40,7 @@ class ExactWalk final : public LineWalk {
 
  private:
   static constexpr int kMaxPiecesInCell = 64;  ///< after that the robust path takes the cell
-  static constexpr int kMaxHalvings = 5;
+  static constexpr int kMaxHalvings = 12;
   static constexpr int kMaxStandingSteps =
       256;  ///< crossings without progress: more than cells meet at a point
 
