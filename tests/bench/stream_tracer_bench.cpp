@@ -191,6 +191,8 @@ std::vector<Curve> vtk_exact(const Case& c) {
       if (!direction(x, k1) || !direction(x + 0.5 * h * k1, k2) || !direction(x + 0.5 * h * k2, k3) ||
           !direction(x + h * k3, k4)) {
         curve.leaves = true;
+        // On to the border and a little past it: points there are as right as the line that leads to them.
+        if (Vec3 d; direction(x, d)) curve.points.push_back(x + 2.0 * h * d);
         break;
       }
       const Vec3 next = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);

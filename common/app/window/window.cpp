@@ -51,12 +51,20 @@ class GlfwWindow {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
+    // Never larger than what the screen shows of it.
+    int width = options.width, height = options.height;
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr && !options.hidden) {
+      int x = 0, y = 0, screen_width = 0, screen_height = 0;
+      glfwGetMonitorWorkarea(monitor, &x, &y, &screen_width, &screen_height);
+      if (screen_width > 0) width = std::min(width, screen_width);
+      if (screen_height > 0) height = std::min(height, screen_height);
+    }
     // The picture has its own multisampled framebuffer with depth.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     for (const int api : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
       glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
-      window_ = glfwCreateWindow(options.width, options.height, options.program.c_str(), nullptr, nullptr);
+      window_ = glfwCreateWindow(width, height, options.program.c_str(), nullptr, nullptr);
       if (window_ != nullptr) break;
     }
     if (window_ == nullptr) throw work_error(no_window("the driver has no OpenGL 4.5 core context"));
