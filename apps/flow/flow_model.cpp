@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "common/app/cli/domain_outline.h"
+#include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/error.h"
@@ -47,6 +48,7 @@ std::shared_ptr<const SceneInfo> describe(const Input& input, const VectorField&
     if (integrator == Integrator::kExact && !field.tet_mesh()) continue;
     info->integrators.emplace_back(name_of(integrator));
   }
+  info->color_arrays = color_arrays(input);
   info->bounds = field.bounds();
   info->outline = domain_outline(field);
   return info;
@@ -94,7 +96,7 @@ FlowModel::Scene FlowModel::load(const Options& options, Progress& progress) {
 }
 
 SceneState FlowModel::trace(const Scene& scene, const Options& options, const SceneSettings& settings,
-                            Progress& progress) const {
+                            Progress& progress) {
   const VectorField& field = *scene.field;
   const auto seeds = make_seeds(parse_seeds(settings.seeds), field, settings.random_seed);
   const TraceOptions trace = view_trace_options(with_settings(options, settings), field);
@@ -116,12 +118,29 @@ SceneState FlowModel::trace(const Scene& scene, const Options& options, const Sc
   return state;
 }
 
+void FlowModel::color(Scene& scene, const Options& options, SceneState& state, Progress& progress) {
+  state.color_array.reset();
+  if (state.settings.color_array.empty()) return;
+  const LineColor color = line_color(state.settings.color_array, scene.input);
+  state.color_array =
+      line_style(color, scene.input, *scene.field, *state.lines, options.common.threads, &progress).array;
+}
+
+SceneState FlowModel::show(Scene scene, const Options& options, const std::string& color_array,
+                           Progress& progress) {
+  SceneSettings settings = settings_of(options, scene.field_label, scene.time_step);
+  settings.color_array = color_array;
+  scene.shown = trace(scene, options, settings, progress);
+  color(scene, options, scene.shown, progress);
+  scene_ = std::move(scene);
+  return scene_->shown;
+}
+
 SceneState FlowModel::start(Progress& progress) {
   Scene scene = load(options_, progress);
-  SceneState state =
-      trace(scene, options_, settings_of(options_, scene.field_label, scene.time_step), progress);
-  scene_ = std::move(scene);
-  return state;
+  const LineColor wanted = line_color(options_.view.color, scene.input);
+  return show(std::move(scene), options_, wanted.by == ColorBy::kArray ? wanted.name : std::string(),
+              progress);
 }
 
 SceneState FlowModel::open(const std::vector<std::filesystem::path>& files, Progress& progress) {
@@ -129,10 +148,7 @@ SceneState FlowModel::open(const std::vector<std::filesystem::path>& files, Prog
   Options options;
   options.common = options_.common;
   options.input.files = files;
-  Scene scene = load(options, progress);
-  SceneState state =
-      trace(scene, options, settings_of(options, scene.field_label, scene.time_step), progress);
-  scene_ = std::move(scene);
+  SceneState state = show(load(options, progress), options, {}, progress);
   options_ = std::move(options);
   return state;
 }
@@ -157,7 +173,18 @@ SceneState FlowModel::update(const SceneSettings& settings, Progress& progress) 
     scene.field_label = settings.field;
     scene.time_step = settings.time_step;
   }
-  return trace(scene, options_, settings, progress);
+  // Another colour needs no other lines.
+  SceneSettings without_color = settings;
+  without_color.color_array = scene.shown.settings.color_array;
+  SceneState state = scene.shown;
+  if (without_color == scene.shown.settings) {
+    state.settings = settings;
+  } else {
+    state = trace(scene, options_, settings, progress);
+  }
+  color(scene, options_, state, progress);
+  scene.shown = state;
+  return state;
 }
 
 std::string FlowModel::save_session(const SceneSettings& settings, const SceneView& view) {
@@ -181,7 +208,8 @@ std::string FlowModel::save_session(const SceneSettings& settings, const SceneVi
   if (settings.step > 0.0) add("step", exact_number(settings.step));
   if (settings.max_length > 0.0) add("max-length", exact_number(settings.max_length));
   add("camera", camera_text(view.camera, view.bounds, kSessionAspect));
-  if (view.style.color_by != ColorBy::kArray) add("color", std::string(name_of(view.style.color_by)));
+  add("color",
+      settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);
 
   const std::string name =
       (spec.files.empty() ? program_ + "-" + spec.example : spec.files.front().stem().string()) +

@@ -27,11 +27,16 @@ class FlowModel final : public WindowModel {
     std::shared_ptr<const SceneInfo> info;
     std::string field_label;
     std::size_t time_step = 0;
+    SceneState shown;  ///< the lines that were traced last
   };
 
   [[nodiscard]] static Scene load(const Options& options, Progress& progress);
-  [[nodiscard]] SceneState trace(const Scene& scene, const Options& options, const SceneSettings& settings,
-                                 Progress& progress) const;
+  [[nodiscard]] static SceneState trace(const Scene& scene, const Options& options,
+                                        const SceneSettings& settings, Progress& progress);
+  /// Samples settings.color_array along the lines of `state`.
+  static void color(Scene& scene, const Options& options, SceneState& state, Progress& progress);
+  /// Both, for a scene that was just opened with `options`; keeps the scene.
+  SceneState show(Scene scene, const Options& options, const std::string& color_array, Progress& progress);
 
   Options options_;
   std::string program_;

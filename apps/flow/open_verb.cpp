@@ -60,7 +60,11 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
                        .command_line = context.command_line,
                        .version = version_text(context.explorer.name),
                        .stop_requested = [] { return InterruptGuard::interrupted(); }};
-  if (!options.view.color.empty()) window.view.style.color_by = color_by_from_name(options.view.color);
+  // Any other name is an array of the input: the model knows it once that is open.
+  for (int i = 0; i < kColorByCount; ++i) {
+    const auto by = static_cast<ColorBy>(i);
+    if (name_of(by) == options.view.color) window.view.style.color_by = by;
+  }
   run_window(model, window);
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }

@@ -41,6 +41,13 @@ std::shared_ptr<const LineArray> sampled(const std::string& name, const std::vec
 
 }  // namespace
 
+std::vector<std::string> color_arrays(const Input& input) {
+  std::vector<std::string> names;
+  for (const auto& [word, measure] : kMeasures) names.emplace_back(word);
+  for (const ArrayInfo& array : input.arrays()) names.push_back(array.name);
+  return names;
+}
+
 LineColor line_color(const std::string& name, const Input& input) {
   if (name.empty()) return {};
   for (const auto& [word, measure] : kMeasures) {
@@ -55,8 +62,7 @@ LineColor line_color(const std::string& name, const Input& input) {
     return {.by = color_by_from_name(name), .name = name};
   } catch (const Error& error) {
     std::string others;
-    for (const auto& [word, measure] : kMeasures) others += std::string(", ") + word;
-    for (const ArrayInfo& array : input.arrays()) others += ", " + array.name;
+    for (const std::string& other : color_arrays(input)) others += ", " + other;
     throw usage_error(error.what() + others);
   }
 }

@@ -22,6 +22,10 @@ struct LineColor {
   std::string name;
 };
 
+/// What line_color() knows of `input` beside the quantities that lines carry: measures, and arrays of the
+/// file.
+[[nodiscard]] std::vector<std::string> color_arrays(const Input& input);
+
 /// @throws Error (usage) that lists what is known.
 [[nodiscard]] LineColor line_color(const std::string& name, const Input& input);
 

@@ -131,18 +131,25 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   }
 }
 
-void draw_color(const PanelState& state, SceneView& view) {
+void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   section("COLOUR");
   LineStyle& style = view.style;
-  if (ImGui::BeginCombo("by", std::string(name_of(style.color_by)).c_str())) {
+  std::string& array = state.settings.color_array;
+  const std::string now = array.empty() ? std::string(name_of(style.color_by)) : array;
+  if (ImGui::BeginCombo("by", now.c_str())) {
     for (int i = 0; i < kColorByCount; ++i) {
       const auto by = static_cast<ColorBy>(i);
-      if (by == ColorBy::kArray && !style.array) continue;
-      if (ImGui::Selectable(std::string(name_of(by)).c_str(), by == style.color_by)) {
+      if (by == ColorBy::kArray) continue;
+      if (ImGui::Selectable(std::string(name_of(by)).c_str(), array.empty() && by == style.color_by)) {
         style.color_by = by;
         style.range.reset();
         style.logarithmic.reset();
+        array.clear();
       }
+    }
+    // These have to be sampled first: the colours follow when that is done.
+    for (const std::string& name : scene.info->color_arrays) {
+      if (ImGui::Selectable(name.c_str(), name == array)) array = name;
     }
     ImGui::EndCombo();
   }
@@ -341,7 +348,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
   if (state.scene != nullptr) {
     draw_input(*state.scene);
     draw_lines(state, *state.scene);
-    draw_color(state, view);
+    draw_color(state, *state.scene, view);
     draw_look(view, actions);
     for (const std::string& note : state.scene->notes) {
       ImGui::Spacing();

@@ -222,6 +222,7 @@ class Window {
   void adopt(SceneState scene) {
     scene_ = std::move(scene);
     view_.lines = scene_->lines;
+    adopt_color(scene_->color_array);
     view_.bounds = scene_->info->bounds;
     view_.outline = scene_->info->outline;
     view_.units = scene_->info->units;
@@ -244,6 +245,19 @@ class Window {
     }
     state_.seeds = seed_choice(state_.settings.seeds);
     say({}, false);
+  }
+
+  /// Colours by `array`, or where there is none by a quantity of the lines.
+  void adopt_color(const std::shared_ptr<const LineArray>& array) {
+    LineStyle& style = view_.style;
+    const bool by_array = style.color_by == ColorBy::kArray;
+    const bool same = by_array && array && style.array && style.array->name == array->name;
+    if (!same && (array || by_array)) {
+      style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
+      style.range.reset();
+      style.logarithmic.reset();
+    }
+    style.array = array;
   }
 
   void fail(const std::exception_ptr& error) {

@@ -29,17 +29,19 @@ struct SceneSettings {
   double step = 0.0;        ///< as --step; 0: the default
   double max_length = 0.0;  ///< data units; 0: the default
   std::uint64_t random_seed = 1;
+  std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
 
   bool operator==(const SceneSettings&) const = default;
 };
 
 /// What is known of an open input.
 struct SceneInfo {
-  std::string name;                      ///< file or example, for the title
-  std::vector<std::string> facts;        ///< one line each: "legacy VTK, 76x49x45 points", …
-  std::vector<std::string> fields;       ///< vector fields that can be chosen
-  std::vector<std::string> integrators;  ///< those that this grid can be traced with
-  std::vector<double> times;             ///< empty for a single state
+  std::string name;                       ///< file or example, for the title
+  std::vector<std::string> facts;         ///< one line each: "legacy VTK, 76x49x45 points", …
+  std::vector<std::string> fields;        ///< vector fields that can be chosen
+  std::vector<std::string> integrators;   ///< those that this grid can be traced with
+  std::vector<std::string> color_arrays;  ///< arrays of the data and measures that can colour the lines
+  std::vector<double> times;              ///< empty for a single state
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
@@ -50,6 +52,7 @@ struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   SceneSettings settings;                          ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
+  std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;
