@@ -22,49 +22,59 @@ constexpr int kEnter = 257;
 // Lines by formula; files named "bad…" cannot be opened.
 class FakeModel : public WindowModel {
  public:
-  SceneState start(Progress&) override { return make("whirlwind", {}); }
-  SceneState open(const std::vector<std::filesystem::path>& files, Progress&) override {
-    ++opened;
-    if (files.front().string().starts_with("bad")) {
-      throw input_error({.file = files.front().string(), .found = "not a data file"});
-    }
-    return make(files.front().string(), {});
-  }
-  SceneState update(const SceneSettings& settings, Progress&) override {
-    ++updated;
+  SceneState start(Progress&) override {
+    SceneSettings settings;
+    settings.color_array = first_array;
     return make("whirlwind", settings);
+  });
+} SceneState open(const std::vector<std::filesystem::path>& files, Progress&) override {
+  ++opened;
+  if (files.front().string().starts_with("bad")) {
+    throw input_error({.file = files.front().string(), .found = "not a data file"});
   }
-  std::string save_session(const SceneSettings&, const SceneView&) override {
-    ++saved;
-    return "whirlwind.toml";
-  }
+  return make(files.front().string(), {});
+}
+SceneState update(const SceneSettings& settings, Progress&) override {
+  ++updated;
+  return make("whirlwind", settings);
+}
+std::string save_session(const SceneSettings&, const SceneView&) override {
+  ++saved;
+  return "whirlwind.toml";
+}
 
-  std::atomic<int> opened{0}, updated{0}, saved{0};
+std::atomic<int> opened{0}, updated{0}, saved{0};
+std::string first_array;
 
- private:
-  static SceneState make(const std::string& name, SceneSettings settings) {
-    const SceneView view = test::whirlwind(1.0, 40);
-    auto info = std::make_shared<SceneInfo>();
-    info->name = name;
-    info->facts = {"by formula", "40 helices"};
-    info->fields = {"velocity", "vorticity"};
-    info->integrators = {"dp54", "bs32", "rk4"};
-    info->times = {0.0, 0.5, 1.0};
-    info->bounds = view.bounds;
-    SceneState scene;
-    scene.info = info;
-    scene.settings = std::move(settings);
-    if (scene.settings.field.empty()) scene.settings.field = "velocity";
-    if (scene.settings.integrator.empty()) scene.settings.integrator = "dp54";
-    if (scene.settings.seeds.empty()) scene.settings.seeds = "random:40";
-    scene.lines = view.lines;
-    for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
-    scene.seeds = 42;
-    scene.outside_seeds = 2;
-    scene.error_max = 3e-7;
-    scene.seconds_trace = 0.0123;
-    return scene;
+private:
+static SceneState make(const std::string& name, SceneSettings settings) {
+  const SceneView view = test::whirlwind(1.0, 40);
+  auto info = std::make_shared<SceneInfo>();
+  info->name = name;
+  info->facts = {"by formula", "40 helices"};
+  info->fields = {"velocity", "vorticity"};
+  info->integrators = {"dp54", "bs32", "rk4"};
+  info->times = {0.0, 0.5, 1.0};
+  info->bounds = view.bounds;
+  SceneState scene;
+  scene.info = info;
+  scene.settings = std::move(settings);
+  if (scene.settings.field.empty()) scene.settings.field = "velocity";
+  if (scene.settings.integrator.empty()) scene.settings.integrator = "dp54";
+  if (scene.settings.seeds.empty()) scene.settings.seeds = "random:40";
+  scene.lines = view.lines;
+  if (!scene.settings.color_array.empty()) {
+    LineArray array{.name = scene.settings.color_array, .unit = {}, .values = {}};
+    for (const Line& line : *view.lines) array.values.resize(array.values.size() + line.points.size(), 1.0F);
+    scene.color_array = std::make_shared<const LineArray>(std::move(array));
   }
+  for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
+  scene.seeds = 42;
+  scene.outside_seeds = 2;
+  scene.error_max = 3e-7;
+  scene.seconds_trace = 0.0123;
+  return scene;
+}
 };
 
 class WindowTest : public ::testing::Test {
@@ -201,6 +211,15 @@ TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
       different += window.pixel(left + x, y) == expected.pixel(x, y) ? 0 : 1;
   }
   EXPECT_EQ(different, 0);
+}
+
+TEST_F(WindowTest, ArrayOfTheDataColoursTheLines) {
+  model_.first_array = "temperature";
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_EQ(result.view.style.color_by, ColorBy::kArray);
+  ASSERT_TRUE(result.view.style.array);
+  EXPECT_EQ(result.view.style.array->name, "temperature");
+  EXPECT_EQ(result.settings.color_array, "temperature");
 }
 
 TEST_F(WindowTest, QuitEndsIt) {
