@@ -26,55 +26,56 @@ class FakeModel : public WindowModel {
     SceneSettings settings;
     settings.color_array = first_array;
     return make("whirlwind", settings);
-  });
-} SceneState open(const std::vector<std::filesystem::path>& files, Progress&) override {
-  ++opened;
-  if (files.front().string().starts_with("bad")) {
-    throw input_error({.file = files.front().string(), .found = "not a data file"});
   }
-  return make(files.front().string(), {});
-}
-SceneState update(const SceneSettings& settings, Progress&) override {
-  ++updated;
-  return make("whirlwind", settings);
-}
-std::string save_session(const SceneSettings&, const SceneView&) override {
-  ++saved;
-  return "whirlwind.toml";
-}
-
-std::atomic<int> opened{0}, updated{0}, saved{0};
-std::string first_array;
-
-private:
-static SceneState make(const std::string& name, SceneSettings settings) {
-  const SceneView view = test::whirlwind(1.0, 40);
-  auto info = std::make_shared<SceneInfo>();
-  info->name = name;
-  info->facts = {"by formula", "40 helices"};
-  info->fields = {"velocity", "vorticity"};
-  info->integrators = {"dp54", "bs32", "rk4"};
-  info->times = {0.0, 0.5, 1.0};
-  info->bounds = view.bounds;
-  SceneState scene;
-  scene.info = info;
-  scene.settings = std::move(settings);
-  if (scene.settings.field.empty()) scene.settings.field = "velocity";
-  if (scene.settings.integrator.empty()) scene.settings.integrator = "dp54";
-  if (scene.settings.seeds.empty()) scene.settings.seeds = "random:40";
-  scene.lines = view.lines;
-  if (!scene.settings.color_array.empty()) {
-    LineArray array{.name = scene.settings.color_array, .unit = {}, .values = {}};
-    for (const Line& line : *view.lines) array.values.resize(array.values.size() + line.points.size(), 1.0F);
-    scene.color_array = std::make_shared<const LineArray>(std::move(array));
+  SceneState open(const std::vector<std::filesystem::path>& files, Progress&) override {
+    ++opened;
+    if (files.front().string().starts_with("bad")) {
+      throw input_error({.file = files.front().string(), .found = "not a data file"});
+    }
+    return make(files.front().string(), {});
   }
-  for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
-  scene.seeds = 42;
-  scene.outside_seeds = 2;
-  scene.error_max = 3e-7;
-  scene.seconds_trace = 0.0123;
-  return scene;
-}
+  SceneState update(const SceneSettings& settings, Progress&) override {
+    ++updated;
+    return make("whirlwind", settings);
+  }
+  std::string save_session(const SceneSettings&, const SceneView&) override {
+    ++saved;
+    return "whirlwind.toml";
+  }
+
+  std::atomic<int> opened{0}, updated{0}, saved{0};
+  std::string first_array;
+
+ private:
+  static SceneState make(const std::string& name, SceneSettings settings) {
+    const SceneView view = test::whirlwind(1.0, 40);
+    auto info = std::make_shared<SceneInfo>();
+    info->name = name;
+    info->facts = {"by formula", "40 helices"};
+    info->fields = {"velocity", "vorticity"};
+    info->integrators = {"dp54", "bs32", "rk4"};
+    info->times = {0.0, 0.5, 1.0};
+    info->bounds = view.bounds;
+    SceneState scene;
+    scene.info = info;
+    scene.settings = std::move(settings);
+    if (scene.settings.field.empty()) scene.settings.field = "velocity";
+    if (scene.settings.integrator.empty()) scene.settings.integrator = "dp54";
+    if (scene.settings.seeds.empty()) scene.settings.seeds = "random:40";
+    scene.lines = view.lines;
+    if (!scene.settings.color_array.empty()) {
+      LineArray array{.name = scene.settings.color_array, .unit = {}, .values = {}};
+      for (const Line& line : *view.lines)
+        array.values.resize(array.values.size() + line.points.size(), 1.0F);
+      scene.color_array = std::make_shared<const LineArray>(std::move(array));
+    }
+    for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
+    scene.seeds = 42;
+    scene.outside_seeds = 2;
+    scene.error_max = 3e-7;
+    scene.seconds_trace = 0.0123;
+    return scene;
+  }
 };
 
 class WindowTest : public ::testing::Test {
