@@ -43,6 +43,7 @@ std::shared_ptr<const LineArray> sampled(const std::string& name, const std::vec
 
 std::vector<std::string> color_arrays(const Input& input) {
   std::vector<std::string> names;
+  names.reserve(kMeasures.size() + input.arrays().size());
   for (const auto& [word, measure] : kMeasures) names.emplace_back(word);
   for (const ArrayInfo& array : input.arrays()) names.push_back(array.name);
   return names;
