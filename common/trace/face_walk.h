@@ -3,7 +3,7 @@
 /// The interpolant is smooth inside a cell and only continuous across faces, so no step spans a face: a step
 /// that would leave the cell is taken with the cell's own formula (which goes on past the face) and aimed at
 /// the crossing that a parabola predicts; from its end the face is reached by the third-order series in
-/// arc length with exact slope and curvature, over the few per cent of the step that are left. So every
+/// arc length with exact slope and curvature, over the small part of the step that is left (near_). So every
 /// method keeps its order on data that is only C0. The slope at the end is the first slope in the next cell.
 #pragma once
 
