@@ -1,0 +1,61 @@
+/// A haptic constraint: owns one proxy and moves it after its probe (Ikits 2006, sec. 6.2 and 6.6).
+///
+/// All positions are in the workspace frame [m]. update() is called once a servo step: it never allocates,
+/// locks, throws or logs, and does no more work than its budget allows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "common/haptics/chain_settings.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// What a proxy does, in order of precedence: a chain is in the last of its links' states.
+enum class HoldState : std::uint8_t {
+  kFree,      ///< nothing holds the proxy; it is the probe
+  kHeld,      ///< the proxy obeys its constraint
+  kFellBack,  ///< it stays where the constraint was last certain: budget used up, or a critical point
+  kReleased,  ///< let go in this very step, to be caught again elsewhere
+  kOutside,   ///< the probe is where the data says nothing, and nothing holds it
+  kFault      ///< the input made no sense
+};
+[[nodiscard]] std::string_view name_of(HoldState state) noexcept;  ///< "fell_back"
+
+/// What one update may cost. Counted, never timed, so that a replay does the same.
+struct UpdateBudget {
+  int iterations = 64;  ///< pieces passed and Newton steps of a closest-point search
+  int cells = 8;        ///< cells by which a line is grown
+};
+
+/// A proxy and how it is tied to its probe.
+struct LinkUpdate {
+  Vec3 proxy{0.0};
+  Mat3 frame{1.0};        ///< orthonormal, columns e_a
+  Vec3 kappa{1.0};        ///< stiffness factors along e_a, in [0, 1] (eq. 6.9)
+  Vec3 extra_force{0.0};  ///< [N] on top of the springs
+  double residual = 0.0;  ///< [m] distance of the proxy from its own feature
+  HoldState state = HoldState::kFree;
+  bool jumped = false;  ///< the feature itself changed: the force must start from zero
+  int iterations = 0;   ///< used
+  int cells = 0;        ///< used
+};
+
+class Constraint {
+ public:
+  Constraint() = default;
+  Constraint(const Constraint&) = delete;
+  Constraint& operator=(const Constraint&) = delete;
+  virtual ~Constraint() = default;
+
+  /// Takes new values of the settings that concern it; keeps its proxy.
+  virtual void apply(const ChainSettings& settings) noexcept = 0;
+  /// Forgets its proxy: the next update catches afresh.
+  virtual void reset() noexcept = 0;
+  /// Moves the proxy after `probe`, which is finite.
+  virtual void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept = 0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,51 @@
+#include "common/haptics/proxy_chain.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "common/base/check.h"
+
+namespace palpate {
+
+std::string_view name_of(HoldState state) noexcept {
+  constexpr std::array<std::string_view, 6> kNames{"free",     "held",    "fell_back",
+                                                   "released", "outside", "fault"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+ProxyChain::ProxyChain(std::vector<std::unique_ptr<Constraint>> links, const ChainSettings& settings)
+    : links_(std::move(links)), settings_(settings) {
+  PALPATE_CHECK(size() <= ChainStep::kMaxLinks);
+  apply(settings);
+}
+
+void ProxyChain::apply(const ChainSettings& settings) noexcept {
+  settings_ = settings;
+  for (const auto& link : links_) link->apply(settings);
+}
+
+void ProxyChain::reset() noexcept {
+  for (const auto& link : links_) link->reset();
+}
+
+ChainStep ProxyChain::step(const Vec3& probe) noexcept {
+  ChainStep result;
+  Vec3 pulled = probe;
+  for (const auto& link : links_) {
+    LinkUpdate update;
+    link->update(pulled, budget_, update);
+    const Vec3 stretch = (update.proxy - pulled) * update.frame;  // in the axes of the link
+    result.force += settings_.stiffness * (update.frame * (update.kappa * stretch)) + update.extra_force;
+    result.proxies[static_cast<std::size_t>(result.links++)] = update.proxy;
+    result.state = std::max(result.state, update.state);
+    result.residual = update.residual;
+    result.jumped = result.jumped || update.jumped;
+    result.iterations += update.iterations;
+    result.cells += update.cells;
+    pulled = update.proxy;
+  }
+  return result;
+}
+
+}  // namespace palpate

@@ -1,0 +1,58 @@
+/// The proxy chain (Ikits 2006, sec. 6.7): constraints in series, each proxy the probe of the next.
+///
+///   F = sum_i K_i (p_i - p_(i-1)),   K_i = k sum_a kappa_a e_a e_a^T,   p_0 the probe
+///
+/// is the force on the hand: eq. 6.1 in the sense in which it pulls the probe to its proxy, without the
+/// damper, which that work leaves out as well.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/haptics/constraint.h"
+
+namespace palpate {
+
+/// The result of one servo step, workspace frame.
+struct ChainStep {
+  static constexpr int kMaxLinks = 4;
+
+  Vec3 force{0.0};                        ///< [N] before the safety stage
+  std::array<Vec3, kMaxLinks> proxies{};  ///< [m], in the order of the chain
+  int links = 0;
+  HoldState state = HoldState::kFree;
+  double residual = 0.0;  ///< [m] of the last proxy from its own feature
+  bool jumped = false;    ///< a feature changed: the force must start from zero
+  int iterations = 0;
+  int cells = 0;
+
+  /// The last proxy; the probe itself where the chain is empty.
+  [[nodiscard]] Vec3 proxy(const Vec3& probe) const noexcept {
+    return links > 0 ? proxies[static_cast<std::size_t>(links - 1)] : probe;
+  }
+};
+
+class ProxyChain {
+ public:
+  /// @pre at most ChainStep::kMaxLinks links; valid settings.
+  ProxyChain(std::vector<std::unique_ptr<Constraint>> links, const ChainSettings& settings);
+
+  void apply(const ChainSettings& settings) noexcept;
+  [[nodiscard]] const ChainSettings& settings() const noexcept { return settings_; }
+  void set_budget(const UpdateBudget& budget) noexcept { budget_ = budget; }
+  [[nodiscard]] int size() const noexcept { return static_cast<int>(links_.size()); }
+
+  /// Forgets all proxies.
+  void reset() noexcept;
+  /// Moves the proxies after `probe`, one after the other. @pre is_finite(probe).
+  [[nodiscard]] ChainStep step(const Vec3& probe) noexcept;
+
+ private:
+  std::vector<std::unique_ptr<Constraint>> links_;
+  ChainSettings settings_;
+  UpdateBudget budget_;
+};
+
+}  // namespace palpate
