@@ -131,6 +131,12 @@ Table make_table(ColorMap map) {
       std::reverse(all.last(kHalf).begin(), all.last(kHalf).end());
       break;
     }
+    case ColorMap::kTension: {
+      constexpr std::array<Lch, 6> kColors{
+          {{91, 66, 100}, {83, 68, 84}, {74, 71, 68}, {65, 76, 53}, {56, 80, 41}, {47, 80, 34}}};
+      fill_evenly(kColors, table);
+      break;
+    }
     case ColorMap::kCategorical: {
       // Okabe and Ito 2008, with a light grey in place of black, which a dark background would swallow.
       constexpr std::array<std::array<int, 3>, kCategoryCount> kPalette{{{86, 180, 233},
@@ -151,7 +157,7 @@ Table make_table(ColorMap map) {
   return table;
 }
 
-constexpr std::array<std::string_view, kColorMapCount> kNames{"sequential", "heat", "diverging",
+constexpr std::array<std::string_view, kColorMapCount> kNames{"sequential", "heat", "diverging", "tension",
                                                               "categorical"};
 
 }  // namespace
@@ -163,13 +169,13 @@ ColorMap color_map_from_name(std::string_view name) {
     if (kNames[i] == name) return static_cast<ColorMap>(i);
   }
   throw usage_error("unknown colour map '" + std::string(name) +
-                    "'; known: sequential, heat, diverging, categorical");
+                    "'; known: sequential, heat, diverging, tension, categorical");
 }
 
 const Table& color_table(ColorMap map) {
   static const std::array<Table, kColorMapCount> kTables{
       make_table(ColorMap::kSequential), make_table(ColorMap::kHeat), make_table(ColorMap::kDiverging),
-      make_table(ColorMap::kCategorical)};
+      make_table(ColorMap::kTension), make_table(ColorMap::kCategorical)};
   return kTables[static_cast<std::size_t>(map)];
 }
 

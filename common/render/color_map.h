@@ -3,8 +3,9 @@
 /// A continuous map is a spline through a few colours of CIELAB (CIE 15:2004; D65, 2 degree observer),
 /// sampled at points that lie equally far apart by the colour difference dE_76 = |(L*, a*, b*)|. The
 /// sequential maps rise in L* all the way, so that they survive a grey print and colour-deficient eyes;
-/// the diverging one is symmetrical in L* about a light neutral middle (Moreland 2009). The categorical
-/// map is the palette of Okabe and Ito 2008.
+/// that of forces falls from yellow to red, as tension is drawn in figures of haptic rendering; the diverging
+/// one is symmetrical in L* about a light neutral middle (Moreland 2009). The categorical map is the palette
+/// of Okabe and Ito 2008.
 #pragma once
 
 #include <array>
@@ -20,9 +21,10 @@ enum class ColorMap : std::uint8_t {
   kSequential,  ///< indigo, blue, teal, green, yellow
   kHeat,        ///< plum, red, orange, pale yellow
   kDiverging,   ///< blue, light grey, red
+  kTension,     ///< yellow, orange, red: forces
   kCategorical  ///< eight colours that all eyes tell apart
 };
-inline constexpr int kColorMapCount = 4;
+inline constexpr int kColorMapCount = 5;
 inline constexpr int kColorTableSize = 256;
 inline constexpr int kCategoryCount = 8;
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/render/scene_view.h"
+#include "common/render/line_style.h"
 
 namespace palpate {
 

@@ -58,6 +58,22 @@ TEST_P(SequentialMap, NeighboursAreEquallyFarApart) {
 
 INSTANTIATE_TEST_SUITE_P(ColorMap, SequentialMap, ::testing::Values(ColorMap::kSequential, ColorMap::kHeat));
 
+// Forces are read off against dark and light backgrounds alike: yellow is the least, red the most.
+TEST(TensionMap, FallsEvenlyFromYellowToRed) {
+  const auto& table = color_table(ColorMap::kTension);
+  const double mean = [&] {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < table.size(); ++i) sum += difference(table[i], table[i - 1]);
+    return sum / static_cast<double>(table.size() - 1);
+  }();
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    ASSERT_LT(lightness(table[i]), lightness(table[i - 1])) << i;
+    ASSERT_NEAR(difference(table[i], table[i - 1]), mean, 0.02 * mean) << i;
+  }
+  EXPECT_GT(std::min(table.front().r, table.front().g), table.front().b + 0.5F);
+  EXPECT_GT(table.back().r, std::max(table.back().g, table.back().b) + 0.5F);
+}
+
 TEST(DivergingMap, IsSymmetricalInLightnessAndBrightInTheMiddle) {
   const auto& table = color_table(ColorMap::kDiverging);
   const std::size_t n = table.size();

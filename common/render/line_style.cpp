@@ -1,0 +1,114 @@
+#include "common/render/line_style.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/render/line/line_values.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::array<std::string_view, kColorByCount> kNames{
+    "speed", "time", "arc", "error", "direction", "termination", "seed", "array", "uniform"};
+
+// Share of the values at either end that the colours do not spread over.
+constexpr double kTail = 0.005;
+// Decades that a logarithmic range spans at most: below that all is the same to the eye.
+constexpr double kMaxDecades = 12.0;
+
+}  // namespace
+
+std::string_view name_of(ColorBy color_by) noexcept { return kNames[static_cast<std::size_t>(color_by)]; }
+
+ColorBy color_by_from_name(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (kNames[i] == name) return static_cast<ColorBy>(i);
+  }
+  throw usage_error("cannot colour by '" + std::string(name) +
+                    "'; known: speed, time, arc, error, direction, termination, seed, uniform");
+}
+
+ColorMap default_color_map(ColorBy color_by) noexcept {
+  switch (color_by) {
+    case ColorBy::kTermination:
+      return ColorMap::kCategorical;
+    case ColorBy::kError:
+      return ColorMap::kHeat;
+    default:
+      return ColorMap::kSequential;
+  }
+}
+
+ColorMap color_map_of(const LineStyle& style) noexcept {
+  // Numbers of categories mean nothing on a continuous map, and values nothing on a categorical one.
+  if (style.color_by == ColorBy::kTermination) return ColorMap::kCategorical;
+  const ColorMap map = style.color_map.value_or(default_color_map(style.color_by));
+  return map == ColorMap::kCategorical ? default_color_map(style.color_by) : map;
+}
+
+bool is_logarithmic(const LineStyle& style) noexcept {
+  switch (style.color_by) {
+    case ColorBy::kError:
+      return style.logarithmic.value_or(true);
+    case ColorBy::kDirection:
+    case ColorBy::kTermination:
+    case ColorBy::kSeed:
+    case ColorBy::kUniform:
+      return false;
+    default:
+      return style.logarithmic.value_or(false);
+  }
+}
+
+ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
+  if (style.range) return *style.range;
+  const bool logarithmic = is_logarithmic(style);
+  std::vector<double> values = line_values(lines, style);
+  std::erase_if(values, [&](double v) { return !std::isfinite(v) || (logarithmic && v <= 0.0); });
+  if (values.empty()) return {};
+
+  const auto quantile = [&](double part) {
+    const std::ptrdiff_t n = std::lround(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + n, values.end());
+    return values[static_cast<std::size_t>(n)];
+  };
+  ValueRange range{quantile(kTail), quantile(1.0 - kTail)};
+  if (logarithmic) {
+    range.lower = std::max(range.lower, range.upper * std::pow(10.0, -kMaxDecades));
+  } else if (color_map_of(style) == ColorMap::kDiverging) {
+    const double reach = std::max(std::abs(range.lower), std::abs(range.upper));
+    range = {-reach, reach};
+  }
+  return range;
+}
+
+std::string color_label(const LineStyle& style, const UnitNames& units) {
+  std::string unit;
+  switch (style.color_by) {
+    case ColorBy::kSpeed:
+      if (!units.length.empty() && !units.time.empty()) unit = units.length + "/" + units.time;
+      break;
+    case ColorBy::kTime:
+      unit = units.time;
+      break;
+    case ColorBy::kArc:
+    case ColorBy::kError:
+      unit = units.length;
+      break;
+    case ColorBy::kArray:
+      if (!style.array) return "array";
+      return style.array->unit.empty() ? style.array->name
+                                       : style.array->name + " [" + style.array->unit + "]";
+    default:
+      break;
+  }
+  std::string label(name_of(style.color_by));
+  if (style.color_by == ColorBy::kArc) label = "length from the seed";
+  if (style.color_by == ColorBy::kTime) label = "time from the seed";
+  if (style.color_by == ColorBy::kError) label = "error estimate";
+  if (style.color_by == ColorBy::kTermination) label = "line ends by";
+  return unit.empty() ? label : label + " [" + unit + "]";
+}
+
+}  // namespace palpate

@@ -1,0 +1,119 @@
+/// What a picture shows of the probe, as plain data: the hand and the proxy that it is tied to, the
+/// streamline that holds it, where it has been, and the lines around it (figure 1.1 and sec. 8.1 of
+/// Ikits 2006: rake probe, stream balls, local vector icon).
+///
+/// Positions are in data coordinates. A view is cheap to copy and to change every frame: what is large in
+/// it is shared, and counts as the same while it is the same object. Things whose position is not finite
+/// are not drawn.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/geometry/line.h"
+#include "common/math/vec.h"
+#include "common/render/color_map.h"
+#include "common/render/line_style.h"
+#include "common/render/probe_path.h"
+
+namespace palpate {
+
+/// The streamline that holds the probe: a highlighted ribbon, and balls at equal times along it. Coloured
+/// like the scene's lines; the values are of the quantity that colours these (SceneView::style), in data
+/// units. Without values, and where the style colours by none, a plain colour is taken.
+struct FollowedLine {
+  std::vector<Vec3> points;
+  std::vector<double> values;  ///< one a point, or none
+  std::vector<Vec3> balls;
+  std::vector<double> ball_values;  ///< one a ball, or none
+  double ball_radius = 0.0;         ///< [data units]; 0: ProbeStyle::ball_size
+};
+
+/// What of a path is drawn. The path may go on growing after that.
+struct PathView {
+  std::shared_ptr<const ProbePath> points;  ///< may be null
+  std::size_t count = 0;                    ///< the first so many of them
+  std::optional<ValueRange> range;          ///< of the colours [N]; where absent: 0 to ProbeView::force_cap
+
+  bool operator==(const PathView&) const = default;
+};
+
+/// A path that is complete, from arrays such as the columns of a probe log.
+/// @param forces [N], one a position.
+/// @throws Error (work failed) where their numbers differ.
+[[nodiscard]] PathView make_path_view(std::span<const Vec3> positions, std::span<const double> forces);
+
+enum class SeedShape : std::uint8_t { kNone, kRake, kPlane };
+
+/// Seeds at the probe with the short streamlines through them.
+struct LocalSeeds {
+  SeedShape shape = SeedShape::kNone;
+  /// A rake goes from `origin` to origin + u. A plane is the parallelogram origin + a u + b v, a and b in
+  /// [0, 1]. Handles stand at the ends and corners.
+  Vec3 origin{0.0}, u{0.0}, v{0.0};
+  std::vector<Vec3> seeds;
+  std::shared_ptr<const std::vector<Line>> lines;  ///< may be null
+  /// Where its range is absent and it colours by what the scene's style does, the scene's range.
+  LineStyle style;
+};
+
+/// A line that the user has kept.
+struct KeptLine {
+  std::shared_ptr<const Line> line;  ///< may be null
+  int number = 1;                    ///< written at its first point
+  std::optional<Rgb> color;          ///< where absent: kept_color(number)
+};
+
+/// A colour for each number, from the categorical map; it repeats after seven.
+[[nodiscard]] Rgb kept_color(int number) noexcept;
+
+/// Sizes in thousandths of the picture's height at the focal point, so that they hold at each zoom.
+struct ProbeStyle {
+  double probe_size = 16.0;    ///< diameter
+  double proxy_size = 22.0;    ///< diameter
+  double ball_size = 13.0;     ///< diameter
+  double seed_size = 7.0;      ///< diameter
+  double handle_size = 13.0;   ///< diameter
+  double band_width = 8.0;     ///< unstretched
+  double band_rest = 40.0;     ///< stretch at which the band is thinner by 1/sqrt(2)
+  double arrow_length = 70.0;  ///< at the reference speed
+  double path_width = 5.0;
+  double followed_width = 9.0;
+  double kept_width = 6.0;
+  ColorMap force_map = ColorMap::kTension;  ///< of band and path
+
+  bool operator==(const ProbeStyle&) const = default;
+};
+
+struct ProbeView {
+  Vec3 probe{HUGE_VAL};    ///< where the hand is
+  Vec3 proxy{HUGE_VAL};    ///< where the constraints let it be
+  double force = 0.0;      ///< [N], size of the force on the hand
+  double force_cap = 0.0;  ///< [N], the largest that the safety stage lets through; 0: no band, no colours
+  bool show_force = true;  ///< write the newtons beside the band
+
+  Vec3 velocity{0.0};            ///< of the field at the proxy; zero or not finite: no arrow
+  double reference_speed = 0.0;  ///< for which the arrow has ProbeStyle::arrow_length; <= 0: no arrow
+
+  std::shared_ptr<const FollowedLine> followed;  ///< may be null
+  PathView path;
+  std::shared_ptr<const LocalSeeds> seeds;            ///< may be null
+  std::shared_ptr<const std::vector<KeptLine>> kept;  ///< may be null
+  ProbeStyle style;
+};
+
+/// force / force_cap, clamped to [0, 1]; 0 where either is not a positive number.
+[[nodiscard]] double tension(const ProbeView& view) noexcept;
+
+/// The range over which the colours of path and band spread [N].
+[[nodiscard]] ValueRange force_range(const ProbeView& view) noexcept;
+
+/// Whether both give the same picture; shared parts count as the same where they are the same objects.
+[[nodiscard]] bool same_picture(const ProbeView& a, const ProbeView& b) noexcept;
+
+}  // namespace palpate
