@@ -16,6 +16,8 @@ constexpr double kUlp = std::numeric_limits<double>::epsilon();
 constexpr double kRoundingPerCell = 16.0;
 // Coordinates are stored with 2^-53 of their size; that much is uncertain of every point.
 constexpr double kRoundingOfPoint = 2.0;
+// Cost of the robust path, in fast pieces.
+constexpr int kRobustWork = 32;
 // A rate of a barycentric coordinate below this part of the largest one is zero but for rounding.
 constexpr double kTangent = 1e-14;
 
@@ -90,6 +92,7 @@ bool ExactWalk::start(const Vec3& seed) {
 
 std::optional<End> ExactWalk::advance() {
   has_piece_ = false;
+  work_ = 1;
   if (exit_face_ >= 0) {
     const int face = exit_face_;
     exit_face_ = -1;
@@ -382,6 +385,7 @@ void ExactWalk::settle(CellIndex cell, const Vec3& x) {
 }
 
 void ExactWalk::enter_robust() {
+  work_ += kRobustWork;
   AffineModes::Four b{};
   AffineModes::Real sum = 0.0L;
   for (int i = 0; i < 4; ++i) sum += b[static_cast<std::size_t>(i)] = b_[i];
@@ -395,6 +399,7 @@ void ExactWalk::enter_robust() {
 std::optional<End> ExactWalk::robust_piece() {
   using Real = AffineModes::Real;
   ++robust_pieces_;
+  work_ += kRobustWork;
   const AffineModes::Exit exit = modes_->exit();
   const bool leaves = exit.face >= 0;
   if (leaves && !(exit.time > mode_time_)) {

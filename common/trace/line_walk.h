@@ -28,12 +28,15 @@ class LineWalk : public DensePiece {
   [[nodiscard]] const Vec3& direction() const noexcept { return direction_; }
   /// Cosine of the angle between the first and the last tangent of the piece.
   [[nodiscard]] double turn_cosine() const noexcept { return turn_cosine_; }
+  /// What the last advance() cost, in units of an ordinary piece, roughly: for those who ration pieces.
+  [[nodiscard]] int work() const noexcept { return work_; }
 
  protected:
   LineWalk() = default;
   LinePoint begin_, end_;
   Vec3 direction_{0.0};
   double turn_cosine_ = 1.0;
+  int work_ = 1;
   bool has_piece_ = false;
 };
 

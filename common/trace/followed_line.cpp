@@ -1,0 +1,38 @@
+#include "common/trace/followed_line.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palpate {
+namespace {
+
+constexpr double kMaxLength =
+    4.0;                          // diagonals on either side: what is drawn; more is grown when it is reached
+constexpr double kMaxGap = 1e-8;  // diagonals; the contract allows 1e-6
+
+}  // namespace
+
+FollowedLine::FollowedLine(std::shared_ptr<const VectorField> field, double tolerance, int threads)
+    : field_(std::move(field)) {
+  const double diagonal = field_->diagonal() * power_of_two(-field_->frame().length_exponent);
+  limits_.max_length = kMaxLength * diagonal;
+  limits_.max_gap = kMaxGap * diagonal;
+  const WalkSettings walk{.tolerance = tolerance, .rest_distance = tolerance * diagonal};
+  factory_ = std::make_unique<WalkFactory>(*field_, default_integrator(*field_), walk, threads);
+  for (auto& line : lines_) line = std::make_unique<GrowingLine>(*field_, *factory_, limits_);
+}
+
+bool FollowedLine::start(const Vec3& seed, double arc, double time) noexcept {
+  const int now = current_.load();
+  const int held = held_.load();
+  int spare = 0;
+  while (spare == now || spare == held) ++spare;
+  if (!lines_[static_cast<std::size_t>(spare)]->start(seed, arc, time)) return false;
+  numbers_[static_cast<std::size_t>(spare)] = ++started_;
+  current_.store(spare);
+  return true;
+}
+
+void FollowedLine::drop() noexcept { current_.store(-1); }
+
+}  // namespace palpate
