@@ -36,12 +36,14 @@ struct BlockInfo {
   std::uint64_t cell_count = 0;
   Box bounds;
   std::vector<ArrayInfo> arrays;
+  /// Why no line in space can be traced in it ("holds points, lines or surfaces …"); empty for a volume.
+  std::string not_volume;
 };
 
 struct FileInfo {
-  std::string format;  ///< "legacy VTK", "PLOT3D", "Exodus II", …
-  std::string loader;  ///< helper program that read it
-  std::vector<BlockInfo> blocks;
+  std::string format;              ///< "legacy VTK", "PLOT3D", "Exodus II", …
+  std::string loader;              ///< helper program that read it
+  std::vector<BlockInfo> blocks;   ///< volumes; where the file has none, what else it holds
   std::vector<double> times;       ///< empty for a single state
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
 };

@@ -498,7 +498,8 @@ std::string encode_info(const FileInfo& info) {
                       {"cell_count", block.cell_count},
                       {"lower", box_corner(block.bounds.lower)},
                       {"upper", box_corner(block.bounds.upper)},
-                      {"arrays", std::move(arrays)}});
+                      {"arrays", std::move(arrays)},
+                      {"not_volume", text_from_bytes(block.not_volume)}});
   }
   json notes = json::array();
   for (const std::string& note : info.notes) notes.push_back(text_from_bytes(note));
@@ -544,6 +545,7 @@ FileInfo decode_info(std::string_view text) {
       block.bounds.upper = vector_at(object, "upper");
     }
     for (const json& array : array_at(object, "arrays")) block.arrays.push_back(decode_array_info(array));
+    block.not_volume = string_at(object, "not_volume");
     info.blocks.push_back(std::move(block));
   }
   return info;

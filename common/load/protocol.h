@@ -6,7 +6,8 @@
 /// Answers
 ///   {"failed": exit code, "line": text}
 ///   {"format", "loader", "times": [t…], "notes": [text…], "blocks": [{"name", "grid", "points": [i, j, k],
-///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…]}…]}            to "open"
+///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
+///                                                                                          to "open"
 ///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?}…]}  to "read"
 ///   A = {"name", "on": "point" or "cell", "components", "type": "float32"…, "tuples"}
 ///   T = {"kind": "uniform", "points", "origin", "axes": 9 numbers, column by column}

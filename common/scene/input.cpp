@@ -66,7 +66,9 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   } else {
     input.source_ = Source::open({spec.files, spec.solution}, {}, progress);
     input.arrays_ = input.source_->arrays();
-    input.choices_ = vector_choices(input.arrays_);
+    const auto& blocks = input.source_->info().blocks;
+    if (!blocks.empty()) input.not_volume_ = blocks.front().not_volume;
+    if (input.not_volume_.empty()) input.choices_ = vector_choices(input.arrays_);
     input.time_ = choose_time(input.times(), spec.time);
   }
   input.seconds_open_ = watch.seconds();
@@ -81,6 +83,10 @@ const std::vector<double>& Input::times() const noexcept {
 }
 
 VectorChoice Input::choice() const {
+  if (!not_volume_.empty()) {
+    throw input_error({spec_.files.front().string(), "", not_volume_, "cells of a volume to trace lines in",
+                       "'info' says what it holds"});
+  }
   return choose_vector(arrays_, spec_.field, spec_.files.front().string());
 }
 

@@ -49,7 +49,9 @@ class Input {
   /// What the loader says; null for an example.
   [[nodiscard]] const FileInfo* file() const noexcept;
   [[nodiscard]] const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
-  /// Every vector field that can be made, the default first; none for an example.
+  /// Why no line can be traced in the file (it has no volume), or empty.
+  [[nodiscard]] const std::string& not_volume() const noexcept { return not_volume_; }
+  /// Every vector field that can be made, the default first; none for an example or without a volume.
   [[nodiscard]] const std::vector<VectorChoice>& choices() const noexcept { return choices_; }
   [[nodiscard]] const std::vector<double>& times() const noexcept;
   [[nodiscard]] const TimeChoice& time() const noexcept { return time_; }
@@ -60,7 +62,7 @@ class Input {
   void set_field(std::string name) { spec_.field = std::move(name); }
 
   /// The recipe of the field that spec().field means. @pre file().
-  /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field.
+  /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field or no volume.
   [[nodiscard]] VectorChoice choice() const;
 
   /// One sentence that names the field and the time step, and what else there was to choose from.
@@ -85,6 +87,7 @@ class Input {
   std::optional<Source> source_;
   std::vector<ArrayInfo> arrays_;
   std::vector<VectorChoice> choices_;
+  std::string not_volume_;
   TimeChoice time_;
   double seconds_open_ = 0.0;
   double seconds_read_ = 0.0;

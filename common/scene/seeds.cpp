@@ -2,64 +2,38 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <optional>
 #include <random>
 
 #include "common/base/error.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/scene/number_text.h"
+#include "common/scene/seed_file.h"
 
 namespace palpate {
 namespace {
 
 constexpr const char* kGrammar =
-    "seeds are file.csv, point:x,y,z, line:x,y,z,x,y,z,n, plane:o(x,y,z),a(x,y,z),b(x,y,z),na,nb, "
+    "seeds are file.csv, file.vtp (its points), point:x,y,z, line:x,y,z,x,y,z,n, "
+    "plane:o(x,y,z),a(x,y,z),b(x,y,z),na,nb, "
     "grid:nx,ny,nz, random:n or speed:n";
 
 // A line holds its seed's index in 32 bits, and a hundred million seeds take 2.4 GB: more is a slip.
-constexpr double kMostSeeds = 1e8;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-std::optional<double> number(std::string_view text) {
-  text = trimmed(text);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (std::size_t start = 0;;) {
-    const auto end = text.find(separator, start);
-    parts.push_back(text.substr(start, end - start));
-    if (end == std::string_view::npos) return parts;
-    start = end + 1;
-  }
-}
+constexpr std::size_t kMostSeeds = 100'000'000;
 
 /// A count written as a number: whole, at least one, not absurd.
 int count_from(double value, const std::string& text) {
-  if (value < 1.0 || value > kMostSeeds || value != std::floor(value)) {
+  if (value < 1.0 || value > static_cast<double>(kMostSeeds) || value != std::floor(value)) {
     throw usage_error("--seeds " + text + ": counts are whole numbers from 1 to 100000000");
   }
   return static_cast<int>(value);
 }
 
 void check_total(double total, const std::string& text) {
-  if (total > kMostSeeds) throw usage_error("--seeds " + text + ": more than 100000000 seeds");
+  if (total > static_cast<double>(kMostSeeds))
+    throw usage_error("--seeds " + text + ": more than 100000000 seeds");
 }
 
 Vec3 vec_at(const std::vector<double>& numbers, std::size_t i) {
@@ -68,58 +42,6 @@ Vec3 vec_at(const std::vector<double>& numbers, std::size_t i) {
 
 /// i / (n - 1), the middle of the range for a single point.
 double fraction_of(int i, int n) { return n == 1 ? 0.5 : static_cast<double>(i) / (n - 1); }
-
-SeedList read_csv(const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) {
-    throw input_error({file, "", "is a folder", "a CSV file of seeds with the header x,y,z", ""});
-  }
-  std::ifstream in(file);
-  if (!in) {
-    throw input_error({file, "", "cannot be opened", "", std::string("give a CSV file, or: ") + kGrammar});
-  }
-  std::string line;
-  if (!std::getline(in, line)) throw input_error({file, "line 1", "is empty", "the header x,y,z", ""});
-
-  // Columns may stand anywhere in the header, so that tables of other programs can be used as they are.
-  std::array<std::size_t, 3> column{};
-  std::array<bool, 3> known{};
-  const auto header = split(line, ',');
-  for (std::size_t c = 0; c < header.size(); ++c) {
-    std::string_view name = trimmed(header[c]);
-    if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    if (name.size() != 1) continue;
-    const int axis = std::tolower(static_cast<unsigned char>(name.front())) - 'x';
-    if (axis < 0 || axis > 2 || known[static_cast<std::size_t>(axis)]) continue;
-    column[static_cast<std::size_t>(axis)] = c;
-    known[static_cast<std::size_t>(axis)] = true;
-  }
-  if (!known[0] || !known[1] || !known[2]) {
-    throw input_error({file, "line 1", "has no columns x, y and z", "the header x,y,z", ""});
-  }
-
-  SeedList seeds;
-  for (std::size_t row = 2; std::getline(in, line); ++row) {
-    if (trimmed(line).empty()) continue;
-    const auto cells = split(line, ',');
-    Vec3 x{0.0};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = column[axis] < cells.size() ? number(cells[column[axis]]) : std::nullopt;
-      if (!value) {
-        throw input_error({file, "line " + std::to_string(row),
-                           "no finite number in column " + std::string(1, "xyz"[axis]), "three numbers x,y,z",
-                           ""});
-      }
-      x[static_cast<int>(axis)] = *value;
-    }
-    if (static_cast<double>(seeds.points.size()) >= kMostSeeds) check_total(kMostSeeds + 1.0, file);
-    seeds.points.push_back(x);
-  }
-  if (seeds.points.empty())
-    throw input_error({file, "", "holds no seed below its header", "rows of x,y,z", ""});
-  return seeds;
-}
 
 /// Uniform in [0, 1) from the upper 53 bits: std::uniform_real_distribution differs between libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
@@ -281,7 +203,9 @@ SeedSpec parse_seeds(const std::string& text) {
   if (kind == "random" || kind == "speed") {
     return SeedRandom{static_cast<std::size_t>(count_from(numbers(1)[0], text)), kind == "speed"};
   }
-  if (text.ends_with(".csv") || std::filesystem::exists(text)) return read_csv(text);
+  std::error_code ignored;
+  if (text.ends_with(".csv") || text.ends_with(".vtp") || std::filesystem::exists(text, ignored))
+    return SeedList{read_seed_file(text, kMostSeeds)};
   throw usage_error("--seeds " + text + ": not understood; " + kGrammar);
 }
 

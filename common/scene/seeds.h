@@ -1,6 +1,7 @@
 /// Seeds: where lines start, in the grammar of `--seeds`.
 ///
 ///   file.csv                          header with columns x, y and z
+///   file.vtp                          the points of a data file of any kind
 ///   point:x,y,z
 ///   line:x,y,z,x,y,z,n                n points from the first to the second, both included
 ///   plane:ox,oy,oz,ax,ay,az,bx,by,bz,na,nb   na x nb points on the parallelogram with corner o whose
@@ -43,8 +44,8 @@ struct SeedRandom {
 
 using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 
-/// Reads `text`; a CSV file is read at once.
-/// @throws Error (usage) that shows the grammar, (bad input) naming file and line of a CSV file.
+/// Reads `text`; a file is read at once.
+/// @throws Error (usage) that shows the grammar, (bad input) naming the file, and the line of a table.
 [[nodiscard]] SeedSpec parse_seeds(const std::string& text);
 
 /// The seeds in data coordinates. Random ones depend on `random_seed` and the field alone: on tetrahedra a

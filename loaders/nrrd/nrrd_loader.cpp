@@ -119,8 +119,6 @@ Axes sort_axes(const Nrrd& nrrd, const std::string& file) {
     if (std::find(spatial.begin(), spatial.end(), axis) == spatial.end()) axes.components = axis;
   }
   for (const unsigned axis : axes.space) {
-    if (nrrd.axis[axis].size < 2)
-      throw input_error({file, "", "is flat: one sample along axis " + std::to_string(axis), "a volume"});
     if (nrrd.axis[axis].size > (std::size_t{1} << 30))
       throw input_error({file, "", "has too many samples along axis " + std::to_string(axis)});
   }
@@ -148,8 +146,12 @@ class NrrdLoader : public Loader {
     block.points = topology_.points;
     block.point_count = array_.tuples;
     block.cell_count = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      block.cell_count *= static_cast<std::uint64_t>(block.points[axis] - 1);
+    for (int axis = 0; axis < 3; ++axis) {
+      block.cell_count *= static_cast<std::uint64_t>(std::max(1, block.points[axis] - 1));
+      if (block.points[axis] == 1)
+        block.not_volume =
+            "is flat (one sample along axis " + std::to_string(axes_.space[axis]) + "), not a volume";
+    }
     for (int corner = 0; corner < 8; ++corner) {
       Vec3 index{0.0};
       for (int axis = 0; axis < 3; ++axis) {

@@ -78,7 +78,7 @@ class CaseReader : public Loader {
     // OpenFOAM case often has no mesh values yet), and only that one is read here.
     select(nullptr);
     update(times_.empty() ? 0 : times_.size() - 1);
-    for (const VtkBlock& block : volumes(&info.notes))
+    for (const VtkBlock& block : usable(&info.notes))
       info.blocks.push_back(describe_block(block.data, block.name));
     return info;
   }
@@ -88,7 +88,7 @@ class CaseReader : public Loader {
     select(&wanted);
     update(step);
     std::vector<DataSet> blocks;
-    for (const VtkBlock& block : volumes(nullptr))
+    for (const VtkBlock& block : usable(nullptr))
       blocks.push_back(convert_block(block.data, block.name, wanted, file_));
     // The values of an array in all blocks together.
     std::map<std::pair<std::string, Association>, DataArray> totals;
@@ -129,19 +129,8 @@ class CaseReader : public Loader {
     errors_.check(file_);
   }
 
-  std::vector<VtkBlock> volumes(std::vector<std::string>* notes) {
-    std::vector<VtkBlock> found;
-    std::string why = "holds no mesh";
-    for (const VtkBlock& block : leaves_of(reader_->GetOutput())) {
-      if (std::string reason = why_not_volume(block.data); reason.empty()) {
-        found.push_back(block);
-      } else {
-        why = "part '" + block.name + "' " + reason;
-        if (notes != nullptr) notes->push_back(why + "; left out");
-      }
-    }
-    if (found.empty()) throw input_error({file_, "", why, "a part of volume cells"});
-    return found;
+  std::vector<VtkBlock> usable(std::vector<std::string>* notes) {
+    return usable_blocks(leaves_of(reader_->GetOutput()), "part", file_, notes);
   }
 
   Format format_;

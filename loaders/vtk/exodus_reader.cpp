@@ -83,7 +83,7 @@ class ExodusReader : public Loader {
     if (times_.size() > 1) info.times = times_;
 
     const DataSet mesh = load({}, 0, &info.notes);
-    BlockInfo block = describe_block(volumes_.front().data, "");
+    BlockInfo block = describe_block(blocks_.front().data, "");
     block.arrays.clear();
     block.cell_count = std::get<UnstructuredTopology>(mesh.topology).types.size();
     block.bounds = bounds_;
@@ -96,7 +96,7 @@ class ExodusReader : public Loader {
                                 tuples});
       }
     }
-    if (volumes_.size() > 1) info.notes.push_back(std::to_string(volumes_.size()) + " element blocks joined");
+    if (blocks_.size() > 1) info.notes.push_back(std::to_string(blocks_.size()) + " element blocks joined");
     info.blocks.push_back(std::move(block));
     return info;
   }
@@ -125,20 +125,10 @@ class ExodusReader : public Loader {
       reader_->UpdateTimeStep(times_[step]);
     }
     errors_.check(file_);
-    volumes_.clear();
-    std::string why = "holds no element block";
-    for (const VtkBlock& block : leaves_of(reader_->GetOutput())) {
-      if (std::string reason = why_not_volume(block.data); reason.empty()) {
-        volumes_.push_back(block);
-      } else {
-        why = "block '" + block.name + "' " + reason;
-        if (notes != nullptr) notes->push_back(why + "; left out");
-      }
-    }
-    if (volumes_.empty()) throw input_error({file_, "", why, "a block of volume elements"});
+    blocks_ = usable_blocks(leaves_of(reader_->GetOutput()), "element block", file_, notes);
     std::vector<DataSet> blocks;
     bounds_ = {};
-    for (const VtkBlock& block : volumes_) {
+    for (const VtkBlock& block : blocks_) {
       blocks.push_back(convert_block(block.data, block.name, wanted, file_));
       const BlockInfo about = describe_block(block.data, block.name);
       bounds_.include(about.bounds.lower);
@@ -151,7 +141,7 @@ class ExodusReader : public Loader {
   vtkSmartPointer<vtkExodusIIReader> reader_;
   std::string file_;
   std::vector<double> times_;
-  std::vector<VtkBlock> volumes_;
+  std::vector<VtkBlock> blocks_;
   Box bounds_;
 };
 

@@ -17,6 +17,7 @@
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
@@ -198,6 +199,38 @@ UnstructuredTopology unstructured(vtkUnstructuredGrid* grid, const std::string& 
   return t;
 }
 
+/// Vertices, lines, polygons and strips as cells, in VTK's order of them.
+UnstructuredTopology polygonal(vtkPolyData* data, const std::string& file) {
+  UnstructuredTopology t;
+  t.positions = share(data->GetPoints()->GetData(), Association::kPoint, "positions");
+  t.offsets.push_back(0);
+  const vtkIdType points = data->GetNumberOfPoints();
+  const auto append = [&](vtkCellArray* cells, const auto& type_of) {
+    if (!cells->IsValid()) {
+      throw input_error(
+          {file, "", "its lists of cells do not agree with one another", "", "the file may be damaged"});
+    }
+    for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell) {
+      vtkIdType count = 0;
+      const vtkIdType* corners = nullptr;
+      cells->GetCellAtId(cell, count, corners);
+      if (!std::all_of(corners, corners + count, [points](vtkIdType p) { return p >= 0 && p < points; })) {
+        throw input_error({file, "cell " + std::to_string(t.types.size()), "names a point that is not there",
+                           "", "the file may be damaged"});
+      }
+      t.types.push_back(static_cast<std::uint8_t>(type_of(count)));
+      t.connectivity.insert(t.connectivity.end(), corners, corners + count);
+      t.offsets.push_back(static_cast<std::int64_t>(t.connectivity.size()));
+    }
+  };
+  append(data->GetVerts(), [](vtkIdType n) { return n == 1 ? VTK_VERTEX : VTK_POLY_VERTEX; });
+  append(data->GetLines(), [](vtkIdType n) { return n == 2 ? VTK_LINE : VTK_POLY_LINE; });
+  append(data->GetPolys(),
+         [](vtkIdType n) { return n == 3 ? VTK_TRIANGLE : (n == 4 ? VTK_QUAD : VTK_POLYGON); });
+  append(data->GetStrips(), [](vtkIdType) { return VTK_TRIANGLE_STRIP; });
+  return t;
+}
+
 /// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
 std::vector<std::uint8_t> visible_points(vtkDataSet* data) {
   const auto points = static_cast<std::size_t>(data->GetNumberOfPoints());
@@ -298,20 +331,25 @@ std::vector<VtkBlock> leaves_of(vtkDataObject* object) {
   return blocks;
 }
 
+std::string why_not_readable(vtkDataSet* data) {
+  if (data->GetNumberOfPoints() == 0) return "holds no points";
+  const bool known = points_along_axes(data) != Index3{0} ||
+                     vtkUnstructuredGrid::SafeDownCast(data) != nullptr ||
+                     vtkPolyData::SafeDownCast(data) != nullptr;
+  if (!known) return std::string("is of a kind that is not read (") + data->GetClassName() + ")";
+  return "";
+}
+
 std::string why_not_volume(vtkDataSet* data) {
   if (vtkPolyData::SafeDownCast(data) != nullptr)
     return "holds points, lines or surfaces (polygonal data), not a volume";
-  if (data->GetNumberOfPoints() == 0) return "holds no points";
   const Index3 n = points_along_axes(data);
   if (n != Index3{0} && (n.x < 2 || n.y < 2 || n.z < 2)) {
     return "is flat (" + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) +
            " points), not a volume";
   }
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-  if (n == Index3{0} && grid == nullptr)
-    return std::string("is of a kind that is not read (") + data->GetClassName() + ")";
-  if (grid != nullptr) {
-    if (grid->GetNumberOfCells() == 0) return "holds no cells";
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) {
+    if (grid->GetNumberOfCells() == 0) return "holds no cells, not a volume";
     static constexpr int kFlat[] = {VTK_EMPTY_CELL,     VTK_VERTEX,         VTK_POLY_VERTEX,
                                     VTK_LINE,           VTK_POLY_LINE,      VTK_TRIANGLE,
                                     VTK_TRIANGLE_STRIP, VTK_POLYGON,        VTK_PIXEL,
@@ -327,6 +365,32 @@ std::string why_not_volume(vtkDataSet* data) {
   return "";
 }
 
+std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const std::string& kind,
+                                    const std::string& file, std::vector<std::string>* notes) {
+  std::vector<VtkBlock> volumes;
+  std::vector<VtkBlock> flats;
+  std::vector<std::string> left_out;
+  std::vector<std::string> flat_left_out;
+  std::string why = "holds no data";
+  for (const VtkBlock& block : leaves) {
+    if (const std::string reason = why_not_readable(block.data); !reason.empty()) {
+      why = kind + " '" + block.name + "' " + reason;
+      left_out.push_back(why + "; left out");
+    } else if (const std::string flat = why_not_volume(block.data); !flat.empty()) {
+      flats.push_back(block);
+      flat_left_out.push_back(kind + " '" + block.name + "' " + flat + "; left out");
+    } else {
+      volumes.push_back(block);
+    }
+  }
+  if (volumes.empty() && flats.empty()) throw input_error({file, "", why, "a " + kind + " of volume cells"});
+  if (notes != nullptr) {
+    notes->insert(notes->end(), left_out.begin(), left_out.end());
+    if (!volumes.empty()) notes->insert(notes->end(), flat_left_out.begin(), flat_left_out.end());
+  }
+  return volumes.empty() ? flats : volumes;
+}
+
 BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
   BlockInfo info;
   info.name = name;
@@ -337,8 +401,14 @@ BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
   if (vtkRectilinearGrid::SafeDownCast(data) != nullptr) info.grid = "rectilinear";
   if (vtkStructuredGrid::SafeDownCast(data) != nullptr) info.grid = "curvilinear";
   if (vtkUnstructuredGrid::SafeDownCast(data) != nullptr) info.grid = "unstructured";
+  if (vtkPolyData::SafeDownCast(data) != nullptr) info.grid = "polygonal";
+  info.not_volume = why_not_volume(data);
   double b[6];
-  data->GetBounds(b);
+  if (auto* points = vtkPointSet::SafeDownCast(data)) {
+    points->GetPoints()->GetBounds(b);
+  } else {
+    data->GetBounds(b);
+  }
   info.bounds.lower = {b[0], b[2], b[4]};
   info.bounds.upper = {b[1], b[3], b[5]};
   for_each_array(data, [&info](vtkDataArray* array, Association association, const std::string& array_name) {
@@ -371,8 +441,10 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
     block.topology = curvilinear(curved, file);
   } else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(kept)) {
     block.topology = unstructured(mesh, file);
+  } else if (auto* poly = vtkPolyData::SafeDownCast(kept)) {
+    block.topology = polygonal(poly, file);
   } else {
-    throw input_error({file, name, why_not_volume(kept)});
+    throw input_error({file, name, why_not_readable(kept)});
   }
   block.visible = visible_points(kept);
   for_each_array(kept, [&](vtkDataArray* array, Association association, const std::string& array_name) {

@@ -24,8 +24,19 @@ struct VtkBlock {
 /// where there are several.
 [[nodiscard]] std::vector<VtkBlock> leaves_of(vtkDataObject* object);
 
-/// Why `data` holds no volume to explore ("lines or surfaces (polygonal data)"), or empty.
+/// Why `data` cannot be used at all ("holds no points"), or empty.
+[[nodiscard]] std::string why_not_readable(vtkDataSet* data);
+
+/// Why readable `data` holds no volume to explore ("holds points, lines or surfaces …"), or empty.
 [[nodiscard]] std::string why_not_volume(vtkDataSet* data);
+
+/// The volumes among `leaves`; where there is none, all that is readable. What is left out goes to `notes`
+/// (unless null) with its reason.
+/// @param kind how the format calls a block ("part").
+/// @throws Error (bad input) with `file` where nothing is left.
+[[nodiscard]] std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves,
+                                                  const std::string& kind, const std::string& file,
+                                                  std::vector<std::string>* notes);
 
 /// What the block holds, its arrays included.
 [[nodiscard]] BlockInfo describe_block(vtkDataSet* data, const std::string& name);

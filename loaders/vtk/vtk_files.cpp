@@ -42,9 +42,18 @@ class VtkFiles : public Loader {
     if (steps_.size() > 1) {
       for (const FileStep& step : steps_) info.times.push_back(step.time);
     }
-    std::string why;
+    std::string why = "holds no data";
     for (const FilePiece& piece : steps_.front().pieces) describe(piece, info, why);
     if (info.blocks.empty()) throw input_error({request.files.front().string(), "", why, "a volume"});
+    has_volume_ = std::any_of(info.blocks.begin(), info.blocks.end(),
+                              [](const BlockInfo& block) { return block.not_volume.empty(); });
+    if (has_volume_) {
+      for (const BlockInfo& block : info.blocks) {
+        if (!block.not_volume.empty())
+          info.notes.push_back("block '" + block.name + "' " + block.not_volume + "; left out");
+      }
+      std::erase_if(info.blocks, [](const BlockInfo& block) { return !block.not_volume.empty(); });
+    }
     return info;
   }
 
@@ -61,7 +70,9 @@ class VtkFiles : public Loader {
       const std::string file = pieces[p].file.string();
       OpenFile& opened = open_file(file);
       for (const VtkBlock& block : leaves_of(opened.xml ? opened.xml->read(wanted) : opened.legacy.Get())) {
-        if (std::string reason = why_not_volume(block.data); !reason.empty()) {
+        std::string reason = why_not_readable(block.data);
+        if (reason.empty() && has_volume_) reason = why_not_volume(block.data);
+        if (!reason.empty()) {
           why = reason;
           continue;
         }
@@ -118,13 +129,13 @@ class VtkFiles : public Loader {
     return opened;
   }
 
-  /// Adds the blocks of one file to `info`; notes what is left out, and why.
+  /// Adds the blocks of one file to `info`; notes what cannot be read, and why.
   void describe(const FilePiece& piece, FileInfo& info, std::string& why) {
     const std::string file = piece.file.string();
     OpenFile& opened = open_file(file);
     for (const VtkBlock& block : leaves_of(opened.xml ? opened.xml->read({}) : opened.legacy.Get())) {
       const std::string name = name_of_block(piece, block);
-      if (std::string reason = why_not_volume(block.data); !reason.empty()) {
+      if (std::string reason = why_not_readable(block.data); !reason.empty()) {
         why = reason;
         info.notes.push_back(
             std::string("block '").append(name).append("' ").append(reason).append("; left out"));
@@ -152,6 +163,7 @@ class VtkFiles : public Loader {
 
   VtkErrors errors_;
   std::vector<FileStep> steps_;
+  bool has_volume_ = true;  ///< of the first step: then what is no volume is left out
   std::size_t open_step_ = 0;
   std::map<std::string, OpenFile> open_files_;
 };

@@ -1,4 +1,4 @@
-/// One VTK XML file (.vti .vtr .vts .vtu) through VTK's reader, with the arrays asked for and no others.
+/// One VTK XML file (.vti .vtr .vts .vtu .vtp) through VTK's reader, with the arrays asked for and no others.
 #pragma once
 
 #include <memory>

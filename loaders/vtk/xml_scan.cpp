@@ -126,7 +126,12 @@ void begin_piece(const XmlTag& tag, Context& context) {
         __builtin_add_overflow(context.cells_in_pieces, extent->cells, &sum) ? kHuge : sum;
   } else {
     context.points = count("NumberOfPoints");
-    context.cells = count("NumberOfCells");
+    context.cells = 0;
+    // Polygonal data counts its kinds of cells apart.
+    for (const char* kind :
+         {"NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"}) {
+      if (__builtin_add_overflow(context.cells, count(kind), &context.cells)) context.cells = kHuge;
+    }
   }
 }
 

@@ -111,7 +111,39 @@ TEST_F(Flow, CountsAndNamesSeedsOutside) {
   const Json object = json({"trace", "--example", "abc", "--seeds", "s.csv", "--out", "l.csv", "--force"});
   EXPECT_EQ(object["seeds"], 2);
   EXPECT_EQ(object["lines"], 1);
-  EXPECT_EQ(object["seeds_outside"][0]["seed"], 1);
+  EXPECT_EQ(object["seeds_outside"], 1);
+  EXPECT_EQ(object["first_outside"][0]["seed"], 1);
+  EXPECT_EQ(object["first_outside"][0]["position"][0], 99.0);
+  // However many there are, the object stays short.
+  const Json many = json({"trace", "--example", "abc", "--seeds", "line:1,1,1,99,0,0,500", "--out", "m.csv"});
+  EXPECT_GT(many["seeds_outside"], 400);
+  EXPECT_EQ(many["first_outside"].size(), 10U);
+}
+
+// Lines in a file are no volume: `info` describes them, nothing is traced in them, their points are seeds.
+TEST_F(Flow, DescribesLinesAndStartsFromTheirPointsButTracesNothingInThem) {
+  EXPECT_EQ(run({"trace", "--example", "abc", "--seeds", "grid:2,1,1", "--step", "1", "--max-length", "3",
+                 "--out", "l.vtp"})
+                .exit_code,
+            0);
+  const Json info = json({"info", "l.vtp"});
+  EXPECT_EQ(info["blocks"][0]["grid"], "polygonal");
+  EXPECT_EQ(info["blocks"][0]["cells"], 2);
+  EXPECT_FALSE(info["arrays"].empty());
+  EXPECT_FALSE(info["not_volume"].is_null());
+  const ProgramResult text = run({"info", "l.vtp", "--explain"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_NE(text.out.find("nothing to trace"), std::string::npos) << text.out;
+
+  for (const char* verb : {"trace", "render", "report"}) {
+    const ProgramResult refused = run(
+        {verb, "l.vtp", "--seeds", "random:3", "--out", std::string(verb) == "render" ? "r.png" : "r.vtp"});
+    EXPECT_EQ(refused.exit_code, 3) << verb;
+    EXPECT_NE(refused.err.find("not a volume"), std::string::npos) << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  }
+  const Json again = json({"trace", "--example", "abc", "--seeds", "l.vtp", "--out", "again.vtp"});
+  EXPECT_EQ(again["seeds"], info["blocks"][0]["points"]);
 }
 
 TEST_F(Flow, SaysWhyThereIsNoLineAndWritesNothing) {
@@ -329,7 +361,7 @@ TEST_F(Flow, GivesLinesWhoseEndsAddUpOnRealData) {
     if (c.solution) arguments.insert(arguments.end(), {"--solution", shared_data(c.solution).string()});
     const Json object = json(arguments);
     EXPECT_EQ(object["integrator"], c.integrator) << c.file;
-    const auto outside = object["seeds_outside"].size();
+    const auto outside = object["seeds_outside"].get<std::size_t>();
     EXPECT_EQ(object["lines"].get<std::size_t>(), 2 * (125 - outside)) << c.file;
     EXPECT_EQ(sum_of(object["ends"]), object["lines"].get<std::size_t>()) << c.file;
     EXPECT_EQ(object["ends"]["max_steps"], 0) << c.file;

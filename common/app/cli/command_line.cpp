@@ -166,7 +166,8 @@ class VerbParser {
     const char* group = "Lines";
     TracingOptions& tracing = options_.tracing;
     scene("--seeds", tracing.seeds,
-          "file.csv | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three corners as x,y,z) | "
+          "file.csv | file.vtp (its points) | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three "
+          "corners as x,y,z) | "
           "grid:nx,ny,nz | random:n | speed:n (random, denser where the speed is high)",
           "S", group);
     scene("--direction", tracing.direction, "which way from each seed", "forward|backward|both", group)

@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostSeedsNamed = 10;
+
 /// File names need not be UTF-8, JSON does.
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
 
@@ -78,13 +80,15 @@ std::string trace_json(const TraceSummary& summary) {
   }
   Json outside = Json::array();
   for (const std::uint32_t seed : result.outside_seeds) {
+    if (outside.size() == kMostSeedsNamed) break;
     outside.push_back({{"seed", seed}, {"position", vec_json(summary.seed_points[seed])}});
   }
   Json json{{"input", summary.input},
             {"field", summary.field},
             {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
             {"seeds", summary.seeds},
-            {"seeds_outside", outside},
+            {"seeds_outside", result.outside_seeds.size()},
+            {"first_outside", outside},
             {"lines", result.lines.size()},
             {"points", result.points},
             {"ends", ends},
@@ -118,6 +122,7 @@ std::string info_json(const InfoSummary& summary) {
     Json arrays = Json::array();
     for (const ArraySummary& array : summary.arrays) arrays.push_back(array_json(array));
     json["arrays"] = std::move(arrays);
+    json["not_volume"] = input.not_volume().empty() ? Json(nullptr) : Json(input.not_volume());
     Json fields = Json::array();
     for (const VectorChoice& choice : input.choices()) fields.push_back(choice.label);
     json["fields"] = std::move(fields);

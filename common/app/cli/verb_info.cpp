@@ -135,7 +135,9 @@ std::string summary_text(const InfoSummary& summary) {
     text += "  domain     " + position_text(summary.bounds.lower) + " to " +
             position_text(summary.bounds.upper) + "\n";
   }
-  if (summary.field.empty()) {
+  if (!input.not_volume().empty()) {
+    text += "  field      no volume cells: nothing to trace\n";
+  } else if (summary.field.empty()) {
     text += "  field      no vector field can be made from these arrays\n";
   } else {
     text += "  field      " + summary.field + ", speed up to " + short_number(summary.max_speed);
@@ -157,7 +159,7 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
   InfoSummary summary;
   summary.input = &input;
   const bool has_field = !input.file() || !input.choices().empty();
-  if (!options.input.field.empty() && input.file())
+  if (!options.input.field.empty() && input.file() && input.not_volume().empty())
     (void)input.choice();  // an unknown --field is refused first
   if (options.common.explain) {
     const bool field = has_field;

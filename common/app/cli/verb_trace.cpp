@@ -14,7 +14,7 @@ namespace palpate {
 namespace {
 
 constexpr double kDefaultDiagonals = 10.0;  // --max-length where it is not given (trace.h)
-constexpr std::size_t kMostSeedsNamed = 5;  // the JSON object names them all
+constexpr std::size_t kMostSeedsNamed = 5;
 
 std::string position_text(const Vec3& x) {
   return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";

@@ -1,6 +1,8 @@
 #include "common/scene/seeds.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -56,6 +58,30 @@ TEST(Seeds, NamesFileAndLineOfABadTable) {
   EXPECT_EQ(refusal(folder.write("e.csv", "").string()).front(), '3');
   EXPECT_EQ(refusal(folder.path("missing.csv").string()).front(), '3');
   EXPECT_EQ(refusal(folder.path().string()).front(), '3');  // a folder
+}
+
+TEST(Seeds, AreThePointsOfADataFile) {
+  const TempFolder folder;
+  // Big endian doubles; a point that is not finite is no seed.
+  std::string points;
+  for (const double x : {1.0, 2.0, 3.0, HUGE_VAL, 0.0, 0.0, -4.0, 5.5, 6.0}) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    for (int shift = 56; shift >= 0; shift -= 8) points += static_cast<char>(bits >> shift & 0xff);
+  }
+  EXPECT_EQ(list_of(folder
+                        .write("a.vtk",
+                               "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET POLYDATA\nPOINTS 3 double\n" +
+                                   points + "\n")
+                        .string()),
+            (std::vector<Vec3>{{1, 2, 3}, {-4, 5.5, 6}}));
+  EXPECT_EQ(list_of(folder
+                        .write("b.vtk",
+                               "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n"
+                               "DIMENSIONS 2 1 2\nORIGIN 1 2 3\nSPACING 0.5 1 4\nPOINT_DATA 4\n"
+                               "SCALARS s float\nLOOKUP_TABLE default\n1 2 3 4\n")
+                        .string()),
+            (std::vector<Vec3>{{1, 2, 3}, {1.5, 2, 3}, {1, 2, 7}, {1.5, 2, 7}}));
+  EXPECT_EQ(refusal(folder.write("c.vtp", "<VTKFile type=\"PolyData\"").string()).front(), '3');
 }
 
 TEST(Seeds, RefusesWhatIsNotInTheGrammarAndShowsIt) {
