@@ -1,0 +1,100 @@
+#include "common/base/csv_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+std::string_view trimmed(std::string_view text) noexcept {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t start = 0;;) {
+    const auto end = text.find(separator, start);
+    parts.push_back(text.substr(start, end - start));
+    if (end == std::string_view::npos) return parts;
+    start = end + 1;
+  }
+}
+
+/// A number that fills the whole text but for blanks around it; NaN and infinity are numbers too.
+std::optional<double> number(std::string_view text) noexcept {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// A name of a header: lower case, without quotes.
+std::string plain_name(std::string_view name) {
+  name = trimmed(name);
+  if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+  std::string plain(name);
+  std::transform(plain.begin(), plain.end(), plain.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return plain;
+}
+
+}  // namespace
+
+CsvReader::CsvReader(const std::string& file, std::span<const std::string_view> required,
+                     std::span<const std::string_view> optional, const std::string& what)
+    : lines_(file, what) {
+  if (!next_line()) throw input_error({file, "", "is empty", what, ""});
+  header_ = trimmed(lines_.line());
+  std::vector<std::string> header;
+  for (const auto field : split(header_, ',')) header.push_back(plain_name(field));
+  fields_ = header.size();
+  const auto find = [&](std::string_view name) {
+    const auto place = std::find(header.begin(), header.end(), name);
+    names_.emplace_back(name);
+    columns_.push_back(place == header.end() ? kMissing : static_cast<std::size_t>(place - header.begin()));
+    return place != header.end();
+  };
+  for (const auto name : required) {
+    if (!find(name)) refuse("has no column " + std::string(name), what);
+  }
+  for (const auto name : optional) (void)find(name);
+}
+
+bool CsvReader::next_line() {
+  while (lines_.next()) {
+    const auto line = trimmed(lines_.line());
+    if (!line.empty() && line.front() != '#') return true;
+  }
+  return false;
+}
+
+bool CsvReader::next(std::span<double> values) {
+  PALPATE_CHECK(values.size() == columns_.size());
+  if (!next_line()) return false;
+  const auto fields = split(lines_.line(), ',');
+  if (fields.size() != fields_) {
+    refuse("has " + counted(fields.size(), "field"),
+           std::to_string(fields_) + " as in the header " + header_);
+  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    values[i] = std::numeric_limits<double>::quiet_NaN();
+    if (columns_[i] == kMissing) continue;
+    const auto value = number(fields[columns_[i]]);
+    if (!value) refuse("no number in column " + names_[i], "a number");
+    values[i] = *value;
+  }
+  return true;
+}
+
+}  // namespace palpate
