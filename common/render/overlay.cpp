@@ -1,7 +1,10 @@
 #include "common/render/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 #include <string>
 
 #include <backends/imgui_impl_opengl3.h>
@@ -156,19 +159,25 @@ void draw_legend(const Pen& pen, const std::string& label, const std::vector<Leg
   }
 }
 
-void draw_color_bar(const Pen& pen, const SceneView& view, const ColorLegend& legend, float right,
-                    float middle, float length) {
-  const LineStyle& style = view.style;
-  const bool logarithmic = is_logarithmic(style);
+// A scale of colours with its numbers.
+struct ColorScale {
+  std::string label;
+  ColorMap map = ColorMap::kSequential;
+  ValueRange range;
+  bool logarithmic = false;
+  bool values_below = false, values_above = false;
+};
+
+void draw_color_bar(const Pen& pen, const ColorScale& scale, float right, float middle, float length) {
   const float em = pen.text_height(), thickness = 0.9F * em;
   const int most = std::clamp(static_cast<int>(length / (2.6F * em)), 2, 9);
-  const std::vector<Tick> marks = ticks(legend.range, logarithmic, most);
+  const std::vector<Tick> marks = ticks(scale.range, scale.logarithmic, most);
   float widest = 0.0F;
   for (const Tick& tick : marks) widest = std::max(widest, pen.size_of(tick.text).x);
 
   const float x1 = right - widest - 0.6F * em, x0 = x1 - thickness;
   const float top = middle - 0.5F * length, bottom = middle + 0.5F * length;
-  const auto& table = color_table(color_map_of(style));
+  const auto& table = color_table(scale.map);
   // One quad between entries, shaded by the rasteriser.
   for (std::size_t i = 0; i + 1 < table.size(); ++i) {
     const auto at = [&](std::size_t k) {
@@ -179,31 +188,30 @@ void draw_color_bar(const Pen& pen, const SceneView& view, const ColorLegend& le
   }
   // Tips where values lie beyond the range: they get the end's colour.
   const float tip = 0.7F * thickness;
-  if (legend.values_above) {
+  if (scale.values_above) {
     pen.list().AddTriangleFilled({x0, top}, {x1, top}, {0.5F * (x0 + x1), top - tip}, packed(table.back()));
   }
-  if (legend.values_below) {
+  if (scale.values_below) {
     pen.list().AddTriangleFilled({x0, bottom}, {x1, bottom}, {0.5F * (x0 + x1), bottom + tip},
                                  packed(table.front()));
   }
+  const ValueRange& range = scale.range;
   for (const Tick& tick : marks) {
     double t = 0.5;
-    if (legend.range.upper > legend.range.lower) {
-      t = logarithmic ? std::log10(tick.value / legend.range.lower) /
-                            std::log10(legend.range.upper / legend.range.lower)
-                      : (tick.value - legend.range.lower) / (legend.range.upper - legend.range.lower);
+    if (range.upper > range.lower) {
+      t = scale.logarithmic ? std::log10(tick.value / range.lower) / std::log10(range.upper / range.lower)
+                            : (tick.value - range.lower) / (range.upper - range.lower);
     }
     const float y = bottom - length * static_cast<float>(std::clamp(t, 0.0, 1.0));
     pen.list().AddLine({x1, y}, {x1 + 0.25F * em, y}, pen.ink(), std::max(1.0F, em / 16.0F));
     pen.text(x1 + 0.45F * em, y - 0.55F * em, tick.text, pen.ink());
   }
-  const std::string label = color_label(style, view.units);
-  pen.text(right, top - tip - 1.6F * em, label, pen.ink(), 1.0F);
+  pen.text(right, top - tip - 1.6F * em, scale.label, pen.ink(), 1.0F);
 }
 
-void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, int width, int height) {
-  const float em = pen.text_height();
-  const float right = static_cast<float>(width) - 1.2F * em, middle = 0.5F * static_cast<float>(height);
+// A column at the right border, `length` high about `middle`.
+void draw_line_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, float right,
+                      float middle, float length) {
   switch (view.style.color_by) {
     case ColorBy::kUniform:
       return;
@@ -226,7 +234,65 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
       return;
     }
     default:
-      draw_color_bar(pen, view, legend, right, middle, 0.46F * static_cast<float>(height));
+      draw_color_bar(pen,
+                     {.label = color_label(view.style, view.units),
+                      .map = color_map_of(view.style),
+                      .range = legend.range,
+                      .logarithmic = is_logarithmic(view.style),
+                      .values_below = legend.values_below,
+                      .values_above = legend.values_above},
+                     right, middle, length);
+  }
+}
+
+bool shows_path(const SceneView& view) { return view.probe && view.probe->path.count > 0; }
+
+void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, int width, int height) {
+  const float em = pen.text_height(), h = static_cast<float>(height);
+  const float right = static_cast<float>(width) - 1.2F * em;
+  if (!shows_path(view)) {
+    if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);
+    return;
+  }
+  // Two columns share the border: the lines' above, that of the forces below.
+  if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.31F * h, 0.30F * h);
+  draw_color_bar(pen,
+                 {.label = "force [N]",
+                  .map = view.probe->style.force_map,
+                  .range = force_range(*view.probe),
+                  .values_above = legend.forces_above},
+                 right, 0.74F * h, 0.26F * h);
+}
+
+// A place in the picture where words may stand: [pixels]; none behind the eye or far outside.
+std::optional<ImVec2> place_of(const SceneView& view, const Vec3& x, int width, int height) {
+  if (!is_finite(x)) return std::nullopt;
+  const Vec3 p = project(view.camera, x, width, height);
+  if (!(p.z > 0.0) && view.camera.projection == Projection::kPerspective) return std::nullopt;
+  if (!(p.x > 0.0 && p.x < width && p.y > 0.0 && p.y < height)) return std::nullopt;
+  return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y));
+}
+
+// Newtons beside the middle of the band, numbers at the first points of kept lines.
+void draw_probe_words(const Pen& pen, const SceneView& view, int width, int height) {
+  const ProbeView& probe = *view.probe;
+  const float em = pen.text_height();
+  if (probe.kept) {
+    for (const KeptLine& kept : *probe.kept) {
+      if (!kept.line || kept.line->points.empty()) continue;
+      const auto at = place_of(view, kept.line->points.front().position, width, height);
+      if (!at) continue;
+      pen.text(at->x + 0.5F * em, at->y - 1.2F * em, std::to_string(kept.number),
+               packed(kept.color.value_or(kept_color(kept.number))));
+    }
+  }
+  const bool pulled =
+      probe.show_force && probe.force > 0.0 && std::isfinite(probe.force) && probe.force_cap > 0.0;
+  if (!pulled) return;
+  if (const auto at = place_of(view, 0.5 * (probe.probe + probe.proxy), width, height)) {
+    std::array<char, 32> text{};
+    (void)std::snprintf(text.data(), text.size(), "%.2f N", probe.force);
+    pen.text(at->x + 1.2F * em, at->y + 0.4F * em, text.data(), pen.ink());
   }
 }
 
@@ -262,7 +328,6 @@ float overlay_text_height(int width, int height) noexcept {
 }
 
 void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, int height) {
-  const bool has_lines = view.lines && !view.lines->empty();
   const ContextScope scope(state_->context);
   ImGuiIO& io = ImGui::GetIO();
   const float text_height = overlay_text_height(width, height);
@@ -282,7 +347,8 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   const Pen pen(*ImGui::GetBackgroundDrawList(), text_height, view.background);
   draw_title(pen, view);
   if (view.show_axes) draw_axes(pen, view, height);
-  if (view.show_color_bar && has_lines) draw_colors(pen, view, legend, width, height);
+  if (view.probe) draw_probe_words(pen, view, width, height);
+  if (view.show_color_bar) draw_colors(pen, view, legend, width, height);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

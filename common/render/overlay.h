@@ -1,4 +1,5 @@
-/// What lies flat over the picture: title, colour bar or legend, axes. Drawn with Dear ImGui's draw list
+/// What lies flat over the picture: title, colour bars or legend, axes, newtons at the band, numbers of kept
+/// lines. Drawn with Dear ImGui's draw list
 /// in a context of its own, so that the window and a picture without a display get the same pixels.
 #pragma once
 
@@ -16,6 +17,8 @@ struct ColorLegend {
   bool values_below = false;  ///< some lie below the range
   bool values_above = false;
   std::array<std::size_t, kEndCount> ends{};  ///< lines by end reason
+  bool has_lines = false;                     ///< coloured ones are shown, the followed one among them
+  bool forces_above = false;                  ///< some along the path lie above its range
 };
 
 /// Needs the OpenGL context current in which it was made.

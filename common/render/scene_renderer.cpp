@@ -11,10 +11,12 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
+#include "common/render/glyph/probe_pass.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_pass.h"
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
+#include "common/render/palette.h"
 
 namespace palpate {
 namespace {
@@ -25,29 +27,6 @@ struct FrameBlock {
   glm::vec4 eye{0.0F}, right{0.0F}, up{0.0F}, back{0.0F}, size{0.0F}, depth_cue{0.0F};
   glm::vec4 background_top{0.0F}, background_bottom{0.0F};
 };
-
-struct Palette {
-  Rgb top, bottom, outline, plain_line;
-  float highlight;  // added at most, linear light: a light background swallows bright highlights
-  float fading;     // share of the background that the farthest lines take on
-};
-
-Palette palette(Background background) {
-  if (background == Background::kDark) {
-    return {{0.125F, 0.135F, 0.150F},
-            {0.055F, 0.060F, 0.068F},
-            {0.40F, 0.43F, 0.47F},
-            {0.80F, 0.83F, 0.88F},
-            0.42F,
-            0.52F};
-  }
-  return {{1.0F, 1.0F, 1.0F},
-          {0.955F, 0.960F, 0.968F},
-          {0.62F, 0.65F, 0.69F},
-          {0.32F, 0.36F, 0.42F},
-          0.10F,
-          0.55F};
-}
 
 std::vector<std::vector<Vec3>> box_edges(const Box& box) {
   if (box.empty()) return {};
@@ -97,6 +76,38 @@ double line_tolerance(const ViewTransform& view, bool perspective, double pixel)
 
 bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
 
+// Whether what stays while the probe moves is the same picture.
+bool same_still_part(const SceneView& a, const SceneView& b) {
+  const PathView& p = a.probe->path;
+  const PathView& q = b.probe->path;
+  return a.lines == b.lines && a.style == b.style && a.camera == b.camera && same_box(a.bounds, b.bounds) &&
+         a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
+         p.points == q.points && a.probe->style == b.probe->style;
+}
+
+bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0; }
+
+// The range of a followed line's values where no other lines set one.
+ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
+  if (style.range) return *style.range;
+  std::vector<double> values;
+  for (const double v : line.values) {
+    if (std::isfinite(v) && (!is_logarithmic(style) || v > 0.0)) values.push_back(v);
+  }
+  if (values.empty()) return {};
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, *most};
+}
+
+bool has_colored_lines(const SceneView& view) {
+  if (view.lines && !view.lines->empty()) return true;
+  return view.probe && view.probe->followed && !view.probe->followed->values.empty();
+}
+
+bool has_overlay(const SceneView& view) {
+  return !view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar || view.probe;
+}
+
 }  // namespace
 
 struct SceneRenderer::State {
@@ -105,6 +116,7 @@ struct SceneRenderer::State {
   GlVertexArray no_vertices = make_vertex_array();
   LineProgram line_program;
   LineSet lines, outline;
+  std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<Overlay> overlay;
   Stopwatch since_draw;
 
@@ -116,6 +128,10 @@ struct SceneRenderer::State {
   std::optional<LineStyle> shown_style;
   SceneFrame frame;
   ColorLegend legend;
+
+  // What the kept framebuffer shows; none where it is out of date.
+  std::optional<SceneView> kept;
+  std::size_t kept_path = 0;  // the path is drawn there up to this point
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -131,6 +147,7 @@ struct SceneRenderer::State {
     shown_bounds = view.bounds;
     shown_outline = view.outline;
     shown_style.reset();
+    kept.reset();
     filled = true;
   }
 
@@ -148,6 +165,77 @@ struct SceneRenderer::State {
       lines.set_values(map_coordinates(values, view.style, legend.range));
     }
     shown_style = view.style;
+    kept.reset();
+  }
+
+  // @return whether the path is another one.
+  bool update_probe(const SceneView& view) {
+    if (!probe) probe = std::make_unique<ProbePass>();
+    // Without lines in the scene, the followed one alone says how far the colours spread.
+    const bool alone = !view.lines || view.lines->empty();
+    if (alone && view.probe->followed) legend.range = range_alone(*view.probe->followed, view.style);
+    const bool other_path = probe->update(view, frame, legend.range);
+    legend.forces_above = probe->forces_above();
+    return other_path;
+  }
+
+  void draw_background() {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    if (!background) background = compile_program("background/background.vert", "background/background.frag");
+    glUseProgram(background.name());
+    glBindVertexArray(no_vertices.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void draw_lines(const SceneView& view, const LineDraw& base, float unit) {
+    line_program.use(color_map_of(view.style));
+    LineDraw how = base;
+    how.coloring = view.style.color_by == ColorBy::kDirection ? LineDraw::Coloring::kDirection
+                   : view.style.color_by == ColorBy::kUniform ? LineDraw::Coloring::kOneColor
+                                                              : LineDraw::Coloring::kMap;
+    how.color = palette_of(view.background).plain_line;
+    how.width = static_cast<float>(view.style.width) * unit;
+    how.min_width = 1.0F;
+    // Half the line's width, but never thinner than the eye sees nor so wide that it eats neighbours.
+    how.halo_width = view.style.halo ? std::clamp(0.5F * how.width, 1.0F, 3.0F * unit + 1.0F) : 0.0F;
+    how.opacity = static_cast<float>(std::clamp(view.style.opacity, 0.0, 1.0));
+    lines.draw(how);
+  }
+
+  // All that stays as it is while the probe moves, into the framebuffer that is bound. Transparent lines
+  // are not part of it: they mix with what lies behind them, which may be the probe.
+  void draw_still_part(const SceneView& view, const LineDraw& base, float unit) {
+    glDepthMask(GL_TRUE);
+    glClearDepth(1.0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw_background();
+    if (view.show_outline) {
+      line_program.use(color_map_of(view.style));
+      LineDraw how = base;
+      how.coloring = LineDraw::Coloring::kUnlit;
+      how.color = palette_of(view.background).outline;
+      how.min_width = how.width = std::max(1.0F, 1.3F * unit);
+      outline.draw(how);
+    }
+    if (!is_transparent(view)) draw_lines(view, base, unit);
+  }
+
+  // With a probe, what stays is drawn once and kept; each picture begins with a copy of it. The path is
+  // added to it bit by bit. The order is that of drawing everything, so the picture is the same.
+  void draw_with_probe(const SceneView& view, const LineDraw& base, float unit) {
+    const bool other_path = update_probe(view);
+    target.bind_kept();
+    if (other_path || !kept || !same_still_part(*kept, view)) {
+      draw_still_part(view, base, unit);
+      kept = view;
+      kept_path = 0;
+    }
+    kept_path = probe->draw_settled_path(line_program, view, unit, kept_path);
+    target.copy_kept_to_scene();
+    target.bind_scene();
+    probe->draw_path_end(line_program, view, unit);
+    probe->draw(line_program, view, base, unit);
   }
 };
 
@@ -157,13 +245,13 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution) {
   State& s = *state_;
   s.since_draw.restart();
-  s.target.resize(width, height, resolution);
+  if (s.target.resize(width, height, resolution)) s.kept.reset();
   s.update_geometry(view);
   s.update_colors(view);
 
   const double aspect = static_cast<double>(width) / height;
   const ViewTransform transform = view_transform(view.camera, s.frame, s.reach, aspect);
-  const Palette colors = palette(view.background);
+  const Palette& colors = palette_of(view.background);
   const bool perspective = view.camera.projection == Projection::kPerspective;
   // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
   const int scene_height = s.target.scene_height();
@@ -182,50 +270,29 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
 
-  s.target.bind_scene();
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glEnable(GL_MULTISAMPLE);
-  glDepthMask(GL_TRUE);
-  glClearDepth(1.0);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
-  if (!s.background)
-    s.background = compile_program("background/background.vert", "background/background.frag");
-  glUseProgram(s.background.name());
-  glBindVertexArray(s.no_vertices.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-
-  s.line_program.use(color_map_of(view.style));
   const float unit = static_cast<float>(scene_height) / 1000.0F;
-  LineDraw how;
-  how.tolerance = line_tolerance(transform, perspective, pixel);
-  how.back = Vec3f(view.camera.axes[2]);
-  if (view.show_outline) {
-    how.coloring = LineDraw::Coloring::kUnlit;
-    how.color = colors.outline;
-    how.min_width = how.width = std::max(1.0F, 1.3F * unit);
-    s.outline.draw(how);
+  LineDraw base;
+  base.tolerance = line_tolerance(transform, perspective, pixel);
+  base.back = Vec3f(view.camera.axes[2]);
+  if (view.probe) {
+    s.draw_with_probe(view, base, unit);
+  } else {
+    s.target.bind_scene();
+    s.draw_still_part(view, base, unit);
   }
-  how.coloring = view.style.color_by == ColorBy::kDirection ? LineDraw::Coloring::kDirection
-                 : view.style.color_by == ColorBy::kUniform ? LineDraw::Coloring::kOneColor
-                                                            : LineDraw::Coloring::kMap;
-  how.color = colors.plain_line;
-  how.width = static_cast<float>(view.style.width) * unit;
-  how.min_width = 1.0F;
-  // Half the line's width, but never thinner than the eye sees nor so wide that it eats neighbours.
-  how.halo_width = view.style.halo ? std::clamp(0.5F * how.width, 1.0F, 3.0F * unit + 1.0F) : 0.0F;
-  how.opacity = static_cast<float>(std::clamp(view.style.opacity, 0.0, 1.0));
-  s.lines.draw(how);
+  if (is_transparent(view)) s.draw_lines(view, base, unit);
 
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
   glUseProgram(0);
   s.target.resolve();
   s.target.bind_resolved();
-  if (!view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar) {
+  if (has_overlay(view)) {
+    s.legend.has_lines = has_colored_lines(view);
     if (!s.overlay) s.overlay = std::make_unique<Overlay>();
     s.overlay->draw(view, s.legend, width, height);
   }

@@ -2,11 +2,14 @@
 // Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width.
 #include "include/frame.glsl"
 #include "include/color.glsl"
+#include "include/shade.glsl"
 #include "include/line_light.glsl"
 
 layout(location = 3) uniform bool has_values;
 layout(location = 4) uniform int coloring;       // 0 colour map, 1 direction, 2 one colour, 3 one colour without light
 layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for colouring 2 and 3
+layout(location = 6) uniform float fading;       // share of the depth cue
+layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
 layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
 
 in Vertex {
@@ -38,29 +41,23 @@ void main() {
   vec3 srgb = base_color(t);
 
   if (coloring != 3) {
-    const float kAmbient = 0.20, kDiffuse = 0.92;
     const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
-    const float kShininess = 48.0;
-    vec3 light = normalize(frame.back.xyz + 0.55 * frame.up.xyz - 0.45 * frame.right.xyz);
-    vec2 shine = line_light(t, light, normalize(vertex.view));
+    vec2 shine = line_light(t, light_direction(), normalize(vertex.view));
     // Towards its edges a round line turns away from the eye.
     float facing = sqrt(max(0.0, 1.0 - u * u));
     float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
-    float specular = pow(shine.y, kShininess) * facing;
-    // Highlights keep some of the line's hue, or they would take its colour's meaning away.
-    vec3 linear = decode_srgb(srgb);
-    vec3 gloss = mix(vec3(1.0), linear / max(max(linear.r, max(linear.g, linear.b)), 1e-3), 0.5);
-    srgb = encode_srgb(linear * (kAmbient + kDiffuse * diffuse) + gloss * (frame.depth_cue.w * specular));
+    srgb = shade(srgb, diffuse, pow(shine.y, kShininess) * facing);
   }
 
   // Depth cue: farther lines take on the background.
-  float far = clamp((vertex.depth - frame.depth_cue.x) / max(frame.depth_cue.y - frame.depth_cue.x, 1e-6), 0.0, 1.0);
-  srgb = mix(srgb, background, frame.depth_cue.z * far);
+  float far = fading * fading_at(vertex.depth);
+  srgb = mix(srgb, background, far);
+  vec3 rim = mix(background, mix(halo_color.rgb, background, far), halo_color.a);
 
   // Halo beyond the edge; the border between the two is smoothed over one pixel.
   float soft = 0.5 * fwidth(vertex.across);
   float halo = vertex.outer > 1.0 ? smoothstep(1.0 - soft, 1.0 + soft, u) : 0.0;
-  color = vec4(mix(srgb, background, halo), line_color.a);
+  color = vec4(mix(srgb, rim, halo), line_color.a);
   float sink = vertex.outer > 1.0 ? clamp((u - 1.0) / (vertex.outer - 1.0), 0.0, 1.0) : 0.0;
   gl_FragDepth = mix(gl_FragCoord.z, max(halo_z, gl_FragCoord.z), sink);
 }

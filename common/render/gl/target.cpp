@@ -41,12 +41,12 @@ GlFramebuffer make_framebuffer(const GlRenderbuffer& color, const GlRenderbuffer
 
 }  // namespace
 
-void RenderTarget::resize(int width, int height, double resolution) {
+bool RenderTarget::resize(int width, int height, double resolution) {
   PALPATE_CHECK(resolution > 0.0 && resolution <= 1.0);
   const int scene_width = std::max(1, static_cast<int>(std::lround(resolution * width)));
   const int scene_height = std::max(1, static_cast<int>(std::lround(resolution * height)));
   if (width == width_ && height == height_ && scene_width == scene_width_ && scene_height == scene_height_)
-    return;
+    return false;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (width < 1 || height < 1 || width > largest || height > largest) {
@@ -64,11 +64,35 @@ void RenderTarget::resize(int width, int height, double resolution) {
   height_ = height;
   scene_width_ = scene_width;
   scene_height_ = scene_height;
+  kept_.reset();
+  kept_color_.reset();
+  kept_depth_.reset();
+  return true;
 }
 
 void RenderTarget::bind_scene() {
   glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
   glViewport(0, 0, scene_width_, scene_height_);
+}
+
+void RenderTarget::bind_kept() {
+  if (!kept_) {
+    kept_color_ = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
+    kept_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
+    kept_ = make_framebuffer(kept_color_, kept_depth_);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, kept_.name());
+  glViewport(0, 0, scene_width_, scene_height_);
+}
+
+void RenderTarget::copy_kept_to_scene() {
+  // Not a blit: software rasterisers take that sample by sample through a shader.
+  const auto copy = [this](const GlRenderbuffer& from, const GlRenderbuffer& to) {
+    glCopyImageSubData(from.name(), GL_RENDERBUFFER, 0, 0, 0, 0, to.name(), GL_RENDERBUFFER, 0, 0, 0, 0,
+                       scene_width_, scene_height_, 1);
+  };
+  copy(kept_color_, scene_color_);
+  copy(kept_depth_, scene_depth_);
 }
 
 void RenderTarget::resolve() {

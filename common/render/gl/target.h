@@ -14,9 +14,13 @@ class RenderTarget {
   /// Makes framebuffers of this size (both > 0), unless they are there already. The multisampled one has
   /// `resolution` in (0, 1] as many pixels along either edge.
   /// @throws Error (usage) where the driver cannot draw that large.
-  void resize(int width, int height, double resolution);
+  /// @return whether they were made anew, with nothing in them.
+  bool resize(int width, int height, double resolution);
 
-  void bind_scene();                 ///< draw into the multisampled framebuffer, with depth
+  void bind_scene();  ///< draw into the multisampled framebuffer, with depth
+  /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
+  void bind_kept();
+  void copy_kept_to_scene();         ///< colours and depths, sample by sample
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
   [[nodiscard]] Image read() const;  ///< of the plain one
@@ -31,7 +35,8 @@ class RenderTarget {
   int width_ = 0, height_ = 0;
   int scene_width_ = 0, scene_height_ = 0;
   GlRenderbuffer scene_color_, scene_depth_, averaged_color_, resolved_color_;
-  GlFramebuffer scene_, resolved_;
+  GlRenderbuffer kept_color_, kept_depth_;
+  GlFramebuffer scene_, resolved_, kept_;
   GlFramebuffer averaged_;  // between the two where their sizes differ
 };
 

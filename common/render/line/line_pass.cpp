@@ -15,9 +15,11 @@ enum Uniform : GLint {
   kMinWidth = 2,
   kHasValues = 3,
   kColoring = 4,
-  kLineColor = 5
+  kLineColor = 5,
+  kFading = 6,
+  kHaloColor = 7
 };
-constexpr GLuint kPointsBinding = 0, kValuesBinding = 1, kTableUnit = 0;
+constexpr GLuint kTableUnit = 0;
 
 GlTexture make_table_texture(ColorMap map) {
   GLuint name = 0;
@@ -35,6 +37,38 @@ GlTexture make_table_texture(ColorMap map) {
 }
 
 }  // namespace
+
+namespace detail {
+
+void begin_lines(const LineDraw& how, bool has_values) {
+  const bool transparent = how.opacity < 1.0F;
+  const Rgb rim = how.halo_color.value_or(Rgb{0.0F});
+  glUniform1f(kWidth, how.width);
+  glUniform1f(kHaloWidth, transparent ? 0.0F : how.halo_width);
+  glUniform1f(kMinWidth, how.min_width);
+  glUniform1i(kHasValues, has_values ? 1 : 0);
+  glUniform1i(kColoring, static_cast<GLint>(how.coloring));
+  glUniform4f(kLineColor, how.color.r, how.color.g, how.color.b, how.opacity);
+  glUniform1f(kFading, how.fading);
+  glUniform4f(kHaloColor, rim.r, rim.g, rim.b, how.halo_color ? 1.0F : 0.0F);
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(transparent ? GL_FALSE : GL_TRUE);
+  if (transparent) {
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    glDisable(GL_BLEND);
+  }
+}
+
+void end_lines() {
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace detail
 
 void LineProgram::use(ColorMap map) {
   if (!program_) program_ = compile_program("line/line.vert", "line/line.frag");
@@ -87,28 +121,12 @@ void LineSet::draw(const LineDraw& how) {
   const bool transparent = how.opacity < 1.0F;
   arrange({how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 
-  glUniform1f(kWidth, how.width);
-  glUniform1f(kHaloWidth, transparent ? 0.0F : how.halo_width);
-  glUniform1f(kMinWidth, how.min_width);
-  glUniform1i(kHasValues, coordinates_.empty() ? 0 : 1);
-  glUniform1i(kColoring, static_cast<GLint>(how.coloring));
-  glUniform4f(kLineColor, how.color.r, how.color.g, how.color.b, how.opacity);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPointsBinding, points_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kValuesBinding, values_.name());
+  detail::begin_lines(how, !coordinates_.empty());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, detail::kLinePoints, points_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, detail::kLineValues, values_.name());
   glBindVertexArray(vertex_array_.name());
-
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDepthMask(transparent ? GL_FALSE : GL_TRUE);
-  if (transparent) {
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  } else {
-    glDisable(GL_BLEND);
-  }
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corner_count_), GL_UNSIGNED_INT, nullptr);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
+  detail::end_lines();
 }
 
 }  // namespace palpate

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,14 +17,25 @@ namespace palpate {
 struct LineDraw {
   enum class Coloring : int { kMap = 0, kDirection = 1, kOneColor = 2, kUnlit = 3 };
   Coloring coloring = Coloring::kMap;
-  Rgb color{1.0F};          ///< for kOneColor and kUnlit
-  float width = 3.0F;       ///< [pixels] at the focal point
-  float min_width = 1.0F;   ///< [pixels] anywhere
-  float halo_width = 0.0F;  ///< [pixels] beyond either edge; 0: none
+  Rgb color{1.0F};                ///< for kOneColor and kUnlit
+  float width = 3.0F;             ///< [pixels] at the focal point
+  float min_width = 1.0F;         ///< [pixels] anywhere
+  float halo_width = 0.0F;        ///< [pixels] beyond either edge; 0: none
+  std::optional<Rgb> halo_color;  ///< where absent, the background's: a gap around nearer lines
+  float fading = 1.0F;            ///< share of the depth cue
   float opacity = 1.0F;
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
 };
+
+namespace detail {
+/// Sets the line program's uniforms and the state for opaque or transparent lines; the caller draws its
+/// triangles and then calls end_lines().
+void begin_lines(const LineDraw& how, bool has_values);
+void end_lines();
+// Bindings of shaders/line/line.vert.
+inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1;
+}  // namespace detail
 
 /// The compiled program and its colour tables, shared by all sets of lines. Needs the frame's uniform
 /// block bound to 0.

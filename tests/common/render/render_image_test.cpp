@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
+#include "tests/common/render/sample_probe.h"
 #include "tests/common/render/sample_scenes.h"
 
 namespace palpate {
@@ -334,6 +335,12 @@ TEST(Look, AtWhatUsersSee) {
   view.style.color_by = ColorBy::kDirection;
   view.style.width = 8.0;
   test::keep_picture(render_image(view, 640, 400).image, "direction");
+
+  view.style = {};
+  view.probe = test::sample_probe(view);
+  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_dark");
+  view.background = Background::kLight;
+  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_light");
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+/// Draws arrows and, without heads, tubes: one mesh, instanced (arrow_mesh.h, shaders/glyph/arrow.*).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "common/math/vec.h"
+#include "common/render/color_map.h"
+#include "common/render/gl/object.h"
+
+namespace palpate {
+
+/// One arrow from `origin` along the unit vector `axis`, as laid out in the shader's buffer. Scene frame.
+struct ArrowInstance {
+  Vec3f origin{0.0F};
+  float shaft_radius = 0.0F;
+  Vec3f axis{0.0F, 0.0F, 1.0F};
+  float shaft_length = 0.0F;
+  float head_radius = 0.0F;  ///< zero, as the head's length, for a tube
+  float head_length = 0.0F;
+  float padding0 = 0.0F, padding1 = 0.0F;
+  Rgb color{1.0F};
+  float padding2 = 0.0F;
+};
+
+class ArrowPass {
+ public:
+  /// @pre The frame's uniform block is bound to 0.
+  void draw(std::span<const ArrowInstance> arrows);
+
+ private:
+  GlProgram program_;  // compiled at the first use
+  GlVertexArray vertex_array_;
+  GlBuffer mesh_;
+  std::size_t corner_count_ = 0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,31 @@
+/// The spheres and arrows that stand for a ProbeView: pure arithmetic, no OpenGL.
+#pragma once
+
+#include <vector>
+
+#include "common/render/camera.h"
+#include "common/render/glyph/arrow_pass.h"
+#include "common/render/glyph/sphere_pass.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+struct ProbeGlyphs {
+  std::vector<SphereInstance> spheres;
+  std::vector<ArrowInstance> arrows;
+};
+
+/// With s a thousandth of the picture's height at the focal point, d = |proxy - probe| / s the stretch,
+/// w and r ProbeStyle::band_width and band_rest, and l ProbeStyle::arrow_length:
+///   width of the band     w s / sqrt(1 + d / r)      an elastic band keeps its volume
+///   length of the arrow   l s min(|v| / v_ref, 3)
+/// What is not finite is left out.
+/// @param range of the colours of the followed line's balls.
+/// @pre view.probe.
+[[nodiscard]] ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame,
+                                            const ValueRange& range);
+
+/// Whether the followed line and its balls are coloured by their values through the scene's map.
+[[nodiscard]] bool colored_by_value(const LineStyle& style) noexcept;
+
+}  // namespace palpate

@@ -1,0 +1,158 @@
+#include "common/render/glyph/probe_pass.h"
+
+#include <algorithm>
+#include <span>
+
+#include <epoxy/gl.h>
+
+#include "common/render/line/line_geometry.h"
+#include "common/render/line/line_values.h"
+#include "common/render/palette.h"
+
+namespace palpate {
+namespace {
+
+bool same_frame(const SceneFrame& a, const SceneFrame& b) {
+  return a.center == b.center && a.exponent == b.exponent;
+}
+
+// Halos as wide as half the line, but never thinner than the eye sees nor so wide that they eat neighbours.
+float halo_of(float width, float unit) { return std::clamp(0.5F * width, 1.0F, 3.0F * unit + 1.0F); }
+
+// What lies before the nearest or behind the farthest clip plane is drawn at that plane's depth: the
+// probe may leave the box that the picture was fitted to.
+class DepthClamp {
+ public:
+  DepthClamp() { glEnable(GL_DEPTH_CLAMP); }
+  ~DepthClamp() { glDisable(GL_DEPTH_CLAMP); }
+  DepthClamp(const DepthClamp&) = delete;
+  DepthClamp& operator=(const DepthClamp&) = delete;
+};
+
+LineDraw::Coloring coloring_of(const LineStyle& style, bool has_values) {
+  if (style.color_by == ColorBy::kDirection) return LineDraw::Coloring::kDirection;
+  if (style.color_by == ColorBy::kUniform || !has_values) return LineDraw::Coloring::kOneColor;
+  return LineDraw::Coloring::kMap;
+}
+
+}  // namespace
+
+bool ProbePass::update(const SceneView& view, const SceneFrame& frame, const ValueRange& range) {
+  const ProbeView& probe = *view.probe;
+  const bool other_frame = !same_frame(frame, frame_);
+  const bool other_colors = range != range_ || style_ != view.style;
+  if (probe.followed != shown_followed_ || other_frame || other_colors) upload_followed(view, frame, range);
+  if (probe.seeds != shown_seeds_ || other_frame || other_colors) upload_seeds(view, frame, range);
+  if (probe.kept != shown_kept_ || other_frame) upload_kept(view, frame);
+  frame_ = frame;
+  range_ = range;
+  style_ = view.style;
+  glyphs_ = make_probe_glyphs(view, frame, range);
+  return trail_.extend(probe.path.points, probe.path.count, frame, force_range(probe));
+}
+
+void ProbePass::upload_followed(const SceneView& view, const SceneFrame& frame, const ValueRange& range) {
+  shown_followed_ = view.probe->followed;
+  followed_has_values_ = false;
+  if (!shown_followed_) return;
+  const FollowedLine& line = *shown_followed_;
+  followed_.set_geometry(make_line_geometry({line.points}, frame));
+  followed_has_values_ = line.values.size() == line.points.size() && colored_by_value(view.style);
+  if (followed_has_values_) followed_.set_values(map_coordinates(line.values, view.style, range));
+}
+
+void ProbePass::upload_seeds(const SceneView& view, const SceneFrame& frame, const ValueRange& range) {
+  shown_seeds_ = view.probe->seeds;
+  if (!shown_seeds_ || !shown_seeds_->lines) return;
+  const LineStyle& style = shown_seeds_->style;
+  const std::vector<Line>& lines = *shown_seeds_->lines;
+  const bool like_scene =
+      !style.range && style.color_by == view.style.color_by && view.lines && !view.lines->empty();
+  const ValueRange own = like_scene ? range : value_range(lines, style);
+  seeds_.set_geometry(make_line_geometry(lines, frame));
+  seeds_.set_values(map_coordinates(line_values(lines, style), style, own));
+}
+
+void ProbePass::upload_kept(const SceneView& view, const SceneFrame& frame) {
+  shown_kept_ = view.probe->kept;
+  kept_.clear();
+  if (!shown_kept_) return;
+  for (const KeptLine& kept : *shown_kept_) {
+    kept_.emplace_back();
+    kept_.back().set_geometry(kept.line ? make_line_geometry({*kept.line}, frame) : LineGeometry{});
+  }
+}
+
+void ProbePass::draw_path(LineProgram& program, const SceneView& view, float unit, std::size_t first,
+                          std::size_t last) const {
+  const DepthClamp clamp;
+  program.use(view.probe->style.force_map);
+  LineDraw how;
+  how.width = static_cast<float>(view.probe->style.path_width) * unit;
+  how.halo_width = halo_of(how.width, unit);
+  how.fading = 0.0F;
+  trail_.draw(how, first, last);
+}
+
+std::size_t ProbePass::draw_settled_path(LineProgram& program, const SceneView& view, float unit,
+                                         std::size_t first) const {
+  const std::size_t last = std::max<std::size_t>(trail_.settled(), 1) - 1;
+  draw_path(program, view, unit, first, last);
+  return std::max(first, last);
+}
+
+void ProbePass::draw_path_end(LineProgram& program, const SceneView& view, float unit) const {
+  if (trail_.size() < 2) return;
+  draw_path(program, view, unit, trail_.size() - 2, trail_.size() - 1);
+}
+
+void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw& base, float unit) {
+  const ProbeView& probe = *view.probe;
+  const Palette& colors = palette_of(view.background);
+  const DepthClamp clamp;
+  LineDraw how = base;
+  how.fading = 0.0F;
+  how.min_width = 1.0F;
+  const auto set_width = [&](double thousandths) {
+    how.width = static_cast<float>(thousandths) * unit;
+    how.halo_width = halo_of(how.width, unit);
+  };
+
+  // Kept lines, then the followed one: both opaque.
+  how.opacity = 1.0F;
+  set_width(probe.style.kept_width);
+  how.coloring = LineDraw::Coloring::kOneColor;
+  program.use(ColorMap::kSequential);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const KeptLine& kept = (*shown_kept_)[i];
+    how.color = kept.color.value_or(kept_color(kept.number));
+    kept_[i].draw(how);
+  }
+  if (shown_followed_) {
+    program.use(color_map_of(view.style));
+    set_width(probe.style.followed_width);
+    how.coloring = coloring_of(view.style, followed_has_values_);
+    how.color = colors.plain_line;
+    how.halo_color = colors.ink;
+    how.halo_width = std::max(1.0F, 1.6F * unit);
+    followed_.draw(how);
+    how.halo_color.reset();
+  }
+
+  arrow_pass_.draw(glyphs_.arrows);
+  sphere_pass_.draw(glyphs_.spheres, std::max(1.0F, 1.2F * unit));
+
+  // Lines of the local seeds may be transparent: they come last.
+  if (shown_seeds_ && shown_seeds_->lines) {
+    const LineStyle& style = shown_seeds_->style;
+    program.use(color_map_of(style));
+    set_width(style.width);
+    if (!style.halo) how.halo_width = 0.0F;
+    how.coloring = coloring_of(style, true);
+    how.color = colors.plain_line;
+    how.opacity = static_cast<float>(std::clamp(style.opacity, 0.0, 1.0));
+    seeds_.draw(how);
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,67 @@
+/// Draws a ProbeView: its lines with the line program, its path with an append buffer, and its glyphs.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/render/camera.h"
+#include "common/render/glyph/arrow_pass.h"
+#include "common/render/glyph/probe_glyphs.h"
+#include "common/render/glyph/sphere_pass.h"
+#include "common/render/line/line_pass.h"
+#include "common/render/line/line_trail.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// Needs the context current in which it was made, and the frame's uniform block bound to 0.
+class ProbePass {
+ public:
+  /// Uploads what has changed.
+  /// @param range of the colours of the scene's lines.
+  /// @pre view.probe.
+  /// @return whether the path is another one, and not only longer.
+  bool update(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
+
+  /// Whether some force along the path lies above its range.
+  [[nodiscard]] bool forces_above() const noexcept { return trail_.above_range(); }
+
+  /// Draws the path from point `first` on as far as it stays as it is while it grows.
+  /// @param unit pixels in a thousandth of the picture's height.
+  /// @return the point to go on from when it has grown.
+  std::size_t draw_settled_path(LineProgram& program, const SceneView& view, float unit,
+                                std::size_t first) const;
+  /// Draws the last bit of the path, which still changes.
+  void draw_path_end(LineProgram& program, const SceneView& view, float unit) const;
+
+  /// Draws all but the path.
+  /// @param base tolerance and direction of the scene's lines.
+  void draw(LineProgram& program, const SceneView& view, const LineDraw& base, float unit);
+
+ private:
+  void draw_path(LineProgram& program, const SceneView& view, float unit, std::size_t first,
+                 std::size_t last) const;
+  void upload_followed(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
+  void upload_seeds(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
+  void upload_kept(const SceneView& view, const SceneFrame& frame);
+
+  LineSet followed_, seeds_;
+  std::vector<LineSet> kept_;  // one a line: each has its own colour
+  LineTrail trail_;
+  SpherePass sphere_pass_;
+  ArrowPass arrow_pass_;
+  ProbeGlyphs glyphs_;
+
+  // What the buffers were made from.
+  SceneFrame frame_;
+  ValueRange range_;
+  std::optional<LineStyle> style_;
+  std::shared_ptr<const FollowedLine> shown_followed_;
+  std::shared_ptr<const LocalSeeds> shown_seeds_;
+  std::shared_ptr<const std::vector<KeptLine>> shown_kept_;
+  bool followed_has_values_ = false;
+};
+
+}  // namespace palpate

@@ -1,0 +1,42 @@
+#version 450 core
+// A sphere hit by the ray of each sample. From the point o of the square (relative to the centre) the ray
+// comes closest to the centre at p = o - (o.d) d, d toward the eye, and leaves the sphere at
+//   x = p + sqrt(R^2 - p.p) d,   normal x / R
+// All relative to the centre: differences of large squares would cost the digits that small spheres need.
+#include "include/frame.glsl"
+#include "include/color.glsl"
+#include "include/shade.glsl"
+#include "include/surface_light.glsl"
+
+in Vertex {
+  flat vec4 place;
+  flat vec3 color;
+  flat vec3 to_eye;
+  flat float halo;
+  sample vec3 offset;
+} vertex;
+
+layout(location = 0) out vec4 color;
+
+float depth_of(vec3 offset) {
+  vec4 clip = frame.clip_from_scene * vec4(vertex.place.xyz + offset, 1.0);
+  return 0.5 + 0.5 * clamp(clip.z / clip.w, -1.0, 1.0);
+}
+
+void main() {
+  float radius = vertex.place.w;
+  vec3 view = frame.eye.w > 0.5 ? normalize(vertex.to_eye - vertex.offset) : vertex.to_eye;
+  vec3 p = vertex.offset - dot(vertex.offset, view) * view;
+  float inside = radius * radius - dot(p, p);
+  if (inside < 0.0) {
+    if (length(p) > radius + vertex.halo) discard;
+    // The halo lies behind the sphere, so that a line through its centre reaches it uncut.
+    color = vec4(background_at(gl_FragCoord.xy), 1.0);
+    gl_FragDepth = depth_of(p - 2.0 * radius * view);
+    return;
+  }
+  vec3 hit = p + sqrt(inside) * view;
+  vec2 shine = surface_light(hit / radius, light_direction(), view);
+  color = vec4(shade(vertex.color, shine.x, shine.y), 1.0);
+  gl_FragDepth = depth_of(hit);
+}
