@@ -58,8 +58,8 @@ Real bracketed(const Function& f, Real a, Real b, Real fa, Real fb) {
 /// Zeros of F on [knots.front(), knots.back()], F being monotone up to a positive factor between knots. A
 /// zero at the first knot is not counted.
 template <class Function>
-void zeros_between(const Function& f, const std::vector<Real>& knots, Real first_value, bool only_first,
-                   std::vector<Real>& zeros) {
+void zeros_between(const Function& f, const FirstZero::Instants& knots, Real first_value, bool only_first,
+                   FirstZero::Instants& zeros) {
   Real value = first_value;
   for (std::size_t k = 1; k < knots.size(); ++k) {
     const Real next = f(knots[k]);
@@ -128,16 +128,18 @@ std::optional<Real> FirstZero::find(Real from, Real until) const {
 }
 
 /// Scans f, the zeros of the end of the chain being given.
-std::optional<Real> FirstZero::scan(Real from, Real until, const std::vector<Real>& last_zeros) const {
-  std::vector<Real> knots{from};
+std::optional<Real> FirstZero::scan(Real from, Real until, const Instants& last_zeros) const {
+  Instants knots;
+  knots.push_back(from);
   for (const Real t : last_zeros) {
     if (t > knots.back() && t < until) knots.push_back(t);
   }
   knots.push_back(until);
   const auto rate = [this](Real t) { return rate_.value(nodes_, t, face_); };
-  std::vector<Real> turns;
+  Instants turns;
   zeros_between(rate, knots, rate(from), false, turns);
-  std::vector<Real> outer{from};
+  Instants outer;
+  outer.push_back(from);
   for (const Real t : turns) {
     if (t > outer.back() && t < until) outer.push_back(t);
   }
@@ -146,7 +148,7 @@ std::optional<Real> FirstZero::scan(Real from, Real until, const std::vector<Rea
   const Real start = f(from);
   // On the face (or outside by rounding): f is monotone up to the first knot, so its sign there tells.
   if (start <= 0.0L && f(outer[1]) < 0.0L) return from;
-  std::vector<Real> found;
+  Instants found;
   zeros_between(f, outer, std::max(start, 0.0L), true, found);
   if (found.empty()) return std::nullopt;
   return found.front();
@@ -154,7 +156,7 @@ std::optional<Real> FirstZero::scan(Real from, Real until, const std::vector<Rea
 
 /// More knots do no harm, and they are needed before a rate that decays has sunk to zero in the exponent of a
 /// number: where each difference of two nodes has made one mode outweigh the other.
-void FirstZero::add_outweighing(std::vector<Real>& knots) const {
+void FirstZero::add_outweighing(Instants& knots) const {
   constexpr Real kOutweighed = 60.0L;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -170,7 +172,7 @@ std::optional<Real> FirstZero::find_real(Real from, Real until) const {
   const Real gap = nodes_.nu[b].real() - nodes_.nu[a].real();
   const Real ca = last_[1u << a][face_].real(), cb = last_[1u << b][face_].real();
   const Real cab = last_[(1u << a) | (1u << b)][face_].real();
-  std::vector<Real> knots;
+  Instants knots;
   if (const std::optional<Real> zero = zero_of_two(ca + cb, cab + cb * gap, gap)) knots.push_back(*zero);
   add_outweighing(knots);
   std::sort(knots.begin(), knots.end());
@@ -197,7 +199,7 @@ std::optional<Real> FirstZero::find_complex(Real from, Real until) const {
   Real t = from;
   for (int round = 0; round < kMaxRounds && t < until; ++round) {
     const Real end = std::min(until, t + kWindow / beta);
-    std::vector<Real> knots;
+    Instants knots;
     for (Real k = std::ceil((beta * t - phase) / kPi); knots.size() < kMaxKnots; k += 1.0L) {
       const Real zero = (phase + k * kPi) / beta;
       if (!(zero < end)) break;
@@ -222,11 +224,12 @@ Real FirstZero::Envelope::value(Real t) const {
 
 /// First zero after `from`, where the envelope is positive.
 std::optional<Real> FirstZero::Envelope::first_zero(Real from, Real until) const {
-  std::vector<Real> knots{from};
+  Instants knots;
+  knots.push_back(from);
   const std::optional<Real> turn = zero_of_two(c[1], c[2], m[2] - m[1]);
   if (turn && *turn > from && *turn < until) knots.push_back(*turn);
   knots.push_back(until);
-  std::vector<Real> zeros;
+  Instants zeros;
   const auto l = [this](Real t) { return value(t); };
   zeros_between(l, knots, l(from), true, zeros);
   if (zeros.empty()) return std::nullopt;

@@ -10,8 +10,8 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
+#include "common/base/inline_vector.h"
 #include "common/trace/exponential_form.h"
 
 namespace palpate {
@@ -21,6 +21,9 @@ class FirstZero {
  public:
   using Real = ExponentialNodes::Real;
   using Complex = ExponentialNodes::Complex;
+  /// Times: at most the zeros in two turns of a complex pair, one for each pair of nodes, and both ends; the
+  /// zeros between so many of them.
+  using Instants = InlineVector<Real, 20>;
 
   /// @param position f, with node 0 (of value 0) in every set.  @param rate f'.
   /// @param last (D - nu) f' with `annihilated` the index of nu: the real node beside a complex pair, or any.
@@ -42,8 +45,8 @@ class FirstZero {
     [[nodiscard]] std::optional<Real> first_zero(Real from, Real until) const;
   };
 
-  [[nodiscard]] std::optional<Real> scan(Real from, Real until, const std::vector<Real>& last_zeros) const;
-  void add_outweighing(std::vector<Real>& knots) const;
+  [[nodiscard]] std::optional<Real> scan(Real from, Real until, const Instants& last_zeros) const;
+  void add_outweighing(Instants& knots) const;
   [[nodiscard]] std::optional<Real> find_real(Real from, Real until) const;
   [[nodiscard]] std::optional<Real> find_complex(Real from, Real until) const;
   [[nodiscard]] Envelope make_envelope(const Complex& amplitude, const Complex& lambda, Real gamma) const;

@@ -1,0 +1,26 @@
+/// Motion rules (Ikits 2006, sec. 6.4): how far a proxy moves when its probe is displaced from it.
+///
+/// All of them answer with a displacement of the proxy. dx is that of the probe from the last proxy; tau >= 0
+/// is the drag threshold. An infinite tau fixes the proxy, tau = 0 lets it go freely.
+#pragma once
+
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Drag (eq. 6.5): follows at a distance of tau.
+[[nodiscard]] double drag(double dx, double tau) noexcept;
+
+/// Unilateral drag (eq. 6.7): `outward` (positive) motion is free, into the surface it drags at tau.
+[[nodiscard]] double unilateral(double dx_outward, double tau) noexcept;
+
+/// Snap-drag: stays until the probe is farther than tau, then jumps in steps of tau to within tau of it.
+/// Eq. 6.8 jumps once, and so falls behind a fast probe; both agree below 2 tau.
+[[nodiscard]] double snap_drag(double dx, double tau) noexcept;
+
+/// Drag along several axes at once: the proxy moves the least distance by which the probe comes to lie in
+/// the ellipsoid sum_a ((dx_a - dp_a) / tau_a)^2 <= 1. On one axis this is eq. 6.5; eqs. 6.2 to 6.5 taken
+/// axis by axis would hold the probe in a box, whose hold depends on how an arbitrary frame is turned.
+[[nodiscard]] Vec3 drag_jointly(const Vec3& dx, const Vec3& tau) noexcept;
+
+}  // namespace palpate

@@ -1,0 +1,118 @@
+// The motion rules against force profiles worked out by hand (figure 6.3) and against what defines them.
+
+#include "common/haptics/motion_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+TEST(Drag, FollowsAtTheThreshold) {
+  EXPECT_EQ(drag(0.5, 1.0), 0.0);
+  EXPECT_EQ(drag(1.0, 1.0), 0.0);
+  EXPECT_EQ(drag(3.0, 1.0), 2.0);
+  EXPECT_EQ(drag(-3.0, 1.0), -2.0);
+  EXPECT_EQ(drag(-3.0, 0.0), -3.0) << "eq. 6.6: no threshold, no drag";
+  EXPECT_EQ(drag(1e300, HUGE_VAL), 0.0);
+}
+
+TEST(Unilateral, IsFreeOutward) {
+  EXPECT_EQ(unilateral(2.0, 1.0), 2.0);
+  EXPECT_EQ(unilateral(-0.5, 1.0), 0.0);
+  EXPECT_EQ(unilateral(-2.5, 1.0), -1.5);
+}
+
+TEST(SnapDrag, JumpsByWholeTeethToWithinOneOfTheProbe) {
+  EXPECT_EQ(snap_drag(1.0, 1.0), 0.0);
+  EXPECT_EQ(snap_drag(1.25, 1.0), 1.0) << "eq. 6.8";
+  EXPECT_EQ(snap_drag(-1.25, 1.0), -1.0);
+  EXPECT_EQ(snap_drag(7.5, 1.0), 7.0) << "a fast probe is caught up with";
+  EXPECT_EQ(snap_drag(0.3, 0.0), 0.3);
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-100.0, 100.0);
+  for (int n = 0; n < 10'000; ++n) {
+    const double dx = any(random), tau = std::abs(any(random)) + 1e-3;
+    const double moved = snap_drag(dx, tau);
+    EXPECT_LE(std::abs(dx - moved), tau * (1.0 + 1e-12));
+    EXPECT_NEAR(moved / tau, std::round(moved / tau), 1e-9);
+  }
+}
+
+// Figure 6.3 (a), hand computed: tau = 2, the probe goes out and back.
+TEST(ForceProfile, UnilateralDrag) {
+  const double probe[] = {1, 0, -1, -2, -3, -4, -3, -2, -1, 0};
+  const double proxy[] = {1, 1, 1, 0, -1, -2, -2, -2, -1, 0};
+  double p = 1.0;
+  for (int k = 0; k < 10; ++k) {
+    p += unilateral(probe[k] - p, 2.0);
+    EXPECT_EQ(p, proxy[k]) << "step " << k;
+  }
+}
+
+// Figure 6.3 (b), tau = 2.
+TEST(ForceProfile, SnapDrag) {
+  const double probe[] = {0, 1, 2, 2.5, 3, 4, 4.5, 3, 2, 1.5};
+  const double proxy[] = {0, 0, 0, 2, 2, 2, 4, 4, 4, 2};
+  double p = 0.0;
+  for (int k = 0; k < 10; ++k) {
+    p += snap_drag(probe[k] - p, 2.0);
+    EXPECT_EQ(p, proxy[k]) << "step " << k;
+  }
+}
+
+TEST(JointDrag, EqualsDragOnOneAxis) {
+  EXPECT_NEAR(drag_jointly({3.0, 0.0, 0.0}, Vec3{1.0}).x, drag(3.0, 1.0), 1e-14);
+  EXPECT_EQ(drag_jointly({0.5, 0.5, 0.5}, Vec3{1.0}), Vec3{0.0});
+  const Vec3 moved = drag_jointly({3.0, 2.0, -1.0}, {HUGE_VAL, 0.0, 0.25});
+  EXPECT_EQ(moved.x, 0.0) << "fixed";
+  EXPECT_EQ(moved.y, 2.0) << "free";
+  EXPECT_NEAR(moved.z, -0.75, 1e-14);
+}
+
+TEST(JointDrag, IsTheSameForEveryFrameWhereThresholdsAreEqual) {
+  const Vec3 dx{1.0, -2.0, 0.5};
+  const Vec3 moved = drag_jointly(dx, Vec3{0.75});
+  EXPECT_NEAR(glm::length(dx - moved), 0.75, 1e-14);
+  EXPECT_NEAR(glm::length(glm::cross(moved, dx)), 0.0, 1e-14);
+}
+
+// The least displacement that satisfies the ellipsoid: what is left is on it, and the displacement is normal
+// to it (the condition of Lagrange), for axes of any ratio.
+TEST(JointDrag, MovesTheLeastDistance) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-3.0, 1.0);
+  for (int n = 0; n < 10'000; ++n) {
+    const Vec3 dx{normal(random), normal(random), normal(random)};
+    const Vec3 tau{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
+                   std::pow(10.0, exponent(random))};
+    const Vec3 moved = drag_jointly(dx, tau), left = dx - moved;
+    const double level = glm::length(left / tau);
+    if (glm::length(dx / tau) <= 1.0) {
+      EXPECT_EQ(moved, Vec3{0.0});
+      continue;
+    }
+    EXPECT_NEAR(level, 1.0, 1e-9);
+    const Vec3 outward = left / (tau * tau);
+    const double sine = glm::length(glm::cross(moved, outward)) / (glm::length(moved) * glm::length(outward));
+    if (glm::length(moved) > 1e-6 * glm::length(dx)) {
+      EXPECT_LE(sine, 1e-6) << dx.x << ' ' << dx.y << ' ' << dx.z << " tau " << tau.x << ' ' << tau.y << ' '
+                            << tau.z;
+    }
+  }
+}
+
+TEST(JointDrag, KeepsItsBitsUnderPowersOfTwo) {
+  const Vec3 dx{1.3, -0.7, 0.11}, tau{0.3, 0.02, 0.7};
+  const Vec3 moved = drag_jointly(dx, tau);
+  for (const int k : {-60, 60, 200}) {
+    EXPECT_EQ(drag_jointly(dx * std::ldexp(1.0, k), tau * std::ldexp(1.0, k)), moved * std::ldexp(1.0, k));
+  }
+}
+
+}  // namespace
+}  // namespace palpate
