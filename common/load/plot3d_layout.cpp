@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -33,6 +34,22 @@ class Reader {
   bool swap_;
 };
 
+/// Points of a grid of these dimensions, or nothing for dimensions that cannot be.
+std::optional<Index3> checked_grid(std::span<const std::optional<std::int32_t>> dimensions) {
+  Index3 points{1};
+  std::uint64_t product = 1;
+  for (std::size_t axis = 0; axis < dimensions.size(); ++axis) {
+    const auto& n = dimensions[axis];
+    if (!n || *n < 2) return std::nullopt;
+    points[static_cast<int>(axis)] = *n;
+    product *= static_cast<std::uint64_t>(*n);
+    if (product > kMaxPoints) return std::nullopt;
+  }
+  return points;
+}
+
+std::size_t axes_of(const Plot3dLayout& layout) { return layout.two_dimensional ? 2 : 3; }
+
 /// The dimensions at the head of the file under one assumption about its layout.
 std::optional<Plot3dLayout> read_dimensions(const Reader& reader, const Plot3dLayout& assumed) {
   Plot3dLayout layout = assumed;
@@ -53,23 +70,26 @@ std::optional<Plot3dLayout> read_dimensions(const Reader& reader, const Plot3dLa
     at += 4;
     if (!mark(4)) return std::nullopt;
   }
-  if (!mark(12 * std::uint64_t{grids})) return std::nullopt;
+  const std::size_t axes = axes_of(layout);
+  if (!mark(4 * axes * std::uint64_t{grids})) return std::nullopt;
   for (std::uint32_t grid = 0; grid < grids; ++grid) {
-    Index3 points{0};
-    std::uint64_t product = 1;
-    for (int axis = 0; axis < 3; ++axis, at += 4) {
-      const auto n = reader.at<std::int32_t>(at);
-      if (!n || *n < 2) return std::nullopt;
-      points[axis] = *n;
-      product *= static_cast<std::uint64_t>(*n);
-      if (product > kMaxPoints) return std::nullopt;
-    }
-    layout.grids.push_back(points);
+    std::array<std::optional<std::int32_t>, 3> n;
+    for (std::size_t axis = 0; axis < axes; ++axis, at += 4) n[axis] = reader.at<std::int32_t>(at);
+    const auto points = checked_grid(std::span(n).first(axes));
+    if (!points) return std::nullopt;
+    layout.grids.push_back(*points);
   }
-  if (!mark(12 * std::uint64_t{grids})) return std::nullopt;
+  if (!mark(4 * axes * std::uint64_t{grids})) return std::nullopt;
   layout.data_offset = at;
   return layout;
 }
+
+std::uint64_t points_of(const Index3& n) {
+  return static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
+}
+
+/// Values at a point of a solution: density, momentum, energy.
+std::uint64_t solution_values(const Plot3dLayout& layout) { return axes_of(layout) + 2; }
 
 /// The size of a file of this layout. At most 1e5 grids of 2^40 points of 44 bytes: no overflow.
 std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
@@ -77,15 +97,95 @@ std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
   const std::uint64_t marks = layout.record_marks ? 8 : 0;
   std::uint64_t size = layout.data_offset;
   for (const Index3& n : layout.grids) {
-    const std::uint64_t points =
-        static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
     if (kind == Plot3dFile::kGrid) {
-      size += marks + points * (3 * number + (layout.blanking ? 4 : 0));
+      size += marks + points_of(n) * (axes_of(layout) * number + (layout.blanking ? 4 : 0));
     } else {
-      size += marks + 4 * number + marks + points * 5 * number;
+      size += marks + 4 * number + marks + points_of(n) * solution_values(layout) * number;
     }
   }
   return size;
+}
+
+// ---- text ----------------------------------------------------------------------------------------------
+
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+
+/// Nothing but what numbers are written with; a Fortran "D" exponent is not, VTK would stop at it.
+bool is_numeric_text(std::string_view text) {
+  static constexpr std::string_view kNumber = "0123456789+-.eE";
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return is_blank(c) || kNumber.find(c) != std::string_view::npos; });
+}
+
+/// Walks over words separated by blanks.
+class Words {
+ public:
+  explicit Words(std::string_view text) : text_(text) {}
+  std::string_view next() {
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    const std::size_t first = at_;
+    while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+    return text_.substr(first, at_ - first);
+  }
+  /// The next word as a whole number.
+  std::optional<std::int32_t> next_integer() {
+    const std::string_view word = next();
+    std::int32_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    return value;
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+std::optional<Plot3dLayout> read_text_dimensions(std::string_view head, const Plot3dLayout& assumed) {
+  Plot3dLayout layout = assumed;
+  Words words(head);
+  std::int32_t grids = 1;
+  if (layout.multi_grid) {
+    const auto count = words.next_integer();
+    if (!count || *count < 1 || static_cast<std::uint32_t>(*count) > kMaxGrids) return std::nullopt;
+    grids = *count;
+  }
+  const std::size_t axes = axes_of(layout);
+  for (std::int32_t grid = 0; grid < grids; ++grid) {
+    std::array<std::optional<std::int32_t>, 3> n;
+    for (std::size_t axis = 0; axis < axes; ++axis) n[axis] = words.next_integer();
+    const auto points = checked_grid(std::span(n).first(axes));
+    if (!points) return std::nullopt;
+    layout.grids.push_back(*points);
+  }
+  return layout;
+}
+
+/// How many numbers a text file of this layout has.
+std::uint64_t expected_numbers(const Plot3dLayout& layout, Plot3dFile kind) {
+  const std::uint64_t axes = axes_of(layout);
+  std::uint64_t numbers = (layout.multi_grid ? 1 : 0) + axes * layout.grids.size();
+  for (const Index3& n : layout.grids) {
+    numbers += kind == Plot3dFile::kGrid ? points_of(n) * (axes + (layout.blanking ? 1 : 0))
+                                         : 4 + points_of(n) * solution_values(layout);
+  }
+  return numbers;
+}
+
+/// Calls `fits` with every layout that the dimensions at the head allow, until it says yes.
+template <typename Fits>
+std::optional<Plot3dLayout> find_text_layout(std::string_view head, Plot3dFile kind, const Fits& fits) {
+  for (int bits = 0; bits < 8; ++bits) {
+    Plot3dLayout assumed;
+    assumed.text = true;
+    assumed.multi_grid = (bits & 1) != 0;
+    assumed.blanking = (bits & 2) != 0;
+    assumed.two_dimensional = (bits & 4) != 0;
+    if (assumed.blanking && kind == Plot3dFile::kSolution) continue;
+    auto layout = read_text_dimensions(head, assumed);
+    if (layout && fits(expected_numbers(*layout, kind))) return layout;
+  }
+  return std::nullopt;
 }
 
 /// Whether the last `padding` bytes of the file are known to be zeros.
@@ -119,18 +219,21 @@ std::optional<Plot3dLayout> find_plot3d_layout(const Plot3dBytes& bytes, Plot3dF
   std::optional<Plot3dLayout> best;
   int best_score = -1;
   // Every combination; the plain ones come first and win a tie.
-  for (int bits = 0; bits < 32; ++bits) {
+  for (int bits = 0; bits < 64; ++bits) {
     Plot3dLayout assumed;
     assumed.big_endian = (bits & 1) != 0;
     assumed.multi_grid = (bits & 2) != 0;
     assumed.record_marks = (bits & 4) != 0;
     assumed.blanking = (bits & 8) != 0;
     assumed.double_precision = (bits & 16) != 0;
+    assumed.two_dimensional = (bits & 32) != 0;
     if (assumed.blanking && kind == Plot3dFile::kSolution) continue;
     const Reader reader(bytes.head.first(std::min(bytes.head.size(), kPlot3dHeadBytes)), assumed.big_endian);
     const auto layout = read_dimensions(reader, assumed);
     if (!layout) continue;
     const std::uint64_t expected = expected_size(*layout, kind);
+    // Two dimensions fit more by chance: no padding is forgiven.
+    if (layout->two_dimensional && expected != bytes.file_size) continue;
     if (expected > bytes.file_size || !zero_padding(bytes.tail, bytes.file_size - expected)) continue;
     // The right size to the byte counts more than numbers that look right; both beat the order above.
     const int score = (expected == bytes.file_size ? 2 : 0) + (plausible_numbers(reader, *layout) ? 1 : 0);
@@ -142,11 +245,33 @@ std::optional<Plot3dLayout> find_plot3d_layout(const Plot3dBytes& bytes, Plot3dF
   return best;
 }
 
+bool may_be_plot3d_text(const Plot3dBytes& bytes, Plot3dFile kind) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.head.data()),
+                              std::min(bytes.head.size(), kPlot3dHeadBytes));
+  if (!is_numeric_text(head)) return false;
+  // A number and its blank take two characters at least, and no program writes more than some fifty.
+  constexpr std::uint64_t kMostCharacters = 64;
+  const std::uint64_t most = bytes.file_size / 2 + 1;
+  return find_text_layout(head, kind,
+                          [&](std::uint64_t numbers) {
+                            return numbers <= most && numbers >= bytes.file_size / kMostCharacters;
+                          })
+      .has_value();
+}
+
+std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3dFile kind) {
+  if (!is_numeric_text(text)) return std::nullopt;
+  std::uint64_t count = 0;
+  for (Words words(text); !words.next().empty();) ++count;
+  return find_text_layout(text, kind, [count](std::uint64_t numbers) { return numbers == count; });
+}
+
 std::string describe(const Plot3dLayout& layout, Plot3dFile kind) {
-  std::string text = layout.big_endian ? "big endian, " : "little endian, ";
+  std::string text = layout.text ? "text, " : (layout.big_endian ? "big endian, " : "little endian, ");
+  if (layout.two_dimensional) text += "two-dimensional, ";
   text += std::to_string(layout.grids.size()) + (layout.grids.size() == 1 ? " grid, " : " grids, ");
-  text += layout.double_precision ? "double precision, " : "single precision, ";
-  text += layout.record_marks ? "record marks" : "no record marks";
+  text += layout.double_precision ? "double precision" : "single precision";
+  if (!layout.text) text += layout.record_marks ? ", record marks" : ", no record marks";
   if (kind == Plot3dFile::kGrid) text += layout.blanking ? ", blanking" : ", no blanking";
   return text;
 }

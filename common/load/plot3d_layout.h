@@ -1,10 +1,12 @@
-/// The layout of binary PLOT3D files, found from their size: nothing in such a file names its byte order,
-/// its record marks, how many grids it holds, its precision or whether it has blanking (iblank).
+/// The layout of PLOT3D files, found from their size: nothing in such a file names its byte order, its record
+/// marks, how many grids it holds, its precision, whether it has blanking (iblank) or is two-dimensional.
 ///
 /// Grid file:     [grids]  dimensions of every grid  { x y z [iblank] } of every grid
 /// Solution file: [grids]  dimensions of every grid  { 4 conditions, 5 values a point } of every grid
-/// `grids` is there in multi-grid files only; a Fortran program wraps each item in record marks (its byte
-/// count before and after). P. P. Walatka et al., PLOT3D User's Manual, NASA TM-101067, 1990, ch. 8.
+/// Two-dimensional files have two dimensions a grid, no z, and 4 values a point. Text files hold the same
+/// numbers, separated by blanks. `grids` is there in multi-grid files only; a Fortran program wraps each item
+/// in record marks (its byte count before and after). P. P. Walatka et al., PLOT3D User's Manual, NASA
+/// TM-101067, 1990, ch. 8.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/math/vec.h"
@@ -25,7 +28,9 @@ struct Plot3dLayout {
   bool multi_grid = false;
   bool blanking = false;  ///< grid files
   bool double_precision = false;
-  std::vector<Index3> grids;      ///< points along i, j, k of every grid
+  bool text = false;  ///< numbers as text: no byte order, no record marks, read in single precision
+  bool two_dimensional = false;
+  std::vector<Index3> grids;      ///< points along i, j, k of every grid; k has 1 in two dimensions
   std::uint64_t data_offset = 0;  ///< of the first coordinate, or of the first condition
 };
 
@@ -42,10 +47,18 @@ inline constexpr std::size_t kPlot3dHeadBytes = std::size_t{64} << 10;
 /// Some programs pad their files with zeros, up to this.
 inline constexpr std::size_t kPlot3dTailBytes = 4096;
 
-/// The layout under which the file's size fits its own dimensions, or nothing. Three-dimensional files only
-/// (every dimension at least 2). Where several fit (rare), one whose first numbers are finite is taken.
-/// Zeros after the data are allowed, up to kPlot3dTailBytes.
+/// The layout under which a binary file's size fits its own dimensions (each at least 2), or nothing. Where
+/// several fit (rare), one whose first numbers are finite is taken, and three dimensions before two. Zeros
+/// after the data are allowed in three dimensions, up to kPlot3dTailBytes.
 [[nodiscard]] std::optional<Plot3dLayout> find_plot3d_layout(const Plot3dBytes& bytes, Plot3dFile kind);
+
+/// Whether the head of a file could be that of a PLOT3D text file: nothing but numbers, the first of them
+/// dimensions for which the file is neither too short nor far too long.
+[[nodiscard]] bool may_be_plot3d_text(const Plot3dBytes& bytes, Plot3dFile kind);
+
+/// The layout under which the count of numbers in `text`, the whole file, fits its own dimensions, or
+/// nothing.
+[[nodiscard]] std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3dFile kind);
 
 /// "big endian, 1 grid, single precision, no record marks, no blanking"
 [[nodiscard]] std::string describe(const Plot3dLayout& layout, Plot3dFile kind);

@@ -137,9 +137,10 @@ Sniffed sniff(const FileHead& head) {
   if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {
     return {Format::kOpenFoam, "", ""};
   }
-  if (find_plot3d_layout({head.bytes, head.tail, head.file_size}, Plot3dFile::kGrid))
+  const Plot3dBytes bytes{head.bytes, head.tail, head.file_size};
+  if (find_plot3d_layout(bytes, Plot3dFile::kGrid) || may_be_plot3d_text(bytes, Plot3dFile::kGrid))
     return {Format::kPlot3d, "", ""};
-  if (find_plot3d_layout({head.bytes, head.tail, head.file_size}, Plot3dFile::kSolution)) {
+  if (find_plot3d_layout(bytes, Plot3dFile::kSolution) || may_be_plot3d_text(bytes, Plot3dFile::kSolution)) {
     return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
   }
   return {{}, "not recognised (it starts with \"" + printable(text) + "\")", ""};

@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/load/plot3d_layout.h"
 #include "common/load/sniff.h"
+#include "loaders/vtk/mapped_file.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -18,11 +19,19 @@ namespace {
 
 Plot3dLayout layout_of(const std::string& file, Plot3dFile kind) {
   const HeadOfFile head = read_head(file, kPlot3dHeadBytes, kPlot3dTailBytes);
-  const auto layout = find_plot3d_layout(
-      {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size}, kind);
+  const Plot3dBytes bytes{std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)),
+                          head.file_size};
+  auto layout = find_plot3d_layout(bytes, kind);
+  if (!layout && may_be_plot3d_text(bytes, kind)) {
+    layout = find_plot3d_text_layout(MappedFile(file).text(), kind);
+    if (!layout) {
+      throw input_error({file, "", "the count of its numbers does not fit its dimensions", "",
+                         "it may be truncated, or have words that are no numbers"});
+    }
+  }
   if (!layout) {
     throw input_error({file, "",
-                       "its " + std::to_string(head.file_size) + " bytes fit no layout of a binary PLOT3D " +
+                       "its " + std::to_string(head.file_size) + " bytes fit no layout of a PLOT3D " +
                            (kind == Plot3dFile::kGrid ? "grid" : "solution"),
                        "dimensions that agree with the file's size", "it may be truncated"});
   }
@@ -104,7 +113,9 @@ class Plot3dReader : public Loader {
     }
     // One setting of the reader covers both files.
     if (solution_.big_endian != grid_.big_endian || solution_.record_marks != grid_.record_marks ||
-        solution_.multi_grid != grid_.multi_grid || solution_.double_precision != grid_.double_precision) {
+        solution_.multi_grid != grid_.multi_grid || solution_.text != grid_.text ||
+        solution_.two_dimensional != grid_.two_dimensional ||
+        solution_.double_precision != grid_.double_precision) {
       throw input_error({solution_file_, "", "is " + describe(solution_, Plot3dFile::kSolution),
                          "the layout of " + grid_file_ + " (" + describe(grid_, Plot3dFile::kGrid) + ")"});
     }
@@ -121,13 +132,13 @@ class Plot3dReader : public Loader {
     reader_->SetXYZFileName(grid_file_.c_str());
     if (with_solution) reader_->SetQFileName(solution_file_.c_str());
     reader_->SetAutoDetectFormat(0);
-    reader_->SetBinaryFile(1);
+    reader_->SetBinaryFile(grid_.text ? 0 : 1);
     reader_->SetByteOrder(grid_.big_endian ? vtkMultiBlockPLOT3DReader::FILE_BIG_ENDIAN
                                            : vtkMultiBlockPLOT3DReader::FILE_LITTLE_ENDIAN);
     reader_->SetHasByteCount(grid_.record_marks ? 1 : 0);
     reader_->SetMultiGrid(grid_.multi_grid ? 1 : 0);
     reader_->SetIBlanking(grid_.blanking ? 1 : 0);
-    reader_->SetTwoDimensionalGeometry(0);
+    reader_->SetTwoDimensionalGeometry(grid_.two_dimensional ? 1 : 0);
     reader_->SetDoublePrecision(grid_.double_precision ? 1 : 0);
     // Stored values only; derived ones are made where they are asked for.
     reader_->SetScalarFunctionNumber(-1);

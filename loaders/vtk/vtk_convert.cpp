@@ -170,12 +170,16 @@ bool append_faces(vtkUnstructuredGrid* grid, vtkIdType cell, std::vector<std::in
 
 UnstructuredTopology unstructured(vtkUnstructuredGrid* grid, const std::string& file) {
   const vtkIdType cells = grid->GetNumberOfCells();
+  UnstructuredTopology t;
+  t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
+  if (cells == 0) {  // all of them belong to other pieces; VTK may not even have a list of them
+    t.offsets = {0};
+    return t;
+  }
   if (!grid->GetCells()->IsValid() || grid->GetCellTypesArray()->GetNumberOfTuples() != cells) {
     throw input_error(
         {file, "", "its lists of cells do not agree with one another", "", "the file may be damaged"});
   }
-  UnstructuredTopology t;
-  t.positions = share(grid->GetPoints()->GetData(), Association::kPoint, "positions");
   t.types.reserve(static_cast<std::size_t>(cells));
   t.offsets.reserve(static_cast<std::size_t>(cells) + 1);
   t.connectivity.reserve(static_cast<std::size_t>(grid->GetCells()->GetNumberOfConnectivityIds()));
@@ -333,9 +337,10 @@ std::vector<VtkBlock> leaves_of(vtkDataObject* object) {
 
 std::string why_not_readable(vtkDataSet* data) {
   if (data->GetNumberOfPoints() == 0) return "holds no points";
-  const bool known = points_along_axes(data) != Index3{0} ||
-                     vtkUnstructuredGrid::SafeDownCast(data) != nullptr ||
-                     vtkPolyData::SafeDownCast(data) != nullptr;
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid != nullptr && grid->GetNumberOfCells() == 0) return "holds no cells";
+  const bool known =
+      points_along_axes(data) != Index3{0} || grid != nullptr || vtkPolyData::SafeDownCast(data) != nullptr;
   if (!known) return std::string("is of a kind that is not read (") + data->GetClassName() + ")";
   return "";
 }
@@ -349,7 +354,6 @@ std::string why_not_volume(vtkDataSet* data) {
            " points), not a volume";
   }
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) {
-    if (grid->GetNumberOfCells() == 0) return "holds no cells, not a volume";
     static constexpr int kFlat[] = {VTK_EMPTY_CELL,     VTK_VERTEX,         VTK_POLY_VERTEX,
                                     VTK_LINE,           VTK_POLY_LINE,      VTK_TRIANGLE,
                                     VTK_TRIANGLE_STRIP, VTK_POLYGON,        VTK_PIXEL,

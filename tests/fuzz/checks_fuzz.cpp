@@ -29,6 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         // A layout that is found must lie inside the file.
         if (layout && layout->data_offset > bytes.size()) __builtin_trap();
         if (layout) (void)describe(*layout, kind);
+        (void)may_be_plot3d_text({bytes, tail, bytes.size()}, kind);
+        (void)find_plot3d_text_layout(text, kind);
       }
       break;
     case 2:

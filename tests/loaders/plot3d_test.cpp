@@ -1,6 +1,7 @@
 // PLOT3D files of every layout, written here byte by byte after the manual (NASA TM-101067, ch. 8).
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -20,11 +21,14 @@ struct Layout {
   bool multi = false;
   bool blanking = false;
   bool doubles = false;
+  bool flat = false;  ///< two-dimensional
+  bool text = false;
 };
 
 std::string name(const Layout& l) {
   return std::string(l.big ? "big" : "little") + (l.marks ? " marks" : "") + (l.multi ? " multi" : "") +
-         (l.blanking ? " blanking" : "") + (l.doubles ? " doubles" : "");
+         (l.blanking ? " blanking" : "") + (l.doubles ? " doubles" : "") + (l.flat ? " flat" : "") +
+         (l.text ? " text" : "");
 }
 
 /// Builds a file item by item.
@@ -34,6 +38,12 @@ class Writer {
 
   template <typename T>
   void put(T value) {
+    if (layout_.text) {
+      std::array<char, 40> text{};
+      const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+      record_.append(text.data(), end).append(record_.size() % 7 == 0 ? "\n" : " ");
+      return;
+    }
     std::array<char, sizeof(T)> bytes{};
     std::memcpy(bytes.data(), &value, sizeof(T));
     if (layout_.big != (std::endian::native == std::endian::big)) std::reverse(bytes.begin(), bytes.end());
@@ -64,17 +74,24 @@ class Writer {
   std::string file_;
 };
 
-const std::vector<Index3> kDims{{5, 4, 3}, {3, 6, 2}};
+std::vector<Index3> dims_of(const Layout& l) {
+  std::vector<Index3> dims{{5, 4, 3}, {3, 6, 2}};
+  if (!l.multi) dims.resize(1);
+  for (Index3& n : dims) {
+    if (l.flat) n.z = 1;
+  }
+  return dims;
+}
 
-std::vector<Index3> dims_of(const Layout& l) { return l.multi ? kDims : std::vector<Index3>{kDims[0]}; }
+int axes_of(const Layout& l) { return l.flat ? 2 : 3; }
 
 void put_dimensions(Writer& w, const Layout& l) {
   if (l.multi) {
-    w.put(static_cast<std::int32_t>(kDims.size()));
+    w.put(static_cast<std::int32_t>(dims_of(l).size()));
     w.end_record();
   }
   for (const Index3& n : dims_of(l)) {
-    for (int axis = 0; axis < 3; ++axis) w.put(static_cast<std::int32_t>(n[axis]));
+    for (int axis = 0; axis < axes_of(l); ++axis) w.put(static_cast<std::int32_t>(n[axis]));
   }
   w.end_record();
 }
@@ -98,11 +115,11 @@ std::string grid_file(const Layout& l) {
   Writer w(l);
   put_dimensions(w, l);
   for (std::size_t g = 0; g < dims_of(l).size(); ++g) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for_points(kDims[g], [&](int i, int j, int k) { w.number(coordinate(g, axis, i, j, k)); });
+    for (int axis = 0; axis < axes_of(l); ++axis) {
+      for_points(dims_of(l)[g], [&](int i, int j, int k) { w.number(coordinate(g, axis, i, j, k)); });
     }
     if (l.blanking) {
-      for_points(kDims[g], [&](int i, int, int) { w.put(static_cast<std::int32_t>(i == 1 ? 0 : 1)); });
+      for_points(dims_of(l)[g], [&](int i, int, int) { w.put(static_cast<std::int32_t>(i == 1 ? 0 : 1)); });
     }
     w.end_record();
   }
@@ -120,7 +137,8 @@ std::string solution_file(const Layout& l) {
     for (const double condition : {2.95, 0.0, 2.1e6, 0.5}) w.number(condition);
     w.end_record();
     for (int variable = 0; variable < 5; ++variable) {
-      for_points(kDims[g], [&](int i, int j, int k) { w.number(value(g, variable, i, j, k)); });
+      if (l.flat && variable == 3) continue;  // no momentum along z
+      for_points(dims_of(l)[g], [&](int i, int j, int k) { w.number(value(g, variable, i, j, k)); });
     }
     w.end_record();
   }
@@ -129,8 +147,9 @@ std::string solution_file(const Layout& l) {
 
 std::vector<Layout> all_layouts() {
   std::vector<Layout> layouts;
-  for (int bits = 0; bits < 32; ++bits) {
-    layouts.push_back({(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0});
+  for (int bits = 0; bits < 64; ++bits) {
+    layouts.push_back({(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0,
+                       (bits & 32) != 0});
   }
   return layouts;
 }
@@ -151,6 +170,7 @@ TEST(Plot3dLayout, EveryLayoutIsFoundFromTheFileSize) {
     EXPECT_EQ(found->multi_grid, l.multi) << name(l);
     EXPECT_EQ(found->blanking, l.blanking) << name(l);
     EXPECT_EQ(found->double_precision, l.doubles) << name(l);
+    EXPECT_EQ(found->two_dimensional, l.flat) << name(l);
     EXPECT_EQ(found->grids, dims_of(l)) << name(l);
   }
 }
@@ -174,9 +194,35 @@ TEST(Plot3dLayout, DimensionsWhoseProductOverflowsFitNoLayout) {
   EXPECT_FALSE(find(file, Plot3dFile::kGrid));
 }
 
+std::vector<Layout> text_layouts() {
+  std::vector<Layout> layouts;
+  for (int bits = 0; bits < 8; ++bits) {
+    layouts.push_back(
+        {.multi = (bits & 1) != 0, .blanking = (bits & 2) != 0, .flat = (bits & 4) != 0, .text = true});
+  }
+  return layouts;
+}
+
+TEST(Plot3dLayout, TextIsFoundFromTheCountOfItsNumbers) {
+  for (const Layout& l : text_layouts()) {
+    const std::string file = grid_file(l);
+    const auto found = find_plot3d_text_layout(file, Plot3dFile::kGrid);
+    ASSERT_TRUE(found) << name(l);
+    EXPECT_EQ(found->multi_grid, l.multi) << name(l);
+    EXPECT_EQ(found->blanking, l.blanking) << name(l);
+    EXPECT_EQ(found->two_dimensional, l.flat) << name(l);
+    EXPECT_EQ(found->grids, dims_of(l)) << name(l);
+    for (const std::string& wrong : {file + "1", file.substr(0, file.size() / 2), file + "x"})
+      EXPECT_FALSE(find_plot3d_text_layout(wrong, Plot3dFile::kGrid)) << name(l);
+  }
+  EXPECT_FALSE(find_plot3d_text_layout("2147483647 2147483647 2147483647 1 2 3", Plot3dFile::kGrid));
+}
+
 TEST(Plot3d, EveryLayoutReadsBackGridAndSolution) {
   const test::TempFolder folder;
-  for (const Layout& l : all_layouts()) {
+  std::vector<Layout> layouts = all_layouts();
+  for (const Layout& l : text_layouts()) layouts.push_back(l);
+  for (const Layout& l : layouts) {
     const auto grid = folder.write("grid.xyz", grid_file(l));
     const auto solution = folder.write("solution.q", solution_file(l));
     Source source = Source::open({{grid}, solution});
@@ -184,14 +230,19 @@ TEST(Plot3d, EveryLayoutReadsBackGridAndSolution) {
     ASSERT_EQ(blocks.size(), dims_of(l).size()) << name(l);
     for (std::size_t g = 0; g < blocks.size(); ++g) {
       const auto& topology = std::get<StructuredTopology>(blocks[g].topology);
-      ASSERT_EQ(topology.points, kDims[g]) << name(l);
+      ASSERT_EQ(topology.points, dims_of(l)[g]) << name(l);
+      EXPECT_EQ(source.info().blocks[g].not_volume.empty(), !l.flat) << name(l);
       ASSERT_EQ(blocks[g].arrays.size(), 3U) << name(l);
       std::size_t p = 0;
-      for_points(kDims[g], [&](int i, int j, int k) {
-        for (int axis = 0; axis < 3; ++axis) {
+      for_points(dims_of(l)[g], [&](int i, int j, int k) {
+        for (int axis = 0; axis < axes_of(l); ++axis) {
           ASSERT_EQ(topology.positions.at(p, axis), coordinate(g, axis, i, j, k)) << name(l);
           ASSERT_EQ(blocks[g].find("Momentum", Association::kPoint)->at(p, axis), value(g, 1 + axis, i, j, k))
               << name(l);
+        }
+        if (l.flat) {
+          ASSERT_EQ(topology.positions.at(p, 2), 0.0) << name(l);
+          ASSERT_EQ(blocks[g].find("Momentum", Association::kPoint)->at(p, 2), 0.0) << name(l);
         }
         ASSERT_EQ(blocks[g].find("Density", Association::kPoint)->at(p), value(g, 0, i, j, k)) << name(l);
         ASSERT_EQ(blocks[g].find("StagnationEnergy", Association::kPoint)->at(p), value(g, 4, i, j, k))

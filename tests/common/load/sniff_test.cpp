@@ -33,6 +33,16 @@ TEST(Sniff, FormatsAreFoundByContentWhateverTheEnding) {
   }
 }
 
+TEST(Sniff, NumbersAsTextArePlot3dWhereTheirCountCanFitTheDimensions) {
+  std::string grid = "2 2 2\n";
+  for (int n = 0; n < 24; ++n) grid += "0.5 ";
+  EXPECT_EQ(sniffed(grid).format, Format::kPlot3d);
+  EXPECT_FALSE(sniffed("900 900 900 " + grid).format) << "too short";
+  EXPECT_FALSE(sniffed(grid + std::string(9000, ' ')).format) << "far too long";
+  EXPECT_FALSE(sniffed("2 2 2 x" + grid).format) << "not only numbers";
+  EXPECT_FALSE(sniffed("1 1 1 " + grid).format) << "no volume";
+}
+
 TEST(Sniff, TheEndingBreaksTheTieOfHdf5) {
   const std::string hdf5 = "\x89HDF\r\n\x1a\n";
   EXPECT_EQ(sniffed(hdf5, ".ex2").format, Format::kExodus);
