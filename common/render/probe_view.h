@@ -85,6 +85,9 @@ struct ProbeStyle {
   double path_width = 5.0;
   double followed_width = 9.0;
   double kept_width = 6.0;
+  /// Opacity of probe, proxy, band, arrow, balls and followed line where something nearer hides them: the
+  /// hand must not be lost in a bundle of lines. 0: hidden is hidden.
+  double see_through = 0.55;
   ColorMap force_map = ColorMap::kTension;  ///< of band and path
 
   bool operator==(const ProbeStyle&) const = default;

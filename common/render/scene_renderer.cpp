@@ -8,6 +8,7 @@
 
 #include "common/base/clock.h"
 #include "common/math/power_of_two.h"
+#include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
@@ -20,13 +21,6 @@
 
 namespace palpate {
 namespace {
-
-// shaders/include/frame.glsl
-struct FrameBlock {
-  glm::mat4 clip_from_scene{1.0F};
-  glm::vec4 eye{0.0F}, right{0.0F}, up{0.0F}, back{0.0F}, size{0.0F}, depth_cue{0.0F};
-  glm::vec4 background_top{0.0F}, background_bottom{0.0F};
-};
 
 std::vector<std::vector<Vec3>> box_edges(const Box& box) {
   if (box.empty()) return {};
@@ -251,22 +245,12 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
 
   const double aspect = static_cast<double>(width) / height;
   const ViewTransform transform = view_transform(view.camera, s.frame, s.reach, aspect);
-  const Palette& colors = palette_of(view.background);
   const bool perspective = view.camera.projection == Projection::kPerspective;
   // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
   const int scene_height = s.target.scene_height();
   const double pixel = transform.view_height / scene_height;
-  FrameBlock block;
-  block.clip_from_scene = glm::mat4(transform.clip_from_scene);
-  block.eye = {Vec3f(transform.eye), perspective ? 1.0F : 0.0F};
-  block.right = {Vec3f(view.camera.axes[0]), 0.0F};
-  block.up = {Vec3f(view.camera.axes[1]), 0.0F};
-  block.back = {Vec3f(view.camera.axes[2]), 0.0F};
-  block.size = {s.target.scene_width(), scene_height, pixel, transform.distance};
-  block.depth_cue = {transform.near_depth, transform.far_depth, view.style.depth_cue ? colors.fading : 0.0F,
-                     colors.highlight};
-  block.background_top = {colors.top, 1.0F};
-  block.background_bottom = {colors.bottom, 1.0F};
+  const FrameBlock block = make_frame_block(view.camera, transform, palette_of(view.background),
+                                            view.style.depth_cue, s.target.scene_width(), scene_height);
   const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
 

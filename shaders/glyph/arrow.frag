@@ -11,11 +11,13 @@ in Vertex {
   flat vec3 color;
 } vertex;
 
+layout(location = 0) uniform float opacity;
+
 layout(location = 0) out vec4 color;
 
 void main() {
   vec3 view = normalize(vertex.to_eye);
   vec3 normal = normalize(vertex.normal);
   vec2 shine = surface_light(normal, light_direction(), view);
-  color = vec4(shade(vertex.color, shine.x, shine.y), 1.0);
+  color = vec4(shade(vertex.color, shine.x, shine.y), opacity);
 }

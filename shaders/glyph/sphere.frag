@@ -16,6 +16,8 @@ in Vertex {
   sample vec3 offset;
 } vertex;
 
+layout(location = 1) uniform float opacity;
+
 layout(location = 0) out vec4 color;
 
 float depth_of(vec3 offset) {
@@ -37,6 +39,6 @@ void main() {
   }
   vec3 hit = p + sqrt(inside) * view;
   vec2 shine = surface_light(hit / radius, light_direction(), view);
-  color = vec4(shade(vertex.color, shine.x, shine.y), 1.0);
+  color = vec4(shade(vertex.color, shine.x, shine.y), opacity);
   gl_FragDepth = depth_of(hit);
 }

@@ -4,11 +4,13 @@
 
 #include "common/render/gl/program.h"
 #include "common/render/glyph/arrow_mesh.h"
+#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 namespace {
 
 // Of shaders/glyph/arrow.vert.
+constexpr GLint kOpacity = 0;
 constexpr GLuint kArrowsBinding = 0;
 // Facets about the axis: no corner shows at the sizes of glyphs.
 constexpr int kSides = 32;
@@ -22,7 +24,7 @@ void describe(const GlVertexArray& array, GLuint location, GLint components, std
 
 }  // namespace
 
-void ArrowPass::draw(std::span<const ArrowInstance> arrows) {
+void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity) {
   if (arrows.empty()) return;
   if (!program_) {
     program_ = compile_program("glyph/arrow.vert", "glyph/arrow.frag");
@@ -40,10 +42,11 @@ void ArrowPass::draw(std::span<const ArrowInstance> arrows) {
   glUseProgram(program_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kArrowsBinding, instances.name());
   glBindVertexArray(vertex_array_.name());
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(corner_count_),
-                        static_cast<GLsizei>(arrows.size()));
+  draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
+    glUniform1f(kOpacity, opacity);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(corner_count_),
+                          static_cast<GLsizei>(arrows.size()));
+  });
 }
 
 }  // namespace palpate

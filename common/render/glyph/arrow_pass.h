@@ -25,8 +25,9 @@ struct ArrowInstance {
 
 class ArrowPass {
  public:
+  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there.
   /// @pre The frame's uniform block is bound to 0.
-  void draw(std::span<const ArrowInstance> arrows);
+  void draw(std::span<const ArrowInstance> arrows, float hidden_opacity);
 
  private:
   GlProgram program_;  // compiled at the first use

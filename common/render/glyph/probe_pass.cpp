@@ -110,6 +110,7 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
   const ProbeView& probe = *view.probe;
   const Palette& colors = palette_of(view.background);
   const DepthClamp clamp;
+  const auto see_through = static_cast<float>(std::clamp(probe.style.see_through, 0.0, 1.0));
   LineDraw how = base;
   how.fading = 0.0F;
   how.min_width = 1.0F;
@@ -133,14 +134,21 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
     set_width(probe.style.followed_width);
     how.coloring = coloring_of(view.style, followed_has_values_);
     how.color = colors.plain_line;
+    if (see_through > 0.0F) {
+      how.hidden_part = true;
+      how.opacity = see_through;
+      followed_.draw(how);
+      how.hidden_part = false;
+      how.opacity = 1.0F;
+    }
     how.halo_color = colors.ink;
     how.halo_width = std::max(1.0F, 1.6F * unit);
     followed_.draw(how);
     how.halo_color.reset();
   }
 
-  arrow_pass_.draw(glyphs_.arrows);
-  sphere_pass_.draw(glyphs_.spheres, std::max(1.0F, 1.2F * unit));
+  arrow_pass_.draw(glyphs_.arrows, see_through);
+  sphere_pass_.draw(glyphs_.spheres, std::max(1.0F, 1.2F * unit), see_through);
 
   // Lines of the local seeds may be transparent: they come last.
   if (shown_seeds_ && shown_seeds_->lines) {

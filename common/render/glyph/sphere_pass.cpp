@@ -3,16 +3,17 @@
 #include <epoxy/gl.h>
 
 #include "common/render/gl/program.h"
+#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 namespace {
 // Of shaders/glyph/sphere.vert.
-constexpr GLint kHaloWidth = 0;
+constexpr GLint kHaloWidth = 0, kOpacity = 1;
 constexpr GLuint kSpheresBinding = 0;
 constexpr GLsizei kCorners = 4;
 }  // namespace
 
-void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width) {
+void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity) {
   if (spheres.empty()) return;
   if (!program_) {
     program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag");
@@ -20,12 +21,13 @@ void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width)
   }
   const GlBuffer instances = make_buffer(spheres);
   glUseProgram(program_.name());
-  glUniform1f(kHaloWidth, halo_width);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpheresBinding, instances.name());
   glBindVertexArray(no_vertices_.name());
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));
+  draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
+    glUniform1f(kHaloWidth, opacity < 1.0F ? 0.0F : halo_width);
+    glUniform1f(kOpacity, opacity);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));
+  });
 }
 
 }  // namespace palpate

@@ -21,8 +21,9 @@ struct SphereInstance {
 class SpherePass {
  public:
   /// @param halo_width [pixels] in the colour of the background around each.
+  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there.
   /// @pre The frame's uniform block is bound to 0.
-  void draw(std::span<const SphereInstance> spheres, float halo_width);
+  void draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity);
 
  private:
   GlProgram program_;  // compiled at the first use

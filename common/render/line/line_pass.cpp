@@ -53,7 +53,7 @@ void begin_lines(const LineDraw& how, bool has_values) {
   glUniform4f(kHaloColor, rim.r, rim.g, rim.b, how.halo_color ? 1.0F : 0.0F);
 
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
+  glDepthFunc(how.hidden_part ? GL_GREATER : GL_LEQUAL);
   glDepthMask(transparent ? GL_FALSE : GL_TRUE);
   if (transparent) {
     glEnable(GL_BLEND);
@@ -118,7 +118,8 @@ void LineSet::arrange(const Arrangement& wanted) {
 
 void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
-  const bool transparent = how.opacity < 1.0F;
+  // What shines through is too faint for its order to matter: no second arrangement for it.
+  const bool transparent = how.opacity < 1.0F && !how.hidden_part;
   arrange({how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 
   detail::begin_lines(how, !coordinates_.empty());

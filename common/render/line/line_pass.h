@@ -22,7 +22,9 @@ struct LineDraw {
   float min_width = 1.0F;         ///< [pixels] anywhere
   float halo_width = 0.0F;        ///< [pixels] beyond either edge; 0: none
   std::optional<Rgb> halo_color;  ///< where absent, the background's: a gap around nearer lines
-  float fading = 1.0F;            ///< share of the depth cue
+  /// Only where something nearer hides the lines; they shine through by `opacity`.
+  bool hidden_part = false;
+  float fading = 1.0F;  ///< share of the depth cue
   float opacity = 1.0F;
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
