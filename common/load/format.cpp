@@ -6,8 +6,8 @@ namespace palpate {
 
 std::string_view name_of(Format format) noexcept {
   static constexpr std::array<std::string_view, kFormatCount> kNames{
-      "legacy VTK", "VTK XML", "VTK multi-block", "VTK time series", "PLOT3D", "EnSight", "Exodus II",
-      "OpenFOAM",   "NRRD"};
+      "legacy VTK", "VTK XML", "VTK multi-block", "VTK XML in pieces", "VTK time series",
+      "PLOT3D",     "EnSight", "Exodus II",       "OpenFOAM",          "NRRD"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -16,6 +16,7 @@ std::string_view helper_of(Format format) noexcept {
     case Format::kLegacyVtk:
     case Format::kVtkXml:
     case Format::kVtkMultiBlock:
+    case Format::kVtkParallel:
     case Format::kParaviewSeries:
       return "palpate-load-vtk";
     case Format::kNrrd:

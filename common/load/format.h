@@ -10,6 +10,7 @@ enum class Format : std::uint8_t {
   kLegacyVtk,       ///< "# vtk DataFile"
   kVtkXml,          ///< .vti .vtr .vts .vtu .vtp
   kVtkMultiBlock,   ///< .vtm: an index of blocks
+  kVtkParallel,     ///< .pvti .pvtr .pvts .pvtu .pvtp: an index of pieces
   kParaviewSeries,  ///< .pvd, or .vtu.series: an index of time steps
   kPlot3d,
   kEnsight,
@@ -17,7 +18,7 @@ enum class Format : std::uint8_t {
   kOpenFoam,
   kNrrd
 };
-inline constexpr int kFormatCount = 9;
+inline constexpr int kFormatCount = 10;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

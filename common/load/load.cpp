@@ -39,8 +39,9 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 std::uint64_t input_bytes(const LoadRequest& request, Format format) {
   std::uint64_t bytes = request.solution ? size_of(*request.solution) : 0;
   for (const auto& file : request.files) bytes += size_of(file);
-  const bool index = format == Format::kVtkMultiBlock || format == Format::kParaviewSeries ||
-                     format == Format::kEnsight || format == Format::kOpenFoam || format == Format::kNrrd;
+  const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
+                     format == Format::kParaviewSeries || format == Format::kEnsight ||
+                     format == Format::kOpenFoam || format == Format::kNrrd;
   if (!index) return bytes;
   std::filesystem::path folder = request.files.front();
   std::error_code error;

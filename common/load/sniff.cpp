@@ -53,6 +53,8 @@ Sniffed sniff_vtk_xml(std::string_view text) {
   static constexpr std::array<std::string_view, 5> kSingle{"ImageData", "RectilinearGrid", "StructuredGrid",
                                                            "UnstructuredGrid", "PolyData"};
   if (std::find(kSingle.begin(), kSingle.end(), type) != kSingle.end()) return {Format::kVtkXml, "", ""};
+  if (type.starts_with('P') && std::find(kSingle.begin(), kSingle.end(), type.substr(1)) != kSingle.end())
+    return {Format::kVtkParallel, "", ""};
   if (type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet")
     return {Format::kVtkMultiBlock, "", ""};
   if (type == "Collection") return {Format::kParaviewSeries, "", ""};

@@ -14,6 +14,7 @@
 #include "common/base/error.h"
 #include "common/load/sniff.h"
 #include "loaders/vtk/mapped_file.h"
+#include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/xml_scan.h"
 
 namespace palpate {
@@ -141,6 +142,14 @@ std::vector<FileStep> read_index(const std::filesystem::path& file, Format forma
   if (format == Format::kVtkMultiBlock) {
     FileStep step;
     add_blocks(file, 0, step.pieces);
+    return {step};
+  }
+  if (format == Format::kVtkParallel) {
+    const ParallelIndex index = read_parallel_index(file.string());
+    if (index.structured()) return {{0.0, {{file, ""}}}};
+    FileStep step;
+    for (const ParallelPiece& piece : index.pieces)
+      step.pieces.push_back({piece.file, "piece " + std::to_string(step.pieces.size() + 1)});
     return {step};
   }
   const MappedFile mapped(file.string());

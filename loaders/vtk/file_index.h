@@ -1,5 +1,5 @@
-/// Which files make which blocks at which time: read from an index file (.vtm, .pvd, .vtu.series), or worked
-/// out from the names of several files.
+/// Which files make which blocks at which time: read from an index file (.vtm, .pvtu, .pvd, .vtu.series), or
+/// worked out from the names of several files.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,8 @@ struct FileStep {
 };
 
 /// The steps that an index file lists, with indices of blocks inside it opened in turn; relative names start
-/// from the index file's folder. @throws Error (bad input).
+/// from the index file's folder. An index of structured pieces, which make one grid, stands for itself.
+/// @throws Error (bad input).
 [[nodiscard]] std::vector<FileStep> read_index(const std::filesystem::path& file, Format format);
 
 /// What several files given together mean: names that differ in one number only are the steps of a time

@@ -86,7 +86,8 @@ class VtkFiles : public Loader {
 
  private:
   void arrange(const LoadRequest& request, Format format, std::vector<std::string>& notes) {
-    const bool index = format == Format::kVtkMultiBlock || format == Format::kParaviewSeries;
+    const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
+                       format == Format::kParaviewSeries;
     if (request.files.size() > 1) {
       std::string note;
       steps_ = arrange_files(request.files, note);
@@ -104,7 +105,7 @@ class VtkFiles : public Loader {
       for (std::size_t p = 0; p < step.pieces.size(); ++p) {
         if (format == Format::kLegacyVtk || format == Format::kVtkXml) break;
         const Format inner = find_format(step.pieces[p].file);
-        if (inner == Format::kVtkMultiBlock) {
+        if (inner == Format::kVtkMultiBlock || inner == Format::kVtkParallel) {
           std::vector<FilePiece> parts = read_index(step.pieces[p].file, inner).front().pieces;
           step.pieces.erase(step.pieces.begin() + static_cast<std::ptrdiff_t>(p));
           step.pieces.insert(step.pieces.begin() + static_cast<std::ptrdiff_t>(p), parts.begin(),

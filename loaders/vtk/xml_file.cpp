@@ -3,32 +3,41 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
 #include <vtkSmartPointer.h>
-#include <vtkXMLDataReader.h>
 #include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
+#include <vtkXMLPRectilinearGridReader.h>
+#include <vtkXMLPStructuredGridReader.h>
 #include <vtkXMLPolyDataReader.h>
+#include <vtkXMLReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 #include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "common/base/error.h"
+#include "common/load/sniff.h"
 #include "loaders/vtk/mapped_file.h"
+#include "loaders/vtk/parallel_index.h"
 
 namespace palpate {
 namespace {
 
 XmlScan checked_scan(const std::string& file) {
+  if (find_format(file) == Format::kVtkParallel) return check_parallel(file, read_parallel_index(file));
   const MappedFile mapped(file);
   XmlScan scan = scan_xml(mapped.text());
   if (!scan.problem.empty()) throw input_error({file, "", scan.problem, "", "the file may be damaged"});
   return scan;
 }
 
-vtkSmartPointer<vtkXMLDataReader> make_reader(const std::string& type) {
+vtkSmartPointer<vtkXMLReader> make_reader(const std::string& type) {
   if (type == "ImageData") return vtkSmartPointer<vtkXMLImageDataReader>::New();
   if (type == "RectilinearGrid") return vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
   if (type == "StructuredGrid") return vtkSmartPointer<vtkXMLStructuredGridReader>::New();
   if (type == "UnstructuredGrid") return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
   if (type == "PolyData") return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  if (type == "PImageData") return vtkSmartPointer<vtkXMLPImageDataReader>::New();
+  if (type == "PRectilinearGrid") return vtkSmartPointer<vtkXMLPRectilinearGridReader>::New();
+  if (type == "PStructuredGrid") return vtkSmartPointer<vtkXMLPStructuredGridReader>::New();
   return nullptr;
 }
 
@@ -44,7 +53,7 @@ void select(vtkDataArraySelection* selection, const std::set<std::string>& array
 }  // namespace
 
 struct XmlFile::Reader {
-  vtkSmartPointer<vtkXMLDataReader> vtk;
+  vtkSmartPointer<vtkXMLReader> vtk;
 };
 
 XmlFile::XmlFile(const std::string& file, VtkErrors& errors)

@@ -1,4 +1,5 @@
-/// One VTK XML file (.vti .vtr .vts .vtu .vtp) through VTK's reader, with the arrays asked for and no others.
+/// One VTK XML file (.vti .vtr .vts .vtu .vtp, or .pvti .pvtr .pvts with their pieces) through VTK's reader,
+/// with the arrays asked for and no others.
 #pragma once
 
 #include <memory>

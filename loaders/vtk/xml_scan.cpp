@@ -265,6 +265,7 @@ void scan(std::string_view text, XmlScan& result) {
         throw Broken{"WholeExtent=\"" + tag.at("WholeExtent").substr(0, 60) +
                      "\", expected six increasing numbers"};
       context.whole = *whole;
+      result.whole_cells = whole->cells;
     } else if (tag.name == "Piece") {
       begin_piece(tag, context);
     } else if (tag.name == "PointData" || tag.name == "CellData" || tag.name == "Points" ||
@@ -371,6 +372,12 @@ bool XmlTags::next(XmlTag& tag) {
     i = close + 1;
   }
   return true;
+}
+
+std::optional<std::uint64_t> cells_of_extent(const std::string& extent) {
+  const auto found = extent_of(extent);
+  if (!found) return std::nullopt;
+  return found->cells;
 }
 
 XmlScan scan_xml(std::string_view text) {

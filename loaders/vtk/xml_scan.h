@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,10 +46,14 @@ struct XmlArray {
 };
 
 struct XmlScan {
-  std::string data_type;         ///< "UnstructuredGrid"
-  std::vector<XmlArray> arrays;  ///< of PointData and CellData, of the first piece
-  std::string problem;           ///< what is wrong, or empty
+  std::string data_type;          ///< "UnstructuredGrid"
+  std::vector<XmlArray> arrays;   ///< of PointData and CellData, of the first piece
+  std::uint64_t whole_cells = 0;  ///< structured kinds: cells of the whole extent
+  std::string problem;            ///< what is wrong, or empty
 };
+
+/// Cells of an extent "i0 i1 j0 j1 k0 k1" (one along an axis of one point), or nothing where that is none.
+[[nodiscard]] std::optional<std::uint64_t> cells_of_extent(const std::string& extent);
 
 /// Scans `text`, the whole file (binary appended data is not looked into).
 [[nodiscard]] XmlScan scan_xml(std::string_view text);
