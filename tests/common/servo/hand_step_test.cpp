@@ -1,0 +1,202 @@
+#include "common/servo/hand_step.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/common/servo/sphere_drag.h"
+#include "tests/support/allocation_guard.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kRadius = 0.05;  // [m]
+const Vec3 kNear{0.0, 0.0, 0.052};
+
+HandInput at(double t, const Vec3& x) { return {.time = t, .present = true, .sample = {t, x, 0}}; }
+
+/// A stepper that has been held at kNear for long enough to show the whole force. @param t [s] of its last
+/// step.
+HandStepper held(double& t, const DeviceLimits& limits = {}) {
+  HandStepper stepper(sphere_chain(kRadius), limits);
+  for (t = 0.0; t < 0.1; t += 0.001) (void)stepper.step(at(t, kNear));
+  t -= 0.001;
+  return stepper;
+}
+
+TEST(HandStepper, PullsTheProbeToItsProxyOnceTheForceHasGrown) {
+  double t = 0.0;
+  HandStepper stepper = held(t);
+  const HandStep step = stepper.step(at(t + 0.001, kNear));
+  EXPECT_EQ(step.state, HoldState::kHeld);
+  EXPECT_EQ(step.number, 100U);
+  EXPECT_EQ(step.probe, kNear);
+  EXPECT_NEAR(glm::distance(step.chain.proxy(kNear), Vec3(0, 0, kRadius)), 0.0, 1e-15);
+  EXPECT_NEAR(step.force.z, -200.0 * 0.002, 1e-12);
+}
+
+TEST(HandStepper, GivesNoForceInTheFirstStep) {
+  HandStepper stepper(sphere_chain(kRadius), {.slew_cap = 100.0});
+  EXPECT_EQ(stepper.step(at(5.0, kNear)).force, Vec3(0.0));
+  EXPECT_NEAR(stepper.step(at(5.001, kNear)).force.z, -0.1, 1e-12);
+}
+
+TEST(HandStepper, LeavesTheProxiesAsTheyWereOnAFault) {
+  for (const auto& [dt, x, cut] :
+       {std::tuple{0.001, Vec3{kNan, 0, 0}, ForceCut::kNotFinite},
+        std::tuple{0.001, Vec3{0, kInf, 0}, ForceCut::kNotFinite},
+        std::tuple{kNan, kNear, ForceCut::kNotFinite}, std::tuple{0.0, Vec3{0.049, 0, 0}, ForceCut::kTime},
+        std::tuple{-0.05, Vec3{0.049, 0, 0}, ForceCut::kTime}}) {
+    double t = 0.0;
+    HandStepper stepper = held(t);
+    const HandStep fault = stepper.step(at(t + dt, x));
+    EXPECT_EQ(fault.state, HoldState::kFault);
+    EXPECT_EQ(fault.cut, cut);
+    EXPECT_EQ(fault.force, Vec3(0.0));
+    EXPECT_EQ(fault.probe, kNear) << "the last one that made sense";
+    ASSERT_EQ(fault.chain.links, 1);
+    EXPECT_NEAR(glm::distance(fault.chain.proxies[0], Vec3(0, 0, kRadius)), 0.0, 1e-15);
+    // Time goes on from where it is now: only this step was at fault.
+    const HandStep next = stepper.step(at((std::isnan(dt) ? t : t + dt) + 0.001, kNear));
+    EXPECT_EQ(next.state, HoldState::kHeld) << name_of(cut);
+    EXPECT_GT(glm::length(next.force), 0.0);
+    EXPECT_LE(glm::length(next.force), 200.0 * 0.002);
+  }
+}
+
+TEST(HandStepper, TakesAnOldSampleForAFault) {
+  double t = 0.0;
+  HandStepper stepper = held(t, {.stale_after = 0.05});
+  HandInput input = at(t, kNear);
+  for (int i = 1; i <= 60; ++i) {
+    input.time = t + 0.001 * i;
+    const HandStep step = stepper.step(input);
+    EXPECT_EQ(step.cut, i <= 50 ? ForceCut::kNone : ForceCut::kStale) << i;
+  }
+}
+
+TEST(HandStepper, ForgetsItsProxiesWhenTheHandLetsGo) {
+  double t = 0.0;
+  HandStepper stepper = held(t);
+  const HandStep away = stepper.step({.time = t + 0.001});
+  EXPECT_FALSE(away.present);
+  EXPECT_EQ(away.force, Vec3(0.0));
+  EXPECT_EQ(away.state, HoldState::kFree);
+  EXPECT_EQ(away.chain.links, 0);
+  EXPECT_EQ(away.cut, ForceCut::kNoHand);
+  // Far away, where a chain that still held would have jumped.
+  EXPECT_EQ(stepper.step(at(t + 0.002, {1, 0, 0})).cut, ForceCut::kNone);
+}
+
+TEST(HandStepper, StartsFromZeroWhereAFeatureChanges) {
+  double t = 0.0;
+  HandStepper stepper = held(t);
+  const HandStep jump = stepper.step(at(t + 0.001, {0, 0, 0.2}));
+  EXPECT_EQ(jump.state, HoldState::kReleased);
+  EXPECT_EQ(jump.cut, ForceCut::kJump);
+  EXPECT_EQ(jump.force, Vec3(0.0));
+}
+
+TEST(HandStepper, StartsFromZeroWithAnotherChainAndKeepsTheForceOnAnEditedStiffness) {
+  double t = 0.0;
+  HandStepper stepper = held(t);
+  ChainSettings softer;
+  softer.stiffness = 199.0;
+  stepper.apply(softer);
+  EXPECT_NEAR(stepper.step(at(t + 0.001, kNear)).force.z, -199.0 * 0.002, 1e-12);
+  softer.stiffness = kNan;
+  stepper.apply(softer);
+  EXPECT_NEAR(stepper.step(at(t + 0.002, kNear)).force.z, -199.0 * 0.002, 1e-12) << "nonsense is ignored";
+  const auto old = stepper.exchange_chain(sphere_chain(0.055));
+  EXPECT_EQ(old->settings().stiffness, 199.0);
+  const HandStep first = stepper.step(at(t + 0.003, kNear));
+  EXPECT_EQ(first.cut, ForceCut::kStart);
+  EXPECT_NEAR(first.chain.proxies[0].z, 0.055, 1e-15);
+  EXPECT_NEAR(stepper.step(at(t + 0.004, kNear)).force.z, 0.2, 1e-12);
+}
+
+TEST(HandStepper, SwitchesForceOffAndHoldsStill) {
+  double t = 0.0;
+  HandStepper stepper = held(t);
+  stepper.apply(HandSwitch::kForceOff);
+  const HandStep off = stepper.step(at(t + 0.001, {0, 0.051, 0}));
+  EXPECT_EQ(off.cut, ForceCut::kSwitchedOff);
+  EXPECT_EQ(off.state, HoldState::kHeld) << "proxies go on without force";
+  EXPECT_NEAR(off.chain.proxies[0].y, kRadius, 1e-15);
+  stepper.apply(HandSwitch::kArm);
+  EXPECT_EQ(stepper.step(at(t + 0.002, kNear)).cut, ForceCut::kStart);
+  EXPECT_GT(glm::length(stepper.step(at(t + 0.003, kNear)).force), 0.0);
+  stepper.apply(HandSwitch::kPause);
+  const HandStep still = stepper.step(at(t + 0.004, {0, 0.051, 0}));
+  EXPECT_EQ(still.cut, ForceCut::kPaused);
+  EXPECT_NEAR(still.chain.proxies[0].z, kRadius, 1e-15);
+  stepper.apply(HandSwitch::kResume);
+  EXPECT_EQ(stepper.step(at(t + 0.005, kNear)).force, Vec3(0.0));
+  EXPECT_GT(glm::length(stepper.step(at(t + 0.006, kNear)).force), 0.0);
+}
+
+TEST(HandStepper, LatchesWhenTheHandPassesTheVelocityGate) {
+  double t = 0.0;
+  HandStepper stepper = held(t, {.velocity_gate = 1.0});
+  EXPECT_EQ(stepper.step(at(t + 0.001, kNear + Vec3{0.0009, 0, 0})).cut, ForceCut::kNone);
+  const HandStep fast = stepper.step(at(t + 0.002, kNear + Vec3{0.003, 0, 0}));
+  EXPECT_EQ(fast.cut, ForceCut::kTooFast);
+  EXPECT_EQ(fast.state, HoldState::kFault);
+  EXPECT_EQ(stepper.step(at(t + 0.003, kNear + Vec3{0.003, 0, 0})).cut, ForceCut::kTooFast);
+}
+
+/// A chain that gives what is no number after a while.
+class Broken final : public Constraint {
+ public:
+  void apply(const ChainSettings& /*settings*/) noexcept override {}
+  void reset() noexcept override { ++resets; }
+  void update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
+    link.proxy = probe / probe.x;
+    link.state = HoldState::kHeld;
+  }
+  int resets = 0;
+};
+
+TEST(HandStepper, SurvivesAChainThatGivesNoNumber) {
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<Broken>());
+  const auto& broken = static_cast<const Broken&>(*links.front());
+  HandStepper stepper(std::make_unique<ProxyChain>(std::move(links), ChainSettings{}), {});
+  (void)stepper.step(at(0.0, {1, 2, 3}));
+  const HandStep step = stepper.step(at(0.001, {0, 2, 3}));
+  EXPECT_EQ(step.cut, ForceCut::kNotFinite);
+  EXPECT_EQ(step.force, Vec3(0.0));
+  EXPECT_EQ(step.chain.proxies[0], Vec3(1, 2, 3)) << "the last finite ones";
+  EXPECT_EQ(broken.resets, 1);
+}
+
+TEST(HandStepper, AllocatesNothingAndIsTheSameEachTime) {
+  HandStepper a(sphere_chain(kRadius), {});
+  HandStepper b(sphere_chain(kRadius), {});
+  std::mt19937_64 random{3};
+  std::uniform_real_distribution<double> unit(-0.1, 0.1);
+  double t = 0.0;
+  const AllocationGuard guard;
+  for (int i = 0; i < 20'000; ++i) {
+    t += 0.001;
+    HandInput input = at(t, {unit(random), unit(random), unit(random)});
+    if (random() % 50 == 0) input.present = false;
+    if (random() % 50 == 0) input.time = kNan;
+    if (random() % 50 == 0) input.sample.position.y = kInf;
+    if (random() % 50 == 0) a.apply(HandSwitch::kRestart), b.apply(HandSwitch::kRestart);
+    const HandStep first = a.step(input);
+    const HandStep second = b.step(input);
+    ASSERT_EQ(first.force, second.force);
+    ASSERT_EQ(first.chain.proxies, second.chain.proxies);
+    ASSERT_EQ(first.state, second.state);
+    ASSERT_LE(glm::length(first.force), 4.0 * (1.0 + 1e-12));
+  }
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+}  // namespace
+}  // namespace palpate::test
