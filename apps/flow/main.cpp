@@ -1,4 +1,5 @@
 /// flow: streamlines of CFD data, seen and followed.
+#include "apps/flow/flow_modes.h"
 #include "apps/flow/open_verb.h"
 #include "common/app/cli/verbs.h"
 
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
                    {"flow info carotid.vtk", "what the file holds"},
                    {"flow trace carotid.vtk --seeds grid:8,8,8 --out lines.vtp", "lines for ParaView"},
                    {"flow render carotid.vtk --out carotid.png", "a picture, with or without a display"},
+                   {"flow probe carotid.vtk --path path.csv --out log.csv", "feel along a recorded path"},
                    {"flow report carotid.vtk --out report", "error against run time on this very field"},
                    {"flow --example list", "the built-in data sets"}},
       .verbs = {
@@ -26,6 +28,13 @@ int main(int argc, char** argv) {
                        "a built-in field; the counts as JSON"},
                       {"flow trace carotid.vtk --seeds seeds.csv --stop-plane 0,0,1,20 --out lines.vtp",
                        "seeds from a table; lines end on the plane z = 20"}}),
+          probe_verb(flow_modes(),
+                     {{"flow probe carotid.vtk --path path.csv --out log.csv",
+                       "feel along a recorded path: proxies, forces and residuals, a row a step"},
+                      {"flow probe --example abc --path path.csv --mode isotropic --json",
+                       "another mode; the summary as JSON"},
+                      {"flow probe carotid.vtk --path path.csv --ticks auto --stiffness 400 --out log.csv",
+                       "with tick marks at equal times, and a stiffer spring"}}),
           render_verb({{"flow render carotid.vtk --out carotid.png --size 1920x1080",
                         "a picture, with or without a display"},
                        {"flow render --example tornado --camera 60,30,0,1.2 --color time --out tornado.png",

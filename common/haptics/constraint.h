@@ -22,6 +22,7 @@ enum class HoldState : std::uint8_t {
   kOutside,   ///< the probe is where the data says nothing, and nothing holds it
   kFault      ///< the input made no sense
 };
+inline constexpr int kHoldStateCount = 6;
 [[nodiscard]] std::string_view name_of(HoldState state) noexcept;  ///< "fell_back"
 
 /// What one update may cost. Counted, never timed, so that a replay does the same.

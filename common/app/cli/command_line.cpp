@@ -83,6 +83,8 @@ class VerbParser {
     if (verb.groups.input) add_input();
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.view) add_view();
+    if (verb.groups.touch) add_touch();
+    if (verb.groups.path) add_path();
     if (verb.groups.out) add_out(verb);
     if (verb.groups.picture) add_picture();
     if (verb.groups.effort) add_effort();
@@ -113,6 +115,12 @@ class VerbParser {
     positive(options_.tracing.step, "--step");
     positive(options_.tracing.max_length, "--max-length");
     positive(options_.tracing.max_time, "--max-time");
+    positive(options_.touch.workspace_scale, "--workspace-scale");
+    positive(options_.touch.stiffness, "--stiffness");
+    positive(options_.touch.release, "--release");
+    positive(options_.touch.drag, "--drag");
+    positive(options_.touch.force_cap, "--force-cap");
+    positive(options_.touch.slew_cap, "--slew-cap");
     if (options_.tracing.tolerance == 0.0)
       throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
   }
@@ -203,6 +211,34 @@ class VerbParser {
           "lambda2, "
           "divergence, or an array of the file",
           "NAME", group);
+  }
+
+  void add_touch() {
+    const char* group = "Touch";
+    TouchOptions& touch = options_.touch;
+    scene("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", group);
+    scene("--workspace-scale", touch.workspace_scale,
+          "metres per data unit; by default the diagonal of the data is 0.25 m", "M", group);
+    scene("--stiffness", touch.stiffness, "of the spring between probe and proxy, in N/m; default 200", "K",
+          group);
+    scene("--release", touch.release, "stretch in mm at which a line lets go; default 10", "MM", group);
+    scene("--drag", touch.drag, "distance in mm at which an isotropic drag follows; default 4", "MM", group);
+    scene("--ticks", touch.ticks,
+          "tick marks felt at equal times along the line: 'auto', or the time between them in data units",
+          "auto|T", group);
+    scene("--tick-stiffness", touch.tick_stiffness, "of the tick marks, relative; default 0.25", "0..1",
+          group)
+        ->check(CLI::Range(0.0, 1.0));
+    scene("--speed-force", touch.speed_force,
+          "force in N along the line where the flow is fastest; negative: against it", "N", group);
+    scene("--force-cap", touch.force_cap, "largest force in N; default 4", "N", group);
+    scene("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", group);
+  }
+
+  void add_path() {
+    app_.add_option("--path", options_.path, "table of the probe's path, header t,x,y,z[,b0]: one step a row")
+        ->type_name("FILE.csv")
+        ->group("Touch");
   }
 
   void add_out(const Verb& verb) {

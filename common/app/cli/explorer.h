@@ -36,6 +36,8 @@ struct VerbGroups {
   bool input = true;
   bool tracing = false;
   bool view = false;
+  bool touch = false;
+  bool path = false;  ///< --path
   bool out = false;
   bool picture = false;  ///< --size, --repeat
   bool effort = false;   ///< --quick, --thorough

@@ -170,6 +170,40 @@ std::string render_json(const RenderSummary& summary) {
   return text_of(json);
 }
 
+std::string probe_json(const ProbeSummary& summary) {
+  Json states = Json::object();
+  for (int s = 0; s < kHoldStateCount; ++s) {
+    states[std::string(name_of(static_cast<HoldState>(s)))] = summary.states[static_cast<std::size_t>(s)];
+  }
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"mode", summary.mode},
+            {"out", summary.output},
+            {"steps", summary.steps},
+            {"states", states},
+            {"faults", summary.states[static_cast<std::size_t>(HoldState::kFault)]},
+            {"stiffness_n_per_m", summary.settings.stiffness},
+            {"release_mm", 1e3 * summary.settings.release_distance},
+            {"drag_mm", 1e3 * summary.settings.drag_threshold},
+            {"tick_interval", summary.settings.tick_interval},
+            {"tick_stiffness", summary.settings.tick_stiffness},
+            {"speed_force_n", summary.settings.speed_force},
+            {"force_cap_n", summary.limits.force_cap},
+            {"slew_cap_n_per_s", summary.limits.slew_cap},
+            {"workspace_scale_m_per_unit", summary.workspace_scale},
+            {"max_force_n", summary.max_force},
+            {"max_residual", summary.max_residual},
+            {"max_residual_per_diagonal", summary.max_residual / summary.diagonal},
+            {"us_p50", summary.us_p50},
+            {"us_p99", summary.us_p99},
+            {"us_max", summary.us_max},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_probe", summary.seconds_probe},
+            {"version", version()}};
+  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  return text_of(json);
+}
+
 std::string report_summary_json(const std::string& folder, std::size_t rows, std::size_t failed_cases,
                                 double seconds) {
   return text_of({{"out", folder},

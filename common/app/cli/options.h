@@ -49,11 +49,27 @@ struct ViewOptions {
   std::string color;   ///< array that colours the lines; empty: speed
 };
 
+/// What the hand feels, and how the workspace lies over the data.
+struct TouchOptions {
+  std::string mode;              ///< empty: the program's first one
+  double workspace_scale = 0.0;  ///< [m] per data unit; 0: the diagonal is 0.25 m
+  double stiffness = 200.0;      ///< [N/m]
+  double release = 10.0;         ///< [mm]
+  double drag = 4.0;             ///< [mm]
+  std::string ticks;             ///< "auto" or the time between them; empty: none
+  double tick_stiffness = 0.25;
+  double speed_force = 0.0;  ///< [N]
+  double force_cap = 4.0;    ///< [N]
+  double slew_cap = 200.0;   ///< [N/s]
+};
+
 struct Options {
   CommonOptions common;
   InputOptions input;
   TracingOptions tracing;
   ViewOptions view;
+  TouchOptions touch;
+  std::filesystem::path path;  ///< probe: the recorded path
   std::filesystem::path out;
   std::string size = "1280x960";
   int repeat = 0;  ///< render: frames to be timed after the first one

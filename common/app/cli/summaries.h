@@ -1,11 +1,14 @@
 /// What the verbs found out, as plain values: printed as text by the verb, as JSON by json_output.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/base/needs.h"
+#include "common/device/device.h"
+#include "common/haptics/constraint.h"
 #include "common/scene/input.h"
 #include "common/trace/trace.h"
 
@@ -56,6 +59,25 @@ struct InfoSummary {
     Needs plan;
   };
   std::vector<VerbPlan> plans;  ///< with --explain
+};
+
+struct ProbeSummary {
+  std::string input;
+  std::string field;
+  std::string mode;
+  std::string output;  ///< empty: none
+  std::size_t steps = 0;
+  ChainSettings settings;
+  DeviceLimits limits;
+  double workspace_scale = 0.0;  ///< [m] per data unit
+  double max_force = 0.0;        ///< [N]
+  double max_residual = 0.0;     ///< data units
+  double diagonal = 0.0;         ///< data units
+  std::array<std::size_t, kHoldStateCount> states{};
+  double us_p50 = 0.0, us_p99 = 0.0, us_max = 0.0;  ///< [us] thread CPU time of a step
+  double seconds_load = 0.0;
+  double seconds_probe = 0.0;
+  Needs plan;
 };
 
 struct RenderSummary {

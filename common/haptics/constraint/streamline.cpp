@@ -29,7 +29,7 @@ bool can_go_on(End end) noexcept {
 
 }  // namespace
 
-StreamlineConstraint::StreamlineConstraint(std::shared_ptr<FollowedLine> line, const Workspace& workspace)
+StreamlineConstraint::StreamlineConstraint(std::shared_ptr<LiveLine> line, const Workspace& workspace)
     : line_(std::move(line)), workspace_(workspace) {
   const VectorField& field = line_->field();
   const double to_local = power_of_two(-field.frame().length_exponent);

@@ -22,14 +22,14 @@
 
 #include "common/haptics/constraint.h"
 #include "common/haptics/workspace.h"
-#include "common/trace/followed_line.h"
+#include "common/trace/live_line.h"
 
 namespace palpate {
 
 class StreamlineConstraint final : public Constraint {
  public:
   /// @param line shared with whoever draws it; this constraint is the one that grows it.
-  StreamlineConstraint(std::shared_ptr<FollowedLine> line, const Workspace& workspace);
+  StreamlineConstraint(std::shared_ptr<LiveLine> line, const Workspace& workspace);
 
   void apply(const ChainSettings& settings) noexcept override;
   void reset() noexcept override;
@@ -66,7 +66,7 @@ class StreamlineConstraint final : public Constraint {
   [[nodiscard]] Vec3 point() const noexcept;
   [[nodiscard]] Vec3 tangent() const noexcept;
 
-  std::shared_ptr<FollowedLine> line_;
+  std::shared_ptr<LiveLine> line_;
   Workspace workspace_;
   double release_ = 0.0;      ///< frame L
   double speed_force_ = 0.0;  ///< [N] at the highest speed

@@ -19,7 +19,7 @@ struct FollowedFlow {
                         double tick_interval = 0.0, double metres_per_unit = 1.0)
       : field(std::move(flow)),
         workspace(metres_per_unit, field->frame()),
-        line(std::make_shared<FollowedLine>(field, 1e-7, 1)) {
+        line(std::make_shared<LiveLine>(field, 1e-7, 1)) {
     auto streamline = std::make_unique<StreamlineConstraint>(line, workspace);
     constraint = streamline.get();
     std::vector<std::unique_ptr<Constraint>> links;
@@ -34,7 +34,7 @@ struct FollowedFlow {
 
   std::shared_ptr<const VectorField> field;
   Workspace workspace;
-  std::shared_ptr<FollowedLine> line;
+  std::shared_ptr<LiveLine> line;
   StreamlineConstraint* constraint = nullptr;
   std::unique_ptr<ProxyChain> chain;
 };

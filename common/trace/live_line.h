@@ -13,10 +13,10 @@
 
 namespace palpate {
 
-class FollowedLine {
+class LiveLine {
  public:
   /// Prepares the walks and all storage. @param tolerance of the tracing, relative to the diagonal.
-  FollowedLine(std::shared_ptr<const VectorField> field, double tolerance, int threads);
+  LiveLine(std::shared_ptr<const VectorField> field, double tolerance, int threads);
 
   [[nodiscard]] const VectorField& field() const noexcept { return *field_; }
   [[nodiscard]] const GrowthLimits& limits() const noexcept { return limits_; }

@@ -1,4 +1,4 @@
-#include "common/trace/followed_line.h"
+#include "common/trace/live_line.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,7 @@ constexpr double kMaxGap = 1e-8;  // diagonals; the contract allows 1e-6
 
 }  // namespace
 
-FollowedLine::FollowedLine(std::shared_ptr<const VectorField> field, double tolerance, int threads)
+LiveLine::LiveLine(std::shared_ptr<const VectorField> field, double tolerance, int threads)
     : field_(std::move(field)) {
   const double diagonal = field_->diagonal() * power_of_two(-field_->frame().length_exponent);
   limits_.max_length = kMaxLength * diagonal;
@@ -22,7 +22,7 @@ FollowedLine::FollowedLine(std::shared_ptr<const VectorField> field, double tole
   for (auto& line : lines_) line = std::make_unique<GrowingLine>(*field_, *factory_, limits_);
 }
 
-bool FollowedLine::start(const Vec3& seed, double arc, double time) noexcept {
+bool LiveLine::start(const Vec3& seed, double arc, double time) noexcept {
   const int now = current_.load();
   const int held = held_.load();
   int spare = 0;
@@ -33,6 +33,6 @@ bool FollowedLine::start(const Vec3& seed, double arc, double time) noexcept {
   return true;
 }
 
-void FollowedLine::drop() noexcept { current_.store(-1); }
+void LiveLine::drop() noexcept { current_.store(-1); }
 
 }  // namespace palpate

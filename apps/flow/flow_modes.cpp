@@ -1,0 +1,41 @@
+#include "apps/flow/flow_modes.h"
+
+#include <utility>
+
+#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/streamline.h"
+#include "common/haptics/constraint/tick_marks.h"
+
+namespace palpate {
+namespace {
+
+// Ten times tighter than what is promised of the proxy, so that a line may be followed over several
+// diagonals.
+constexpr double kTolerance = 1e-7;
+
+HapticChain make_streamline(const HapticScene& scene) {
+  auto line = std::make_shared<LiveLine>(scene.field, kTolerance, scene.threads);
+  auto streamline = std::make_unique<StreamlineConstraint>(line, scene.workspace);
+  const StreamlineConstraint& followed = *streamline;
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::move(streamline));
+  // Without tick marks the chain ends with the streamline's proxy, which is then the one that is logged.
+  if (scene.settings.tick_interval > 0.0) links.push_back(std::make_unique<TickMarks>(followed));
+  return {std::make_unique<ProxyChain>(std::move(links), scene.settings), std::move(line)};
+}
+
+HapticChain make_isotropic(const HapticScene& scene) {
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<IsotropicDrag>());
+  return {std::make_unique<ProxyChain>(std::move(links), scene.settings), nullptr};
+}
+
+}  // namespace
+
+std::vector<HapticMode> flow_modes() {
+  return {{"streamline", "held by the streamline, which gives when pushed and pops over to the next",
+           make_streamline},
+          {"isotropic", "the same drag in all directions, to steady the hand", make_isotropic}};
+}
+
+}  // namespace palpate

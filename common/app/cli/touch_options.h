@@ -1,0 +1,22 @@
+/// Options of the group "Touch" as the haptics want them.
+#pragma once
+
+#include "common/app/cli/options.h"
+#include "common/device/device.h"
+#include "common/field/vector_field.h"
+#include "common/haptics/chain_settings.h"
+#include "common/haptics/workspace.h"
+
+namespace palpate {
+
+[[nodiscard]] Workspace touch_workspace(const TouchOptions& options, const VectorField& field);
+
+/// @throws Error (usage) for values that make no sense.
+[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
+                                           const Workspace& workspace);
+
+/// Caps of the force; a path or a mouse may be as fast as it likes.
+/// @throws Error (usage).
+[[nodiscard]] DeviceLimits touch_limits(const TouchOptions& options);
+
+}  // namespace palpate

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <time.h>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/touch_options.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/text.h"
+#include "common/device/probe_path.h"
+#include "common/load/output_file.h"
+#include "common/scene/plan.h"
+#include "common/servo/hand_step.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kStepsBetweenChecks = 4096;
+
+/// Processor time of this thread [us].
+double thread_microseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+/// The log of the contract, one row a step.
+class ProbeLog {
+ public:
+  ProbeLog(OutputFile& file, const Workspace& workspace, int links) : file_(file), workspace_(workspace) {
+    std::string header = "t,x,y,z,px,py,pz,fx,fy,fz,state,residual,us";
+    for (int i = 1; i <= links; ++i) {
+      for (const char* axis : {"x", "y", "z"}) {
+        header += ",p";
+        header += std::to_string(i) + axis;
+      }
+    }
+    file_.write(header + "\n");
+  }
+
+  void add(const PathRow& row, const HandStep& step, double microseconds) {
+    line_.clear();
+    line_ += exact_number(row.time);
+    add_vector(row.position);
+    add_vector(in_data(step.chain.proxy(step.probe), row, step));
+    add_vector(step.force);
+    (line_ += ',').append(name_of(step.state));
+    (line_ += ',') += exact_number(step.chain.residual / workspace_.scale());
+    (line_ += ',') += short_number(microseconds);
+    for (int i = 0; i < step.chain.links; ++i) {
+      add_vector(in_data(step.chain.proxies[static_cast<std::size_t>(i)], row, step));
+    }
+    line_ += '\n';
+    file_.write(line_);
+  }
+
+ private:
+  /// A proxy that is the probe has the probe's very numbers.
+  [[nodiscard]] Vec3 in_data(const Vec3& proxy, const PathRow& row, const HandStep& step) const {
+    return proxy == step.probe && is_finite(row.position) ? row.position
+                                                          : workspace_.data_from_workspace(proxy);
+  }
+  void add_vector(const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) (line_ += ',') += exact_number(v[axis]);
+  }
+
+  OutputFile& file_;
+  const Workspace& workspace_;
+  std::string line_;
+};
+
+/// The value below which `part` of the sorted ones lie.
+double percentile(const std::vector<float>& sorted, double part) {
+  if (sorted.empty()) return 0.0;
+  const auto last = static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(std::llround(part * last))];
+}
+
+std::string summary_text(const ProbeSummary& summary) {
+  std::string text = summary.input + ": " + counted(summary.steps, "step") + " in mode " + summary.mode;
+  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
+  std::string states;
+  for (int s = 0; s < kHoldStateCount; ++s) {
+    const std::size_t count = summary.states[static_cast<std::size_t>(s)];
+    if (count == 0) continue;
+    states += (states.empty() ? "" : ", ") + std::string(name_of(static_cast<HoldState>(s))) + " " +
+              std::to_string(count);
+  }
+  text += "  states     " + states + "\n";
+  text += "  force      at most " + short_number(summary.max_force) + " N (cap " +
+          short_number(summary.limits.force_cap) + " N, slew cap " + short_number(summary.limits.slew_cap) +
+          " N/s, stiffness " + short_number(summary.settings.stiffness) + " N/m)\n";
+  text += "  residual   at most " + short_number(summary.max_residual) + ", " +
+          short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
+  text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
+          short_number(1e3 * summary.settings.release_distance) + " mm\n";
+  text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
+          short_number(summary.us_p99) + " us, at most " + short_number(summary.us_max) + " us\n";
+  return text;
+}
+
+ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, console)) return ExitCode::kDone;
+
+  // Everything that can be refused is refused before any work is done.
+  const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+  if (options.path.empty()) {
+    throw usage_error("probe needs a path: try --path path.csv, a table with the header t,x,y,z");
+  }
+  if (options.out.empty() && !options.common.json && !options.common.explain) {
+    throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
+  }
+  if (!options.out.empty()) check_output(options.out, options.common.force);
+  ProbeSummary summary;
+  summary.limits = touch_limits(options.touch);
+  const std::vector<PathRow> path = read_probe_path(options.path.string());
+
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  if (options.common.explain) summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
+  const auto field = input.load_field(options.common.threads, &context.progress);
+  for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
+  const Workspace workspace = touch_workspace(options.touch, *field);
+  summary.input = input.title();
+  summary.field = field->name();
+  summary.mode = mode.name;
+  summary.output = options.out.string();
+  summary.settings = touch_settings(options.touch, *field, workspace);
+  summary.workspace_scale = workspace.scale();
+  summary.diagonal = field->diagonal();
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+
+  HapticChain haptics = mode.make({field, workspace, summary.settings, options.common.threads});
+  std::optional<OutputFile> file;
+  std::optional<ProbeLog> log;
+  if (!options.out.empty()) {
+    file.emplace(options.out, options.common.force);
+    log.emplace(*file, workspace, haptics.chain->size());
+  }
+  HandStepper stepper(std::move(haptics.chain), summary.limits);
+  const Stopwatch watch;
+  context.progress.begin("probing", path.size());
+  std::vector<float> times;
+  times.reserve(path.size());
+  for (const PathRow& row : path) {
+    HandInput hand{.time = row.time, .present = true};
+    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
+    const double before = thread_microseconds();
+    const HandStep step = stepper.step(hand);
+    const double microseconds = thread_microseconds() - before;
+    if (log) log->add(row, step, microseconds);
+    times.push_back(static_cast<float>(microseconds));
+    ++summary.states[static_cast<std::size_t>(step.state)];
+    summary.max_force = std::max(summary.max_force, glm::length(step.force));
+    summary.max_residual = std::max(summary.max_residual, step.chain.residual / workspace.scale());
+    if (++summary.steps % kStepsBetweenChecks == 0) context.progress.check();
+    context.progress.advance();
+  }
+  summary.seconds_probe = watch.seconds();
+  std::sort(times.begin(), times.end());
+  summary.us_p50 = percentile(times, 0.5);
+  summary.us_p99 = percentile(times, 0.99);
+  summary.us_max = percentile(times, 1.0);
+  if (file) {
+    file->finish();
+    context.interrupt.keep(options.out);
+  }
+  if (!summary.plan.empty()) measure_plan(summary.plan, input, *field);
+  console.print(summary_text(summary));
+  if (!summary.plan.empty()) console.print(plan_text(summary.plan));
+  console.print_json(probe_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
+  return {.name = "probe",
+          .summary = "follow a recorded path of the probe and log proxies and forces",
+          .groups = {.touch = true, .path = true, .out = true},
+          .examples = std::move(examples),
+          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+            return run_probe(modes, options, context);
+          }};
+}
+
+}  // namespace palpate

@@ -1,0 +1,44 @@
+/// A way of feeling data, as `--mode` and the window's keys name it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/vector_field.h"
+#include "common/haptics/proxy_chain.h"
+#include "common/haptics/workspace.h"
+#include "common/trace/live_line.h"
+
+namespace palpate {
+
+/// A chain that is ready for the servo, and what is to be drawn of it.
+struct HapticChain {
+  std::unique_ptr<ProxyChain> chain;
+  std::shared_ptr<const LiveLine> followed;  ///< null where the mode follows no line
+};
+
+/// What a chain is built over.
+struct HapticScene {
+  std::shared_ptr<const VectorField> field;
+  Workspace workspace;
+  ChainSettings settings;
+  int threads = 0;  ///< for the preparation; 0: all cores
+};
+
+struct HapticMode {
+  std::string name;     ///< "streamline"
+  std::string summary;  ///< what the hand feels, for help and panels
+  /// Builds the chain; allocates all that the servo will need.
+  std::function<HapticChain(const HapticScene&)> make;
+};
+
+/// @throws Error (usage) that lists the known modes.
+[[nodiscard]] const HapticMode& find_mode(std::span<const HapticMode> modes, const std::string& name);
+
+/// The time of the flow between tick marks that puts them 10 mm apart where it is fastest [data units].
+[[nodiscard]] double default_tick_interval(const VectorField& field, const Workspace& workspace) noexcept;
+
+}  // namespace palpate
