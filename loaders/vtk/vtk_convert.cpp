@@ -112,19 +112,24 @@ bool increasing(const std::vector<double>& x) {
   return std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
 }
 
-std::vector<double> doubles(vtkDataArray* array, int count) {
+std::vector<double> coordinates(vtkDataArray* array, int count, char axis, const std::string& file) {
+  const vtkIdType found = array == nullptr ? 0 : array->GetNumberOfTuples();
+  if (found != count) {
+    throw input_error({file, "", "has " + std::to_string(found) + " coordinates along " + axis,
+                       std::to_string(count) + " from its dimensions", "the file may be damaged"});
+  }
   std::vector<double> values;
-  for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfTuples(); ++i)
-    values.push_back(array->GetComponent(i, 0));
-  values.resize(static_cast<std::size_t>(count), values.empty() ? 0.0 : values.back());
+  values.reserve(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < found; ++i) values.push_back(array->GetComponent(i, 0));
   return values;
 }
 
 RectilinearTopology rectilinear(vtkRectilinearGrid* grid, const std::string& file) {
   RectilinearTopology t;
   const Index3 n = points_along_axes(grid);
-  t.coordinates = {doubles(grid->GetXCoordinates(), n.x), doubles(grid->GetYCoordinates(), n.y),
-                   doubles(grid->GetZCoordinates(), n.z)};
+  t.coordinates = {coordinates(grid->GetXCoordinates(), n.x, 'x', file),
+                   coordinates(grid->GetYCoordinates(), n.y, 'y', file),
+                   coordinates(grid->GetZCoordinates(), n.z, 'z', file)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& x = t.coordinates[axis];
     if (!increasing(x) || !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
@@ -339,8 +344,9 @@ std::string why_not_readable(vtkDataSet* data) {
   if (data->GetNumberOfPoints() == 0) return "holds no points";
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
   if (grid != nullptr && grid->GetNumberOfCells() == 0) return "holds no cells";
-  const bool known =
-      points_along_axes(data) != Index3{0} || grid != nullptr || vtkPolyData::SafeDownCast(data) != nullptr;
+  const Index3 n = points_along_axes(data);
+  if (n.x < 0 || n.y < 0 || n.z < 0) return "has a negative number of points along an axis";
+  const bool known = n != Index3{0} || grid != nullptr || vtkPolyData::SafeDownCast(data) != nullptr;
   if (!known) return std::string("is of a kind that is not read (") + data->GetClassName() + ")";
   return "";
 }
