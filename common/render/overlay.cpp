@@ -279,7 +279,7 @@ void draw_probe_words(const Pen& pen, const SceneView& view, int width, int heig
   const float em = pen.text_height();
   if (probe.kept) {
     for (const KeptLine& kept : *probe.kept) {
-      if (!kept.line || kept.line->points.empty()) continue;
+      if (kept.number == 0 || !kept.line || kept.line->points.empty()) continue;
       const auto at = place_of(view, kept.line->points.front().position, width, height);
       if (!at) continue;
       pen.text(at->x + 0.5F * em, at->y - 1.2F * em, std::to_string(kept.number),

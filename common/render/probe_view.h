@@ -65,7 +65,7 @@ struct LocalSeeds {
 /// A line that the user has kept.
 struct KeptLine {
   std::shared_ptr<const Line> line;  ///< may be null
-  int number = 1;                    ///< written at its first point
+  int number = 1;                    ///< written at its first point; 0: nothing is
   std::optional<Rgb> color;          ///< where absent: kept_color(number)
 };
 

@@ -123,9 +123,9 @@ struct SceneRenderer::State {
   SceneFrame frame;
   ColorLegend legend;
 
-  // What the kept framebuffer shows; none where it is out of date.
-  std::optional<SceneView> kept;
-  std::size_t kept_path = 0;  // the path is drawn there up to this point
+  // What the second framebuffer shows; none where it is out of date.
+  std::optional<SceneView> still;
+  std::size_t still_path = 0;  // the path is drawn there up to this point
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -141,7 +141,7 @@ struct SceneRenderer::State {
     shown_bounds = view.bounds;
     shown_outline = view.outline;
     shown_style.reset();
-    kept.reset();
+    still.reset();
     filled = true;
   }
 
@@ -159,7 +159,7 @@ struct SceneRenderer::State {
       lines.set_values(map_coordinates(values, view.style, legend.range));
     }
     shown_style = view.style;
-    kept.reset();
+    still.reset();
   }
 
   // @return whether the path is another one.
@@ -219,14 +219,14 @@ struct SceneRenderer::State {
   // added to it bit by bit. The order is that of drawing everything, so the picture is the same.
   void draw_with_probe(const SceneView& view, const LineDraw& base, float unit) {
     const bool other_path = update_probe(view);
-    target.bind_kept();
-    if (other_path || !kept || !same_still_part(*kept, view)) {
+    target.bind_still();
+    if (other_path || !still || !same_still_part(*still, view)) {
       draw_still_part(view, base, unit);
-      kept = view;
-      kept_path = 0;
+      still = view;
+      still_path = 0;
     }
-    kept_path = probe->draw_settled_path(line_program, view, unit, kept_path);
-    target.copy_kept_to_scene();
+    still_path = probe->draw_settled_path(line_program, view, unit, still_path);
+    target.copy_still_to_scene();
     target.bind_scene();
     probe->draw_path_end(line_program, view, unit);
     probe->draw(line_program, view, base, unit);
@@ -239,7 +239,7 @@ SceneRenderer::~SceneRenderer() = default;
 void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution) {
   State& s = *state_;
   s.since_draw.restart();
-  if (s.target.resize(width, height, resolution)) s.kept.reset();
+  if (s.target.resize(width, height, resolution)) s.still.reset();
   s.update_geometry(view);
   s.update_colors(view);
 

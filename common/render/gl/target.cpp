@@ -64,9 +64,9 @@ bool RenderTarget::resize(int width, int height, double resolution) {
   height_ = height;
   scene_width_ = scene_width;
   scene_height_ = scene_height;
-  kept_.reset();
-  kept_color_.reset();
-  kept_depth_.reset();
+  still_.reset();
+  still_color_.reset();
+  still_depth_.reset();
   return true;
 }
 
@@ -75,24 +75,24 @@ void RenderTarget::bind_scene() {
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
-void RenderTarget::bind_kept() {
-  if (!kept_) {
-    kept_color_ = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
-    kept_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
-    kept_ = make_framebuffer(kept_color_, kept_depth_);
+void RenderTarget::bind_still() {
+  if (!still_) {
+    still_color_ = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
+    still_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
+    still_ = make_framebuffer(still_color_, still_depth_);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, kept_.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, still_.name());
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
-void RenderTarget::copy_kept_to_scene() {
+void RenderTarget::copy_still_to_scene() {
   // Not a blit: software rasterisers take that sample by sample through a shader.
   const auto copy = [this](const GlRenderbuffer& from, const GlRenderbuffer& to) {
     glCopyImageSubData(from.name(), GL_RENDERBUFFER, 0, 0, 0, 0, to.name(), GL_RENDERBUFFER, 0, 0, 0, 0,
                        scene_width_, scene_height_, 1);
   };
-  copy(kept_color_, scene_color_);
-  copy(kept_depth_, scene_depth_);
+  copy(still_color_, scene_color_);
+  copy(still_depth_, scene_depth_);
 }
 
 void RenderTarget::resolve() {

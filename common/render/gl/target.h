@@ -19,8 +19,8 @@ class RenderTarget {
 
   void bind_scene();  ///< draw into the multisampled framebuffer, with depth
   /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
-  void bind_kept();
-  void copy_kept_to_scene();         ///< colours and depths, sample by sample
+  void bind_still();
+  void copy_still_to_scene();         ///< colours and depths, sample by sample
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
   [[nodiscard]] Image read() const;  ///< of the plain one
@@ -35,8 +35,8 @@ class RenderTarget {
   int width_ = 0, height_ = 0;
   int scene_width_ = 0, scene_height_ = 0;
   GlRenderbuffer scene_color_, scene_depth_, averaged_color_, resolved_color_;
-  GlRenderbuffer kept_color_, kept_depth_;
-  GlFramebuffer scene_, resolved_, kept_;
+  GlRenderbuffer still_color_, still_depth_;
+  GlFramebuffer scene_, resolved_, still_;
   GlFramebuffer averaged_;  // between the two where their sizes differ
 };
 
