@@ -30,7 +30,9 @@ class TimeHistogram {
     std::uint64_t passed = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       passed += bins_[bin];
-      if (passed > 0 && static_cast<double>(passed) >= wanted) return std::min(last_of(bin), longest_);
+      if (passed > 0 && static_cast<double>(passed) >= wanted) {
+        return bin + 1 < kBins ? std::min(last_of(bin), longest_) : longest_;
+      }
     }
     return longest_;
   }

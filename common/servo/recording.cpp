@@ -1,0 +1,230 @@
+#include "common/servo/recording.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <optional>
+
+#include "common/base/error.h"
+#include "common/base/line_reader.h"
+
+namespace palpate {
+namespace {
+
+// In the order of HandSwitch.
+constexpr std::array<std::string_view, 5> kSwitchNames{"force_off", "arm", "pause", "resume", "restart"};
+
+constexpr const char* kWhat = "a recording made with --record";
+
+/// The words of a line, from left to right.
+class Words {
+ public:
+  explicit Words(const LineReader& line) : line_(line), rest_(line.line()) {}
+
+  /// Up to the next space.
+  std::string_view word(const char* expected) {
+    const auto end = rest_.find(' ');
+    const std::string_view found = rest_.substr(0, end);
+    if (found.empty()) line_.refuse("ends too early", expected);
+    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+    return found;
+  }
+
+  template <typename Number>
+  Number number(const char* expected, int base = 10) {
+    const std::string_view text = word(expected);
+    Number value{};
+    std::from_chars_result result{};
+    if constexpr (std::is_floating_point_v<Number>) {
+      result = std::from_chars(text.data(), text.data() + text.size(), value);
+    } else {
+      result = std::from_chars(text.data(), text.data() + text.size(), value, base);
+    }
+    if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
+      line_.refuse("'" + std::string(text.substr(0, 40)) + "' cannot be read", expected);
+    }
+    return value;
+  }
+
+  /// All that is left, spaces included.
+  std::string rest() { return std::string(std::exchange(rest_, {})); }
+  void finish() const {
+    if (!rest_.empty())
+      line_.refuse("goes on with '" + std::string(rest_.substr(0, 40)) + "'", "the end of the line");
+  }
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    line_.refuse(found, expected);
+  }
+
+ private:
+  const LineReader& line_;
+  std::string_view rest_;
+};
+
+void read_header_line(std::string_view kind, Words& words, RecordingHeader& header) {
+  if (kind == "program") {
+    header.program = words.rest();
+  } else if (kind == "version") {
+    header.version = words.rest();
+  } else if (kind == "build") {
+    header.build = words.rest();
+  } else if (kind == "input") {
+    RecordedFile input;
+    input.bytes = words.number<std::uint64_t>("a size in bytes");
+    input.sha256 = words.word("a checksum");
+    input.file = words.rest();
+    header.inputs.push_back(std::move(input));
+  } else if (kind == "set") {
+    std::string key(words.word("a key and its value"));
+    header.values.emplace_back(std::move(key), words.rest());
+  } else if (kind == "limits") {
+    for (double* field : limits_fields(header.limits)) *field = words.number<double>("five numbers");
+    words.finish();
+    if (!header.limits.valid()) words.refuse("limits that no device can have", "positive numbers");
+  } else {
+    words.refuse("'" + std::string(kind.substr(0, 40)) + "' is not known here",
+                 "a line of the header, or begin");
+  }
+}
+
+/// Reads what stands below `begin`.
+class BodyReader {
+ public:
+  explicit BodyReader(Recording& recording) : recording_(recording) {}
+
+  void read(std::string_view kind, Words& words) {
+    if (recording_.ended) words.refuse("a line after the end", "nothing");
+    if (kind == "s" || kind == "n") {
+      read_step(kind == "s", words);
+    } else if (kind == "chain" || kind == "settings" || kind == "switch") {
+      read_change(kind, words);
+    } else if (kind == "event") {
+      RecordedEvent event;
+      event.step = words.number<std::uint64_t>(kStep);
+      event.frame = words.number<std::uint64_t>("the number of a frame");
+      event.text = words.rest();
+      recording_.events.push_back(std::move(event));
+    } else if (kind == "hash") {
+      const HashMark mark{words.number<std::uint64_t>("a count of steps"),
+                          words.number<std::uint64_t>("a hash", 16)};
+      const std::uint64_t covered = recording_.hashes.empty() ? 0 : recording_.hashes.back().steps;
+      if (mark.steps <= covered)
+        words.refuse("a hash of " + std::to_string(mark.steps) + " steps", "more than before");
+      recording_.hashes.push_back(mark);
+    } else if (kind == "lost") {
+      recording_.lost = words.number<std::uint64_t>("a count");
+    } else if (kind == "end") {
+      (void)words.number<std::uint64_t>("a count of steps");
+      recording_.ended = true;
+    } else {
+      words.refuse("'" + std::string(kind.substr(0, 40)) + "' is not known here",
+                   "s, n, chain, settings, switch, event, hash, lost or end");
+    }
+    words.finish();
+  }
+
+ private:
+  static constexpr const char* kStep = "the number of a step";
+
+  void read_step(bool present, Words& words) {
+    RecordedStep step{.number = words.number<std::uint64_t>(kStep)};
+    if (step.number < next_) {
+      words.refuse("step " + std::to_string(step.number), "one from " + std::to_string(next_) + " on");
+    }
+    step.input.time = words.number<double>("a time");
+    step.input.present = present;
+    if (present) {
+      DeviceSample& sample = step.input.sample;
+      sample.time = words.number<double>("the time of the sample");
+      for (int a = 0; a < 3; ++a) sample.position[a] = words.number<double>("a coordinate");
+      sample.buttons = words.number<std::uint32_t>("the buttons");
+    }
+    next_ = step.number + 1;
+    recording_.steps.push_back(step);
+  }
+
+  void read_change(std::string_view kind, Words& words) {
+    RecordedChange change{.step = words.number<std::uint64_t>(kStep), .change = {}};
+    if (change.step < next_) {
+      words.refuse("a change before step " + std::to_string(change.step),
+                   "one before step " + std::to_string(next_) + " or later");
+    }
+    next_ = change.step;
+    if (kind == "chain") {
+      change.change = ChainChange{static_cast<std::uint32_t>(recording_.chains.size())};
+      recording_.chains.push_back(words.rest());
+    } else if (kind == "settings") {
+      ChainSettings settings;
+      for (double* field : settings_fields(settings)) *field = words.number<double>("six numbers");
+      if (!settings.valid())
+        words.refuse("settings that no chain can use", "finite numbers, none below its least");
+      change.change = settings;
+    } else {
+      const std::string_view name = words.word("the name of a switch");
+      const auto place = std::find(kSwitchNames.begin(), kSwitchNames.end(), name);
+      if (place == kSwitchNames.end()) {
+        words.refuse("'" + std::string(name.substr(0, 40)) + "' is no switch",
+                     "force_off, arm, pause, resume or restart");
+      }
+      change.change = static_cast<HandSwitch>(place - kSwitchNames.begin());
+    }
+    recording_.changes.push_back(change);
+  }
+
+  Recording& recording_;
+  std::uint64_t next_ = 0;  ///< the least number that may come
+};
+
+}  // namespace
+
+std::string_view name_of(HandSwitch change) noexcept {
+  return kSwitchNames[static_cast<std::size_t>(change)];
+}
+
+Recording read_recording(const std::string& file) {
+  LineReader lines(file, kWhat);
+  if (!lines.next()) throw input_error({file, "", "is empty", kWhat, ""});
+  {
+    Words words(lines);
+    if (words.word(kWhat) != "palpate-recording") lines.refuse("is no recording", kWhat);
+    if (words.number<int>("format 1") != 1) lines.refuse("is of another format", "format 1 of this version");
+    words.finish();
+  }
+  Recording recording;
+  BodyReader body(recording);
+  bool begun = false;
+  while (lines.next() && lines.complete()) {
+    Words words(lines);
+    const std::string_view kind = words.word("what the line is");
+    if (begun) {
+      body.read(kind, words);
+    } else if (kind == "begin") {
+      words.finish();
+      begun = true;
+    } else {
+      read_header_line(kind, words, recording.header);
+    }
+  }
+  if (!begun) throw input_error({file, "", "ends within its header", kWhat, ""});
+  std::stable_sort(recording.events.begin(), recording.events.end(),
+                   [](const RecordedEvent& a, const RecordedEvent& b) { return a.step < b.step; });
+  return recording;
+}
+
+void StepHash::add(const HandStep& step) noexcept {
+  for (int i = 0; i < step.chain.links; ++i) add(step.chain.proxies[static_cast<std::size_t>(i)]);
+  add(step.force);
+  ++steps_;
+}
+
+void StepHash::add(const Vec3& x) noexcept {
+  for (int a = 0; a < 3; ++a) add(std::bit_cast<std::uint64_t>(x[a]));
+}
+
+// Each word changes all bits: multiplication carries upwards, the shift brings the result down again.
+void StepHash::add(std::uint64_t word) noexcept {
+  value_ = (value_ ^ word) * 0x9FB21C651E98DF25;
+  value_ ^= value_ >> 29U;
+}
+
+}  // namespace palpate

@@ -1,0 +1,135 @@
+/// Recordings of a run: the file of `--record` and `--replay`.
+///
+/// Plain text, an event a line, appended to while the run goes on; every number reads back to the same bits.
+///
+///   palpate-recording 1
+///   program flow
+///   version 0.1.0
+///   build GCC 12.2.0, Release
+///   input BYTES SHA256 FILE
+///   set KEY VALUE                             anything the program wants to know again
+///   limits CAP SLEW GATE STALE RAMP           DeviceLimits
+///   begin
+///   chain STEP DESCRIPTION                    before the step: another chain, in words of the program
+///   settings STEP K RELEASE TAU TICK KAPPA SPEED   before the step: ChainSettings
+///   switch STEP NAME                          before the step: HandSwitch
+///   s STEP TIME SAMPLE_TIME X Y Z BUTTONS     a step with a sample
+///   n STEP TIME                               a step without a hand
+///   event STEP FRAME TEXT                     input of the window, seen when that step was next
+///   hash STEPS HASH                           of proxies and forces of the first STEPS steps (StepHash)
+///   lost COUNT                                the disk could not keep up: so many entries so far are missing
+///   end STEPS
+///
+/// What comes before a step stands before its line; `event` lines may stand anywhere. Steps rise. A file
+/// without `end` was cut off, and is good up to there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "common/haptics/chain_settings.h"
+#include "common/servo/hand_step.h"
+
+namespace palpate {
+
+/// Steps between two `hash` lines.
+inline constexpr std::uint64_t kHashBlock = 256;
+
+/// An input file as it was when the run was recorded.
+struct RecordedFile {
+  std::string file;
+  std::uint64_t bytes = 0;
+  std::string sha256;  ///< 64 hexadecimal digits
+
+  bool operator==(const RecordedFile&) const = default;
+};
+
+/// What stands above `begin`. Line ends in texts become spaces; keys hold no space.
+struct RecordingHeader {
+  std::string program;  ///< "flow"
+  std::string version;  ///< of the program
+  std::string build;    ///< bits are the same on one build and processor type only
+  std::vector<RecordedFile> inputs;
+  std::vector<std::pair<std::string, std::string>> values;
+  DeviceLimits limits;
+};
+
+struct RecordedStep {
+  std::uint64_t number = 0;
+  HandInput input;
+};
+
+/// A chain was put in place: Recording::chains[chain] says which.
+struct ChainChange {
+  std::uint32_t chain = 0;
+};
+using Change = std::variant<HandSwitch, ChainSettings, ChainChange>;
+/// What happened before the step of that number.
+struct RecordedChange {
+  std::uint64_t step = 0;
+  Change change;
+};
+
+/// Input of the window, in its own words.
+struct RecordedEvent {
+  std::uint64_t step = 0;  ///< the next one of the servo when it happened
+  std::uint64_t frame = 0;
+  std::string text;
+};
+
+struct HashMark {
+  std::uint64_t steps = 0;  ///< how many it covers
+  std::uint64_t hash = 0;
+};
+
+struct Recording {
+  RecordingHeader header;
+  std::vector<std::string> chains;  ///< descriptions; one for each ChainChange, in order
+  std::vector<RecordedStep> steps;  ///< numbers rise
+  std::vector<RecordedChange> changes;
+  std::vector<RecordedEvent> events;  ///< by step
+  std::vector<HashMark> hashes;
+  std::uint64_t lost = 0;  ///< entries that were not written: the run cannot be repeated exactly
+  bool ended = false;      ///< false for a file that was cut off
+};
+
+/// Reads a recording, in memory in proportion to the file.
+/// @throws Error (bad input) naming the file, the line and what was expected. A last line without its end is
+/// left out instead: the program that wrote it was killed.
+[[nodiscard]] Recording read_recording(const std::string& file);
+
+/// A running hash of proxies and forces, in the order of the steps: equal bits give equal hashes.
+class StepHash {
+ public:
+  /// Not the number or the time of the step.
+  void add(const HandStep& step) noexcept;
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+  [[nodiscard]] std::uint64_t steps() const noexcept { return steps_; }
+
+ private:
+  void add(const Vec3& x) noexcept;
+  void add(std::uint64_t word) noexcept;
+
+  std::uint64_t value_ = 0x9E3779B97F4A7C15;  // any start but zero
+  std::uint64_t steps_ = 0;
+};
+
+[[nodiscard]] std::string_view name_of(HandSwitch change) noexcept;  ///< "force_off"
+
+/// The fields of ChainSettings and DeviceLimits in the order of the file: reader and writer share them.
+template <typename Settings>
+auto settings_fields(Settings& s) noexcept {
+  return std::array{&s.stiffness,     &s.release_distance, &s.drag_threshold,
+                    &s.tick_interval, &s.tick_stiffness,   &s.speed_force};
+}
+template <typename Limits>
+auto limits_fields(Limits& l) noexcept {
+  return std::array{&l.force_cap, &l.slew_cap, &l.velocity_gate, &l.stale_after, &l.start_ramp};
+}
+
+}  // namespace palpate

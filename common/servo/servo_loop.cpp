@@ -1,0 +1,181 @@
+#include "common/servo/servo_loop.h"
+
+#include <cmath>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kPriority = 80;           // below the watchdog's, above everything that has none
+constexpr int kMostReplayedATick = 16;  // a replay that fell behind catches up without holding the processor
+
+}  // namespace
+
+ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const std::string& description,
+                     const ServoOptions& options, Recorder* recorder)
+    : device_(&device),
+      recorder_(recorder),
+      path_(options.path_capacity),
+      stepper_(nullptr, device.limits()) {
+  PALPATE_CHECK(device.limits().valid());
+  // The first chain too comes in by hand-over, so that it is recorded as any other.
+  swap_chain(std::move(chain), description);
+  take_chain();
+  collect_retired();
+  start(options);
+}
+
+ServoLoop::ServoLoop(ReplaySource& replay, const ServoOptions& options)
+    : replay_(&replay), path_(options.path_capacity), stepper_(nullptr, replay.recording().header.limits) {
+  start(options);
+}
+
+ServoLoop::~ServoLoop() {
+  if (thread_.joinable()) {
+    thread_.request_stop();
+    thread_.join();
+  }
+  watchdog_.reset();
+  collect_retired();
+  delete incoming_.exchange(nullptr);
+}
+
+void ServoLoop::start(const ServoOptions& options) {
+  if (!(options.rate >= ServoOptions::kLeastRate && options.rate <= ServoOptions::kMostRate)) {
+    throw usage_error("a servo rate of " + short_number(options.rate) + " Hz; give one from 100 to 10000");
+  }
+  period_ = std::llround(1e9 / options.rate);
+  if (device_ != nullptr) watchdog_.emplace(*device_);
+  thread_ = std::jthread(
+      [this, real_time = options.real_time](const std::stop_token& stop) { run(stop, real_time); });
+}
+
+bool ServoLoop::set_settings(const ChainSettings& settings) noexcept {
+  if (!settings.valid()) return false;
+  settings_.write(settings);
+  return true;
+}
+
+void ServoLoop::swap_chain(std::unique_ptr<ProxyChain> chain, const std::string& description) {
+  collect_retired();
+  auto next = std::make_unique<Handover>();
+  next->chain = std::move(chain);
+  if (recorder_ != nullptr) next->recorded = recorder_->describe_chain(description);
+  delete incoming_.exchange(next.release(), std::memory_order_acq_rel);
+}
+
+void ServoLoop::collect_retired() noexcept {
+  Handover* retired = nullptr;
+  while (retired_.pop(retired)) delete retired;
+}
+
+void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
+  if (real_time) {
+    now_.real_time = {.real_time_priority = request_real_time_priority(kPriority),
+                      .memory_locked = lock_memory()};
+  }
+  ServoStatistics& statistics = now_.statistics;
+  for (std::int64_t due = monotonic_ns() + period_; !stop.stop_requested();) {
+    sleep_until_ns(due);
+    const std::int64_t woken = monotonic_ns();
+    if (watchdog_) watchdog_->beat(woken);
+    now_.late = 2 * (woken - due) > period_;
+    statistics.late += now_.late ? 1 : 0;
+    statistics.lateness.add(woken - due);
+    ++statistics.ticks;
+
+    const std::int64_t used = thread_cpu_ns();
+    if (replay_ != nullptr) {
+      play(1e-9 * static_cast<double>(woken));
+    } else {
+      tick(1e-9 * static_cast<double>(woken));
+    }
+    statistics.update.add(thread_cpu_ns() - used);
+    state_.write(now_);
+
+    due += period_;
+    if (const std::int64_t behind = monotonic_ns() - due; behind >= 0) {
+      const std::int64_t passed = behind / period_ + 1;
+      statistics.skipped += static_cast<std::uint64_t>(passed);
+      due += passed * period_;
+    }
+  }
+  if (device_ != nullptr) device_->command(Vec3{0.0});
+}
+
+void ServoLoop::tick(double now) noexcept {
+  take_changes();
+  HandInput input{.time = now};
+  input.present = device_->read(now, input.sample);
+  const HandStep step = stepper_.step(input);
+  device_->command(step.force);
+  if (recorder_ != nullptr) recorder_->step(input, step);
+  now_.armed = stepper_.armed();
+  now_.paused = stepper_.paused();
+  publish(step);
+}
+
+void ServoLoop::play(double now) noexcept {
+  if (replay_start_ < 0.0) replay_start_ = now;
+  for (int i = 0; i < kMostReplayedATick && !replay_->done() && replay_start_ + replay_->due() <= now; ++i) {
+    publish(replay_->step());
+  }
+  now_.replay = replay_->verdict();
+  now_.replay_done = replay_->done();
+}
+
+void ServoLoop::publish(const HandStep& step) noexcept {
+  now_.hand = step;
+  (void)path_.push(step);
+  now_.path_dropped = path_.dropped();
+  next_step_.store(step.number + 1, std::memory_order_release);
+}
+
+void ServoLoop::take_changes() noexcept {
+  if (const std::uint64_t stalls = watchdog_->stalls(); stalls != stalls_seen_) {
+    now_.statistics.stalls = stalls_seen_ = stalls;
+    apply(HandSwitch::kRestart);
+  }
+  take_chain();
+  if (ChainSettings settings; settings_.read(settings)) {
+    stepper_.apply(settings);
+    record(settings);
+  }
+  if (const bool paused = paused_.load(std::memory_order_acquire); paused != stepper_.paused()) {
+    apply(paused ? HandSwitch::kPause : HandSwitch::kResume);
+  }
+  if (const auto arm = arm_requests_.load(std::memory_order_acquire); arm != arm_seen_) {
+    arm_seen_ = arm;
+    apply(HandSwitch::kArm);
+  }
+  if (const auto off = off_requests_.load(std::memory_order_acquire); off != off_seen_) {
+    off_seen_ = off;
+    apply(HandSwitch::kForceOff);
+  }
+}
+
+void ServoLoop::take_chain() noexcept {
+  Handover* next = incoming_.exchange(nullptr, std::memory_order_acq_rel);
+  if (next == nullptr) return;
+  record(ChainChange{next->recorded});
+  if (next->chain) record(next->chain->settings());
+  next->chain = stepper_.exchange_chain(std::move(next->chain));
+  const bool kept = retired_.push(next);
+  PALPATE_ASSERT(kept);
+  (void)kept;
+}
+
+void ServoLoop::apply(HandSwitch change) noexcept {
+  stepper_.apply(change);
+  record(change);
+}
+
+void ServoLoop::record(const Change& change) noexcept {
+  if (recorder_ != nullptr) recorder_->change(stepper_.next_number(), change);
+}
+
+}  // namespace palpate
