@@ -1,8 +1,14 @@
 #include "common/load/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
+#include <optional>
+#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -24,7 +30,62 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
   throw usage_error(path.string() + ": exists already; use --force to overwrite it");
 }
 
+constexpr std::string_view kPartEnding = ".part";
+
+std::string part_start(const std::filesystem::path& path) { return "." + path.filename().string() + "."; }
+
+/// The process that made the temporary file `name` of an output whose parts begin with `start`.
+std::optional<pid_t> maker_of(std::string_view name, std::string_view start) {
+  if (!name.starts_with(start) || !name.ends_with(kPartEnding)) return std::nullopt;
+  name.remove_prefix(start.size());
+  if (name.size() <= kPartEnding.size()) return std::nullopt;
+  name.remove_suffix(kPartEnding.size());
+  pid_t pid = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+  if (error != std::errc() || end != name.data() + name.size() || pid <= 0) return std::nullopt;
+  return pid;
+}
+
+/// Removes what programs that are gone left of `path`.
+void remove_stale_parts(const std::filesystem::path& path) {
+  const std::string start = part_start(path);
+  std::error_code error;
+  std::vector<std::filesystem::path> stale;
+  for (auto it = std::filesystem::directory_iterator(folder_of(path), error);
+       !error && it != std::filesystem::directory_iterator(); it.increment(error)) {
+    const auto pid = maker_of(it->path().filename().string(), start);
+    if (pid && ::kill(*pid, 0) != 0 && errno == ESRCH) stale.push_back(it->path());
+  }
+  for (const auto& part : stale) ::unlink(part.c_str());
+}
+
+/// Temporary files at work in this process.
+struct UnfinishedOutputs {
+  std::mutex mutex;
+  std::vector<std::filesystem::path> parts;
+
+  void add(const std::filesystem::path& part) {
+    const std::lock_guard lock(mutex);
+    parts.push_back(part);
+  }
+  void drop(const std::filesystem::path& part) {
+    const std::lock_guard lock(mutex);
+    std::erase(parts, part);
+  }
+};
+
+UnfinishedOutputs& unfinished_outputs() {
+  static UnfinishedOutputs outputs;
+  return outputs;
+}
+
 }  // namespace
+
+void remove_unfinished_outputs() noexcept {
+  UnfinishedOutputs& outputs = unfinished_outputs();
+  const std::lock_guard lock(outputs.mutex);
+  for (const auto& part : outputs.parts) ::unlink(part.c_str());
+}
 
 void check_output(const std::filesystem::path& path, bool overwrite) {
   struct stat status {};
@@ -46,15 +107,18 @@ void check_output(const std::filesystem::path& path, bool overwrite) {
 OutputFile::OutputFile(const std::filesystem::path& path, bool overwrite)
     : path_(path), overwrite_(overwrite) {
   check_output(path, overwrite);
-  temporary_ =
-      folder_of(path) / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".part");
+  remove_stale_parts(path);
+  temporary_ = folder_of(path) / (part_start(path) + std::to_string(::getpid()) + std::string(kPartEnding));
   fd_.reset(::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
   if (!fd_) refuse("cannot be created");
+  unfinished_outputs().add(temporary_);
   buffer_.reserve(kBufferBytes);
 }
 
 OutputFile::~OutputFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  unfinished_outputs().drop(temporary_);
 }
 
 void OutputFile::refuse(const char* what) {
@@ -89,6 +153,7 @@ void OutputFile::finish() {
     if (errno != EINVAL || ::rename(temporary_.c_str(), path_.c_str()) != 0)
       refuse("cannot be renamed into place");
   }
+  unfinished_outputs().drop(temporary_);
   temporary_.clear();
 }
 

@@ -11,7 +11,9 @@
 
 namespace palpate {
 
-/// Writes under a temporary name in the same folder; finish() renames. Without finish() nothing is left.
+/// Writes under a temporary name in the same folder (".name.pid.part"); finish() renames. Without finish()
+/// nothing is left. A program that was killed can leave its temporary file: the next one that writes the same
+/// name removes it.
 class OutputFile {
  public:
   /// @throws Error (usage) where `path` exists and `overwrite` is not set; (work failed) where its folder
@@ -41,6 +43,10 @@ class OutputFile {
   UniqueFd fd_;
   std::vector<std::byte> buffer_;
 };
+
+/// Removes the temporary files of all OutputFiles at work, for a program that ends without unwinding. What
+/// they write from then on is lost. Safe from any thread, not from a signal handler.
+void remove_unfinished_outputs() noexcept;
 
 /// What OutputFile's constructor checks, without making a file.
 /// @throws Error as it does.

@@ -16,6 +16,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/load/output_file.h"
 
 namespace palpate {
 namespace {
@@ -56,6 +57,7 @@ struct InterruptGuard::State {
   }
 
   [[noreturn]] void end_now() {
+    remove_unfinished_outputs();
     const std::string line = "\n" + program + ": interrupted; " + kept_text() + "\n";
     {
       const std::lock_guard lock(mutex);

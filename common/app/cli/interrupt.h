@@ -10,7 +10,7 @@
 namespace palpate {
 
 /// While it lives, SIGINT and SIGTERM cancel `progress`. 0.8 s later a program that is still at work removes
-/// the unfinished outputs that it announced, says what was kept and exits with 130; a second signal does so
+/// what it was writing (output_file.h) and the unfinished outputs that it announced, says what was kept and exits with 130; a second signal does so
 /// at once. One at a time.
 class InterruptGuard {
  public:

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -210,6 +212,23 @@ TEST(WriteLines, RefusesUnknownEndingsExistingFilesAndMissingFolders) {
   write_lines(file, lines(), true);
   EXPECT_NE(test::read_file(file), "keep me");
   EXPECT_EQ(files_in(folder), 1U) << "a temporary file was left";
+}
+
+TEST(WriteLines, WhatADeadProgramLeftOfTheSameNameIsRemoved) {
+  const test::TempFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  const std::string dead = std::to_string(child);
+  folder.write(".a.csv." + dead + ".part", "half");
+  // A living program's, another output's, and names that only look alike stay.
+  const std::vector<std::string> others{".a.csv." + std::to_string(::getppid()) + ".part",
+                                        ".b.csv." + dead + ".part", ".a.csv." + dead + "x.part",
+                                        ".a.csv." + dead, "a.csv." + dead + ".part"};
+  for (const std::string& name : others) folder.write(name, "theirs");
+  write_lines(folder.path("a.csv"), lines(), false);
+  for (const std::string& name : others) EXPECT_TRUE(std::filesystem::exists(folder.path(name))) << name;
+  EXPECT_EQ(files_in(folder), others.size() + 1);
 }
 
 TEST(WriteLines, AFullDiskIsReportedAndLeavesNothing) {
