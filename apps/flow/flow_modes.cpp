@@ -9,12 +9,8 @@
 namespace palpate {
 namespace {
 
-// Ten times tighter than what is promised of the proxy, so that a line may be followed over several
-// diagonals.
-constexpr double kTolerance = 1e-7;
-
 HapticChain make_streamline(const HapticScene& scene) {
-  auto line = std::make_shared<LiveLine>(scene.field, kTolerance, scene.threads);
+  auto line = std::make_shared<LiveLine>(scene.field, LiveLine::kFollowTolerance, scene.threads);
   auto streamline = std::make_unique<StreamlineConstraint>(line, scene.workspace);
   const StreamlineConstraint& followed = *streamline;
   std::vector<std::unique_ptr<Constraint>> links;

@@ -15,6 +15,10 @@ namespace palpate {
 
 class LiveLine {
  public:
+  /// What hands follow is traced to this. Ten times tighter than what is promised of the proxy, so that a
+  /// line may be followed over several diagonals.
+  static constexpr double kFollowTolerance = 1e-7;
+
   /// Prepares the walks and all storage. @param tolerance of the tracing, relative to the diagonal.
   LiveLine(std::shared_ptr<const VectorField> field, double tolerance, int threads);
 
