@@ -83,6 +83,19 @@ TEST(ProbePicture, HiddenBallShinesThrough) {
   EXPECT_EQ(test::at(render_image(view, kSize, kSize).image, 0.0, 0.0), hidden);
 }
 
+// Transparent lines are drawn last, over what lies behind them.
+TEST(ProbePicture, TransparentRibbonMixesWithTheBallBehindIt) {
+  SceneView view = ribbon_and_ball(0.5);
+  view.style.opacity = 0.5;
+  const Image image = render_image(view, kSize, kSize).image;
+  const auto both = test::at(image, 0.0, 0.0), ribbon = test::at(image, 0.5, 0.0),
+             ball = test::at(image, 0.0, 0.2);
+  EXPECT_TRUE(is_ball(ball));
+  EXPECT_TRUE(is_red(ribbon));
+  EXPECT_GT(both[2], ribbon[2] + 40);  // the ball is seen through the ribbon
+  EXPECT_LT(both[2], ball[2] - 40);    // which takes away half of its blue
+}
+
 TEST(ProbePicture, ProbeThatIsNotFiniteDrawsNothing) {
   SceneView view = test::whirlwind(1.0, 20);
   const Image without = render_image(view, kSize, kSize).image;
@@ -241,6 +254,19 @@ TEST(ProbePicture, PathIsColouredByForce) {
     const Vec3 expected = lab_from_srgb(Vec3(map_color(ColorMap::kTension, t)));
     EXPECT_NEAR(std::atan2(found.z, found.y), std::atan2(expected.z, expected.y), 0.15) << t;
   }
+}
+
+TEST(ProbePicture, PathHasNoBridgeAcrossAGap) {
+  SceneView view = test::front_view({});
+  view.probe = ProbeView{.force_cap = 1.0};
+  view.probe->style.path_width = 40.0;
+  std::vector<Vec3> positions{
+      {-0.8, 0.0, 0.0}, {-0.4, 0.0, 0.0}, Vec3(NAN), {0.4, 0.0, 0.0}, {0.8, 0.0, 0.0}};
+  view.probe->path = make_path_view(positions, std::vector<double>(positions.size(), 0.5));
+  const Image image = render_image(view, kSize, kSize).image;
+  EXPECT_TRUE(test::is_background(test::at(image, 0.0, 0.0)));
+  EXPECT_FALSE(test::is_background(test::at(image, -0.6, 0.0)));
+  EXPECT_FALSE(test::is_background(test::at(image, 0.6, 0.0)));
 }
 
 TEST(ProbePicture, NewtonsNumbersAndTheSecondBarLeaveTheirMarks) {
