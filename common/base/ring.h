@@ -29,28 +29,28 @@ class Ring {
 
   /// Producer only. False, and counted in dropped(), where the ring is full. @rt Safe.
   bool push(const T& item) noexcept {
-    const std::uint64_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_seen_ == capacity_) {
-      tail_seen_ = tail_.load(std::memory_order_acquire);
-      if (head - tail_seen_ == capacity_) {
+    const std::uint64_t head = head_.count.load(std::memory_order_relaxed);
+    if (head - head_.other == capacity_) {
+      head_.other = tail_.count.load(std::memory_order_acquire);
+      if (head - head_.other == capacity_) {
         dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
         return false;
       }
     }
     items_[head & (capacity_ - 1)] = item;
-    head_.store(head + 1, std::memory_order_release);
+    head_.count.store(head + 1, std::memory_order_release);
     return true;
   }
 
   /// Consumer only. False where the ring is empty. @rt Safe.
   bool pop(T& item) noexcept {
-    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail == head_seen_) {
-      head_seen_ = head_.load(std::memory_order_acquire);
-      if (tail == head_seen_) return false;
+    const std::uint64_t tail = tail_.count.load(std::memory_order_relaxed);
+    if (tail == tail_.other) {
+      tail_.other = head_.count.load(std::memory_order_acquire);
+      if (tail == tail_.other) return false;
     }
     item = items_[tail & (capacity_ - 1)];
-    tail_.store(tail + 1, std::memory_order_release);
+    tail_.count.store(tail + 1, std::memory_order_release);
     return true;
   }
 
@@ -59,13 +59,17 @@ class Ring {
   [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
 
  private:
+  /// What one side writes: how far it has come, and how far it knows the other side to be.
+  struct alignas(kCacheLine) Side {
+    std::atomic<std::uint64_t> count{0};
+    std::uint64_t other = 0;
+  };
+
   const std::size_t capacity_;
   const std::unique_ptr<T[]> items_;
-  alignas(kCacheLine) std::atomic<std::uint64_t> head_{0};  // written by the producer
-  std::uint64_t tail_seen_ = 0;
-  std::atomic<std::uint64_t> dropped_{0};
-  alignas(kCacheLine) std::atomic<std::uint64_t> tail_{0};  // written by the consumer
-  std::uint64_t head_seen_ = 0;
+  std::atomic<std::uint64_t> dropped_{0};  // rarely written
+  Side head_;                              // the producer's: pushed
+  Side tail_;                              // the consumer's: popped
 };
 
 }  // namespace palpate

@@ -17,9 +17,9 @@ constexpr int kMostReplayedATick = 16;  // a replay that fell behind catches up 
 
 ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const std::string& description,
                      const ServoOptions& options, Recorder* recorder)
-    : device_(&device),
+    : path_(options.path_capacity),
+      device_(&device),
       recorder_(recorder),
-      path_(options.path_capacity),
       stepper_(nullptr, device.limits()) {
   PALPATE_CHECK(device.limits().valid());
   // The first chain too comes in by hand-over, so that it is recorded as any other.
@@ -30,7 +30,7 @@ ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const st
 }
 
 ServoLoop::ServoLoop(ReplaySource& replay, const ServoOptions& options)
-    : replay_(&replay), path_(options.path_capacity), stepper_(nullptr, replay.recording().header.limits) {
+    : path_(options.path_capacity), replay_(&replay), stepper_(nullptr, replay.recording().header.limits) {
   start(options);
 }
 

@@ -122,22 +122,22 @@ class ServoLoop {
   void apply(HandSwitch change) noexcept;
   void publish(const HandStep& step) noexcept;
 
+  // Shared.
+  Ring<Handover*> retired_{4};  // collect_retired() runs before each hand-over, so two wait in it at most
+  TripleBuffer<ChainSettings> settings_;
+  TripleBuffer<ServoState> state_;
+  Ring<HandStep> path_;
+  std::atomic<Handover*> incoming_{nullptr};
+  std::atomic<std::uint64_t> next_step_{0};
+  std::atomic<std::uint32_t> off_requests_{0};
+  std::atomic<std::uint32_t> arm_requests_{0};
+  std::atomic<bool> paused_{false};
+
   Device* device_ = nullptr;
   ReplaySource* replay_ = nullptr;
   Recorder* recorder_ = nullptr;
   std::int64_t period_ = 0;  ///< [ns]
   std::optional<Watchdog> watchdog_;
-
-  // Shared.
-  std::atomic<Handover*> incoming_{nullptr};
-  Ring<Handover*> retired_{4};  // collect_retired() runs before each hand-over, so two wait in it at most
-  TripleBuffer<ChainSettings> settings_;
-  std::atomic<bool> paused_{false};
-  std::atomic<std::uint32_t> off_requests_{0};
-  std::atomic<std::uint32_t> arm_requests_{0};
-  TripleBuffer<ServoState> state_;
-  Ring<HandStep> path_;
-  std::atomic<std::uint64_t> next_step_{0};
 
   // The servo thread's.
   HandStepper stepper_;

@@ -28,9 +28,10 @@ constexpr double kPull = -200.0 * 0.002;  // [N] of the default stiffness
 class RestingDevice final : public Device {
  public:
   bool read(double now, DeviceSample& sample) noexcept override {
-    if (stall.exchange(false)) {
-      while (stops == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int i = 0; stall && i < 3000 && stops == 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    stall = false;
     sample = {now, kNear, 0};
     return true;
   }
