@@ -187,6 +187,13 @@ SceneState FlowModel::update(const SceneSettings& settings, Progress& progress) 
   return state;
 }
 
+std::vector<MeasuredCost> FlowModel::costs() const {
+  if (!scene_) return {};
+  std::vector<MeasuredCost> costs = measured_costs(scene_->input, *scene_->field);
+  costs.push_back({.what = "lines", .milliseconds = 1e3 * scene_->shown.seconds_trace});
+  return costs;
+}
+
 std::string FlowModel::save_session(const SceneSettings& settings, const SceneView& view) {
   const Scene& scene = *scene_;
   const InputSpec& spec = scene.input.spec();

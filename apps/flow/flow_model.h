@@ -7,6 +7,7 @@
 #include "common/app/cli/options.h"
 #include "common/app/window/window_model.h"
 #include "common/scene/input.h"
+#include "common/scene/plan.h"
 
 namespace palpate {
 
@@ -18,6 +19,9 @@ class FlowModel final : public WindowModel {
   SceneState open(const std::vector<std::filesystem::path>& files, Progress& progress) override;
   SceneState update(const SceneSettings& settings, Progress& progress) override;
   std::string save_session(const SceneSettings& settings, const SceneView& view) override;
+
+  /// What was shown last took; empty where nothing was.
+  [[nodiscard]] std::vector<MeasuredCost> costs() const;
 
  private:
   /// An open input with the field that was made last.

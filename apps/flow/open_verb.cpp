@@ -3,12 +3,15 @@
 #include <filesystem>
 
 #include "apps/flow/flow_model.h"
+#include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/window/window.h"
+#include "common/base/parallel.h"
 #include "common/base/version.h"
 #include "common/field/analytic/examples.h"
 #include "common/scene/plan.h"
+#include "common/scene/seeds.h"
 
 namespace palpate {
 namespace {
@@ -40,19 +43,27 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   if (list_examples(options, context.console)) return ExitCode::kDone;
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples().front().name;
-  (void)trace_options(options, "both");
+  const TraceOptions trace = trace_options(options, "both");
   const CameraAngles angles = camera_angles(options.view.camera);
+  if (!window_available() && nothing_named) return headless_tour(options, context);
+  if (options.common.explain) {
+    const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
+    const Input input = open_input(options, context);
+    const LineColor color = line_color(options.view.color, input);
+    context.console.print(
+        plan_text(plan_scene(input, {.verb = "open",
+                                     .tracing = true,
+                                     .lines = line_count(seeds, trace),
+                                     .threads = resolve_threads(trace.threads),
+                                     .drawing = true,
+                                     .window = true,
+                                     .color_array = color.array ? color.name : std::string()})));
+  }
   if (!window_available()) {
-    if (nothing_named) return headless_tour(options, context);
     // A file that is missing or broken is the first thing to know.
     (void)Input::open(input_spec(options.input), &context.progress);
     throw work_error("no display, so no window; '" + context.explorer.name +
                      " render' draws a picture without one: add --out picture.png");
-  }
-  if (options.common.explain) {
-    const Input input = open_input(options, context);
-    context.console.print(
-        plan_text(plan_scene(input, {.verb = "open", .tracing = true, .drawing = true, .window = true})));
   }
   FlowModel model(options, context.explorer.name);
   WindowOptions window{.program = context.explorer.name,
@@ -66,6 +77,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
     if (name_of(by) == options.view.color) window.view.style.color_by = by;
   }
   run_window(model, window);
+  if (options.common.explain) context.console.print(measured_text(model.costs()));
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

@@ -45,6 +45,7 @@ struct FileInfo {
   std::string loader;              ///< helper program that read it
   std::vector<BlockInfo> blocks;   ///< volumes; where the file has none, what else it holds
   std::vector<double> times;       ///< empty for a single state
+  std::string units;               ///< as the file states them ("coordinates in mm"), or empty
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
 };
 

@@ -506,6 +506,7 @@ std::string encode_info(const FileInfo& info) {
   return json{{"format", text_from_bytes(info.format)},
               {"loader", text_from_bytes(info.loader)},
               {"times", info.times},
+              {"units", text_from_bytes(info.units)},
               {"notes", std::move(notes)},
               {"blocks", std::move(blocks)}}
       .dump();
@@ -532,6 +533,7 @@ FileInfo decode_info(std::string_view text) {
   info.format = string_at(answer, "format");
   info.loader = string_at(answer, "loader");
   info.notes = strings_at(answer, "notes");
+  info.units = string_at(answer, "units");
   for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
   for (const json& object : array_at(answer, "blocks")) {
     BlockInfo block;

@@ -209,6 +209,16 @@ SeedSpec parse_seeds(const std::string& text) {
   throw usage_error("--seeds " + text + ": not understood; " + kGrammar);
 }
 
+std::size_t seed_count(const SeedSpec& spec) noexcept {
+  if (const auto* list = std::get_if<SeedList>(&spec)) return list->points.size();
+  if (const auto* grid = std::get_if<SeedGrid>(&spec)) {
+    return static_cast<std::size_t>(grid->n.x) * static_cast<std::size_t>(grid->n.y) *
+           static_cast<std::size_t>(grid->n.z);
+  }
+  const auto* random = std::get_if<SeedRandom>(&spec);
+  return random != nullptr ? random->count : 0;
+}
+
 std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field, std::uint64_t random_seed) {
   if (const auto* list = std::get_if<SeedList>(&spec)) return list->points;
   if (const auto* grid = std::get_if<SeedGrid>(&spec)) return grid_seeds(field.bounds(), grid->n);

@@ -48,6 +48,9 @@ using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 /// @throws Error (usage) that shows the grammar, (bad input) naming the file, and the line of a table.
 [[nodiscard]] SeedSpec parse_seeds(const std::string& text);
 
+/// How many seeds make_seeds() gives (for a mesh that has a volume).
+[[nodiscard]] std::size_t seed_count(const SeedSpec& spec) noexcept;
+
 /// The seeds in data coordinates. Random ones depend on `random_seed` and the field alone: on tetrahedra a
 /// cell is drawn by its volume and a point in it by the spacings of three sorted uniform numbers, on other
 /// grids a point is drawn in the grid's box (for a formula until it lies in the domain). By speed: such a

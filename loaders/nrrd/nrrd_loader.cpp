@@ -125,6 +125,24 @@ Axes sort_axes(const Nrrd& nrrd, const std::string& file) {
   return axes;
 }
 
+/// "coordinates in mm, values in m/s": what the header states of them.
+std::string units_of(const Nrrd& nrrd, const Axes& axes) {
+  const auto text = [](const char* units) { return std::string(units != nullptr ? units : ""); };
+  std::array<std::string, 3> lengths;
+  for (std::size_t i = 0; i < 3; ++i)
+    lengths[i] = nrrd.spaceDim >= 3 ? text(nrrd.spaceUnits[i]) : text(nrrd.axis[axes.space[i]].units);
+  std::string units;
+  if (lengths[0] == lengths[1] && lengths[1] == lengths[2]) {
+    if (!lengths[0].empty()) units = "coordinates in " + lengths[0];
+  } else {
+    units = "coordinates in";
+    for (const std::string& length : lengths) units += " " + (length.empty() ? "?" : length);
+  }
+  if (const std::string values = text(nrrd.sampleUnits); !values.empty())
+    units += (units.empty() ? "values in " : ", values in ") + values;
+  return units;
+}
+
 class NrrdLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
@@ -138,6 +156,7 @@ class NrrdLoader : public Loader {
 
     FileInfo info;
     info.format = name_of(Format::kNrrd);
+    info.units = units_of(*nrrd, axes_);
     place(*nrrd, info.notes);
     describe_values(*nrrd, info.notes);
 

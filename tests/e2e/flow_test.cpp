@@ -254,9 +254,19 @@ TEST_F(Flow, KeepsQuietWhenAsked) {
 
 TEST_F(Flow, ExplainsWhatItUsesAndLeavesOut) {
   const ProgramResult result = run({"info", "--example", "abc", "--explain"});
-  EXPECT_NE(result.out.find("used:"), std::string::npos);
+  EXPECT_NE(result.out.find("used ("), std::string::npos);
   EXPECT_NE(result.out.find("left out:"), std::string::npos);
   EXPECT_GT(json({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--explain"})["plan"].size(), 3U);
+  // The plan comes before the work, what it took on one line after it.
+  const ProgramResult text =
+      run({"trace", "--example", "abc", "--seeds", "grid:1,1,1", "--out", "e.csv", "--explain"});
+  const auto plan = text.out.find("used (");
+  const auto summary = text.out.find("e.csv");
+  const auto measured = text.out.find("\nmeasured: ");
+  EXPECT_LT(plan, summary) << text.out;
+  EXPECT_LT(summary, measured) << text.out;
+  EXPECT_NE(measured, std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find('\n', measured + 1), text.out.size() - 1) << text.out;
 }
 
 TEST_F(Flow, TakesOptionsFromASessionUnlessTheyAreTyped) {

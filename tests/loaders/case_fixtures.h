@@ -1,7 +1,9 @@
 /// Small cases of solver formats, written by hand after the formats' own descriptions.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -77,6 +79,64 @@ inline std::filesystem::path write_ensight_binary(const TempFolder& folder, std:
   for (std::int32_t corner = 1; corner <= 8; ++corner) put(corner);
   folder.write("binary.geo", geometry);
   return folder.write("binary.case", "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: binary.geo\n");
+}
+
+/// Numbers and lines of 80 characters as EnSight's binary files hold them.
+class EnsightBinary {
+ public:
+  explicit EnsightBinary(bool big_endian) : swap_(big_endian != (std::endian::native == std::endian::big)) {}
+
+  EnsightBinary& line(std::string text) {
+    text.resize(80, ' ');
+    bytes_ += text;
+    return *this;
+  }
+  template <typename T>
+  EnsightBinary& put(T value) {
+    std::array<char, sizeof(T)> raw{};
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if (swap_) std::reverse(raw.begin(), raw.end());
+    bytes_.append(raw.data(), raw.size());
+    return *this;
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  bool swap_;
+  std::string bytes_;
+};
+
+/// EnSight Gold, binary throughout, one hexahedron, three time steps (0, 0.5 and 2): a vector at the nodes
+/// and a scalar a cell.
+inline std::filesystem::path write_ensight_binary_steps(const TempFolder& folder, bool big_endian) {
+  EnsightBinary geometry(big_endian);
+  for (const char* text : {"C Binary", "one cube", "two", "node id off", "element id off", "part"})
+    geometry.line(text);
+  geometry.put(std::int32_t{1}).line("cube").line("coordinates").put(std::int32_t{8});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const auto& corner : kCube) geometry.put(static_cast<float>(corner[axis]));
+  }
+  geometry.line("hexa8").put(std::int32_t{1});
+  for (std::int32_t corner = 1; corner <= 8; ++corner) geometry.put(corner);
+  folder.write("b.geo", geometry.bytes());
+  for (int step = 0; step < 3; ++step) {
+    EnsightBinary velocity(big_endian);
+    velocity.line("velocity").line("part").put(std::int32_t{1}).line("coordinates");
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t corner = 0; corner < 8; ++corner)
+        velocity.put(static_cast<float>(cube_velocity(corner, step)[c]));
+    }
+    folder.write("b.vel" + std::to_string(step), velocity.bytes());
+    EnsightBinary pressure(big_endian);
+    pressure.line("pressure").line("part").put(std::int32_t{1}).line("hexa8");
+    pressure.put(7.0F + static_cast<float>(step));
+    folder.write("b.p" + std::to_string(step), pressure.bytes());
+  }
+  return folder.write(
+      "b.case",
+      "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: b.geo\n\nVARIABLE\nvector per node: 1 "
+      "velocity b.vel*\nscalar per element: 1 pressure b.p*\n\nTIME\ntime set: 1\nnumber of "
+      "steps: 3\nfilename start number: 0\nfilename increment: 1\ntime values: 0.0 0.5 2.0\n");
 }
 
 inline std::string foam_header(const std::string& type, const std::string& object) {

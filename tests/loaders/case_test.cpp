@@ -8,12 +8,10 @@
 namespace palpate {
 namespace {
 
-TEST(Ensight, GoldTextCaseGivesItsStepsOneByOne) {
-  const test::TempFolder folder;
-  Source source = Source::open({{test::write_ensight_text(folder)}, {}});
-  EXPECT_EQ(source.info().format, "EnSight");
-  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 0.5}));
-  for (const int step : {0, 1, 0}) {
+/// Reads steps forth and back and compares every number with what was written.
+void expect_cube_steps(Source& source, const std::vector<int>& steps) {
+  for (const int step : steps) {
+    SCOPED_TRACE(step);
     const auto blocks = source.read({"velocity", "pressure"}, static_cast<std::size_t>(step));
     ASSERT_EQ(blocks.size(), 1U);
     const auto& mesh = std::get<UnstructuredTopology>(blocks[0].topology);
@@ -32,6 +30,33 @@ TEST(Ensight, GoldTextCaseGivesItsStepsOneByOne) {
     ASSERT_NE(pressure, nullptr);
     EXPECT_EQ(pressure->at(0), 7.0 + step);
   }
+}
+
+TEST(Ensight, GoldTextCaseGivesItsStepsOneByOne) {
+  const test::TempFolder folder;
+  Source source = Source::open({{test::write_ensight_text(folder)}, {}});
+  EXPECT_EQ(source.info().format, "EnSight");
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 0.5}));
+  expect_cube_steps(source, {0, 1, 0});
+}
+
+TEST(Ensight, BinaryVariablesOfEitherByteOrderGiveTheirSteps) {
+  for (const bool big_endian : {false, true}) {
+    SCOPED_TRACE(big_endian);
+    const test::TempFolder folder;
+    Source source = Source::open({{test::write_ensight_binary_steps(folder, big_endian)}, {}});
+    EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 0.5, 2.0}));
+    expect_cube_steps(source, {2, 0, 1, 2});
+  }
+}
+
+// VTK's reader takes what is there of a short variable file.
+TEST(Ensight, ATruncatedBinaryVariableIsRefused) {
+  const test::TempFolder folder;
+  Source source = Source::open({{test::write_ensight_binary_steps(folder, false)}, {}});
+  std::filesystem::resize_file(folder.path("b.vel1"), 300);
+  EXPECT_NO_THROW((void)source.read({"velocity"}, 0));
+  EXPECT_THROW((void)source.read({"velocity"}, 1), Error);
 }
 
 TEST(Ensight, BinaryGeometryIsRead) {

@@ -66,6 +66,32 @@ TEST(Nrrd, SpacingsAndAxisMinimaPlaceTheSamples) {
   EXPECT_EQ(grid.origin, Vec3(1, 2, 3));
 }
 
+TEST(Nrrd, UnitsAreThoseThatTheHeaderStates) {
+  const test::TempFolder folder;
+  const auto units = [&folder](const std::string& fields) {
+    const auto file = folder.write("a.nrrd", kScalarHead + fields + "encoding: raw\n\n" + raw(counting(24)));
+    return Source::open({{file}, {}}).info().units;
+  };
+  EXPECT_EQ(units(""), "");
+  EXPECT_EQ(units("units: \"mm\" \"mm\" \"mm\"\n"), "coordinates in mm");
+  EXPECT_EQ(units("units: \"mm\" \"mm\" \"cm\"\nsample units: K\n"), "coordinates in mm mm cm, values in K");
+  EXPECT_EQ(units("space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+                  "space units: \"m\" \"m\" \"m\"\nsample units: m/s\n"),
+            "coordinates in m, values in m/s");
+}
+
+TEST(Nrrd, OneSliceIsReadAndSaidToBeNoVolume) {
+  const test::TempFolder folder;
+  const auto file = folder.write("a.nrrd",
+                                 "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 6 1\nendian: little\n"
+                                 "spacings: 1 2 3\nencoding: raw\n\n" +
+                                     raw(counting(24)));
+  Source source = Source::open({{file}, {}});
+  EXPECT_NE(source.info().blocks.at(0).not_volume.find("not a volume"), std::string::npos);
+  EXPECT_EQ(source.info().blocks[0].cell_count, 15U);
+  EXPECT_EQ(source.read({"scalars"}).at(0).arrays.at(0).at(23), 23.0);
+}
+
 TEST(Nrrd, LpsIsTurnedIntoRasPositionsAndVectorsAlike) {
   const test::TempFolder folder;
   std::vector<float> vectors;

@@ -1,5 +1,6 @@
 // Files of every VTK format, written by VTK's own writers and read back through the helper programs:
 // topology and values must be those of the VTK objects.
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -13,14 +14,17 @@
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkMultiBlockDataSetAlgorithm.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkShortArray.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStructuredGrid.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataSetWriter.h>
@@ -497,6 +501,68 @@ TEST(EmptyData, IsRefused) {
           << line;
     }
   }
+}
+
+/// One hexahedron whose pressure is corner + 100 time at three times, as VTK's pipeline asks for them.
+class MovingCube : public vtkMultiBlockDataSetAlgorithm {
+ public:
+  static MovingCube* New() { return new MovingCube; }
+  static constexpr std::array<double, 3> kTimes{0.0, 0.25, 1.5};
+
+ protected:
+  MovingCube() { SetNumberOfInputPorts(0); }
+
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override {
+    const std::array<double, 2> range{kTimes.front(), kTimes.back()};
+    vtkInformation* about = output->GetInformationObject(0);
+    about->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), kTimes.data(), 3);
+    about->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override {
+    vtkInformation* about = output->GetInformationObject(0);
+    auto* const wanted = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
+    const double time = about->Has(wanted) != 0 ? about->Get(wanted) : kTimes.front();
+    const auto grid = Ptr<vtkUnstructuredGrid>::New();
+    const auto points = Ptr<vtkPoints>::New();
+    const auto pressure = Ptr<vtkDoubleArray>::New();
+    pressure->SetName("pressure");
+    for (int p = 0; p < 8; ++p) {
+      points->InsertNextPoint(p & 1, p >> 1 & 1, p >> 2 & 1);
+      pressure->InsertNextValue(p + 100.0 * time);
+    }
+    grid->SetPoints(points);
+    const std::vector<vtkIdType> corners{0, 1, 3, 2, 4, 5, 7, 6};
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, corners.data());
+    grid->GetPointData()->AddArray(pressure);
+    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(about->Get(vtkDataObject::DATA_OBJECT()));
+    blocks->SetBlock(0, grid);
+    blocks->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    return 1;
+  }
+};
+
+TEST(Exodus, TimeStepsAreReadOneByOne) {
+  const test::TempFolder folder;
+  const auto file = folder.path("a.ex2");
+  const auto cube = Ptr<MovingCube>::New();
+  const auto writer = Ptr<vtkExodusIIWriter>::New();
+  writer->SetFileName(const_cast<char*>(file.c_str()));
+  writer->WriteAllTimeStepsOn();
+  writer->SetInputConnection(cube->GetOutputPort());
+  ASSERT_EQ(writer->Write(), 1);
+
+  Source source = Source::open({{file}, {}});
+  ASSERT_EQ(source.info().times, std::vector<double>(MovingCube::kTimes.begin(), MovingCube::kTimes.end()));
+  for (const std::size_t step : {2U, 0U, 1U, 2U}) {
+    const auto blocks = source.read({"pressure"}, step);
+    const DataArray* pressure = blocks.at(0).find("pressure", Association::kPoint);
+    ASSERT_NE(pressure, nullptr);
+    for (std::size_t p = 0; p < 8; ++p)
+      EXPECT_EQ(pressure->at(p), static_cast<double>(p) + 100.0 * MovingCube::kTimes[step]) << step;
+  }
+  EXPECT_THROW((void)source.read({"pressure"}, 3), Error);
 }
 
 TEST(Exodus, ElementBlocksAreJoinedIntoOneMesh) {

@@ -12,7 +12,9 @@ void Console::note(const std::string& line) const {
 }
 
 void Console::print(const std::string& text) {
-  if (!json_) std::fputs(text.c_str(), stdout);
+  if (json_) return;
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);  // a plan is seen before the work that it plans
 }
 
 void Console::print_json(const std::string& object) {

@@ -10,8 +10,8 @@
 namespace palpate {
 
 /// While it lives, SIGINT and SIGTERM cancel `progress`. 0.8 s later a program that is still at work removes
-/// what it was writing (output_file.h) and the unfinished outputs that it announced, says what was kept and exits with 130; a second signal does so
-/// at once. One at a time.
+/// what it was writing (output_file.h) and the unfinished outputs that it announced, says what was kept and
+/// exits with 130; a second signal does so at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard(Progress& progress, std::string program);

@@ -31,6 +31,20 @@ Json needs_json(const Needs& needs) {
   return list;
 }
 
+Json measured_json(const std::vector<MeasuredCost>& measured) {
+  Json costs = Json::object();
+  for (const MeasuredCost& cost : measured)
+    costs[std::string(cost.what)] = {{"milliseconds", cost.milliseconds}, {"bytes", cost.bytes}};
+  return costs;
+}
+
+/// The plan with its estimates, and what the work took in the end.
+void add_plan(Json& json, const Needs& plan, const std::vector<MeasuredCost>& measured) {
+  if (plan.empty()) return;
+  json["plan"] = needs_json(plan);
+  json["measured"] = measured_json(measured);
+}
+
 Json array_json(const ArraySummary& array) {
   Json ranges = Json::array();
   for (const ComponentRange& range : array.ranges) ranges.push_back({range.lower, range.upper});
@@ -108,7 +122,7 @@ std::string trace_json(const TraceSummary& summary) {
     json["error"] = summary.failure;
     json["exit"] = 1;
   }
-  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  add_plan(json, summary.plan, summary.measured);
   return text_of(json);
 }
 
@@ -128,7 +142,7 @@ std::string info_json(const InfoSummary& summary) {
     json["fields"] = std::move(fields);
     json["times"] = file->times;
     json["orientation"] = summary.orientation;
-    json["units"] = nullptr;  // none of the formats states them
+    json["units"] = file->units.empty() ? Json(nullptr) : Json(file->units);
   } else {
     json["format"] = "formula";
     json["fields"] = {"velocity"};
@@ -145,6 +159,7 @@ std::string info_json(const InfoSummary& summary) {
     Json plans = Json::object();
     for (const auto& plan : summary.plans) plans[plan.verb] = needs_json(plan.plan);
     json["plan"] = std::move(plans);
+    json["measured"] = measured_json(summary.measured);
   }
   return text_of(json);
 }
@@ -166,7 +181,7 @@ std::string render_json(const RenderSummary& summary) {
             {"seconds_trace", summary.seconds_trace},
             {"renderer", summary.renderer},
             {"version", version()}};
-  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  add_plan(json, summary.plan, summary.measured);
   return text_of(json);
 }
 
@@ -200,7 +215,7 @@ std::string probe_json(const ProbeSummary& summary) {
             {"seconds_load", summary.seconds_load},
             {"seconds_probe", summary.seconds_probe},
             {"version", version()}};
-  if (!summary.plan.empty()) json["plan"] = needs_json(summary.plan);
+  add_plan(json, summary.plan, summary.measured);
   return text_of(json);
 }
 

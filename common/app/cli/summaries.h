@@ -10,6 +10,7 @@
 #include "common/device/device.h"
 #include "common/haptics/constraint.h"
 #include "common/scene/input.h"
+#include "common/scene/plan.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -27,9 +28,10 @@ struct TraceSummary {
   int threads = 0;
   double seconds_load = 0.0;
   double seconds_write = 0.0;
-  std::vector<std::string> advice;  ///< what to change
-  std::string failure;              ///< why there is no line; empty where there is one
-  Needs plan;                       ///< with --explain
+  std::vector<std::string> advice;     ///< what to change
+  std::string failure;                 ///< why there is no line; empty where there is one
+  Needs plan;                          ///< with --explain
+  std::vector<MeasuredCost> measured;  ///< with --explain
 };
 
 /// Range of an array's component.
@@ -59,6 +61,7 @@ struct InfoSummary {
     Needs plan;
   };
   std::vector<VerbPlan> plans;  ///< with --explain
+  std::vector<MeasuredCost> measured;
 };
 
 struct ProbeSummary {
@@ -78,6 +81,7 @@ struct ProbeSummary {
   double seconds_load = 0.0;
   double seconds_probe = 0.0;
   Needs plan;
+  std::vector<MeasuredCost> measured;
 };
 
 struct RenderSummary {
@@ -97,6 +101,7 @@ struct RenderSummary {
   double seconds_trace = 0.0;
   std::string renderer;
   Needs plan;
+  std::vector<MeasuredCost> measured;
 };
 
 }  // namespace palpate

@@ -113,7 +113,7 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
             "\n";
   }
   for (const std::string& orientation : summary.orientation) text += "  axes       " + orientation + "\n";
-  text += "  units      not stated by the file\n";
+  text += "  units      " + (file.units.empty() ? "not stated by the file" : file.units) + "\n";
   for (const ArraySummary& array : summary.arrays) {
     text += "  array      " + array.info.name + " (" +
             (array.info.association == Association::kCell ? "cells" : "points") + ", " +
@@ -149,7 +149,6 @@ std::string summary_text(const InfoSummary& summary) {
   }
   text += "  memory     " + bytes_text(summary.memory_bytes) + " of arrays\n";
   for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
-  for (const auto& plan : summary.plans) text += "\n" + plan.verb + "\n" + plan_text(plan.plan);
   return text;
 }
 
@@ -163,15 +162,21 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
     (void)input.choice();  // an unknown --field is refused first
   if (options.common.explain) {
     const bool field = has_field;
-    summary.plans = {{"info", plan_scene(input, {.verb = "info", .field = field, .all_arrays = true})}};
+    const int threads = resolve_threads(options.common.threads);
+    summary.plans = {
+        {"info",
+         plan_scene(input, {.verb = "info", .field = field, .all_arrays = true, .threads = threads})}};
     for (const Verb& verb : context.explorer.verbs) {
       if (verb.name == "info" || !field) continue;
       const bool drawing = verb.groups.view;
       summary.plans.push_back({verb.name, plan_scene(input, {.verb = verb.name,
                                                              .tracing = verb.groups.tracing,
+                                                             .threads = threads,
                                                              .drawing = drawing,
                                                              .window = verb.name == "open"})});
     }
+    for (const auto& plan : summary.plans)
+      context.console.print(plan.verb + ", " + plan_text(plan.plan) + "\n");
   }
   if (const FileInfo* file = input.file()) {
     summary.notes = file->notes;
@@ -187,12 +192,11 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
     summary.max_speed = field->max_speed();
     summary.bounds = field->bounds();
     summary.notes.insert(summary.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
-    for (auto& plan : summary.plans) {
-      if (plan.verb == "info") measure_plan(plan.plan, input, *field);
-    }
+    if (options.common.explain) summary.measured = measured_costs(input, *field);
   }
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   context.console.print(summary_text(summary));
+  if (!summary.measured.empty()) context.console.print(measured_text(summary.measured));
   context.console.print_json(info_json(summary));
   return ExitCode::kDone;
 }

@@ -122,7 +122,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
-  if (options.common.explain) summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
+  if (options.common.explain) {
+    summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
+    console.print(plan_text(summary.plan));
+  }
   const auto field = input.load_field(options.common.threads, &context.progress);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(options.touch, *field);
@@ -170,9 +173,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     file->finish();
     context.interrupt.keep(options.out);
   }
-  if (!summary.plan.empty()) measure_plan(summary.plan, input, *field);
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, *field);
+    summary.measured.push_back({.what = "path", .milliseconds = 1e3 * summary.seconds_probe});
+  }
   console.print(summary_text(summary));
-  if (!summary.plan.empty()) console.print(plan_text(summary.plan));
+  if (options.common.explain) console.print(measured_text(summary.measured));
   console.print_json(probe_json(summary));
   return ExitCode::kDone;
 }

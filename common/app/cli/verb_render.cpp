@@ -8,6 +8,7 @@
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
+#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/load/output_file.h"
@@ -78,7 +79,7 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   const PictureSize size = parse_size(options.size);
   const SeedSpec spec = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
-  (void)trace_options(options, "both");
+  const TraceOptions trace = trace_options(options, "both");
   (void)camera_angles(options.view.camera);
   if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {
     throw usage_error(options.out.string() + ": pictures are written as .png");
@@ -90,11 +91,15 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
   const LineColor color = line_color(options.view.color, input);
   RenderSummary summary{
       .input = input.title(), .output = options.out.string(), .width = size.width, .height = size.height};
-  if (options.common.explain)
+  if (options.common.explain) {
     summary.plan = plan_scene(input, {.verb = "render",
                                       .tracing = true,
+                                      .lines = line_count(spec, trace),
+                                      .threads = resolve_threads(trace.threads),
                                       .drawing = true,
                                       .color_array = color.array ? color.name : std::string()});
+    console.print(plan_text(summary.plan));
+  }
 
   const auto field = input.load_field(options.common.threads, &context.progress);
   summary.field = field->name();
@@ -125,11 +130,15 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
     summary.image_error = image_error(view, rendered.image);
     summary.image_error_kind = "root mean square of full scale, against 9 samples a pixel";
   }
-  if (!summary.plan.empty()) measure_plan(summary.plan, input, *field);
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, *field);
+    summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * summary.seconds_trace});
+    summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
+  }
   console.print(summary.input + ": " + counted(summary.lines, "line") + " -> " + summary.output + " (" +
                 std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
-  if (!summary.plan.empty()) console.print(plan_text(summary.plan));
+  if (options.common.explain) console.print(measured_text(summary.measured));
   console.print_json(render_json(summary));
   return ExitCode::kDone;
 }

@@ -3,6 +3,7 @@
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
+#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
@@ -72,8 +73,10 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   const Stopwatch watch;
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
-  Needs plan;
-  if (options.common.explain) plan = plan_scene(input, {.verb = "report", .tracing = true});
+  if (options.common.explain) {
+    console.print(plan_text(
+        plan_scene(input, {.verb = "report", .tracing = true, .threads = resolve_threads(trace.threads)})));
+  }
   const auto field = input.load_field(options.common.threads, &context.progress);
   const auto seeds = make_seeds(spec, *field, options.common.seed);
 
@@ -110,9 +113,8 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   context.interrupt.keep(options.out);
   const auto failed = std::count_if(report.stability.begin(), report.stability.end(),
                                     [](const StabilityCase& c) { return !c.row.holds; });
-  if (!plan.empty()) measure_plan(plan, input, *field);
   console.print(results_text(report, options.out));
-  if (!plan.empty()) console.print(plan_text(plan));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, *field)));
   console.print_json(report_summary_json(options.out.string(), report.sweep.rows.size(),
                                          static_cast<std::size_t>(failed), report.seconds));
   return ExitCode::kDone;

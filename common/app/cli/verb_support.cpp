@@ -69,4 +69,8 @@ TraceOptions trace_options(const Options& options, const std::string& default_di
   return trace;
 }
 
+std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept {
+  return seed_count(seeds) * (trace.forward && trace.backward ? 2 : 1);
+}
+
 }  // namespace palpate

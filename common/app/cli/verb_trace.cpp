@@ -122,7 +122,13 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   TraceSummary summary;
   summary.input = input.title();
   summary.output = options.out.string();
-  if (options.common.explain) summary.plan = plan_scene(input, {.verb = "trace", .tracing = true});
+  if (options.common.explain) {
+    summary.plan = plan_scene(input, {.verb = "trace",
+                                      .tracing = true,
+                                      .lines = line_count(spec, trace),
+                                      .threads = resolve_threads(trace.threads)});
+    console.print(plan_text(summary.plan));
+  }
 
   const auto field = input.load_field(options.common.threads, &context.progress);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
@@ -139,7 +145,6 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   summary.advice = advice_for(summary);
   summary.failure = failure_of(summary, *field);
   if (!summary.result.outside_seeds.empty()) console.note(outside_text(summary, field->bounds()));
-  if (!summary.plan.empty()) measure_plan(summary.plan, input, *field);
 
   if (!summary.failure.empty()) {
     summary.output.clear();
@@ -154,7 +159,13 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
     context.interrupt.keep(options.out);
   }
   console.print(summary_text(summary));
-  if (!summary.plan.empty()) console.print(plan_text(summary.plan));
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, *field);
+    summary.measured.push_back(
+        {.what = "lines",
+         .milliseconds = 1e3 * (summary.result.seconds_prepare + summary.result.seconds_trace)});
+    console.print(measured_text(summary.measured));
+  }
   console.print_json(trace_json(summary));
   return ExitCode::kDone;
 }

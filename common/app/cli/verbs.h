@@ -6,6 +6,7 @@
 #include "common/app/cli/explorer.h"
 #include "common/app/haptic/haptic_mode.h"
 #include "common/scene/input.h"
+#include "common/scene/seeds.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -32,6 +33,9 @@ namespace palpate {
 /// @param default_direction where `--direction` is not given.
 /// @throws Error (usage).
 [[nodiscard]] TraceOptions trace_options(const Options& options, const std::string& default_direction);
+
+/// How many lines these seeds make: one each way.
+[[nodiscard]] std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept;
 /// @}
 
 }  // namespace palpate

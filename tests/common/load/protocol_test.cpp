@@ -45,6 +45,7 @@ TEST(Protocol, InfoComesBackAsItWas) {
   info.loader = "l";
   info.times = {0.1, 1e300};
   info.notes = {"n\xe9"};
+  info.units = "coordinates in \xb5m";
   BlockInfo block;
   block.name = "b";
   block.grid = "curvilinear";
@@ -59,6 +60,7 @@ TEST(Protocol, InfoComesBackAsItWas) {
   const FileInfo decoded = decode_info(encode_info(info));
   EXPECT_EQ(decoded.times, info.times);
   EXPECT_EQ(decoded.notes, info.notes);
+  EXPECT_EQ(decoded.units, info.units);
   ASSERT_EQ(decoded.blocks.size(), 2U);
   EXPECT_EQ(decoded.blocks[0].bounds.lower, block.bounds.lower);
   EXPECT_EQ(decoded.blocks[0].bounds.upper, block.bounds.upper);
