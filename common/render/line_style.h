@@ -54,6 +54,7 @@ struct LineStyle {
   double opacity = 1.0;                    ///< in (0, 1]
   bool halo = true;                        ///< a gap around nearer lines, where opaque
   bool depth_cue = true;                   ///< farther lines fade into the background
+  double dimming = 0.0;  ///< share of the background that all of them take on, so that others stand out
 
   bool operator==(const LineStyle&) const = default;
 };

@@ -76,14 +76,14 @@ struct KeptLine {
 struct ProbeStyle {
   double probe_size = 16.0;    ///< diameter
   double proxy_size = 22.0;    ///< diameter
-  double ball_size = 13.0;     ///< diameter
-  double seed_size = 7.0;      ///< diameter
+  double ball_size = 16.0;     ///< diameter
+  double seed_size = 10.0;     ///< diameter
   double handle_size = 13.0;   ///< diameter
   double band_width = 8.0;     ///< unstretched
   double band_rest = 40.0;     ///< stretch at which the band is thinner by 1/sqrt(2)
   double arrow_length = 70.0;  ///< at the reference speed
-  double path_width = 5.0;
-  double followed_width = 9.0;
+  double path_width = 4.0;
+  double followed_width = 8.0;
   double kept_width = 6.0;
   /// Opacity of probe, proxy, band, arrow, balls and followed line where something nearer hides them: the
   /// hand must not be lost in a bundle of lines. 0: hidden is hidden.

@@ -10,6 +10,7 @@ layout(location = 4) uniform int coloring;       // 0 colour map, 1 direction, 2
 layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for colouring 2 and 3
 layout(location = 6) uniform float fading;       // share of the depth cue
 layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
+layout(location = 8) uniform float dimming;      // share of the background at any depth
 layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
 
 in Vertex {
@@ -50,7 +51,7 @@ void main() {
   }
 
   // Depth cue: farther lines take on the background.
-  float far = fading * fading_at(vertex.depth);
+  float far = mix(fading * fading_at(vertex.depth), 1.0, dimming);
   srgb = mix(srgb, background, far);
   vec3 rim = mix(background, mix(halo_color.rgb, background, far), halo_color.a);
 

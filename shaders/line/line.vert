@@ -14,6 +14,7 @@ layout(location = 0) uniform float width;       // at the focal point, pixels
 layout(location = 1) uniform float halo_width;  // beyond either edge, pixels
 layout(location = 2) uniform float min_width;   // pixels, wherever the point lies
 layout(location = 3) uniform bool has_values;
+layout(location = 9) uniform float lift;        // toward the eye, in depth alone, half widths
 
 out Vertex {
   vec3 tangent;
@@ -54,6 +55,10 @@ void main() {
   result.value = has_values ? values[index] : 0.5;
   result.depth = depth;
   gl_Position = frame.clip_from_scene * vec4(corner, 1.0);
+  if (lift > 0.0) {
+    vec4 lifted = frame.clip_from_scene * vec4(corner + view * (lift * radius), 1.0);
+    if (lifted.w > 0.0) gl_Position.z = lifted.z / lifted.w * gl_Position.w;
+  }
   // Halos sink with the distance from the line (Everts, Bekker, Roerdink, Isenberg 2009), here by up to
   // three widths, so that close neighbours join into a bundle and only far ones are cut.
   vec4 sunk = frame.clip_from_scene * vec4(corner - view * (6.0 * outer), 1.0);

@@ -20,7 +20,7 @@ class RenderTarget {
   void bind_scene();  ///< draw into the multisampled framebuffer, with depth
   /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
   void bind_still();
-  void copy_still_to_scene();         ///< colours and depths, sample by sample
+  void copy_still_to_scene();        ///< colours and depths, sample by sample
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
   [[nodiscard]] Image read() const;  ///< of the plain one

@@ -16,6 +16,12 @@ bool same_frame(const SceneFrame& a, const SceneFrame& b) {
   return a.center == b.center && a.exponent == b.exponent;
 }
 
+// Half widths: a line at the probe lies upon one of the scene that runs along the same curve, as the tube
+// that it looks like would; the path, which is narrower, upon the followed line.
+constexpr float kLineLift = 1.0F, kPathLift = 2.4F;
+// What hides the followed line lies before it by more than that: the path upon it does not.
+constexpr float kHiddenLift = 2.5F;
+
 // Halos as wide as half the line, but never thinner than the eye sees nor so wide that they eat neighbours.
 float halo_of(float width, float unit) { return std::clamp(0.5F * width, 1.0F, 3.0F * unit + 1.0F); }
 
@@ -91,6 +97,7 @@ void ProbePass::draw_path(LineProgram& program, const SceneView& view, float uni
   how.width = static_cast<float>(view.probe->style.path_width) * unit;
   how.halo_width = halo_of(how.width, unit);
   how.fading = 0.0F;
+  how.lift = kPathLift;
   trail_.draw(how, first, last);
 }
 
@@ -114,6 +121,7 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
   LineDraw how = base;
   how.fading = 0.0F;
   how.min_width = 1.0F;
+  how.lift = kLineLift;
   const auto set_width = [&](double thousandths) {
     how.width = static_cast<float>(thousandths) * unit;
     how.halo_width = halo_of(how.width, unit);
@@ -136,9 +144,11 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
     how.color = colors.plain_line;
     if (see_through > 0.0F) {
       how.hidden_part = true;
+      how.lift = kHiddenLift;
       how.opacity = see_through;
       followed_.draw(how);
       how.hidden_part = false;
+      how.lift = kLineLift;
       how.opacity = 1.0F;
     }
     how.halo_color = colors.ink;
@@ -159,6 +169,7 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
     how.coloring = coloring_of(style, true);
     how.color = colors.plain_line;
     how.opacity = static_cast<float>(std::clamp(style.opacity, 0.0, 1.0));
+    how.dimming = static_cast<float>(std::clamp(style.dimming, 0.0, 1.0));
     seeds_.draw(how);
   }
 }

@@ -17,7 +17,9 @@ enum Uniform : GLint {
   kColoring = 4,
   kLineColor = 5,
   kFading = 6,
-  kHaloColor = 7
+  kHaloColor = 7,
+  kDimming = 8,
+  kLift = 9
 };
 constexpr GLuint kTableUnit = 0;
 
@@ -50,6 +52,8 @@ void begin_lines(const LineDraw& how, bool has_values) {
   glUniform1i(kColoring, static_cast<GLint>(how.coloring));
   glUniform4f(kLineColor, how.color.r, how.color.g, how.color.b, how.opacity);
   glUniform1f(kFading, how.fading);
+  glUniform1f(kDimming, how.dimming);
+  glUniform1f(kLift, how.lift);
   glUniform4f(kHaloColor, rim.r, rim.g, rim.b, how.halo_color ? 1.0F : 0.0F);
 
   glEnable(GL_DEPTH_TEST);

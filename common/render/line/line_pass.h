@@ -24,7 +24,10 @@ struct LineDraw {
   std::optional<Rgb> halo_color;  ///< where absent, the background's: a gap around nearer lines
   /// Only where something nearer hides the lines; they shine through by `opacity`.
   bool hidden_part = false;
-  float fading = 1.0F;  ///< share of the depth cue
+  /// Brings lines nearer in depth alone, in half widths: of two along one curve it decides which is seen.
+  float lift = 0.0F;
+  float dimming = 0.0F;  ///< share of the background at any depth
+  float fading = 1.0F;   ///< share of the depth cue
   float opacity = 1.0F;
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it

@@ -100,6 +100,18 @@ TEST(RenderImage, ValuesThatAreNotNumbersAreGrey) {
   EXPECT_NEAR(c[1], c[2], 6);
 }
 
+TEST(RenderImage, DimmedLinesTakeOnTheBackground) {
+  SceneView view = test::front_view({test::polyline({{-0.8, 0.0, 0.0}, {0.8, 0.0, 0.0}})});
+  view.style.color_by = ColorBy::kUniform;
+  const auto brightness = [&](double dimming) {
+    view.style.dimming = dimming;
+    return test::at(render_image(view, test::kSize, test::kSize).image, 0.0, 0.0)[0];
+  };
+  const int bright = brightness(0.0), half = brightness(0.5), none = brightness(1.0);
+  EXPECT_NEAR(half, 0.5 * (bright + none), 2.0);
+  EXPECT_TRUE(test::is_background({none, none, none, 255}));
+}
+
 TEST(RenderImage, LineTowardTheEyeIsADot) {
   SceneView view = test::front_view({test::polyline({{0.2, -0.9, 0.3}, {0.2, 0.9, 0.3}})});
   view.style.color_by = ColorBy::kUniform;

@@ -256,6 +256,50 @@ TEST(ProbePicture, PathIsColouredByForce) {
   }
 }
 
+// A kept line is a copy of one that is drawn already, and the path lies on the followed line.
+TEST(ProbePicture, LinesAlongOneCurveAreSeenInTheirOrder) {
+  const std::vector<Vec3> points{{-0.7, -0.5, -0.4}, {0.7, 0.6, 0.5}};
+  const Line line = test::polyline(points);
+  SceneView view = test::front_view({line});
+  view.camera = make_camera(view.bounds, {.azimuth = 17.0, .elevation = 11.0}, 1.0);
+  view.style.color_by = ColorBy::kUniform;
+  view.style.width = 12.0;
+  ProbeView probe{.force_cap = 1.0};
+  const auto greens = [&](double from, double to) {
+    view.probe = probe;
+    const Image image = render_image(view, kSize, kSize).image;
+    int count = 0;
+    for (int i = 0; i <= 100; ++i) {
+      const Vec3 p =
+          project(view.camera, glm::mix(points[0], points[1], from + (to - from) * i / 100.0), kSize, kSize);
+      const auto c = image.pixel(static_cast<int>(p.x), static_cast<int>(p.y));
+      count += c[1] > c[0] + 40 && c[1] > c[2] + 40 ? 1 : 0;
+    }
+    return count;
+  };
+  probe.style.kept_width = 12.0;
+  auto kept = std::make_shared<std::vector<KeptLine>>();
+  kept->push_back({.line = std::make_shared<const Line>(line), .number = 0, .color = Rgb(0.1F, 0.9F, 0.1F)});
+  probe.kept = kept;
+  EXPECT_EQ(greens(0.05, 0.95), 101);
+  probe.kept = nullptr;
+  probe.style.followed_width = 50.0;
+  probe.style.path_width = 25.0;
+  auto followed = std::make_shared<FollowedLine>();
+  followed->points = points;
+  probe.followed = followed;
+  // The path is there for one half, yellow: as much red as green, and the followed line is grey beside it.
+  probe.path = make_path_view(std::array{points[0], 0.5 * (points[0] + points[1])}, std::array{0.0, 0.0});
+  view.probe = probe;
+  const Image image = render_image(view, kSize, kSize).image;
+  for (const auto& [t, yellow] :
+       {std::pair{0.1, true}, {0.25, true}, {0.4, true}, {0.6, false}, {0.8, false}}) {
+    const Vec3 p = project(view.camera, glm::mix(points[0], points[1], t), kSize, kSize);
+    const auto c = image.pixel(static_cast<int>(p.x), static_cast<int>(p.y));
+    EXPECT_EQ(c[0] > c[2] + 60, yellow) << t;
+  }
+}
+
 TEST(ProbePicture, PathHasNoBridgeAcrossAGap) {
   SceneView view = test::front_view({});
   view.probe = ProbeView{.force_cap = 1.0};
