@@ -1,16 +1,15 @@
 #include "common/scene/seed_file.h"
 
 #include <array>
-#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <span>
+#include <string_view>
 
+#include "common/base/csv_reader.h"
 #include "common/base/error.h"
 #include "common/load/load.h"
 #include "common/load/plot3d_layout.h"
 #include "common/load/sniff.h"
-#include "common/scene/number_text.h"
 
 namespace palpate {
 namespace {
@@ -20,42 +19,12 @@ namespace {
 }
 
 std::vector<Vec3> read_csv(const std::string& file, std::size_t most) {
-  std::ifstream in(file);
-  if (!in) throw input_error({file, "", "cannot be opened", "a table or a data file of seeds", ""});
-  std::string line;
-  if (!std::getline(in, line)) throw input_error({file, "line 1", "is empty", "the header x,y,z", ""});
-
-  // Columns may stand anywhere in the header, so that tables of other programs can be used as they are.
-  std::array<std::size_t, 3> column{};
-  std::array<bool, 3> known{};
-  const auto header = split(line, ',');
-  for (std::size_t c = 0; c < header.size(); ++c) {
-    std::string_view name = trimmed(header[c]);
-    if (name.size() > 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    if (name.size() != 1) continue;
-    const int axis = std::tolower(static_cast<unsigned char>(name.front())) - 'x';
-    if (axis < 0 || axis > 2 || known[static_cast<std::size_t>(axis)]) continue;
-    column[static_cast<std::size_t>(axis)] = c;
-    known[static_cast<std::size_t>(axis)] = true;
-  }
-  if (!known[0] || !known[1] || !known[2]) {
-    throw input_error({file, "line 1", "has no columns x, y and z", "the header x,y,z", ""});
-  }
-
+  constexpr std::array<std::string_view, 3> kColumns{"x", "y", "z"};
+  CsvReader table(file, kColumns, {}, "a table or a data file of seeds; a table has the header x,y,z");
   std::vector<Vec3> seeds;
-  for (std::size_t row = 2; std::getline(in, line); ++row) {
-    if (trimmed(line).empty()) continue;
-    const auto cells = split(line, ',');
-    Vec3 x{0.0};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto value = column[axis] < cells.size() ? number(cells[column[axis]]) : std::nullopt;
-      if (!value) {
-        throw input_error({file, "line " + std::to_string(row),
-                           "no finite number in column " + std::string(1, "xyz"[axis]), "three numbers x,y,z",
-                           ""});
-      }
-      x[static_cast<int>(axis)] = *value;
-    }
+  for (std::array<double, 3> row{}; table.next(row);) {
+    const Vec3 x{row[0], row[1], row[2]};
+    if (!is_finite(x)) table.refuse("holds a number that is not finite", "three finite numbers x,y,z");
     if (seeds.size() >= most) refuse_more_than(most, file);
     seeds.push_back(x);
   }

@@ -7,9 +7,9 @@
 #include <random>
 
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/scene/number_text.h"
 #include "common/scene/seed_file.h"
 
 namespace palpate {
@@ -155,7 +155,9 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count, cons
   std::vector<double> numbers;
   for (const auto part : split(text, ',')) {
     const auto value = number(part);
-    if (!value) throw usage_error("'" + std::string(trimmed(part)) + "' is no finite number; " + grammar);
+    if (!value || !std::isfinite(*value)) {
+      throw usage_error("'" + std::string(trimmed(part)) + "' is no finite number; " + grammar);
+    }
     numbers.push_back(*value);
   }
   if (numbers.size() != count) {

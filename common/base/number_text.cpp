@@ -1,7 +1,6 @@
-#include "common/scene/number_text.h"
+#include "common/base/number_text.h"
 
 #include <charconv>
-#include <cmath>
 
 namespace palpate {
 
@@ -17,7 +16,7 @@ std::optional<double> number(std::string_view text) noexcept {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
 

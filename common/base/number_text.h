@@ -10,7 +10,7 @@ namespace palpate {
 /// Without blanks and line ends around it.
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
-/// The finite number that `text` is, blanks and a plus sign allowed.
+/// The number that `text` is, blanks and a plus sign allowed; NaN and infinity are numbers too.
 [[nodiscard]] std::optional<double> number(std::string_view text) noexcept;
 
 /// The parts between separators, empty ones included.
