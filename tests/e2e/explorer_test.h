@@ -1,0 +1,54 @@
+/// A fixture that runs a built explorer as a user does, in a folder of its own.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/e2e/program.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+
+using Json = nlohmann::json;
+
+class ExplorerTest : public ::testing::Test {
+ protected:
+  explicit ExplorerTest(std::string explorer) : explorer_(std::move(explorer)) {}
+
+  ProgramResult run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), bin(explorer_).string());
+    // Without a display: what opens a window in front of a user must not do so in front of a test.
+    return Program(arguments, folder_.path(), {"DISPLAY=", "WAYLAND_DISPLAY="}).finish();
+  }
+
+  /// The one JSON object on stdout; anything else there fails to parse.
+  Json json(std::vector<std::string> arguments, int exit_code = 0) {
+    arguments.emplace_back("--json");
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    const Json object = Json::parse(result.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << result.out;
+    return object;
+  }
+
+  /// Names of what lies in the folder, sorted.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  TempFolder folder_;
+
+ private:
+  std::string explorer_;
+};
+
+}  // namespace palpate::test
