@@ -79,9 +79,9 @@ class ServoLoop {
 
   /// The latest settings win. False, and nothing happens, where they are not valid().
   bool set_settings(const ChainSettings& settings) noexcept;
-  /// Replaces the chain; the latest one wins. It comes with its settings and no proxies, and the force grows
-  /// from zero. The old chain, and one that was replaced before its turn, is deleted here or in
-  /// collect_retired(), never by the servo.
+  /// Replaces the chain; the latest one wins. It comes with its settings and no proxies (settings that were
+  /// set before it, and not taken yet, reach it too), and the force grows from zero. The old chain, and one
+  /// that was replaced before its turn, is deleted here or in collect_retired(), never by the servo.
   void swap_chain(std::unique_ptr<ProxyChain> chain, const std::string& description);
   /// Deletes chains that the servo is done with; call it now and then (once a frame).
   void collect_retired() noexcept;

@@ -15,6 +15,7 @@
 #include "common/servo/recorder.h"
 #include "common/servo/replay_source.h"
 #include "tests/common/servo/sphere_drag.h"
+#include "tests/support/allocation_guard.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -106,6 +107,7 @@ TEST_F(RecordingTest, RepeatsARunBitForBit) {
   EXPECT_EQ(recording.chains, (std::vector<std::string>{"0.05", "0.053"}));
   ReplaySource source(recording, chain_from);
   double largest = 0.0;
+  const AllocationGuard guard;
   for (const HandStep& expected : made) {
     ASSERT_FALSE(source.done());
     const HandStep step = source.step();
@@ -116,6 +118,7 @@ TEST_F(RecordingTest, RepeatsARunBitForBit) {
     ASSERT_EQ(step.buttons, expected.buttons);
     largest = std::max(largest, glm::length(step.force));
   }
+  EXPECT_EQ(guard.count(), 0U);
   EXPECT_GT(largest, 0.1) << "nothing was felt, so nothing was tried";
   EXPECT_TRUE(source.done());
   EXPECT_EQ(source.verdict().same, 1000U);

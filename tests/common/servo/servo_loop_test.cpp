@@ -15,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/device/mouse_device.h"
 #include "tests/common/servo/sphere_drag.h"
+#include "tests/support/allocation_guard.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -199,6 +200,45 @@ TEST(ServoLoop, StopsTheDeviceWhenItStallsAndStartsFromZeroAfterwards) {
     restarted = restarted || (step.cut == ForceCut::kStart && step.force == Vec3{0.0});
   EXPECT_TRUE(restarted);
   EXPECT_GE(device.stops, 1);
+}
+
+/// Counts what the servo's thread allocates from its tenth tick on.
+class AllocationDevice final : public Device {
+ public:
+  bool read(double now, DeviceSample& sample) noexcept override {
+    if (++reads == 10) guard_.emplace();
+    if (guard_) allocations = guard_->count();
+    sample = {now, kNear, 0};
+    return reads % 50 != 0;
+  }
+  void command(const Vec3& /*force*/) noexcept override {}
+  void emergency_stop() noexcept override {}
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+
+  std::atomic<int> reads{0};
+  std::atomic<std::size_t> allocations{0};
+
+ private:
+  DeviceLimits limits_;
+  std::optional<AllocationGuard> guard_;
+};
+
+TEST(ServoLoop, AllocatesNothingInATick) {
+  const TempFolder folder;
+  Recorder recorder(folder.path("run.txt"), {}, false);
+  AllocationDevice device;
+  ServoLoop servo(device, sphere_chain(kRadius), "", {.rate = 5000.0}, &recorder);
+  ASSERT_TRUE(wait_for([&] { return device.reads > 20; }));
+  for (int i = 0; i < 50; ++i) {
+    servo.swap_chain(sphere_chain(kRadius), "another");
+    servo.set_settings({.stiffness = 100.0 + i});
+    servo.set_paused(i % 4 == 0);
+    servo.force_off();
+    servo.arm();
+    const int until = device.reads + 3;
+    ASSERT_TRUE(wait_for([&] { return device.reads >= until; }));
+  }
+  EXPECT_EQ(device.allocations, 0U);
 }
 
 TEST(ServoLoop, RefusesAnAbsurdRate) {
