@@ -105,6 +105,7 @@ SceneState FlowModel::trace(const Scene& scene, const Options& options, const Sc
       .info = scene.info,
       .settings = settings,
       .lines = std::make_shared<const std::vector<Line>>(std::move(result.lines)),
+      .probed = scene.field,
       .ends = result.ends,
       .seeds = seeds.size(),
       .outside_seeds = result.outside_seeds.size(),

@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include "apps/flow/flow_model.h"
+#include "apps/flow/flow_modes.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/window/window.h"
 #include "common/base/parallel.h"
@@ -12,6 +14,8 @@
 #include "common/field/analytic/examples.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
+#include "common/scene/session.h"
+#include "common/servo/recording.h"
 
 namespace palpate {
 namespace {
@@ -36,6 +40,35 @@ ExitCode headless_tour(Options options, const VerbContext& context) {
                          " trace FILE --seeds grid:8,8,8 --out lines.vtp");
   }
   return code;
+}
+
+/// What the hand feels in the window, and where it is recorded or comes from.
+ProbeSessionOptions touch_of(const Options& options, const std::string& program, Progress& progress) {
+  ProbeSessionOptions touch;
+  touch.modes = flow_modes();
+  if (!options.touch.mode.empty()) {
+    touch.choice.mode =
+        static_cast<std::size_t>(&find_mode(touch.modes, options.touch.mode) - touch.modes.data());
+  }
+  touch.choice.settings = touch_settings(options.touch);
+  touch.choice.ticks = wants_ticks(options.touch);
+  touch.limits = touch_limits(options.touch);
+  touch.workspace_scale = options.touch.workspace_scale;
+  touch.threads = options.common.threads;
+  if (!options.replay.empty()) touch.replay = read_recording(options.replay.string());
+  if (options.record.empty()) return touch;
+  touch.record = options.record;
+  touch.overwrite = options.common.force;
+  touch.recorded.program = program;
+  touch.recorded.version = version();
+  const auto add = [&](const std::filesystem::path& file) {
+    const SessionInput input = describe_input(file, false, &progress);
+    touch.recorded.inputs.push_back({input.file.string(), input.bytes, input.sha256});
+  };
+  for (const auto& file : options.input.files) add(file);
+  if (options.input.solution) add(*options.input.solution);
+  if (!options.input.example.empty()) touch.recorded.values.emplace_back("example", options.input.example);
+  return touch;
 }
 
 ExitCode run_open(const Options& given, const VerbContext& context) {
@@ -71,6 +104,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
                        .command_line = context.command_line,
                        .version = version_text(context.explorer.name),
                        .stop_requested = [] { return InterruptGuard::interrupted(); }};
+  window.touch = touch_of(options, context.explorer.name, context.progress);
   // Any other name is an array of the input: the model knows it once that is open.
   for (int i = 0; i < kColorByCount; ++i) {
     const auto by = static_cast<ColorBy>(i);
@@ -86,7 +120,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
 Verb open_verb(std::vector<UsageExample> examples) {
   return {.name = "open",
           .summary = "look at lines in a window (the verb that FILE alone stands for)",
-          .groups = {.tracing = true, .view = true},
+          .groups = {.tracing = true, .view = true, .touch = true, .record = true, .replay = true},
           .examples = std::move(examples),
           .run = run_open};
 }

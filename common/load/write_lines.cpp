@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/load/output_file.h"
 
@@ -18,6 +19,8 @@ namespace palpate {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the binary formats are written little endian");
+
+using Columns = std::span<const PointColumn>;
 
 std::string lower_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -58,7 +61,7 @@ class Appendix {
 
 /// VTK XML, PolyData, raw appended data (VTK File Formats, "XML File Formats"). `termination` is text; its
 /// number stands beside it since ParaView cannot colour by text.
-void write_vtp(OutputFile& file, const std::vector<Line>& lines) {
+void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
   const std::size_t points = count_points(lines);
   const std::uint64_t per_point = points * sizeof(double);
   const std::uint64_t per_line = lines.size() * sizeof(std::int64_t);
@@ -76,6 +79,7 @@ void write_vtp(OutputFile& file, const std::vector<Line>& lines) {
   head += appendix.declare("Float64", "time", 1, per_point);
   head += appendix.declare("Float64", "speed", 1, per_point);
   head += appendix.declare("Float64", "error", 1, per_point);
+  for (const PointColumn& column : columns) head += appendix.declare("Float64", column.name, 1, per_point);
   head += "</PointData>\n<CellData>\n";
   head += appendix.declare("String", "termination", 1, words);
   head += appendix.declare("Int64", "termination_code", 1, per_line);
@@ -97,6 +101,10 @@ void write_vtp(OutputFile& file, const std::vector<Line>& lines) {
   each_point(per_point, [&](const LinePoint& point) { file.write_number(point.time); });
   each_point(per_point, [&](const LinePoint& point) { file.write_number(point.speed); });
   each_point(per_point, [&](const LinePoint& point) { file.write_number(point.error); });
+  for (const PointColumn& column : columns) {
+    file.write_number(per_point);
+    for (const double value : column.values) file.write_number(value);
+  }
 
   file.write_number(words);
   for (const Line& line : lines) {
@@ -138,7 +146,7 @@ float single(double value) {
 
 /// MRtrix3 tracks: a text header, then triplets of floats; NaN ends a track, infinity the file.
 /// https://mrtrix.readthedocs.io, "MRtrix Tracks file format".
-void write_tck(OutputFile& file, const std::vector<Line>& lines) {
+void write_tck(OutputFile& file, const std::vector<Line>& lines, Columns) {
   const std::string start = "mrtrix tracks\ndatatype: Float32LE\ncount: " + std::to_string(lines.size()) +
                             "\ntotal_count: " + std::to_string(lines.size()) + "\nfile: . ";
   // The header names its own length, whose digits are part of it.
@@ -222,7 +230,7 @@ TrkSpace trk_space(const std::vector<Line>& lines) {
   return space;
 }
 
-void write_trk(OutputFile& file, const std::vector<Line>& lines) {
+void write_trk(OutputFile& file, const std::vector<Line>& lines, Columns) {
   const TrkSpace space = trk_space(lines);
   TrkHeader header;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -258,8 +266,11 @@ void write_trk(OutputFile& file, const std::vector<Line>& lines) {
 
 // ---- .csv ----------------------------------------------------------------------------------------------
 
-void write_csv(OutputFile& file, const std::vector<Line>& lines) {
-  file.write("line,seed,point,x,y,z,time,arc,speed,error,termination\n");
+void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
+  std::string header = "line,seed,point,x,y,z,time,arc,speed,error,termination";
+  for (const PointColumn& column : columns) (header += ',') += column.name;
+  file.write(header + "\n");
+  std::size_t row_number = 0;
   for (std::size_t l = 0; l < lines.size(); ++l) {
     const Line& line = lines[l];
     for (std::size_t p = 0; p < line.points.size(); ++p) {
@@ -272,13 +283,15 @@ void write_csv(OutputFile& file, const std::vector<Line>& lines) {
       }
       row += ",";
       row += name_of(line.end);
+      for (const PointColumn& column : columns) (row += ',') += text_of(column.values[row_number]);
+      ++row_number;
       row += "\n";
       file.write(row);
     }
   }
 }
 
-using Writer = void (*)(OutputFile&, const std::vector<Line>&);
+using Writer = void (*)(OutputFile&, const std::vector<Line>&, Columns);
 
 Writer writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
@@ -296,11 +309,13 @@ void check_line_output(const std::filesystem::path& path, bool overwrite) {
   check_output(path, overwrite);
 }
 
-void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite) {
+void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,
+                 std::span<const PointColumn> columns) {
   const Writer write = writer_for(path);
+  for (const PointColumn& column : columns) PALPATE_CHECK(column.values.size() == count_points(lines));
   OutputFile file(path, overwrite);
   try {
-    write(file, lines);
+    write(file, lines, columns);
   } catch (const Error& error) {
     const bool named = std::string_view(error.what()).substr(0, path.string().size()) == path.string();
     if (named) throw;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "common/geometry/line.h"
@@ -14,7 +16,15 @@ namespace palpate {
 /// @throws Error (usage, or work failed where the folder cannot be written).
 void check_line_output(const std::filesystem::path& path, bool overwrite);
 
+/// A further number for each point.
+struct PointColumn {
+  std::string name;
+  std::vector<double> values;  ///< of all points, line after line
+};
+
+/// @param columns written by .vtp (point arrays) and .csv; .tck and .trk have no place for them.
 /// @throws Error as check_line_output(); (work failed) where the disk refuses.
-void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite);
+void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,
+                 std::span<const PointColumn> columns = {});
 
 }  // namespace palpate

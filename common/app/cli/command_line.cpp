@@ -85,6 +85,8 @@ class VerbParser {
     if (verb.groups.view) add_view();
     if (verb.groups.touch) add_touch();
     if (verb.groups.path) add_path();
+    if (verb.groups.record) add_record();
+    if (verb.groups.replay) add_replay();
     if (verb.groups.out) add_out(verb);
     if (verb.groups.picture) add_picture();
     if (verb.groups.effort) add_effort();
@@ -238,6 +240,19 @@ class VerbParser {
   void add_path() {
     app_.add_option("--path", options_.path, "table of the probe's path, header t,x,y,z[,b0]: one step a row")
         ->type_name("FILE.csv")
+        ->group("Touch");
+  }
+
+  void add_record() {
+    app_.add_option("--record", options_.record, "write all input and every servo step to this file")
+        ->type_name("FILE")
+        ->group("Touch");
+  }
+
+  void add_replay() {
+    app_.add_option("--replay", options_.replay,
+                    "play a recording back, with the same proxies and forces to the bit")
+        ->type_name("FILE")
         ->group("Touch");
   }
 

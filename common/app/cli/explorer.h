@@ -37,7 +37,9 @@ struct VerbGroups {
   bool tracing = false;
   bool view = false;
   bool touch = false;
-  bool path = false;  ///< --path
+  bool path = false;    ///< --path
+  bool record = false;  ///< --record
+  bool replay = false;  ///< --replay
   bool out = false;
   bool picture = false;  ///< --size, --repeat
   bool effort = false;   ///< --quick, --thorough

@@ -215,6 +215,10 @@ std::string probe_json(const ProbeSummary& summary) {
             {"seconds_load", summary.seconds_load},
             {"seconds_probe", summary.seconds_probe},
             {"version", version()}};
+  if (!summary.replay.empty()) {
+    json["replay"] = summary.replay;
+    json["replay_differs"] = summary.replay_differs;
+  }
   add_plan(json, summary.plan, summary.measured);
   return text_of(json);
 }

@@ -69,7 +69,9 @@ struct Options {
   TracingOptions tracing;
   ViewOptions view;
   TouchOptions touch;
-  std::filesystem::path path;  ///< probe: the recorded path
+  std::filesystem::path path;    ///< probe: the recorded path
+  std::filesystem::path record;  ///< open: where the run is recorded
+  std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size = "1280x960";
   int repeat = 0;  ///< render: frames to be timed after the first one

@@ -2,7 +2,6 @@
 
 #include <charconv>
 
-#include "common/app/haptic/haptic_mode.h"
 #include "common/base/error.h"
 
 namespace palpate {
@@ -18,16 +17,13 @@ Workspace touch_workspace(const TouchOptions& options, const VectorField& field)
   return {scale, field.frame()};
 }
 
-ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
-                             const Workspace& workspace) {
+ChainSettings touch_settings(const TouchOptions& options) {
   ChainSettings settings{.stiffness = options.stiffness,
                          .release_distance = kMetresPerMillimetre * options.release,
                          .drag_threshold = kMetresPerMillimetre * options.drag,
                          .tick_stiffness = options.tick_stiffness,
                          .speed_force = options.speed_force};
-  if (options.ticks == "auto") {
-    settings.tick_interval = default_tick_interval(field, workspace);
-  } else if (!options.ticks.empty()) {
+  if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();
     const auto parsed = std::from_chars(options.ticks.data(), end, settings.tick_interval);
     if (parsed.ec != std::errc() || parsed.ptr != end || !(settings.tick_interval >= 0.0)) {

@@ -11,9 +11,10 @@ namespace palpate {
 
 [[nodiscard]] Workspace touch_workspace(const TouchOptions& options, const VectorField& field);
 
+/// The tick interval is 0 where none is given, or 'auto' is.
 /// @throws Error (usage) for values that make no sense.
-[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
-                                           const Workspace& workspace);
+[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options);
+[[nodiscard]] inline bool wants_ticks(const TouchOptions& options) { return !options.ticks.empty(); }
 
 /// Caps of the force; a path or a mouse may be as fast as it likes.
 /// @throws Error (usage).

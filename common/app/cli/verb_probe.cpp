@@ -9,12 +9,14 @@
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/haptic/chain_description.h"
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
 #include "common/load/output_file.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
+#include "common/servo/replay_source.h"
 
 namespace palpate {
 namespace {
@@ -31,7 +33,8 @@ double thread_microseconds() {
 /// The log of the contract, one row a step.
 class ProbeLog {
  public:
-  ProbeLog(OutputFile& file, const Workspace& workspace, int links) : file_(file), workspace_(workspace) {
+  ProbeLog(OutputFile& file, const Workspace& workspace, int links)
+      : file_(file), workspace_(workspace), links_(links) {
     std::string header = "t,x,y,z,px,py,pz,fx,fy,fz,state,residual,us";
     for (int i = 1; i <= links; ++i) {
       for (const char* axis : {"x", "y", "z"}) {
@@ -51,8 +54,9 @@ class ProbeLog {
     (line_ += ',').append(name_of(step.state));
     (line_ += ',') += exact_number(step.chain.residual / workspace_.scale());
     (line_ += ',') += short_number(microseconds);
-    for (int i = 0; i < step.chain.links; ++i) {
-      add_vector(in_data(step.chain.proxies[static_cast<std::size_t>(i)], row, step));
+    for (int i = 0; i < links_; ++i) {
+      const bool there = i < step.chain.links;
+      add_vector(in_data(there ? step.chain.proxies[static_cast<std::size_t>(i)] : step.probe, row, step));
     }
     line_ += '\n';
     file_.write(line_);
@@ -70,6 +74,7 @@ class ProbeLog {
 
   OutputFile& file_;
   const Workspace& workspace_;
+  int links_;
   std::string line_;
 };
 
@@ -98,27 +103,108 @@ std::string summary_text(const ProbeSummary& summary) {
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
   text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
           short_number(1e3 * summary.settings.release_distance) + " mm\n";
+  if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";
   text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
           short_number(summary.us_p99) + " us, at most " + short_number(summary.us_max) + " us\n";
   return text;
 }
 
-ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options, const VerbContext& context) {
-  Console& console = context.console;
-  if (list_examples(options, console)) return ExitCode::kDone;
+/// Steps by hand, log and summary.
+class ProbeRun {
+ public:
+  ProbeRun(ProbeSummary& summary, const Workspace& workspace, const VerbContext& context)
+      : summary_(summary), workspace_(workspace), context_(context) {}
 
-  // Everything that can be refused is refused before any work is done.
-  const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
-  if (options.path.empty()) {
-    throw usage_error("probe needs a path: try --path path.csv, a table with the header t,x,y,z");
+  void log_to(OutputFile& file, int links) { log_.emplace(file, workspace_, links); }
+
+  /// Takes one step by `step`, and its time. @param row what stands in the log for where the probe was.
+  template <class Step>
+  void take(const PathRow& row, const Step& make_step) {
+    const double before = thread_microseconds();
+    const HandStep step = make_step();
+    const double microseconds = thread_microseconds() - before;
+    if (log_) log_->add(row, step, microseconds);
+    times_.push_back(static_cast<float>(microseconds));
+    ++summary_.states[static_cast<std::size_t>(step.state)];
+    summary_.max_force = std::max(summary_.max_force, glm::length(step.force));
+    summary_.max_residual = std::max(summary_.max_residual, step.chain.residual / workspace_.scale());
+    if (++summary_.steps % kStepsBetweenChecks == 0) context_.progress.check();
+    context_.progress.advance();
+  }
+
+  void finish() {
+    summary_.seconds_probe = watch_.seconds();
+    std::sort(times_.begin(), times_.end());
+    summary_.us_p50 = percentile(times_, 0.5);
+    summary_.us_p99 = percentile(times_, 0.99);
+    summary_.us_max = percentile(times_, 1.0);
+  }
+
+ private:
+  ProbeSummary& summary_;
+  const Workspace& workspace_;
+  const VerbContext& context_;
+  std::optional<ProbeLog> log_;
+  std::vector<float> times_;
+  Stopwatch watch_;
+};
+
+/// One step a row of the path.
+void follow_path(const std::vector<PathRow>& path, HandStepper& stepper, const Workspace& workspace,
+                 ProbeRun& run, Progress& progress) {
+  progress.begin("probing", path.size());
+  for (const PathRow& row : path) {
+    HandInput hand{.time = row.time, .present = true};
+    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
+    run.take(row, [&] { return stepper.step(hand); });
+  }
+}
+
+/// The steps of a recording, those without a hand left out of the log.
+void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun& run, Progress& progress) {
+  const std::vector<RecordedStep>& steps = replay.recording().steps;
+  progress.begin("replaying", steps.size());
+  for (const RecordedStep& recorded : steps) {
+    const HandInput& input = recorded.input;
+    if (!input.present) {
+      (void)replay.step();
+      continue;
+    }
+    const PathRow row{input.time, workspace.data_from_workspace(input.sample.position), input.sample.buttons};
+    run.take(row, [&] { return replay.step(); });
+  }
+}
+
+/// What can be refused before any work is done.
+void check_request(const Options& options) {
+  if (options.path.empty() == options.replay.empty()) {
+    throw usage_error(
+        "probe needs a path or a recording: try --path path.csv, a table with the header t,x,y,z, or "
+        "--replay "
+        "run.rec");
   }
   if (options.out.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
   }
   if (!options.out.empty()) check_output(options.out, options.common.force);
+}
+
+ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, console)) return ExitCode::kDone;
+  const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+  check_request(options);
   ProbeSummary summary;
   summary.limits = touch_limits(options.touch);
-  const std::vector<PathRow> path = read_probe_path(options.path.string());
+  summary.settings = touch_settings(options.touch);
+  std::vector<PathRow> path;
+  std::optional<Recording> recording;
+  if (options.replay.empty()) {
+    path = read_probe_path(options.path.string());
+  } else {
+    recording = read_recording(options.replay.string());
+    summary.limits = recording->header.limits;
+  }
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
@@ -129,58 +215,48 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   const auto field = input.load_field(options.common.threads, &context.progress);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(options.touch, *field);
+  if (wants_ticks(options.touch) && summary.settings.tick_interval == 0.0) {
+    summary.settings.tick_interval = default_tick_interval(*field, workspace);
+  }
   summary.input = input.title();
   summary.field = field->name();
   summary.mode = mode.name;
   summary.output = options.out.string();
-  summary.settings = touch_settings(options.touch, *field, workspace);
   summary.workspace_scale = workspace.scale();
   summary.diagonal = field->diagonal();
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
 
-  HapticChain haptics = mode.make({field, workspace, summary.settings, options.common.threads});
   std::optional<OutputFile> file;
-  std::optional<ProbeLog> log;
-  if (!options.out.empty()) {
-    file.emplace(options.out, options.common.force);
-    log.emplace(*file, workspace, haptics.chain->size());
+  if (!options.out.empty()) file.emplace(options.out, options.common.force);
+  ProbeRun run(summary, workspace, context);
+  if (recording) {
+    const NamedField open{field,
+                          field_key(input.file() ? input.choice().label : field->name(), input.time().step)};
+    int links = 0;
+    ReplaySource replay(std::move(*recording), [&](const std::string& description) {
+      HapticChain made = build_chain(description, modes, open, options.common.threads);
+      links = std::max(links, made.chain->size());
+      return std::move(made.chain);
+    });
+    if (file) run.log_to(*file, links);
+    follow_recording(replay, workspace, run, context.progress);
+    summary.replay = verdict_text(replay.verdict(), replay.recording());
+    summary.replay_differs = replay.verdict().differs != 0;
+  } else {
+    HapticChain haptics = mode.make({field, workspace, summary.settings, options.common.threads});
+    if (file) run.log_to(*file, haptics.chain->size());
+    HandStepper stepper(std::move(haptics.chain), summary.limits);
+    follow_path(path, stepper, workspace, run, context.progress);
   }
-  HandStepper stepper(std::move(haptics.chain), summary.limits);
-  const Stopwatch watch;
-  context.progress.begin("probing", path.size());
-  std::vector<float> times;
-  times.reserve(path.size());
-  for (const PathRow& row : path) {
-    HandInput hand{.time = row.time, .present = true};
-    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
-    const double before = thread_microseconds();
-    const HandStep step = stepper.step(hand);
-    const double microseconds = thread_microseconds() - before;
-    if (log) log->add(row, step, microseconds);
-    times.push_back(static_cast<float>(microseconds));
-    ++summary.states[static_cast<std::size_t>(step.state)];
-    summary.max_force = std::max(summary.max_force, glm::length(step.force));
-    summary.max_residual = std::max(summary.max_residual, step.chain.residual / workspace.scale());
-    if (++summary.steps % kStepsBetweenChecks == 0) context.progress.check();
-    context.progress.advance();
-  }
-  summary.seconds_probe = watch.seconds();
-  std::sort(times.begin(), times.end());
-  summary.us_p50 = percentile(times, 0.5);
-  summary.us_p99 = percentile(times, 0.99);
-  summary.us_max = percentile(times, 1.0);
+  run.finish();
   if (file) {
     file->finish();
     context.interrupt.keep(options.out);
   }
-  if (options.common.explain) {
-    summary.measured = measured_costs(input, *field);
-    summary.measured.push_back({.what = "path", .milliseconds = 1e3 * summary.seconds_probe});
-  }
   console.print(summary_text(summary));
-  if (options.common.explain) console.print(measured_text(summary.measured));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, *field)));
   console.print_json(probe_json(summary));
-  return ExitCode::kDone;
+  return summary.replay_differs ? ExitCode::kWorkFailed : ExitCode::kDone;
 }
 
 }  // namespace
@@ -188,7 +264,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "probe",
           .summary = "follow a recorded path of the probe and log proxies and forces",
-          .groups = {.touch = true, .path = true, .out = true},
+          .groups = {.touch = true, .path = true, .replay = true, .out = true},
           .examples = std::move(examples),
           .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
             return run_probe(modes, options, context);

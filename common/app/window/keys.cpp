@@ -6,20 +6,38 @@
 namespace palpate {
 
 std::span<const KeyBinding> key_bindings() noexcept {
-  constexpr int kEscape = 256, kEnter = 257;
-  static constexpr std::array<KeyBinding, 11> kBindings{{
+  constexpr int kEscape = 256, kEnter = 257, kF12 = 301;
+  static constexpr std::array kBindings = std::to_array<KeyBinding>({
+      {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
+      {'K', 0, Command::kKeepLine, "K, Space", "keep the followed line"},
+      {'E', kModifierControl, Command::kSaveLines, "Ctrl+E", "save the kept lines"},
+      {'Z', kModifierControl, Command::kUndo, "Ctrl+Z", "undo keeping or deleting a line"},
+      {'R', 0, Command::kLocalLines, "R", "lines about the probe: none, a rake, a plane of seeds"},
+      {'X', 0, Command::kLockX, "X", "lock the probe to the x axis, or unlock it"},
+      {'Y', 0, Command::kLockY, "Y", "to the y axis"},
+      {'Z', 0, Command::kLockZ, "Z", "to the z axis"},
+      {kF12, 0, Command::kForceOff, "F12", "force off, at once and anywhere"},
       {'H', 0, Command::kHelp, "H", "this list"},
       {'F', 0, Command::kFullScreen, "F", "full screen"},
       {kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},
-      {' ', 0, Command::kPlay, "Space", "play the time steps"},
+      {' ', 0, Command::kPlay, "Space", "play the time steps; with the probe grabbed, keep the line"},
       {kEscape, 0, Command::kLetGo, "Esc", "let go, cancel the job, close this list"},
       {'B', 0, Command::kColorBar, "B", "colour bar"},
       {'A', 0, Command::kAxes, "A", "axes"},
       {'T', 0, Command::kRates, "T", "rates: time for a frame"},
       {'P', 0, Command::kSavePicture, "P", "save the picture"},
       {'S', kModifierControl, Command::kSaveSession, "Ctrl+S", "save the session"},
+      {'1', 0, Command::kMode1, "1, 2, …", "haptic mode"},
+      {'2', 0, Command::kMode2, "", ""},
+      {'3', 0, Command::kMode3, "", ""},
+      {'4', 0, Command::kMode4, "", ""},
+      {'5', 0, Command::kMode5, "", ""},
+      {'6', 0, Command::kMode6, "", ""},
+      {'7', 0, Command::kMode7, "", ""},
+      {'8', 0, Command::kMode8, "", ""},
+      {'9', 0, Command::kMode9, "", ""},
       {'Q', 0, Command::kQuit, "Q", "quit"},
-  }};
+  });
   return kBindings;
 }
 
@@ -28,10 +46,15 @@ std::optional<Command> command_of(const InputEvent& event) noexcept {
   // Caps lock and the like do not count.
   const int modifiers = event.modifiers & (kModifierShift | kModifierControl | kModifierAlt);
   const auto bindings = key_bindings();
-  const auto found = std::find_if(bindings.begin(), bindings.end(), [&](const KeyBinding& b) {
-    return b.key == event.key && b.modifiers == modifiers;
-  });
-  return found == bindings.end() ? std::nullopt : std::optional(found->command);
+  const auto find = [&](int with) {
+    const auto found = std::find_if(bindings.begin(), bindings.end(), [&](const KeyBinding& b) {
+      return b.key == event.key && b.modifiers == with;
+    });
+    return found == bindings.end() ? std::nullopt : std::optional(found->command);
+  };
+  const auto exact = find(modifiers);
+  // Shift may be held to grab the probe: it takes no key's meaning away.
+  return exact ? exact : find(modifiers & ~kModifierShift);
 }
 
 }  // namespace palpate

@@ -20,14 +20,33 @@ enum class Command : std::uint8_t {
   kAxes,
   kRates,
   kSavePicture,
-  kSaveSession
+  kSaveSession,
+  kGrab,
+  kKeepLine,
+  kSaveLines,
+  kUndo,
+  kLocalLines,
+  kLockX,
+  kLockY,
+  kLockZ,
+  kForceOff,
+  kMode1,  ///< and so on
+  kMode2,
+  kMode3,
+  kMode4,
+  kMode5,
+  kMode6,
+  kMode7,
+  kMode8,
+  kMode9
 };
+inline constexpr int kModeKeys = 9;
 
 struct KeyBinding {
   int key;        ///< GLFW's number
   int modifiers;  ///< InputEvent::modifiers, exactly
   Command command;
-  const char* name;  ///< "Ctrl+S"
+  const char* name;  ///< "Ctrl+S"; empty: not in the cheat sheet
   const char* what;  ///< "save the session"
 };
 

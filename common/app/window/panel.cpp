@@ -10,6 +10,7 @@
 #include <imgui_stdlib.h>
 
 #include "common/app/window/keys.h"
+#include "common/app/window/readout_rows.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -301,28 +302,41 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("middle drag", "pan");
     row("right drag, wheel", "zoom");
     row("drop files", "open them");
-    for (const KeyBinding& binding : key_bindings()) row(binding.name, binding.what);
+    row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
+    for (const KeyBinding& binding : key_bindings()) {
+      if (*binding.name != '\0') row(binding.name, binding.what);
+    }
     ImGui::EndTable();
   }
   ImGui::End();
 }
 
-void draw_rates(const PanelState& state, const WindowLayout& layout) {
-  if (!state.show_rates) return;
+/// Read-outs over the picture, below its title: the colour bars are on the other side.
+void draw_readouts(const PanelState& state, const WindowLayout& layout) {
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(place(layout.picture.left + layout.picture.width - em, layout.picture.top + em),
-                          ImGuiCond_Always, {1.0F, 0.0F});
+  const float left = static_cast<float>(layout.picture.left) + em;
+  constexpr float kTitle = 6.0F;  // heights of the text
+  float top = static_cast<float>(layout.picture.top) + kTitle * em;
+  if (state.touch != nullptr) {
+    const float height = draw_probe_readout(*state.touch, left, top);
+    if (height > 0.0F) top += height + 0.5F * em;
+  }
+  if (!state.show_rates) return;
+  ImGui::SetNextWindowPos({left, top});
   ImGui::SetNextWindowBgAlpha(0.7F);
   ImGui::Begin("rates", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
-  ImGui::Text("picture  %6.1f ms", state.frame_ms);
-  ImGui::Text("frames   %6.1f /s", state.frames_per_second);
+  ReadoutRows rows("rates");
+  rows.add("picture", "%.1f ms", state.frame_ms);
+  rows.add("frames", "%.1f /s", state.frames_per_second);
   if (state.scene != nullptr) {
     std::size_t points = 0;
     for (const Line& line : *state.scene->lines) points += line.points.size();
-    ImGui::Text("points   %zu", points);
-    ImGui::Text("load     %.3g s", state.scene->seconds_load);
-    ImGui::Text("trace    %.3g s", state.scene->seconds_trace);
+    rows.add("points", "%.0f", static_cast<double>(points));
+    rows.add("load", "%.3g s", state.scene->seconds_load);
+    rows.add("trace", "%.3g s", state.scene->seconds_trace);
   }
+  if (state.touch != nullptr) add_servo_rates(*state.touch, rows);
+  rows.finish();
   ImGui::End();
 }
 
@@ -347,6 +361,10 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
   if (state.job != nullptr) draw_job(*state.job, actions);
   if (state.scene != nullptr) {
     draw_input(*state.scene);
+    if (state.touch != nullptr && state.touch->available()) {
+      section("TOUCH");
+      actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file);
+    }
     draw_lines(state, *state.scene);
     draw_color(state, *state.scene, view);
     draw_look(view, actions);
@@ -360,7 +378,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
   ImGui::PopItemWidth();
   ImGui::End();
   draw_status(state, layout);
-  draw_rates(state, layout);
+  draw_readouts(state, layout);
   draw_help(state, layout);
   return actions;
 }

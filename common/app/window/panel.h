@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/app/window/seed_choice.h"
+#include "common/app/window/touch_panel.h"
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
@@ -26,6 +27,10 @@ struct PanelState {
   bool show_help = false;
   bool show_rates = false;
   bool playing = false;
+  ProbeSession* touch = nullptr;  ///< null or not available(): no such part
+  bool grabbed = false;
+  std::string replay_verdict;               ///< that was said
+  std::string lines_file = "followed.vtp";  ///< edited
 };
 
 /// What the user asked for in this frame.
@@ -34,6 +39,7 @@ struct PanelActions {
   bool reset_camera = false;
   bool save_picture = false;
   bool save_session = false;
+  TouchActions touch;
 };
 
 /// Parts of the window [pixels].

@@ -12,9 +12,12 @@
 #include <imgui.h>
 
 #include "common/app/window/background_job.h"
+#include "common/app/window/event_text.h"
+#include "common/app/window/glfw_window.h"
 #include "common/app/window/gui.h"
 #include "common/app/window/keys.h"
 #include "common/app/window/panel.h"
+#include "common/app/window/touch_control.h"
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -35,71 +38,20 @@ constexpr double kSlowFrame = 60.0, kCoarsest = 0.35;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 
-// GLFW is started once and ended with the program: some virtual displays start anew, and refuse
-// connections meanwhile, when their last one is closed.
-bool start_glfw() {
-  static const bool kStarted = glfwInit() == GLFW_TRUE && std::atexit(glfwTerminate) == 0;
-  return kStarted;
-}
-
-// The window that owns the OpenGL context.
-class GlfwWindow {
- public:
-  explicit GlfwWindow(const WindowOptions& options) {
-    if (!start_glfw()) throw work_error(no_window("no display"));
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
-    // Never larger than what the screen shows of it.
-    int width = options.width, height = options.height;
-    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr && !options.hidden) {
-      int x = 0, y = 0, screen_width = 0, screen_height = 0;
-      glfwGetMonitorWorkarea(monitor, &x, &y, &screen_width, &screen_height);
-      if (screen_width > 0) width = std::min(width, screen_width);
-      if (screen_height > 0) height = std::min(height, screen_height);
-    }
-    // The picture has its own multisampled framebuffer with depth.
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);
-    glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    for (const int api : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
-      glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
-      window_ = glfwCreateWindow(width, height, options.program.c_str(), nullptr, nullptr);
-      if (window_ != nullptr) break;
-    }
-    if (window_ == nullptr) throw work_error(no_window("the driver has no OpenGL 4.5 core context"));
-    glfwMakeContextCurrent(window_);
-  }
-  ~GlfwWindow() { glfwDestroyWindow(window_); }
-  GlfwWindow(const GlfwWindow&) = delete;
-  GlfwWindow& operator=(const GlfwWindow&) = delete;
-
-  [[nodiscard]] GLFWwindow* get() const { return window_; }
-
- private:
-  static std::string no_window(const std::string& why) {
-    const char* detail = nullptr;
-    glfwGetError(&detail);
-    return "no window can be opened: " + why + (detail != nullptr ? " (" + std::string(detail) + ")" : "") +
-           "; `render` draws without a display";
-  }
-
-  GLFWwindow* window_ = nullptr;
-};
-
 class Window {
  public:
   Window(WindowModel& model, const WindowOptions& options)
       : model_(model), options_(options), glfw_(options), view_(options.view) {
     GLFWwindow* const window = glfw_.get();
-    glfwSetWindowUserPointer(window, this);
     glfwSwapInterval(scripted() ? 0 : 1);
-    listen(window);
     float scale = 1.0F;
     glfwGetWindowContentScale(window, &scale, nullptr);
     constexpr float kTextHeight = 14.0F;
     gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
     renderer_ = std::make_unique<SceneRenderer>();
+    touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
+    touch_control_ = std::make_unique<TouchControl>(*touch_);
+    state_.touch = touch_.get();
     job_ = std::make_unique<BackgroundJob>([] { glfwPostEmptyEvent(); });
     start_job(JobKind::kStart, [this](Progress& progress) { return model_.start(progress); });
   }
@@ -112,6 +64,7 @@ class Window {
       take_outcome();
       const bool counted = scene_.has_value() && !job_->running();
       if (counted) inject(frame_);
+      if (touch_->replaying()) inject_replayed();
       const double seconds = frame_clock.seconds();
       frame_clock.restart();
       draw_frame(seconds);
@@ -121,7 +74,9 @@ class Window {
       }
       glfwSwapBuffers(glfw_.get());
     }
-    WindowResult result{frame_, view_, state_.settings, state_.message, 0.0};
+    touch_->finish();
+    WindowResult result{
+        frame_, view_, state_.settings, state_.message, 0.0, touch_->readout(), touch_->replay_verdict()};
     if (!frame_ms_.empty()) {
       const auto middle = frame_ms_.begin() + static_cast<std::ptrdiff_t>(frame_ms_.size() / 2);
       std::nth_element(frame_ms_.begin(), middle, frame_ms_.end());
@@ -135,58 +90,39 @@ class Window {
 
   [[nodiscard]] bool scripted() const { return options_.frames > 0; }
 
-  // Events, from the window system or the script, wait here for the next frame.
-
-  void listen(GLFWwindow* window) {
-    static const auto self = [](GLFWwindow* w) { return static_cast<Window*>(glfwGetWindowUserPointer(w)); };
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-      const double scale = self(w)->pixels_per_coordinate();
-      self(w)->events_.push_back({.kind = InputKind::kMove, .x = scale * x, .y = scale * y});
-    });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-      if (button < 0 || button > 2) return;
-      self(w)->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kRelease : InputKind::kPress,
-                                  .button = static_cast<MouseButton>(button)});
-    });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-      self(w)->events_.push_back({.kind = InputKind::kWheel, .x = x, .y = y});
-    });
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-      self(w)->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kKeyUp : InputKind::kKeyDown,
-                                  .key = key,
-                                  .modifiers = modifiers});
-    });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code_point) {
-      self(w)->events_.push_back({.kind = InputKind::kText, .key = static_cast<int>(code_point)});
-    });
-    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-      self(w)->events_.push_back({.kind = InputKind::kDrop, .files = {paths, paths + count}});
-    });
-    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { self(w)->dirty_ = true; });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { self(w)->dirty_ = true; });
-  }
-
-  [[nodiscard]] double pixels_per_coordinate() const {
-    int window_width = 1, pixel_width = 1;
-    glfwGetWindowSize(glfw_.get(), &window_width, nullptr);
-    glfwGetFramebufferSize(glfw_.get(), &pixel_width, nullptr);
-    return window_width > 0 ? static_cast<double>(pixel_width) / window_width : 1.0;
-  }
-
   void wait_for_events() {
     if (scripted() && !job_->running()) {
       glfwPollEvents();
       return;
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-    const bool busy = job_->running() || lively_frames_ > 0 || state_.playing;
+    const bool busy = job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
     glfwWaitEventsTimeout(busy ? kBusyRest : kIdleRest);
-    lively_frames_ = events_.empty() ? std::max(0, lively_frames_ - 1) : 3;
+    lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
   }
 
   void inject(int frame) {
     for (const ScriptedEvent& scripted : options_.script) {
-      if (scripted.frame == frame) events_.push_back(scripted.event);
+      if (scripted.frame == frame) glfw_.events().push_back(scripted.event);
+    }
+  }
+
+  /// What a replayed recording says that mouse and keys did. It saves nothing again and does not close the
+  /// window.
+  void inject_replayed() {
+    for (const std::string& text : touch_->due_events()) {
+      const auto event = event_from_text(text);
+      if (!event) continue;
+      const auto command = command_of(*event);
+      if (command == Command::kQuit || command == Command::kFullScreen || command == Command::kSavePicture ||
+          command == Command::kSaveSession || command == Command::kSaveLines) {
+        continue;
+      }
+      glfw_.events().push_back(*event);
+    }
+    if (const std::string verdict = touch_->replay_verdict(); verdict != state_.replay_verdict) {
+      state_.replay_verdict = verdict;
+      say("replay " + verdict, false);
     }
   }
 
@@ -244,7 +180,18 @@ class Window {
       requested_ = scene_->settings;
     }
     state_.seeds = seed_choice(state_.settings.seeds);
+    adopt_field();
     say({}, false);
+  }
+
+  /// The hand feels what the lines show.
+  void adopt_field() {
+    if (!scene_->probed || !touch_->available()) return;
+    touch_control_->let_go();
+    touch_->set_field(scene_->probed, field_key(scene_->settings.field, scene_->settings.time_step));
+    if (!view_.probe) view_.probe.emplace();
+    // The fastest flow that is seen, without the few outliers.
+    view_.probe->reference_speed = value_range(*scene_->lines, LineStyle{.color_by = ColorBy::kSpeed}).upper;
   }
 
   /// Colours by `array`, or where there is none by a quantity of the lines.
@@ -286,12 +233,13 @@ class Window {
     int width = 0, height = 0;
     glfwGetFramebufferSize(glfw_.get(), &width, &height);
     if (width < 1 || height < 1) {  // iconified
-      events_.clear();
+      glfw_.events().clear();
       return;
     }
     const WindowLayout parts = layout(width, height, gui_->text_height());
+    picture_ = parts.picture;
     gui_->set_background(view_.background);
-    gui_->begin_frame(events_, width, height, seconds);
+    gui_->begin_frame(glfw_.events(), width, height, seconds);
     handle_events(parts);
     if (needs_camera_ && scene_) {
       view_.camera = make_camera(view_.bounds, options_.angles, parts.picture.width / parts.picture.height,
@@ -300,12 +248,17 @@ class Window {
     }
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
+    state_.grabbed = touch_control_->grabbed();
     const SceneSettings settings_before = state_.settings;
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
+    if (actions.touch.grab) run_command(Command::kGrab);
+    if (actions.touch.keep) run_command(Command::kKeepLine);
+    if (actions.touch.save_lines) run_command(Command::kSaveLines);
+    if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     play();
     // A slow job whose answer is no longer wanted makes way for the next.
     if (!(state_.settings == settings_before) && job_->running() && job_kind_ == JobKind::kUpdate &&
@@ -314,20 +267,28 @@ class Window {
     }
     draw_picture(parts, width, height);
     gui_->end_frame();
-    events_.clear();
+    glfw_.events().clear();
   }
 
   // Panels first: what happens over them is not for the camera.
   void handle_events(const WindowLayout& parts) {
     const ImGuiIO& io = ImGui::GetIO();
-    for (const InputEvent& event : events_) {
+    for (const InputEvent& event : glfw_.events()) {
       if (event.kind == InputKind::kDrop) dropped_ = event.files;
+      if (const std::string text = event_text(event); !text.empty()) {
+        touch_->record_event(static_cast<std::uint64_t>(frame_), text);
+      }
+      const auto command = command_of(event);
+      // The one key that works in text fields, too.
+      if (command == Command::kForceOff) run_command(*command);
       const bool begins = event.kind == InputKind::kPress || event.kind == InputKind::kWheel;
-      if (!(begins && io.WantCaptureMouse && !control_.dragging())) {
+      const bool key = event.kind == InputKind::kKeyDown || event.kind == InputKind::kKeyUp;
+      const bool of_panel =
+          (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
+      if (!of_panel && !touch_control_->handle(event, parts.picture, view_, glfwGetTime())) {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
       }
-      if (io.WantTextInput) continue;
-      if (const auto command = command_of(event)) run_command(*command);
+      if (command && !io.WantTextInput && command != Command::kForceOff) run_command(*command);
     }
   }
 
@@ -337,16 +298,20 @@ class Window {
         state_.show_help = !state_.show_help;
         break;
       case Command::kFullScreen:
-        toggle_full_screen();
+        glfw_.toggle_full_screen();
         break;
       case Command::kResetCamera:
         needs_camera_ = true;
         break;
       case Command::kPlay:
-        if (scene_ && scene_->info->times.size() > 1) state_.playing = !state_.playing;
+        if (touch_control_->grabbed()) {
+          run_touch(Command::kKeepLine);
+        } else if (scene_ && scene_->info->times.size() > 1)
+          state_.playing = !state_.playing;
         break;
       case Command::kLetGo:
         control_.let_go();
+        touch_control_->let_go();
         state_.show_help = state_.playing = false;
         if (job_->running() && job_kind_ != JobKind::kStart) job_->cancel();
         say({}, false);
@@ -369,7 +334,24 @@ class Window {
       case Command::kSaveSession:
         if (scene_) attempt([this] { return model_.save_session(scene_->settings, view_); });
         break;
+      case Command::kSaveLines:
+        attempt([this] { return save_lines(); });
+        break;
+      default:
+        run_touch(command);
     }
+  }
+
+  void run_touch(Command command) {
+    if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
+  }
+
+  std::string save_lines() {
+    if (touch_->kept().entries().empty())
+      throw work_error("no line is kept; grab the probe (G), then K keeps one");
+    const std::filesystem::path path = (options_.picture_folder / state_.lines_file).lexically_normal();
+    touch_->kept().save(path, std::exchange(saved_as_, path) == path);
+    return path.string();
   }
 
   // Says what was saved, or why it was not.
@@ -386,20 +368,6 @@ class Window {
     if (!state_.playing || !scene_ || job_->running()) return;
     const std::size_t count = scene_->info->times.size();
     if (count > 1) state_.settings.time_step = (state_.settings.time_step + 1) % count;
-  }
-
-  void toggle_full_screen() {
-    GLFWwindow* const window = glfw_.get();
-    if (glfwGetWindowMonitor(window) != nullptr) {
-      glfwSetWindowMonitor(window, nullptr, windowed_.x, windowed_.y, windowed_.width, windowed_.height, 0);
-      return;
-    }
-    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
-    const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
-    if (mode == nullptr) return;
-    glfwGetWindowPos(window, &windowed_.x, &windowed_.y);
-    glfwGetWindowSize(window, &windowed_.width, &windowed_.height);
-    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
   }
 
   [[nodiscard]] std::vector<PngText> picture_texts() const {
@@ -432,6 +400,7 @@ class Window {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
     // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
     const bool moving = control_.dragging() || state_.playing;
+    dirty_ = glfw_.take_damage() || dirty_;
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(view_, shown_) ||
         (!moving && state_.resolution < 1.0)) {
       if (!moving) {
@@ -464,20 +433,20 @@ class Window {
 
   SceneView view_;   // as the user wants it
   SceneView shown_;  // as it was drawn last
+  PictureArea picture_;
   int picture_width_ = 0, picture_height_ = 0;
   bool dirty_ = true, needs_camera_ = true;
   std::optional<SceneState> scene_;
   PanelState state_;
   SceneSettings requested_;  // of the last job
   ViewControl control_;
-  std::vector<InputEvent> events_;
   std::vector<std::filesystem::path> dropped_;
-  struct {
-    int x = 0, y = 0, width = 1, height = 1;
-  } windowed_;
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]
   std::vector<double> frame_ms_;
+  std::filesystem::path saved_as_;  // the file of lines that this window has written: it may do so again
+  std::unique_ptr<ProbeSession> touch_;
+  std::unique_ptr<TouchControl> touch_control_;
   JobKind job_kind_ = JobKind::kStart;
   std::unique_ptr<BackgroundJob> job_;  // last in, first out: its thread ends before what it uses
 };

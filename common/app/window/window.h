@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/haptic/probe_session.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
@@ -21,7 +22,8 @@ struct WindowOptions {
   CameraAngles angles;                         ///< the first view, and that of a reset
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
-  std::filesystem::path picture_folder = ".";  ///< where "Save picture" writes
+  std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
+  ProbeSessionOptions touch;
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 
@@ -43,6 +45,8 @@ struct WindowResult {
   SceneSettings settings;  ///< at the end
   std::string message;     ///< last line that the window said to the user
   double median_frame_ms = 0.0;
+  ProbeReadout probe;  ///< at the end
+  std::string replay;  ///< verdict on a replay that came to its end
 };
 
 /// Whether a window can be opened at all (a display is there).

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/field/vector_field.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
 
@@ -52,6 +53,7 @@ struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   SceneSettings settings;                          ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
+  std::shared_ptr<const VectorField> probed;       ///< what the hand feels; null: nothing
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too

@@ -1,0 +1,31 @@
+/// A chain as a line of text, as recordings carry it:
+///
+///   streamline scale=0.0025 stiffness=200 release=0.01 drag=0.004 tick=0 kappa=0.25 speed=0 field=NAME
+///
+/// Numbers read back to the same bits. The name of the field comes last, since it may hold spaces.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "common/app/haptic/haptic_mode.h"
+
+namespace palpate {
+
+/// A field with the name that tells it from the others of its input.
+struct NamedField {
+  std::shared_ptr<const VectorField> field;
+  std::string name;  ///< field_key()
+};
+
+[[nodiscard]] std::string field_key(const std::string& label, std::size_t time_step);
+
+[[nodiscard]] std::string describe_chain(const std::string& mode, double workspace_scale,
+                                         const ChainSettings& settings, const std::string& field_name);
+
+/// @throws Error (bad input) where the description makes no sense or means another field.
+[[nodiscard]] HapticChain build_chain(const std::string& description, std::span<const HapticMode> modes,
+                                      const NamedField& open, int threads);
+
+}  // namespace palpate

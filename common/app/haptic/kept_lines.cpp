@@ -1,0 +1,89 @@
+#include "common/app/haptic/kept_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/load/write_lines.h"
+
+namespace palpate {
+
+std::vector<double> forces_along(const Line& line, std::span<const FeltForce> felt) {
+  std::vector<double> forces(line.points.size(), std::numeric_limits<double>::quiet_NaN());
+  if (line.points.empty()) return forces;
+  const auto distance = [&](std::size_t i, const Vec3& x) {
+    return glm::distance(line.points[i].position, x);
+  };
+  std::size_t at = 0;
+  bool found = false;
+  std::size_t before = 0;
+  for (const FeltForce& place : felt) {
+    if (!found) {
+      for (std::size_t i = 1; i < line.points.size(); ++i) {
+        if (distance(i, place.position) < distance(at, place.position)) at = i;
+      }
+    } else {
+      // The hand moves along the line: from the last point downhill.
+      while (at + 1 < line.points.size() && distance(at + 1, place.position) <= distance(at, place.position))
+        ++at;
+      while (at > 0 && distance(at - 1, place.position) < distance(at, place.position)) --at;
+    }
+    // A hand that is faster than the points are dense has felt something at those it passed, too.
+    const auto [low, high] = std::minmax(found ? before : at, at);
+    for (std::size_t i = low; i <= high; ++i) forces[i] = place.force;
+    before = at;
+    found = true;
+  }
+  return forces;
+}
+
+void KeptLines::keep(Line line, std::vector<double> forces) {
+  before_.push_back(entries_);
+  Entry entry{.number = next_number_++,
+              .line = std::make_shared<const Line>(std::move(line)),
+              .forces = std::move(forces)};
+  for (const double force : entry.forces) entry.largest_force = std::fmax(entry.largest_force, force);
+  entries_.push_back(std::move(entry));
+  changed();
+}
+
+void KeptLines::remove(std::size_t index) {
+  before_.push_back(entries_);
+  entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(index));
+  changed();
+}
+
+bool KeptLines::undo() {
+  if (before_.empty()) return false;
+  entries_ = std::move(before_.back());
+  before_.pop_back();
+  changed();
+  return true;
+}
+
+void KeptLines::clear() {
+  entries_.clear();
+  before_.clear();
+  next_number_ = 1;
+  changed();
+}
+
+void KeptLines::changed() {
+  auto drawn = std::make_shared<std::vector<KeptLine>>();
+  for (const Entry& entry : entries_) drawn->push_back({.line = entry.line, .number = entry.number});
+  drawn_ = std::move(drawn);
+}
+
+void KeptLines::save(const std::filesystem::path& path, bool overwrite) const {
+  std::vector<Line> lines;
+  PointColumn force{.name = "force", .values = {}};
+  for (const Entry& entry : entries_) {
+    lines.push_back(*entry.line);
+    lines.back().seed = static_cast<std::uint32_t>(entry.number);
+    force.values.insert(force.values.end(), entry.forces.begin(), entry.forces.end());
+  }
+  write_lines(path, lines, overwrite, std::span(&force, 1));
+}
+
+}  // namespace palpate

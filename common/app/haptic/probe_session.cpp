@@ -1,0 +1,284 @@
+#include "common/app/haptic/probe_session.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "common/app/haptic/chain_description.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPathSpacing = 2e-4;  // diagonals
+constexpr double kLocalReach = 0.06;   // diagonals: half the length of a rake
+constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
+constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
+constexpr double kBallSpacing = 2.0;  // tick intervals
+constexpr std::size_t kMostFelt = 1U << 20U;
+
+}  // namespace
+
+ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wake)
+    : options_(std::move(options)),
+      wake_(std::move(wake)),
+      choice_(options_.choice),
+      mouse_(options_.limits) {
+  if (!available()) return;
+  if (!options_.record.empty()) {
+    options_.recorded.limits = options_.limits;
+    recorder_ = std::make_unique<Recorder>(options_.record, options_.recorded, options_.overwrite);
+  }
+}
+
+ProbeSession::~ProbeSession() = default;
+
+Workspace ProbeSession::workspace() const {
+  const double scale = options_.workspace_scale > 0.0 ? options_.workspace_scale
+                                                      : Workspace::default_scale(open_.field->diagonal());
+  return {scale, open_.field->frame()};
+}
+
+/// The settings as the chain gets them: without tick marks their interval is zero.
+ChainSettings ProbeSession::chain_settings() const {
+  ChainSettings settings = choice_.settings;
+  if (!choice_.ticks) {
+    settings.tick_interval = 0.0;
+  } else if (settings.tick_interval == 0.0) {
+    settings.tick_interval = default_tick_interval(*open_.field, workspace());
+  }
+  return settings;
+}
+
+HapticChain ProbeSession::build(const std::string& description) const {
+  return build_chain(description, options_.modes, open_, options_.threads);
+}
+
+void ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name) {
+  if (!available() || !field || field == open_.field) return;
+  open_ = {std::move(field), name};
+  hint_ = {};
+  readout_ = {};
+  if (!local_) local_ = std::make_unique<LocalLines>(wake_);
+  clear_path();
+  kept_.clear();
+  last_line_.reset();
+  if (replay_) return;  // its chains are built; what is shown behind it is the user's affair
+  if (options_.replay) {
+    start_replay();
+  } else {
+    let_go();
+    restart_chain();
+  }
+}
+
+void ProbeSession::start_replay() {
+  replay_ = std::make_unique<ReplaySource>(*std::exchange(options_.replay, std::nullopt),
+                                           [this](const std::string& description) {
+                                             HapticChain made = build(description);
+                                             replay_lines_.push_back(made.followed);
+                                             return std::move(made.chain);
+                                           });
+  servo_ = std::make_unique<ServoLoop>(*replay_);
+}
+
+void ProbeSession::restart_chain() {
+  const std::string description =
+      describe_chain(options_.modes[choice_.mode].name, workspace().scale(), chain_settings(), open_.name);
+  HapticChain made = build(description);
+  curve_.reset();
+  if (made.followed) curve_.emplace(made.followed);
+  felt_.clear();
+  if (servo_) {
+    servo_->swap_chain(std::move(made.chain), description);
+  } else {
+    servo_ = std::make_unique<ServoLoop>(mouse_, std::move(made.chain), description, ServoOptions{},
+                                         recorder_.get());
+  }
+}
+
+void ProbeSession::grab(double time, const Vec3& position) {
+  if (!servo_ || replay_) return;
+  target_ = position;
+  last_line_.reset();
+  mouse_.grab(time, workspace().workspace_from_data(position), 1);
+}
+
+void ProbeSession::let_go() noexcept {
+  if (!mouse_.grabbed()) return;
+  mouse_.let_go();
+  if (curve_ && curve_->number() != 0) last_line_ = curve_->line();
+}
+
+void ProbeSession::force_off() noexcept {
+  if (servo_) servo_->force_off();
+}
+
+void ProbeSession::arm() noexcept {
+  if (servo_) servo_->arm();
+}
+
+void ProbeSession::choose(const TouchChoice& choice) {
+  if (choice == choice_) return;
+  const TouchChoice before = std::exchange(choice_, choice);
+  if (!servo_ || replay_) return;
+  if (choice.mode != before.mode || choice.ticks != before.ticks) {
+    restart_chain();
+  } else if (!(choice.settings == before.settings)) {
+    servo_->set_settings(chain_settings());
+  }
+}
+
+void ProbeSession::clear_path() {
+  path_ = std::make_shared<ProbePath>(open_.field ? kPathSpacing * open_.field->diagonal() : 0.0);
+}
+
+void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
+  if (!servo_) return;
+  if (mouse_.grabbed()) mouse_.move(time, workspace().workspace_from_data(target_), 1);
+  servo_->collect_retired();
+  servo_->read(readout_.servo);
+  drain_steps();
+  if (curve_) {
+    const std::shared_ptr<const FollowedLine> before = curve_->drawn();
+    const double tick = default_tick_interval(*open_.field, workspace());
+    curve_->update(choice_.show_balls ? kBallSpacing * tick : 0.0, color_by);
+    growing_ = curve_->drawn() != before;
+    // What is let go stays in the picture until the next line is caught.
+    if (curve_->drawn()) last_drawn_ = curve_->drawn();
+  }
+  read_out();
+  ask_local(camera);
+  describe(view);
+}
+
+void ProbeSession::drain_steps() {
+  HandStep step;
+  while (servo_->pop_step(step)) take(step);
+}
+
+void ProbeSession::take(const HandStep& step) {
+  const Vec3 gap{kNotThere};
+  if (replay_) follow_replayed_chain(step.number);
+  if (!step.present) {
+    path_->append(gap, 0.0);
+    readout_.held = false;
+    return;
+  }
+  const Workspace workspace = this->workspace();
+  const Vec3 proxy = workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[0] : step.probe);
+  const double force = glm::length(step.force);
+  if (step.chain.jumped) {
+    path_->append(gap, 0.0);
+    felt_.clear();
+  }
+  path_->append(proxy, force);
+  const double spacing = kPathSpacing * open_.field->diagonal();
+  if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
+    if (felt_.size() < kMostFelt) felt_.push_back({proxy, force});
+  } else {
+    felt_.back().force = force;
+  }
+  readout_.held = true;
+  readout_.state = step.state;
+  readout_.cut = step.cut;
+  readout_.probe = workspace.data_from_workspace(step.probe);
+  readout_.proxy = proxy;
+  readout_.residual = step.chain.residual / workspace.scale();
+  readout_.force = force;
+  constexpr double kMillimetres = 1e3;
+  readout_.stretch =
+      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[0], step.probe) : 0.0;
+}
+
+/// In a replay the chains change by themselves: draws the line of the one that is in place.
+void ProbeSession::follow_replayed_chain(std::uint64_t step) {
+  const std::vector<RecordedChange>& changes = replay_->recording().changes;
+  for (; next_change_ < changes.size() && changes[next_change_].step <= step; ++next_change_) {
+    const auto* chain = std::get_if<ChainChange>(&changes[next_change_].change);
+    if (chain == nullptr) continue;
+    curve_.reset();
+    if (const auto& line = replay_lines_[chain->chain]) curve_.emplace(line);
+    felt_.clear();
+  }
+}
+
+void ProbeSession::read_out() {
+  if (!readout_.held) return;
+  const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
+  readout_.sampled = sample.status == SampleStatus::kOk;
+  readout_.velocity = sample.value;
+  readout_.cell = readout_.sampled ? hint_.cell : -1;
+}
+
+void ProbeSession::ask_local(const Camera& camera) {
+  LocalRequest request;
+  if (choice_.local != SeedShape::kNone && readout_.held) {
+    const double diagonal = open_.field->diagonal();
+    request.field = open_.field;
+    request.shape = choice_.local;
+    request.center = readout_.probe;
+    request.along = kLocalReach * diagonal * camera.axes[0];
+    if (request.shape == SeedShape::kPlane) request.across = kLocalReach * diagonal * camera.axes[1];
+    request.seeds = request.shape == SeedShape::kPlane ? kPlaneSeeds : kRakeSeeds;
+    request.length = kLocalLength * diagonal;
+  }
+  local_->request(request);
+}
+
+void ProbeSession::describe(ProbeView& view) const {
+  view.probe = readout_.held ? readout_.probe : Vec3{kNotThere};
+  view.proxy = readout_.held ? readout_.proxy : Vec3{kNotThere};
+  view.force = readout_.force;
+  view.force_cap = options_.limits.force_cap;
+  view.velocity = readout_.held && readout_.sampled ? readout_.velocity : Vec3{0.0};
+  view.followed = curve_ ? last_drawn_ : nullptr;
+  view.path = choice_.show_path ? PathView{path_, path_->size(), std::nullopt} : PathView{};
+  view.seeds = local_->drawn();
+  view.kept = kept_.drawn();
+}
+
+bool ProbeSession::lively() const noexcept {
+  return mouse_.grabbed() || growing_ || (replay_ && !readout_.servo.replay_done);
+}
+
+bool ProbeSession::keep_line() {
+  Line line;
+  if (curve_ && curve_->number() != 0) {
+    line = curve_->line();
+  } else if (last_line_) {
+    line = *last_line_;
+  }
+  if (line.points.size() < 2) return false;
+  std::vector<double> forces = forces_along(line, felt_);
+  kept_.keep(std::move(line), std::move(forces));
+  return true;
+}
+
+void ProbeSession::record_event(std::uint64_t frame, const std::string& text) {
+  if (recorder_ && servo_) recorder_->event(servo_->next_step(), frame, text);
+}
+
+std::vector<std::string> ProbeSession::due_events() {
+  std::vector<std::string> due;
+  if (!replay_) return due;
+  const std::vector<RecordedEvent>& events = replay_->recording().events;
+  const bool all = readout_.servo.replay_done;
+  for (; next_event_ < events.size() && (all || events[next_event_].step <= readout_.servo.hand.number);
+       ++next_event_) {
+    due.push_back(events[next_event_].text);
+  }
+  return due;
+}
+
+std::string ProbeSession::replay_verdict() const {
+  if (!replay_ || !readout_.servo.replay_done) return {};
+  return verdict_text(readout_.servo.replay, replay_->recording());
+}
+
+void ProbeSession::finish() {
+  servo_.reset();
+  if (recorder_) recorder_->finish();
+}
+
+}  // namespace palpate

@@ -1,0 +1,160 @@
+/// The hand in the window: device, servo and chain on one side, what is drawn and read out on the other.
+///
+/// One object lives as long as a window. All calls come from the window's thread; nothing here draws or
+/// knows a panel. With a recording to replay, the hand is that of the recording and calls that would move it
+/// do nothing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/followed_curve.h"
+#include "common/app/haptic/haptic_mode.h"
+#include "common/app/haptic/kept_lines.h"
+#include "common/app/haptic/local_lines.h"
+#include "common/device/mouse_device.h"
+#include "common/render/camera.h"
+#include "common/render/probe_view.h"
+#include "common/servo/servo_loop.h"
+
+namespace palpate {
+
+/// What the user can choose about touch, as panels edit it.
+struct TouchChoice {
+  std::size_t mode = 0;  ///< index into the modes
+  ChainSettings settings;
+  bool ticks = false;  ///< tick marks: at settings.tick_interval, or default_tick_interval() where that is 0
+  bool show_balls = true;
+  bool show_path = true;
+  SeedShape local = SeedShape::kNone;
+
+  bool operator==(const TouchChoice&) const = default;
+};
+
+struct ProbeSessionOptions {
+  std::vector<HapticMode> modes;  ///< empty: no touch at all
+  TouchChoice choice;             ///< at the start
+  DeviceLimits limits;
+  double workspace_scale = 0.0;  ///< [m] per data unit; 0: the default
+  int threads = 0;
+  /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
+  std::filesystem::path record;
+  bool overwrite = false;
+  RecordingHeader recorded;
+  std::optional<Recording> replay;
+};
+
+/// What is read out beside the picture. Data units unless stated.
+struct ProbeReadout {
+  bool held = false;  ///< a hand is on the probe
+  HoldState state = HoldState::kFree;
+  ForceCut cut = ForceCut::kNone;
+  Vec3 probe{0.0};
+  Vec3 proxy{0.0};
+  std::int64_t cell = -1;  ///< of the grid, at the proxy; -1 where it has none
+  Vec3 velocity{0.0};      ///< at the proxy; meaningless where `sampled` is false
+  bool sampled = false;
+  double residual = 0.0;
+  double force = 0.0;    ///< [N]
+  double stretch = 0.0;  ///< [mm]
+  ServoState servo;      ///< rates and lateness
+};
+
+class ProbeSession {
+ public:
+  /// @param wake called on other threads when there is something new to draw.
+  /// @throws Error where the recording cannot be written.
+  ProbeSession(ProbeSessionOptions options, std::function<void()> wake);
+  /// Ends the servo, then the recording.
+  ~ProbeSession();
+
+  [[nodiscard]] bool available() const noexcept { return !options_.modes.empty(); }
+  [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
+
+  /// Takes another field; `name` is its field_key(). The same field again changes
+  /// nothing.
+  void set_field(std::shared_ptr<const VectorField> field, const std::string& name);
+
+  /// @name The hand
+  /// @{
+  [[nodiscard]] bool grabbed() const noexcept { return mouse_.grabbed(); }
+  /// @param time [s] of a steady clock.
+  void grab(double time, const Vec3& position);
+  void move(const Vec3& position) noexcept { target_ = position; }
+  [[nodiscard]] const Vec3& target() const noexcept { return target_; }
+  void let_go() noexcept;
+  void force_off() noexcept;
+  void arm() noexcept;
+  /// @}
+
+  [[nodiscard]] const TouchChoice& choice() const noexcept { return choice_; }
+  void choose(const TouchChoice& choice);
+
+  /// Once a frame: hands the target to the servo, takes what it has done since, and describes it in `view`,
+  /// whose style and reference speed stay.
+  void update(double time, const Camera& camera, ColorBy color_by, ProbeView& view);
+  [[nodiscard]] const ProbeReadout& readout() const noexcept { return readout_; }
+  /// Something moves without the user's doing: the line grows, a replay runs.
+  [[nodiscard]] bool lively() const noexcept;
+
+  /// Keeps the followed line with the forces felt along it; false where none is followed.
+  bool keep_line();
+  [[nodiscard]] KeptLines& kept() noexcept { return kept_; }
+  [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
+  void clear_path();
+
+  /// A line of text for the recording, where there is one.
+  void record_event(std::uint64_t frame, const std::string& text);
+  [[nodiscard]] bool replaying() const noexcept { return replay_ != nullptr; }
+  /// Events of the replayed recording whose time has come, oldest first.
+  [[nodiscard]] std::vector<std::string> due_events();
+  /// How the replay compares, one sentence; empty while none has ended.
+  [[nodiscard]] std::string replay_verdict() const;
+  /// Ends servo and recording. @throws Error (work failed) where the disk refused something.
+  void finish();
+
+ private:
+  [[nodiscard]] Workspace workspace() const;
+  [[nodiscard]] ChainSettings chain_settings() const;
+  [[nodiscard]] HapticChain build(const std::string& description) const;
+  void restart_chain();
+  void start_replay();
+  void drain_steps();
+  void take(const HandStep& step);
+  void follow_replayed_chain(std::uint64_t step);
+  void read_out();
+  void ask_local(const Camera& camera);
+  void describe(ProbeView& view) const;
+
+  ProbeSessionOptions options_;
+  std::function<void()> wake_;
+  TouchChoice choice_;
+  NamedField open_;
+  Vec3 target_{0.0};
+
+  std::optional<FollowedCurve> curve_;
+  std::shared_ptr<ProbePath> path_;
+  std::vector<FeltForce> felt_;  ///< since the line was caught
+  KeptLines kept_;
+  ProbeReadout readout_;
+  CellHint hint_;
+  std::optional<Line> last_line_;                   ///< that was followed when the hand let go
+  std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
+  std::size_t next_event_ = 0, next_change_ = 0;    ///< of the replay
+  bool growing_ = false;
+
+  std::unique_ptr<LocalLines> local_;
+  MouseDevice mouse_;
+  std::unique_ptr<Recorder> recorder_;
+  std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
+  std::unique_ptr<ReplaySource> replay_;
+  std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the three above
+};
+
+}  // namespace palpate

@@ -1,0 +1,115 @@
+#include "common/app/window/glfw_window.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include <GLFW/glfw3.h>
+
+#include "common/app/window/window.h"
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+std::string no_window(const std::string& why) {
+  const char* detail = nullptr;
+  glfwGetError(&detail);
+  return "no window can be opened: " + why + (detail != nullptr ? " (" + std::string(detail) + ")" : "") +
+         "; `render` draws without a display";
+}
+
+}  // namespace
+
+// GLFW is ended with the program: some virtual displays start anew, and refuse connections meanwhile, when
+// their last one is closed.
+bool start_glfw() {
+  static const bool kStarted = glfwInit() == GLFW_TRUE && std::atexit(glfwTerminate) == 0;
+  return kStarted;
+}
+
+GlfwWindow::GlfwWindow(const WindowOptions& options) {
+  if (!start_glfw()) throw work_error(no_window("no display"));
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
+  // Never larger than what the screen shows of it.
+  int width = options.width, height = options.height;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr && !options.hidden) {
+    int x = 0, y = 0, screen_width = 0, screen_height = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &screen_width, &screen_height);
+    if (screen_width > 0) width = std::min(width, screen_width);
+    if (screen_height > 0) height = std::min(height, screen_height);
+  }
+  // The picture has its own multisampled framebuffer with depth.
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  for (const int api : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
+    window_ = glfwCreateWindow(width, height, options.program.c_str(), nullptr, nullptr);
+    if (window_ != nullptr) break;
+  }
+  if (window_ == nullptr) throw work_error(no_window("the driver has no OpenGL 4.5 core context"));
+  glfwMakeContextCurrent(window_);
+  listen();
+}
+
+GlfwWindow::~GlfwWindow() { glfwDestroyWindow(window_); }
+
+bool GlfwWindow::take_damage() noexcept { return std::exchange(damaged_, false); }
+
+void GlfwWindow::listen() {
+  static const auto self = [](GLFWwindow* w) {
+    return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(w));
+  };
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    const double scale = self(w)->pixels_per_coordinate();
+    self(w)->events_.push_back({.kind = InputKind::kMove, .x = scale * x, .y = scale * y});
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    if (button < 0 || button > 2) return;
+    self(w)->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kRelease : InputKind::kPress,
+                                .button = static_cast<MouseButton>(button)});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    self(w)->events_.push_back({.kind = InputKind::kWheel, .x = x, .y = y});
+  });
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    self(w)->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kKeyUp : InputKind::kKeyDown,
+                                .key = key,
+                                .modifiers = modifiers});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code_point) {
+    self(w)->events_.push_back({.kind = InputKind::kText, .key = static_cast<int>(code_point)});
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    self(w)->events_.push_back({.kind = InputKind::kDrop, .files = {paths, paths + count}});
+  });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->damaged_ = true; });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->damaged_ = true; });
+}
+
+double GlfwWindow::pixels_per_coordinate() const {
+  int window_width = 1, pixel_width = 1;
+  glfwGetWindowSize(window_, &window_width, nullptr);
+  glfwGetFramebufferSize(window_, &pixel_width, nullptr);
+  return window_width > 0 ? static_cast<double>(pixel_width) / window_width : 1.0;
+}
+
+void GlfwWindow::toggle_full_screen() {
+  if (glfwGetWindowMonitor(window_) != nullptr) {
+    glfwSetWindowMonitor(window_, nullptr, windowed_.x, windowed_.y, windowed_.width, windowed_.height, 0);
+    return;
+  }
+  GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* const mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+  if (mode == nullptr) return;
+  glfwGetWindowPos(window_, &windowed_.x, &windowed_.y);
+  glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
+  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+}  // namespace palpate

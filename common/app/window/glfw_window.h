@@ -1,0 +1,45 @@
+/// A window of the system with an OpenGL 4.5 core context, and its events as plain data.
+#pragma once
+
+#include <vector>
+
+#include "common/app/window/input_event.h"
+
+struct GLFWwindow;
+
+namespace palpate {
+
+struct WindowOptions;
+
+/// Starts GLFW, once for the whole program. @return whether there is a display.
+[[nodiscard]] bool start_glfw();
+
+class GlfwWindow {
+ public:
+  /// Makes the context current.
+  /// @throws Error (work failed) where no window can be opened.
+  explicit GlfwWindow(const WindowOptions& options);
+  ~GlfwWindow();
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+  [[nodiscard]] GLFWwindow* get() const noexcept { return window_; }
+  /// What came since the events were cleared; positions in pixels. The owner may add to them.
+  [[nodiscard]] std::vector<InputEvent>& events() noexcept { return events_; }
+  /// Whether the window has to be drawn again whatever it shows; asked once.
+  [[nodiscard]] bool take_damage() noexcept;
+  void toggle_full_screen();
+
+ private:
+  void listen();
+  [[nodiscard]] double pixels_per_coordinate() const;
+
+  GLFWwindow* window_ = nullptr;
+  std::vector<InputEvent> events_;
+  bool damaged_ = true;
+  struct {
+    int x = 0, y = 0, width = 1, height = 1;
+  } windowed_;  // before it took the full screen
+};
+
+}  // namespace palpate

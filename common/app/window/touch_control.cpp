@@ -1,0 +1,145 @@
+#include "common/app/window/touch_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate {
+namespace {
+
+constexpr int kLeftShift = 340, kRightShift = 344;
+
+PictureSize size_of(const PictureArea& area) {
+  return {static_cast<int>(area.width), static_cast<int>(area.height)};
+}
+
+}  // namespace
+
+Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse) {
+  constexpr double kReach = 0.25;     // heights of the picture
+  constexpr double kAboutAsNear = 6;  // [pixels]
+  double nearest = kReach * size.height, depth = HUGE_VAL;
+  Vec3 start = under_mouse(view.camera, size, mouse, view.camera.focal_point);
+  if (!view.lines) return start;
+  for (const Line& line : *view.lines) {
+    for (const LinePoint& point : line.points) {
+      const Vec3 shown = project(view.camera, point.position, size.width, size.height);
+      if (!(shown.z > 0.0)) continue;
+      const double away = std::hypot(shown.x - mouse.x, shown.y - mouse.y);
+      const bool better = away < nearest - kAboutAsNear || (away < nearest + kAboutAsNear && shown.z < depth);
+      if (!better) continue;
+      nearest = std::min(nearest, away);
+      depth = shown.z;
+      start = point.position;
+    }
+  }
+  return start;
+}
+
+void TouchControl::grab(const PictureArea& area, const SceneView& view, double time) {
+  grabbed_ = true;
+  axis_.reset();
+  session_.grab(time, start_of_probe(view, size_of(area), {x_ - area.left, y_ - area.top}));
+}
+
+void TouchControl::let_go() noexcept {
+  grabbed_ = by_shift_ = false;
+  axis_.reset();
+  session_.let_go();
+}
+
+bool TouchControl::handle(const InputEvent& event, const PictureArea& area, const SceneView& view,
+                          double time) {
+  const bool shift = event.key == kLeftShift || event.key == kRightShift;
+  switch (event.kind) {
+    case InputKind::kMove: {
+      const double dx = event.x - x_, dy = event.y - y_;
+      x_ = event.x;
+      y_ = event.y;
+      if (!grabbed_ || buttons_ > 0) return false;
+      session_.move(dragged(view.camera, size_of(area), session_.target(), dx, dy, axis_));
+      return true;
+    }
+    case InputKind::kWheel:
+      if (!grabbed_ || !area.contains(x_, y_)) return false;
+      session_.move(pushed(view.camera, session_.target(), event.y, axis_));
+      return true;
+    case InputKind::kPress:
+      ++buttons_;
+      return false;
+    case InputKind::kRelease:
+      buttons_ = std::max(0, buttons_ - 1);
+      return false;
+    case InputKind::kKeyDown:
+      if (!shift || grabbed_ || !session_.available() || !area.contains(x_, y_)) return false;
+      grab(area, view, time);
+      by_shift_ = true;
+      return true;
+    case InputKind::kKeyUp:
+      if (!shift || !by_shift_) return false;
+      let_go();
+      return true;
+    default:
+      return false;
+  }
+}
+
+std::string TouchControl::choose_mode(std::size_t mode) {
+  if (mode >= session_.modes().size()) return "there is no mode " + std::to_string(mode + 1);
+  TouchChoice choice = session_.choice();
+  choice.mode = mode;
+  session_.choose(choice);
+  return "mode " + session_.modes()[mode].name + ": " + session_.modes()[mode].summary;
+}
+
+std::optional<std::string> TouchControl::run(Command command, const PictureArea& area, const SceneView& view,
+                                             double time) {
+  if (!session_.available()) return std::nullopt;
+  const auto lock = [this](int axis) -> std::string {
+    if (!grabbed_) return "grab the probe first (G)";
+    axis_ = axis_ == axis ? std::nullopt : std::optional(axis);
+    if (!axis_) return "the probe moves freely";
+    return std::string("the probe moves along ") + "xyz"[axis] + " only";
+  };
+  switch (command) {
+    case Command::kGrab:
+      if (grabbed_) {
+        let_go();
+        return "let go";
+      }
+      grab(area, view, time);
+      return "grabbed: move the mouse; wheel: along the view; Space: keep the line; Esc: let go";
+    case Command::kForceOff:
+      session_.force_off();
+      return "force off; switch it on again in the panel";
+    case Command::kLockX:
+      return lock(0);
+    case Command::kLockY:
+      return lock(1);
+    case Command::kLockZ:
+      return lock(2);
+    case Command::kKeepLine:
+      if (!session_.keep_line()) return "no line is followed: grab the probe (G) and move it on to one";
+      return "kept line " + std::to_string(session_.kept().entries().back().number) +
+             "; Ctrl+E saves all that are kept";
+    case Command::kUndo:
+      return session_.kept().undo() ? "undone" : "nothing to undo";
+    case Command::kLocalLines: {
+      TouchChoice choice = session_.choice();
+      choice.local = choice.local == SeedShape::kNone   ? SeedShape::kRake
+                     : choice.local == SeedShape::kRake ? SeedShape::kPlane
+                                                        : SeedShape::kNone;
+      session_.choose(choice);
+      return std::string("lines about the probe: ") + (choice.local == SeedShape::kNone ? "none"
+                                                       : choice.local == SeedShape::kRake
+                                                           ? "a rake"
+                                                           : "a plane of seeds");
+    }
+    default: {
+      const int mode = static_cast<int>(command) - static_cast<int>(Command::kMode1);
+      if (mode < 0 || mode >= kModeKeys) return std::nullopt;
+      return choose_mode(static_cast<std::size_t>(mode));
+    }
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,49 @@
+/// What mouse and keys do to the probe: `G` or a held Shift grabs it, the mouse then moves it in the plane of
+/// the view and the wheel along the view.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/app/haptic/probe_mouse.h"
+#include "common/app/haptic/probe_session.h"
+#include "common/app/window/input_event.h"
+#include "common/app/window/keys.h"
+#include "common/app/window/view_control.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+class TouchControl {
+ public:
+  explicit TouchControl(ProbeSession& session) : session_(session) {}
+
+  /// @param time [s] of a steady clock.
+  /// @return whether the event was the probe's, and not for the camera.
+  bool handle(const InputEvent& event, const PictureArea& area, const SceneView& view, double time);
+  /// @return what to say to the user, if the command is one about touch.
+  std::optional<std::string> run(Command command, const PictureArea& area, const SceneView& view,
+                                 double time);
+
+  /// The mouse has hold of the probe; in a replay, that of the recording had.
+  [[nodiscard]] bool grabbed() const noexcept { return grabbed_; }
+  [[nodiscard]] std::optional<int> locked_axis() const noexcept { return axis_; }
+  void let_go() noexcept;
+
+ private:
+  void grab(const PictureArea& area, const SceneView& view, double time);
+  std::string choose_mode(std::size_t mode);
+
+  ProbeSession& session_;
+  bool grabbed_ = false;
+  bool by_shift_ = false;  ///< for as long as Shift is held
+  int buttons_ = 0;        ///< that are down: the camera's then
+  std::optional<int> axis_;
+  double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
+};
+
+/// Where the probe starts when it is grabbed: on the drawn line nearest to the mouse in the picture, the
+/// nearer to the viewer of those that lie about as near; at the depth of the focal point where there is none.
+[[nodiscard]] Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse);
+
+}  // namespace palpate

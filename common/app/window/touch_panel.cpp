@@ -1,0 +1,170 @@
+#include "common/app/window/touch_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "common/base/text.h"
+#include "common/render/probe_view.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+bool slider(const char* label, double& value, double lower, double upper, const char* format,
+            ImGuiSliderFlags flags = 0) {
+  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
+                             flags | ImGuiSliderFlags_AlwaysClamp);
+}
+
+void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
+  if (!ImGui::BeginCombo("mode", modes[choice.mode].name.c_str())) return;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (ImGui::Selectable(modes[i].name.c_str(), i == choice.mode)) choice.mode = i;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", modes[i].summary.c_str());
+  }
+  ImGui::EndCombo();
+}
+
+void edit_settings(TouchChoice& choice) {
+  constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0;
+  ChainSettings& settings = choice.settings;
+  slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
+  double release = kMillimetres * settings.release_distance, drag = kMillimetres * settings.drag_threshold;
+  if (slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
+    settings.release_distance = release / kMillimetres;
+  if (slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag_threshold = drag / kMillimetres;
+  slider("speed force", settings.speed_force, -kStrongest, kStrongest, "%.2f N");
+  ImGui::Checkbox("tick marks", &choice.ticks);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
+  if (choice.ticks) slider("tick stiffness", settings.tick_stiffness, 0.0, 1.0, "%.2f");
+}
+
+void choose_looks(TouchChoice& choice, float half) {
+  ImGui::Checkbox("stream balls", &choice.show_balls);
+  ImGui::SameLine(half);
+  ImGui::Checkbox("path", &choice.show_path);
+  constexpr std::array<const char*, 3> kShapes{"none", "rake", "plane"};
+  int shape = static_cast<int>(choice.local);
+  if (ImGui::Combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {
+    choice.local = static_cast<SeedShape>(shape);
+  }
+}
+
+void list_kept(KeptLines& kept) {
+  std::optional<std::size_t> removed;
+  for (std::size_t i = 0; i < kept.entries().size(); ++i) {
+    const KeptLines::Entry& entry = kept.entries()[i];
+    const Rgb color = kept_color(entry.number);
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::TextColored({color.r, color.g, color.b, 1.0F}, "%d", entry.number);
+    ImGui::SameLine();
+    ImGui::Text("length %s, up to %.2f N", short_number(entry.line->points.back().arc).c_str(),
+                entry.largest_force);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x")) removed = i;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("delete (Ctrl+Z takes it back)");
+    ImGui::PopID();
+  }
+  if (removed) kept.remove(*removed);
+}
+
+}  // namespace
+
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file) {
+  TouchActions actions;
+  if (!session.available()) return actions;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float half_width = 0.5F * (ImGui::GetContentRegionAvail().x - gap);
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
+  const ImVec2 size{half_width, 0.0F};
+
+  if (session.replaying()) {
+    const std::string verdict = session.replay_verdict();
+    ImGui::TextWrapped("%s", verdict.empty() ? "replaying" : verdict.c_str());
+  }
+  actions.grab = ImGui::Button(grabbed ? "Let go  (G)" : "Grab  (G)", size);
+  ImGui::SameLine();
+  if (session.readout().servo.armed) {
+    if (ImGui::Button("Force off  (F12)", size)) session.force_off();
+  } else if (ImGui::Button("Force on again", size)) {
+    session.arm();
+  }
+  TouchChoice choice = session.choice();
+  choose_mode(choice, session.modes());
+  edit_settings(choice);
+  choose_looks(choice, half);
+  session.choose(choice);
+
+  actions.keep = ImGui::Button("Keep line  (K)", size);
+  ImGui::SameLine();
+  if (ImGui::Button("Clear path", size)) session.clear_path();
+  list_kept(session.kept());
+  if (!session.kept().entries().empty()) {
+    ImGui::SetNextItemWidth(half_width);
+    ImGui::InputText("##file", &file);
+    ImGui::SameLine();
+    actions.save_lines = ImGui::Button("Save lines", size);
+  }
+  return actions;
+}
+
+float draw_probe_readout(const ProbeSession& session, float left, float top) {
+  const ProbeReadout& readout = session.readout();
+  if (!readout.held) return 0.0F;
+  ImGui::SetNextWindowPos({left, top});
+  ImGui::SetNextWindowBgAlpha(0.7F);
+  constexpr ImGuiWindowFlags kFlags =
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
+  ImGui::Begin("probe", nullptr, kFlags);
+  const auto words = [](std::string_view name) {
+    std::string text(name);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+  };
+  std::string state = words(name_of(readout.state));
+  if (readout.cut != ForceCut::kNone) state += " (" + words(name_of(readout.cut)) + ")";
+  ReadoutRows rows("readout");
+  rows.add("probe", "%s", state.c_str());
+  rows.add("at", "%.5g  %.5g  %.5g", readout.proxy.x, readout.proxy.y, readout.proxy.z);
+  if (readout.cell >= 0) rows.add("cell", "%lld", static_cast<long long>(readout.cell));
+  if (readout.sampled) {
+    rows.add("value", "%.4g  %.4g  %.4g", readout.velocity.x, readout.velocity.y, readout.velocity.z);
+    rows.add("speed", "%.4g", glm::length(readout.velocity));
+  } else {
+    rows.add("value", "none here");
+  }
+  rows.add("force", "%.2f N", readout.force);
+  rows.add("stretch", "%.2f mm", readout.stretch);
+  rows.add("residual", "%.1e", readout.residual);
+  rows.finish();
+  const float height = ImGui::GetWindowHeight();
+  ImGui::End();
+  return height;
+}
+
+void add_servo_rates(const ProbeSession& session, ReadoutRows& rows) {
+  if (!session.available()) return;
+  const ServoStatistics& statistics = session.readout().servo.statistics;
+  if (statistics.ticks == 0) return;
+  const auto us = [](std::uint64_t ns) {
+    constexpr double kMicroseconds = 1e-3;
+    return kMicroseconds * static_cast<double>(ns);
+  };
+  rows.add("servo", "%llu ticks", static_cast<unsigned long long>(statistics.ticks));
+  rows.add("late", "%.2f %%, %llu skipped",
+           100.0 * static_cast<double>(statistics.late) / static_cast<double>(statistics.ticks),
+           static_cast<unsigned long long>(statistics.skipped));
+  rows.add("update", "%.1f us, 99 %% below %.1f, at most %.0f", us(statistics.update.percentile_ns(0.5)),
+           us(statistics.update.percentile_ns(0.99)), us(statistics.update.max_ns()));
+}
+
+}  // namespace palpate

@@ -1,0 +1,28 @@
+/// The part of the panel about touch, and the read-out of the probe over the picture.
+#pragma once
+
+#include <string>
+
+#include "common/app/haptic/probe_session.h"
+#include "common/app/window/readout_rows.h"
+
+namespace palpate {
+
+/// What the user asked for in this frame.
+struct TouchActions {
+  bool grab = false;  ///< or let go
+  bool keep = false;
+  bool save_lines = false;
+};
+
+/// Changes the session's choice and its kept lines. @param file where the kept lines go, edited.
+[[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file);
+
+/// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
+/// @return its height; 0 where there is none.
+float draw_probe_readout(const ProbeSession& session, float left, float top);
+
+/// The servo's rows of the rates.
+void add_servo_rates(const ProbeSession& session, ReadoutRows& rows);
+
+}  // namespace palpate
