@@ -6,8 +6,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kMaxLength =
-    4.0;                          // diagonals on either side: what is drawn; more is grown when it is reached
+// Diagonals on either side: what is drawn; the line is begun anew where the hand comes near to its end.
+constexpr double kMaxLength = 1.5;
 constexpr double kMaxGap = 1e-8;  // diagonals; the contract allows 1e-6
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kChordGap = 5e-7;  // diagonals
 constexpr int kMostParts = 64;      // that a piece is drawn with
-constexpr int kMostBalls = 600;
+constexpr int kMostBalls = 300;
 
 /// Chords that a piece needs: a chord of length h leaves a curve of curvature c by c h^2 / 8.
 int parts_of(const HermitePiece& piece, double gap) {

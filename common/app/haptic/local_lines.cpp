@@ -10,10 +10,12 @@ namespace {
 
 // What is looked at for a moment need not be traced to the last digit.
 constexpr double kTolerance = 1e-4;
+constexpr double kWidth = 5.0;  // of the lines: they stand out of those of the scene
 
 std::shared_ptr<const LocalSeeds> trace(const LocalRequest& request) {
   auto local = std::make_shared<LocalSeeds>();
   local->shape = request.shape;
+  local->style.width = kWidth;
   local->seeds = local_seeds(request);
   if (request.shape == SeedShape::kRake) {
     local->origin = request.center - request.along;

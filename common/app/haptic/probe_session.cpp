@@ -14,7 +14,7 @@ constexpr double kPathSpacing = 2e-4;  // diagonals
 constexpr double kLocalReach = 0.06;   // diagonals: half the length of a rake
 constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
 constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
-constexpr double kBallSpacing = 2.0;  // tick intervals
+constexpr double kBallSpacing = 4.0;  // tick intervals
 constexpr std::size_t kMostFelt = 1U << 20U;
 
 }  // namespace

@@ -32,6 +32,7 @@ struct TouchChoice {
   bool ticks = false;  ///< tick marks: at settings.tick_interval, or default_tick_interval() where that is 0
   bool show_balls = true;
   bool show_path = true;
+  bool fade_rest = true;  ///< the scene's own lines step back while a hand is on the probe
   SeedShape local = SeedShape::kNone;
 
   bool operator==(const TouchChoice&) const = default;

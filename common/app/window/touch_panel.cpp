@@ -51,6 +51,7 @@ void choose_looks(TouchChoice& choice, float half) {
   ImGui::Checkbox("stream balls", &choice.show_balls);
   ImGui::SameLine(half);
   ImGui::Checkbox("path", &choice.show_path);
+  ImGui::Checkbox("fade the other lines", &choice.fade_rest);
   constexpr std::array<const char*, 3> kShapes{"none", "rake", "plane"};
   int shape = static_cast<int>(choice.local);
   if (ImGui::Combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {

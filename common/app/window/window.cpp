@@ -396,26 +396,35 @@ class Window {
     write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
   }
 
+  /// The view with the lines stepping back while a hand is on the probe.
+  [[nodiscard]] SceneView with_focus() const {
+    SceneView picture = view_;
+    constexpr double kFaded = 0.15;
+    if (touch_->readout().held && touch_->choice().fade_rest) picture.style.opacity *= kFaded;
+    return picture;
+  }
+
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
     // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
     const bool moving = control_.dragging() || state_.playing;
     dirty_ = glfw_.take_damage() || dirty_;
-    if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(view_, shown_) ||
+    const SceneView picture = with_focus();
+    if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
         (!moving && state_.resolution < 1.0)) {
       if (!moving) {
         state_.resolution = 1.0;
       } else if (state_.frame_ms > kSlowFrame) {
         state_.resolution = std::max(kCoarsest, 0.7 * state_.resolution);
       }
-      renderer_->draw(view_, w, h, state_.resolution);
+      renderer_->draw(picture, w, h, state_.resolution);
       state_.frame_ms = renderer_->finish();
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();
       state_.frames_per_second = now > last_drawn_ ? 1.0 / (now - last_drawn_) : 0.0;
       last_drawn_ = now;
       state_.automatic_range = renderer_->range();
-      shown_ = view_;
+      shown_ = picture;
       picture_width_ = w;
       picture_height_ = h;
       dirty_ = false;
