@@ -7,8 +7,11 @@
 
 namespace palpate {
 
-/// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same. Needs an
-/// OpenGL 4.5 core context, the same at every call and at destruction.
+/// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
+/// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
+/// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
+/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time.
+/// Needs an OpenGL 4.5 core context, the same at every call and at destruction.
 class SceneRenderer {
  public:
   SceneRenderer();

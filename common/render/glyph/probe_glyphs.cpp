@@ -17,6 +17,13 @@ constexpr double kHeadLength = 24.0, kBarWidth = 3.0;
 // Shares: of the head in a short arrow, of the head's radius in its length, of the shaft in that.
 constexpr double kHeadShare = 0.45, kHeadSlope = 0.36, kShaftShare = 0.36;
 
+// As the path and the colour bar have it; without a range of its own that is the tension.
+Rgb band_color(const ProbeView& probe) {
+  const ValueRange range = force_range(probe);
+  const double t = (probe.force - range.lower) / (range.upper - range.lower);
+  return map_color(probe.style.force_map, t);
+}
+
 class Builder {
  public:
   Builder(const SceneView& view, const SceneFrame& frame)
@@ -124,7 +131,7 @@ ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame, co
         [&](double stretch) {
           return probe.style.band_width / std::sqrt(1.0 + stretch / probe.style.band_rest);
         },
-        map_color(probe.style.force_map, tension(probe)));
+        band_color(probe));
   }
   if (is_finite(probe.probe) && probe.reference_speed > 0.0) {
     const Vec3 ratio = probe.velocity / probe.reference_speed;

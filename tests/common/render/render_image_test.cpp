@@ -285,6 +285,10 @@ TEST(Look, AtWhatUsersSee) {
   test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_dark");
   view.background = Background::kLight;
   test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_light");
+  view.style.dimming = 0.35;
+  view.camera.focal_point = view.probe->proxy;
+  zoom(view.camera, 2.6);
+  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_near");
 }
 
 }  // namespace

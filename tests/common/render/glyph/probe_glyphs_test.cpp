@@ -52,6 +52,10 @@ TEST(ProbeGlyphs, BandThinsAsItStretchesAndTakesTheColourOfTheTension) {
     EXPECT_EQ(band.color, map_color(ColorMap::kTension, 0.5));
     before = band.shaft_radius;
   }
+  // Path and band share the colour bar.
+  SceneView ranged = simple_view(0.1);
+  ranged.probe->path.range = ValueRange{0.0, 4.0};
+  EXPECT_EQ(glyphs_of(ranged).arrows.front().color, map_color(ColorMap::kTension, 0.25));
   // At the rest length: 1/sqrt(2) of the width.
   SceneView view = simple_view(0.08);
   view.probe->style.band_rest = 40.0;
