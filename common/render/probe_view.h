@@ -100,7 +100,7 @@ struct ProbeView {
   double force_cap = 0.0;  ///< [N], the largest that the safety stage lets through; 0: no band, no colours
   bool show_force = true;  ///< write the newtons beside the band
 
-  Vec3 velocity{0.0};            ///< of the field at the proxy; zero or not finite: no arrow
+  Vec3 velocity{0.0};  ///< of the field at the probe, where the arrow starts; zero or not finite: no arrow
   double reference_speed = 0.0;  ///< for which the arrow has ProbeStyle::arrow_length; <= 0: no arrow
 
   std::shared_ptr<const FollowedLine> followed;  ///< may be null
