@@ -399,8 +399,11 @@ class Window {
   /// The view with the lines stepping back while a hand is on the probe.
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
-    constexpr double kFaded = 0.15;
-    if (touch_->readout().held && touch_->choice().fade_rest) picture.style.opacity *= kFaded;
+    constexpr double kDimmed = 0.4, kThinned = 0.3;
+    if (touch_->readout().held && touch_->choice().fade_rest) {
+      picture.style.dimming = kDimmed;
+      picture.style.opacity *= kThinned;  // what the hand does inside a bundle is seen through it
+    }
     return picture;
   }
 
