@@ -15,21 +15,22 @@ void TetDomain::load(CellIndex cell) {
   cell_ = cell;
   AffineCell affine;
   const TetMesh::Tet& tet = mesh_->mesh().cells()[static_cast<std::size_t>(cell)];
-  bad_ = !affine.load(mesh_->vertices(), tet, sign_);
+  bad_ = !load_cell(affine, mesh_->vertices(), tet.data(), sign_);
   const PackedVertex& corner = mesh_->vertices()[tet[3]];
-  corner_ = Pack4{corner.x, 0.0};
-  origin_ = Pack4{sign_ * corner.v, 0.0};
+  corner_ = Pack4::load(corner.x);
+  origin_ = sign_ * Pack4::load(corner.v);
   Mat3 gradient{0.0};
   for (int j = 0; j < 3; ++j) {
-    const Vec3& g = affine.barycentric_gradient(j);
-    const Vec3 dv = sign_ * (mesh_->vertices()[tet[static_cast<std::size_t>(j)]].v - corner.v);
-    for (int axis = 0; axis < 3; ++axis) gradient[axis] += g[axis] * dv;
+    const Vec3 g = barycentric_gradient(affine, j);
+    const Pack4 dv =
+        sign_ * (Pack4::load(mesh_->vertices()[tet[static_cast<std::size_t>(j)]].v) - Pack4::load(corner.v));
+    for (int axis = 0; axis < 3; ++axis) gradient[axis] += g[axis] * dv.xyz();
     face_[static_cast<std::size_t>(j)] = g;
   }
   for (int axis = 0; axis < 3; ++axis) column_[static_cast<std::size_t>(axis)] = Pack4{gradient[axis], 0.0};
   face_[3] = -(face_[0] + face_[1] + face_[2]);
   face_offset_ = {0.0, 0.0, 0.0, 1.0};
-  size_ = affine.size();
+  size_ = affine.size;
 }
 
 bool TetDomain::cross(int face, Pack4& y, int& entry) {

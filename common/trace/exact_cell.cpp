@@ -1,123 +1,55 @@
 #include "common/trace/exact_cell.h"
 
-#include <cmath>
-
 namespace palpate {
-namespace {
+inline namespace PALPATE_PACK {
 
-// The number of terms of (2) after which what is left is below 2^-52, by |h C|: theta^n / (n + 1)! plus the
-// geometric tail.
-constexpr int kMinTerms = 4;
-constexpr int kMaxTerms = 26;
+bool load_cell(AffineCell& cell, const PackedVertex* vertices, const std::uint32_t* tet,
+               double sign) noexcept {
+  const PackedVertex* const at[4] = {&vertices[tet[0]], &vertices[tet[1]], &vertices[tet[2]],
+                                     &vertices[tet[3]]};
+  const Pack4 x3 = Pack4::load(at[3]->x);
+  x3.store(cell.corner);
+  for (int i = 0; i < 3; ++i) (Pack4::load(at[i]->x) - x3).store(cell.edge[i]);
 
-consteval std::array<double, kMaxTerms + 1> make_term_limits() {
-  std::array<double, kMaxTerms + 1> limit{};
-  for (int n = kMinTerms; n <= kMaxTerms; ++n) {
-    // Largest theta with theta^n / (n + 1)! / (1 - theta / (n + 2)) <= 2^-52, by bisection.
-    double low = 0.0, high = 4.0;
-    for (int i = 0; i < 60; ++i) {
-      const double theta = 0.5 * (low + high);
-      double term = 1.0;
-      for (int k = 1; k <= n; ++k) term *= theta / (k + 1);
-      (term / (1.0 - theta / (n + 2)) <= 0x1p-52 ? low : high) = theta;
-    }
-    limit[static_cast<std::size_t>(n)] = low;
+  // Face i has the normal n_i = s_i x t_i with edges s, t; n_3 closes the tetrahedron: minus the sum of the
+  // others.
+  Pack4 s[3], t[3], extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Pack4 x{at[0]->x[axis], at[1]->x[axis], at[2]->x[axis], at[3]->x[axis]};
+    const Pack4 from = lanes<3, 3, 3, 0>(x);
+    s[axis] = lanes<1, 2, 0, 2>(x) - from;
+    t[axis] = lanes<2, 0, 1, 1>(x) - from;
+    extent += abs(s[axis]);
   }
-  return limit;
-}
-constexpr auto kTermLimit = make_term_limits();
+  const Pack4 n[3] = {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
+  const double det = s[0][2] * n[0][0] + s[1][2] * n[1][0] + s[2][2] * n[2][0];
+  const double inverse = 1.0 / det;
+  const Pack4 g[3] = {inverse * n[0], inverse * n[1], inverse * n[2]};
+  for (int axis = 0; axis < 3; ++axis) g[axis].store(cell.gradient[axis]);
+  cell.size = max_lane(extent);
 
-struct TermWeights {
-  double inverse;                    // 1 / k
-  double inverse_next;               // 1 / (k + 1)
-  std::array<double, 3> node_power;  // c_m^k
-};
-
-// Five-point Lobatto rule on [0, 1]: nodes 0, c_1, 1/2, 1 - c_1, 1 with c_1 = (1 - sqrt(3/7)) / 2.
-constexpr double kNode = 0.17267316464601142810;
-constexpr double kEndWeight = 1.0 / 20, kOuterWeight = 49.0 / 180, kMiddleWeight = 16.0 / 45;
-
-consteval std::array<TermWeights, kMaxTerms + 1> make_term_weights() {
-  std::array<TermWeights, kMaxTerms + 1> weights{};
-  std::array<double, 3> power{1.0, 1.0, 1.0};
-  constexpr std::array<double, 3> node{kNode, 0.5, 1.0 - kNode};
-  for (int k = 0; k <= kMaxTerms; ++k) {
-    weights[static_cast<std::size_t>(k)] = {k > 0 ? 1.0 / k : 0.0, 1.0 / (k + 1), power};
-    for (std::size_t m = 0; m < 3; ++m) power[m] *= node[m];
+  const Pack4 signed_g[3] = {sign * g[0], sign * g[1], sign * g[2]};
+  const double* v3 = at[3]->v;
+  const Pack4 offset = (v3[0] * signed_g[0] + v3[1] * signed_g[1]) + v3[2] * signed_g[2];
+  Pack4 c[3], sum;
+  for (int j = 0; j < 3; ++j) {
+    const double* v = at[j]->v;
+    c[j] = ((v[0] - v3[0]) * signed_g[0] + (v[1] - v3[1]) * signed_g[1]) + (v[2] - v3[2]) * signed_g[2];
+    c[j].store(cell.column[j]);
+    sum += abs(c[j]);
   }
-  return weights;
-}
-constexpr auto kTerm = make_term_weights();
+  offset.store(cell.offset);
+  cell.norm = max_lane(sum);
 
-int term_count(double theta) noexcept {
-  int n = kMinTerms;
-  while (n < kMaxTerms && theta > kTermLimit[static_cast<std::size_t>(n)]) ++n;
-  return n;
-}
-
-}  // namespace
-
-bool AffineCell::load(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign) noexcept {
-  const PackedVertex& p3 = vertices[tet[3]];
-  corner_ = p3.x;
-  std::array<Vec3, 3> du;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const PackedVertex& p = vertices[tet[j]];
-    edge_[j] = p.x - p3.x;
-    du[j] = sign * (p.v - p3.v);
-  }
-  const Vec3 n0 = glm::cross(edge_[1], edge_[2]);
-  const Vec3 n1 = glm::cross(edge_[2], edge_[0]);
-  const Vec3 n2 = glm::cross(edge_[0], edge_[1]);
-  const double inverse_det = 1.0 / glm::dot(edge_[0], n0);
-  gradient_ = {n0 * inverse_det, n1 * inverse_det, n2 * inverse_det};
-  const Vec3 v3 = sign * p3.v;
-  double row[3];
-  for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t i = 0; i < 3; ++i) row[i] = glm::dot(gradient_[i], du[j]);
-    column_[j] = Pack4{row[0], row[1], row[2], -(row[0] + row[1] + row[2])};
-  }
-  for (std::size_t i = 0; i < 3; ++i) row[i] = glm::dot(gradient_[i], v3);
-  offset_ = Pack4{row[0], row[1], row[2], -(row[0] + row[1] + row[2])};
-  Pack4 sum;
-  for (const Pack4& c : column_) {
-    sum += Pack4{std::abs(c[0]), std::abs(c[1]), std::abs(c[2]), std::abs(c[3])};
-  }
-  norm_ = max_abs(sum);
-  const double longest = std::fmax(glm::dot(edge_[0], edge_[0]),
-                                   std::fmax(glm::dot(edge_[1], edge_[1]), glm::dot(edge_[2], edge_[2])));
-  size_ = std::sqrt(longest);
+  const double m01 = c[0][0] * c[1][1] - c[0][1] * c[1][0];
+  const double m02 = c[0][0] * c[1][2] - c[0][2] * c[1][0];
+  const double m12 = c[0][1] * c[1][2] - c[0][2] * c[1][1];
+  cell.p = c[0][0] + c[1][1] + c[2][2];
+  cell.q = -(m01 + (c[0][0] * c[2][2] - c[0][2] * c[2][0]) + (c[1][1] * c[2][2] - c[1][2] * c[2][1]));
+  cell.r = c[2][2] * m01 - c[2][1] * m02 + c[2][0] * m12;
   // A sum is finite only if every part of it is.
-  return std::isfinite(norm_ + max_abs(offset_));
+  return __builtin_isfinite(cell.norm + max_abs(offset)) != 0;
 }
 
-AffineCell::Flow AffineCell::flow(const Pack4& b, const Pack4& w, double h) const noexcept {
-  const Pack4 d0 = h * column_[0], d1 = h * column_[1], d2 = h * column_[2];
-  const int terms = term_count(std::abs(h) * norm_);
-  Flow out{.b = w, .w = w, .inner = {w, w, w}};
-  Pack4 u = w;
-  for (int k = 1; k <= terms; ++k) {
-    const TermWeights& weight = kTerm[static_cast<std::size_t>(k)];
-    u = weight.inverse * ((u[0] * d0 + u[1] * d1) + u[2] * d2);
-    out.w += u;
-    out.b += weight.inverse_next * u;
-    for (std::size_t m = 0; m < kNodes; ++m) out.inner[m] += weight.node_power[m] * u;
-  }
-  out.b = b + h * out.b;
-  return out;
-}
-
-double AffineCell::arc(double first, const Flow& flow, double h, bool& sound) const noexcept {
-  const double last = glm::length(velocity(flow.w));
-  const double left = glm::length(velocity(flow.inner[0])), middle = glm::length(velocity(flow.inner[1]));
-  const double right = glm::length(velocity(flow.inner[2]));
-  const double lobatto = kEndWeight * (first + last) + kOuterWeight * (left + right) + kMiddleWeight * middle;
-  const double simpson = (first + 4.0 * middle + last) * (1.0 / 6.0);
-  // The error of Simpson's rule falls with the fourth power of the step, that of the longer rule with the
-  // eighth: where they differ by 2e-7 the latter is right to some 1e-12.
-  constexpr double kConverged = 2e-7;
-  sound = std::abs(lobatto - simpson) <= kConverged * lobatto;
-  return h * lobatto;
-}
-
+}  // namespace PALPATE_PACK
 }  // namespace palpate

@@ -1,36 +1,25 @@
 /// Follows a line through a tetrahedral mesh, one exact piece at a time. No allocation on the fast path.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <limits>
 #include <optional>
-#include <vector>
 
-#include "common/field/vector_field.h"
+#include "common/field/grid/tet_mesh.h"
 #include "common/trace/affine_modes.h"
 #include "common/trace/error_transport.h"
-#include "common/trace/exact_cell.h"
+#include "common/trace/exact_kernel.h"
+#include "common/trace/exact_mesh.h"
 #include "common/trace/line_walk.h"
 
 namespace palpate {
 
-/// Points and vectors of a mesh packed for the walk, frame L: 48 bytes a point.
-class ExactMesh {
- public:
-  /// @pre field.tet_mesh() is not null and outlives this.
-  ExactMesh(const VectorField& field, int threads);
-
-  [[nodiscard]] const TetMesh& mesh() const noexcept { return *mesh_; }
-  [[nodiscard]] const PackedVertex* vertices() const noexcept { return vertices_.data(); }
-
- private:
-  const TetMesh* mesh_;
-  std::vector<PackedVertex> vertices_;
-};
-
 class ExactWalk final : public LineWalk {
  public:
   /// @param rest_distance how near a fixed point counts as having reached it, frame L.
-  ExactWalk(const ExactMesh& mesh, double rest_distance, TraceDirection direction);
+  /// @param kernel outlives this.
+  ExactWalk(const ExactMesh& mesh, double rest_distance, TraceDirection direction,
+            const ExactKernel& kernel = exact_kernel());
 
   [[nodiscard]] bool start(const Vec3& seed) override;
   [[nodiscard]] std::optional<End> advance() override;
@@ -39,19 +28,31 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
 
  private:
+  static constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  /// Rounding of one cell's gather, series and hand-over, in units of 2^-52 of the cell's size.
+  static constexpr double kRoundingPerCell = 16.0;
   static constexpr int kMaxPiecesInCell = 64;  ///< after that the robust path takes the cell
-  static constexpr int kMaxHalvings = 12;
+  /// A line that slows to this part of its rate at the entry of a cell may be coming to rest there: the
+  /// robust path is to judge it before rounding drowns the rate.
+  static constexpr double kSlowed = 1.0 / 64;
   static constexpr int kMaxStandingSteps =
       256;  ///< crossings without progress: more than cells meet at a point
 
-  enum class Outcome { kPiece, kCross, kRobust, kStandstill };
+  struct RobustFlow {
+    Pack4 b, w;
+    std::array<Pack4, 4> velocity;  ///< at the inner nodes of the rule for the arc length, and at the end
+    Pack4 speed;                    ///< there
+  };
 
-  void load_cell();
+  void enter_cell();
   [[nodiscard]] const TetMesh::Neighbors& neighbors(CellIndex cell) const {
     return mesh_->mesh().neighbors()[static_cast<std::size_t>(cell)];
   }
-  [[nodiscard]] Outcome fast_piece();
+  [[nodiscard]] PieceOutcome fast_piece();
   [[nodiscard]] std::optional<End> robust_piece();
+  /// From `start` to `stop` = start + h, times of the modes.
+  [[nodiscard]] RobustFlow robust_flow(AffineModes::Real start, AffineModes::Real h,
+                                       AffineModes::Real stop) const;
   [[nodiscard]] std::optional<End> cross(int face);
   [[nodiscard]] std::optional<End> cross_standing(int face);
   void settle(CellIndex cell, const Vec3& x);
@@ -59,6 +60,7 @@ class ExactWalk final : public LineWalk {
   void enter_robust();
 
   const ExactMesh* mesh_;
+  const ExactKernel& kernel_;
   double rest_distance_;
   double sign_;
 
@@ -69,15 +71,14 @@ class ExactWalk final : public LineWalk {
   int entry_ = -1;
   int exit_face_ = -1;  ///< face by which the last piece left, not yet crossed
   int pieces_in_cell_ = 0;
+  double rate_at_entry_ = 0.0;
   int standing_ = 0;
   int ignored_face_ = -1;
 
   std::optional<AffineModes> modes_;
   AffineModes::Real mode_time_ = 0.0L, mode_step_ = 0.0L;
 
-  // For at(): the start of the piece.
-  Pack4 piece_b_, piece_w_;
-  double piece_time_ = 0.0;
+  ExactPiece piece_;  ///< the last one; of a robust one only the time
   AffineModes::Real piece_mode_start_ = 0.0L;
   bool piece_robust_ = false;
 
