@@ -74,14 +74,14 @@ struct KeptLine {
 
 /// Sizes in thousandths of the picture's height at the focal point, so that they hold at each zoom.
 struct ProbeStyle {
-  double probe_size = 16.0;    ///< diameter
-  double proxy_size = 22.0;    ///< diameter
-  double ball_size = 16.0;     ///< diameter
-  double seed_size = 10.0;     ///< diameter
-  double handle_size = 13.0;   ///< diameter
-  double band_width = 8.0;     ///< unstretched
-  double band_rest = 40.0;     ///< stretch at which the band is thinner by 1/sqrt(2)
-  double arrow_length = 70.0;  ///< at the reference speed
+  double probe_size = 16.0;     ///< diameter
+  double proxy_size = 22.0;     ///< diameter
+  double ball_size = 16.0;      ///< diameter
+  double seed_size = 10.0;      ///< diameter
+  double handle_size = 13.0;    ///< diameter
+  double band_width = 8.0;      ///< unstretched
+  double band_rest = 40.0;      ///< stretch at which the band is thinner by 1/sqrt(2)
+  double arrow_length = 140.0;  ///< at the reference speed
   double path_width = 4.0;
   double followed_width = 8.0;
   double kept_width = 6.0;

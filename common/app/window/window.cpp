@@ -399,10 +399,13 @@ class Window {
   /// The view with the lines stepping back while a hand is on the probe.
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
-    constexpr double kDimmed = 0.4, kThinned = 0.3;
+    // Thin opaque lines, not transparent ones: these would have to be drawn again with every move of the
+    // hand.
+    constexpr double kDimmed = 0.55, kThinned = 0.5;
     if (touch_->readout().held && touch_->choice().fade_rest) {
       picture.style.dimming = kDimmed;
-      picture.style.opacity *= kThinned;  // what the hand does inside a bundle is seen through it
+      picture.style.width *= kThinned;
+      picture.style.halo = false;
     }
     return picture;
   }
