@@ -28,13 +28,15 @@ LineNode GrowingLine::node_of(const LinePoint& point, const Vec3& tangent, Side 
 bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
   arc_ = arc;
   time_ = time;
-  bool inside = true;
-  for (const Side side : {Side::kDownstream, Side::kUpstream}) {
-    OneSide& one = sides_[static_cast<std::size_t>(side)];
+  for (OneSide& one : sides_) {
     one.count.store(0, std::memory_order_relaxed);
     one.end.store(-1, std::memory_order_relaxed);
     one.loop.start();
     one.hint = {};
+  }
+  bool inside = true;
+  for (const Side side : {Side::kDownstream, Side::kUpstream}) {
+    OneSide& one = sides_[static_cast<std::size_t>(side)];
     inside = inside && one.walk->start(seed);
     if (!inside) break;
     const LinePoint& begin = one.walk->end();
