@@ -13,7 +13,7 @@ struct HermitePiece {
   Vec3 end{0.0}, end_tangent{0.0};
   double length = 0.0;  ///< arc between the ends, > 0
 
-  /// The point at arc `s` in [0, length]; the very ends at both of them.
+  /// The point at arc `s` in [0, length]: `start` itself at 0, `end` but for rounding at `length`.
   [[nodiscard]] Vec3 at(double s) const noexcept {
     const double u = s / length;
     const Vec3 chord = end - start;
