@@ -195,7 +195,8 @@ std::vector<MeasuredCost> FlowModel::costs() const {
   return costs;
 }
 
-std::string FlowModel::save_session(const SceneSettings& settings, const SceneView& view) {
+std::string FlowModel::save_session(const SceneSettings& settings, const SceneView& view,
+                                    const std::vector<std::pair<std::string, std::string>>& touch) {
   const Scene& scene = *scene_;
   const InputSpec& spec = scene.input.spec();
   Session session{.program = program_};
@@ -218,6 +219,8 @@ std::string FlowModel::save_session(const SceneSettings& settings, const SceneVi
   add("camera", camera_text(view.camera, view.bounds, kSessionAspect));
   add("color",
       settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);
+
+  for (const auto& [option, value] : touch) add(option.c_str(), value);
 
   const std::string name =
       (spec.files.empty() ? program_ + "-" + spec.example : spec.files.front().stem().string()) +

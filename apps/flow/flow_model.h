@@ -18,7 +18,8 @@ class FlowModel final : public WindowModel {
   SceneState start(Progress& progress) override;
   SceneState open(const std::vector<std::filesystem::path>& files, Progress& progress) override;
   SceneState update(const SceneSettings& settings, Progress& progress) override;
-  std::string save_session(const SceneSettings& settings, const SceneView& view) override;
+  std::string save_session(const SceneSettings& settings, const SceneView& view,
+                           const std::vector<std::pair<std::string, std::string>>& touch) override;
 
   /// What was shown last took; empty where nothing was.
   [[nodiscard]] std::vector<MeasuredCost> costs() const;

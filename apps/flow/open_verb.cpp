@@ -33,13 +33,28 @@ ExitCode headless_tour(Options options, const VerbContext& context) {
   options.out = free_name(program + "-tour");
   context.console.note("no display here, so no window: drawing example " + options.input.example + " into " +
                        options.out.string() + " instead");
-  const ExitCode code = render_verb({}).run(options, context);
+  const ExitCode code = render_verb(flow_modes(), {}).run(options, context);
   if (code == ExitCode::kDone) {
     context.console.note("next: " + program + " --example list, " + program +
                          " render FILE --out picture.png, " + program +
                          " trace FILE --seeds grid:8,8,8 --out lines.vtp");
   }
   return code;
+}
+
+/// The path of `--device replay:FILE`; none for a mouse.
+/// @throws Error (usage) for an unknown device; (bad input).
+std::vector<PathRow> device_path(const std::string& device) {
+  constexpr std::string_view kReplay = "replay:";
+  if (device.starts_with(kReplay)) {
+    std::vector<PathRow> path = read_probe_path(device.substr(kReplay.size()));
+    if (path.empty()) throw usage_error("--device " + device + ": the path has no rows");
+    return path;
+  }
+  if (device != "mouse") {
+    throw usage_error("unknown device '" + device + "'; known are mouse, replay:FILE.csv");
+  }
+  return {};
 }
 
 /// What the hand feels in the window, and where it is recorded or comes from.
@@ -55,6 +70,7 @@ ProbeSessionOptions touch_of(const Options& options, const std::string& program,
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;
+  touch.path = device_path(options.device);
   if (!options.replay.empty()) touch.replay = read_recording(options.replay.string());
   if (options.record.empty()) return touch;
   touch.record = options.record;
@@ -78,6 +94,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   if (nothing_named) options.input.example = examples().front().name;
   const TraceOptions trace = trace_options(options, "both");
   const CameraAngles angles = camera_angles(options.view.camera);
+  ProbeSessionOptions touch = touch_of(options, context.explorer.name, context.progress);
   if (!window_available() && nothing_named) return headless_tour(options, context);
   if (options.common.explain) {
     const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
@@ -103,8 +120,8 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
                        .angles = angles,
                        .command_line = context.command_line,
                        .version = version_text(context.explorer.name),
+                       .touch = std::move(touch),
                        .stop_requested = [] { return InterruptGuard::interrupted(); }};
-  window.touch = touch_of(options, context.explorer.name, context.progress);
   // Any other name is an array of the input: the model knows it once that is open.
   for (int i = 0; i < kColorByCount; ++i) {
     const auto by = static_cast<ColorBy>(i);

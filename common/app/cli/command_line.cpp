@@ -244,6 +244,11 @@ class VerbParser {
   }
 
   void add_record() {
+    app_.add_option(
+            "--device", options_.device,
+            "what moves the probe: mouse (default), or replay:FILE.csv, a path with the header t,x,y,z")
+        ->type_name("D")
+        ->group("Touch");
     app_.add_option("--record", options_.record, "write all input and every servo step to this file")
         ->type_name("FILE")
         ->group("Touch");

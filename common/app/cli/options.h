@@ -71,6 +71,7 @@ struct Options {
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded
+  std::string device = "mouse";  ///< open: mouse, or replay:FILE.csv
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size = "1280x960";

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "common/app/haptic/haptic_mode.h"
 #include "common/base/error.h"
 
 namespace palpate {
@@ -32,6 +33,15 @@ ChainSettings touch_settings(const TouchOptions& options) {
   }
   if (!settings.valid()) {
     throw usage_error("--release must be above 0 mm, and all of stiffness, drag, ticks and forces finite");
+  }
+  return settings;
+}
+
+ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
+                             const Workspace& workspace) {
+  ChainSettings settings = touch_settings(options);
+  if (wants_ticks(options) && settings.tick_interval == 0.0) {
+    settings.tick_interval = default_tick_interval(field, workspace);
   }
   return settings;
 }

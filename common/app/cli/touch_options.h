@@ -14,6 +14,9 @@ namespace palpate {
 /// The tick interval is 0 where none is given, or 'auto' is.
 /// @throws Error (usage) for values that make no sense.
 [[nodiscard]] ChainSettings touch_settings(const TouchOptions& options);
+/// The same with 'auto' worked out.
+[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
+                                           const Workspace& workspace);
 [[nodiscard]] inline bool wants_ticks(const TouchOptions& options) { return !options.ticks.empty(); }
 
 /// Caps of the force; a path or a mouse may be as fast as it likes.

@@ -196,7 +196,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   check_request(options);
   ProbeSummary summary;
   summary.limits = touch_limits(options.touch);
-  summary.settings = touch_settings(options.touch);
+  (void)touch_settings(options.touch);
   std::vector<PathRow> path;
   std::optional<Recording> recording;
   if (options.replay.empty()) {
@@ -215,9 +215,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   const auto field = input.load_field(options.common.threads, &context.progress);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(options.touch, *field);
-  if (wants_ticks(options.touch) && summary.settings.tick_interval == 0.0) {
-    summary.settings.tick_interval = default_tick_interval(*field, workspace);
-  }
+  summary.settings = touch_settings(options.touch, *field, workspace);
   summary.input = input.title();
   summary.field = field->name();
   summary.mode = mode.name;

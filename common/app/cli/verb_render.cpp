@@ -7,7 +7,9 @@
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/summaries.h"
+#include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/haptic/probe_picture.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -73,7 +75,19 @@ double image_error(const SceneView& view, const Image& image) {
   return std::sqrt(sum / (3.0 * image.width * image.height));
 }
 
-ExitCode run_render(const Options& options, const VerbContext& context) {
+/// Adds what a hand on that path has felt.
+void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
+                const Options& options, const std::shared_ptr<const VectorField>& field) {
+  const Workspace workspace = touch_workspace(options.touch, *field);
+  const HapticScene scene{field, workspace, touch_settings(options.touch, *field, workspace),
+                          options.common.threads};
+  view.probe = probe_after(path, mode.make(scene), scene, touch_limits(options.touch), view.style.color_by);
+  view.probe->reference_speed = reference_speed(view);
+  fade_lines(view);
+}
+
+ExitCode run_render(const std::vector<HapticMode>& modes, const Options& options,
+                    const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, console)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
@@ -85,6 +99,9 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
     throw usage_error(options.out.string() + ": pictures are written as .png");
   }
   check_output(options.out, options.common.force);
+  std::vector<PathRow> path;
+  if (!options.path.empty()) path = read_probe_path(options.path.string());
+  const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
@@ -113,8 +130,9 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
 
   const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
   const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
-  const SceneView view =
+  SceneView view =
       make_line_view(input, *field, lines, options, style, static_cast<double>(size.width) / size.height);
+  if (!options.path.empty()) show_probe(view, path, mode, options, field);
   context.progress.begin("drawing", 0);
   const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
   const RenderedImage rendered = render_image(view, size.width, size.height, repeat);
@@ -145,12 +163,15 @@ ExitCode run_render(const Options& options, const VerbContext& context) {
 
 }  // namespace
 
-Verb render_verb(std::vector<UsageExample> examples) {
-  return {.name = "render",
-          .summary = "draw a picture, with or without a display",
-          .groups = {.tracing = true, .view = true, .out = true, .picture = true},
-          .examples = std::move(examples),
-          .run = run_render};
+Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
+  return {
+      .name = "render",
+      .summary = "draw a picture, with or without a display",
+      .groups = {.tracing = true, .view = true, .touch = true, .path = true, .out = true, .picture = true},
+      .examples = std::move(examples),
+      .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+        return run_render(modes, options, context);
+      }};
 }
 
 }  // namespace palpate

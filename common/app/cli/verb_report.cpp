@@ -7,6 +7,7 @@
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/report/haptic_stability.h"
 #include "common/report/report.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
@@ -53,6 +54,11 @@ std::string results_text(const Report& report, const std::filesystem::path& out)
   }
   text += "  reference " + report.sweep.reference + ", within " + short_number(report.sweep.agreement.p95) +
           " of " + report.sweep.second + "\n";
+  for (const ConstraintRow& row : report.constraint.rows) {
+    if (row.cells_swept || row.budget.iterations != UpdateBudget{}.iterations) continue;
+    text += "  hand on a streamline, " + std::string(name_of(row.path)) + ": force error " +
+            short_number(row.force_error.max) + " N, " + short_number(row.us_p99) + " us a step\n";
+  }
   for (const StabilityCase& c : report.stability) {
     text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
             short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
@@ -96,6 +102,18 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
                  .most_lines = options.tracing.seeds.empty() ? seed_plan(effort).lines : seeds.size()},
                 &context.progress);
 
+  std::vector<Vec3> followed;
+  for (const Line& line : report.sweep.reference_lines) {
+    if (line.direction != report.sweep.reference_lines.front().direction) continue;
+    followed.push_back(line.points.front().position);
+  }
+  report.constraint = run_constraint_sweep(field,
+                                           {.subject = report.sweep.subject,
+                                            .seeds = std::move(followed),
+                                            .effort = effort,
+                                            .threads = options.common.threads},
+                                           &context.progress);
+
   constexpr std::size_t kStabilitySeeds = 64;
   StabilityRequest stability{.seeds = seeds, .trace = trace};
   stability.seeds.resize(std::min(seeds.size(), kStabilitySeeds));
@@ -106,6 +124,9 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
     stability.blocks = input.read(stability.choice.arrays, &context.progress);
   }
   report.stability = run_stability(stability, &context.progress);
+  for (StabilityCase& c : run_haptic_stability(field, report.constraint, stability, &context.progress)) {
+    report.stability.push_back(std::move(c));
+  }
   report.seconds = watch.seconds();
 
   context.interrupt.unfinished(unfinished_report_folder(options.out));

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/probe_picture.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -14,7 +16,6 @@ constexpr double kPathSpacing = 2e-4;  // diagonals
 constexpr double kLocalReach = 0.06;   // diagonals: half the length of a rake
 constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
 constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
-constexpr double kBallSpacing = 4.0;  // tick intervals
 constexpr std::size_t kMostFelt = 1U << 20U;
 
 }  // namespace
@@ -82,6 +83,18 @@ void ProbeSession::start_replay() {
   servo_ = std::make_unique<ServoLoop>(*replay_);
 }
 
+/// The device of this session; a path is laid over the first field that is opened.
+Device& ProbeSession::device() {
+  if (options_.path.empty()) return mouse_;
+  const Workspace workspace = this->workspace();
+  std::vector<DeviceSample> samples;
+  for (const PathRow& row : options_.path) {
+    samples.push_back({row.time, workspace.workspace_from_data(row.position), row.buttons});
+  }
+  path_device_ = std::make_unique<ReplayDevice>(samples, options_.limits);
+  return *path_device_;
+}
+
 void ProbeSession::restart_chain() {
   const std::string description =
       describe_chain(options_.modes[choice_.mode].name, workspace().scale(), chain_settings(), open_.name);
@@ -92,13 +105,13 @@ void ProbeSession::restart_chain() {
   if (servo_) {
     servo_->swap_chain(std::move(made.chain), description);
   } else {
-    servo_ = std::make_unique<ServoLoop>(mouse_, std::move(made.chain), description, ServoOptions{},
+    servo_ = std::make_unique<ServoLoop>(device(), std::move(made.chain), description, ServoOptions{},
                                          recorder_.get());
   }
 }
 
 void ProbeSession::grab(double time, const Vec3& position) {
-  if (!servo_ || replay_) return;
+  if (!servo_ || replay_ || path_device_) return;
   target_ = position;
   last_line_.reset();
   mouse_.grab(time, workspace().workspace_from_data(position), 1);
@@ -129,6 +142,27 @@ void ProbeSession::choose(const TouchChoice& choice) {
   }
 }
 
+std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
+  if (!available()) return {};
+  constexpr double kMillimetres = 1e3;
+  const ChainSettings& settings = choice_.settings;
+  std::vector<std::pair<std::string, std::string>> options{
+      {"mode", options_.modes[choice_.mode].name},
+      {"stiffness", exact_number(settings.stiffness)},
+      {"release", exact_number(kMillimetres * settings.release_distance)},
+      {"drag", exact_number(kMillimetres * settings.drag_threshold)},
+      {"tick-stiffness", exact_number(settings.tick_stiffness)},
+      {"speed-force", exact_number(settings.speed_force)}};
+  if (choice_.ticks) {
+    const double interval = settings.tick_interval;
+    options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");
+  }
+  if (options_.workspace_scale > 0.0) {
+    options.emplace_back("workspace-scale", exact_number(options_.workspace_scale));
+  }
+  return options;
+}
+
 void ProbeSession::clear_path() {
   path_ = std::make_shared<ProbePath>(open_.field ? kPathSpacing * open_.field->diagonal() : 0.0);
 }
@@ -141,8 +175,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   drain_steps();
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
-    const double tick = default_tick_interval(*open_.field, workspace());
-    curve_->update(choice_.show_balls ? kBallSpacing * tick : 0.0, color_by);
+    curve_->update(choice_.show_balls ? ball_interval(*open_.field, workspace()) : 0.0, color_by);
     growing_ = curve_->drawn() != before;
     // What is let go stays in the picture until the next line is caught.
     if (curve_->drawn()) last_drawn_ = curve_->drawn();
@@ -239,7 +272,8 @@ void ProbeSession::describe(ProbeView& view) const {
 }
 
 bool ProbeSession::lively() const noexcept {
-  return mouse_.grabbed() || growing_ || (replay_ && !readout_.servo.replay_done);
+  return mouse_.grabbed() || growing_ || (path_device_ && readout_.held) ||
+         (replay_ && !readout_.servo.replay_done);
 }
 
 bool ProbeSession::keep_line() {

@@ -19,6 +19,8 @@
 #include "common/app/haptic/kept_lines.h"
 #include "common/app/haptic/local_lines.h"
 #include "common/device/mouse_device.h"
+#include "common/device/probe_path.h"
+#include "common/device/replay_device.h"
 #include "common/render/camera.h"
 #include "common/render/probe_view.h"
 #include "common/servo/servo_loop.h"
@@ -45,6 +47,8 @@ struct ProbeSessionOptions {
   double workspace_scale = 0.0;  ///< [m] per data unit; 0: the default
   int threads = 0;
   /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
+  /// Moves the probe in place of the mouse, from the moment when a field is there; none: the mouse.
+  std::vector<PathRow> path;
   std::filesystem::path record;
   bool overwrite = false;
   RecordingHeader recorded;
@@ -96,6 +100,8 @@ class ProbeSession {
 
   [[nodiscard]] const TouchChoice& choice() const noexcept { return choice_; }
   void choose(const TouchChoice& choice);
+  /// The choice as options of the command line and their values.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> options() const;
 
   /// Once a frame: hands the target to the servo, takes what it has done since, and describes it in `view`,
   /// whose style and reference speed stay.
@@ -126,6 +132,7 @@ class ProbeSession {
   [[nodiscard]] HapticChain build(const std::string& description) const;
   void restart_chain();
   void start_replay();
+  [[nodiscard]] Device& device();
   void drain_steps();
   void take(const HandStep& step);
   void follow_replayed_chain(std::uint64_t step);
@@ -152,6 +159,7 @@ class ProbeSession {
 
   std::unique_ptr<LocalLines> local_;
   MouseDevice mouse_;
+  std::unique_ptr<ReplayDevice> path_device_;  ///< in place of the mouse
   std::unique_ptr<Recorder> recorder_;
   std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
   std::unique_ptr<ReplaySource> replay_;

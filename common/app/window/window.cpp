@@ -11,6 +11,7 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include "common/app/haptic/probe_picture.h"
 #include "common/app/window/background_job.h"
 #include "common/app/window/event_text.h"
 #include "common/app/window/glfw_window.h"
@@ -190,8 +191,7 @@ class Window {
     touch_control_->let_go();
     touch_->set_field(scene_->probed, field_key(scene_->settings.field, scene_->settings.time_step));
     if (!view_.probe) view_.probe.emplace();
-    // The fastest flow that is seen, without the few outliers.
-    view_.probe->reference_speed = value_range(*scene_->lines, LineStyle{.color_by = ColorBy::kSpeed}).upper;
+    view_.probe->reference_speed = reference_speed(view_);
   }
 
   /// Colours by `array`, or where there is none by a quantity of the lines.
@@ -332,7 +332,8 @@ class Window {
         attempt([this] { return save_picture(); });
         break;
       case Command::kSaveSession:
-        if (scene_) attempt([this] { return model_.save_session(scene_->settings, view_); });
+        if (scene_)
+          attempt([this] { return model_.save_session(scene_->settings, view_, touch_->options()); });
         break;
       case Command::kSaveLines:
         attempt([this] { return save_lines(); });
@@ -399,14 +400,7 @@ class Window {
   /// The view with the lines stepping back while a hand is on the probe.
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
-    // Thin opaque lines, not transparent ones: these would have to be drawn again with every move of the
-    // hand.
-    constexpr double kDimmed = 0.55, kThinned = 0.5;
-    if (touch_->readout().held && touch_->choice().fade_rest) {
-      picture.style.dimming = kDimmed;
-      picture.style.width *= kThinned;
-      picture.style.halo = false;
-    }
+    if (touch_->readout().held && touch_->choice().fade_rest) fade_lines(picture);
     return picture;
   }
 

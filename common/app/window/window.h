@@ -23,7 +23,7 @@ struct WindowOptions {
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
-  ProbeSessionOptions touch;
+  ProbeSessionOptions touch;                   ///< without modes: the window knows no touch
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/progress.h"
@@ -83,10 +84,12 @@ class WindowModel {
   /// @throws Error, Cancelled; what was open before then stays open.
   virtual SceneState update(const SceneSettings& settings, Progress& progress) = 0;
 
-  /// Saves scene and view beside the input.
+  /// Saves scene, view and touch beside the input.
+  /// @param touch options of the command line and their values.
   /// @return what was written, for the message line.
   /// @throws Error.
-  virtual std::string save_session(const SceneSettings& settings, const SceneView& view) = 0;
+  virtual std::string save_session(const SceneSettings& settings, const SceneView& view,
+                                   const std::vector<std::pair<std::string, std::string>>& touch) = 0;
 };
 
 }  // namespace palpate

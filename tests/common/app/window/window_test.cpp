@@ -38,7 +38,8 @@ class FakeModel : public WindowModel {
     ++updated;
     return make("whirlwind", settings);
   }
-  std::string save_session(const SceneSettings&, const SceneView&) override {
+  std::string save_session(const SceneSettings&, const SceneView&,
+                           const std::vector<std::pair<std::string, std::string>>&) override {
     ++saved;
     return "whirlwind.toml";
   }
