@@ -1,8 +1,7 @@
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "common/base/text.h"
+#include "common/report/html.h"
 #include "common/report/plot.h"
 #include "common/report/report.h"
 
@@ -16,17 +15,6 @@ constexpr const char* kStyle =
     "th{border-bottom:2px solid #888}td:first-child,th:first-child,td.text,th.text{text-align:left}"
     "img{max-width:100%;height:auto}.fails{background:#fde0dc}.small{color:#555;font-size:14px}code{"
     "background:#f3f3f3}";
-
-std::string cell(const std::string& text, bool is_text = false) {
-  return std::string(is_text ? "<td class=\"text\">" : "<td>") + escaped(text) + "</td>";
-}
-
-std::string three_digits(double value) {
-  if (!std::isfinite(value)) return "none";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 std::string percent(double fraction) {
   return std::isfinite(fraction) ? std::to_string(std::lround(100.0 * fraction)) + " %" : "none";
@@ -64,11 +52,6 @@ std::string stability_table(const std::vector<StabilityCase>& cases) {
            cell(c.unit, true) + cell(c.row.holds ? "yes" : "NO", true) + "</tr>\n";
   }
   return out + "</table>\n";
-}
-
-std::string paragraph(const std::string& text, const char* css = nullptr) {
-  return std::string("<p") + (css ? " class=\"" + std::string(css) + "\"" : "") + ">" + escaped(text) +
-         "</p>\n";
 }
 
 template <typename Value>
@@ -142,11 +125,12 @@ std::string report_page(const Report& report) {
   out += paragraph(
       "Every line carries its own estimate of its error. Below the dotted line it states more than it has; "
       "the column 'within stated' counts the lines that do.");
+  out += constraint_section(report.constraint);
   out += "<h2>Stability</h2>\n" + stability_table(report.stability);
   out +=
       "<h2>Files</h2>\n<p><a href=\"report.json\">report.json</a>, <a "
       "href=\"work_precision.csv\">work_precision.csv</a>, "
-      "<a href=\"stability.csv\">stability.csv</a></p>\n";
+      "<a href=\"constraint.csv\">constraint.csv</a>, <a href=\"stability.csv\">stability.csv</a></p>\n";
   out += "<p class=\"small\">Made by <code>" + escaped(report.command_line) + "</code> in " +
          escaped(three_digits(report.seconds)) + " s.</p>\n</body></html>\n";
   return out;

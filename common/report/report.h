@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/report/constraint_sweep.h"
 #include "common/report/machine.h"
 #include "common/report/stability.h"
 #include "common/report/sweep.h"
@@ -17,6 +18,7 @@ struct Report {
   Machine machine;
   std::vector<std::string> scene;  ///< sentences: what was opened, field, grid, notes
   Sweep sweep;
+  ConstraintSweep constraint;
   std::vector<StabilityCase> stability;
   double seconds = 0.0;  ///< that making the report took
 };
@@ -38,10 +40,16 @@ void write_report(const Report& report, const std::filesystem::path& folder, boo
 [[nodiscard]] std::string report_json(const Report& report);
 [[nodiscard]] std::string report_page(const Report& report);
 [[nodiscard]] std::string work_precision_csv(const Report& report);
+[[nodiscard]] std::string constraint_csv(const Report& report);
 [[nodiscard]] std::string stability_csv(const Report& report);
 /// Error against run time, and the stated against the true error.
 [[nodiscard]] std::string work_precision_plot(const Report& report);
 [[nodiscard]] std::string honesty_plot(const Report& report);
+/// Force error of the constraint's update, and distance of its proxy from the line, against its time.
+[[nodiscard]] std::string constraint_force_plot(const Report& report);
+[[nodiscard]] std::string constraint_distance_plot(const Report& report);
+/// The part of the page that is about the constraint.
+[[nodiscard]] std::string constraint_section(const ConstraintSweep& sweep);
 /// @}
 
 }  // namespace palpate

@@ -16,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> kFiles{"index.html",         "report.json",   "work_precision.csv",
-                                                 "work_precision.svg", "stability.csv", "stated_error.svg"};
+constexpr std::array<std::string_view, 9> kFiles{
+    "index.html",       "report.json",    "work_precision.csv",   "work_precision.svg",     "stability.csv",
+    "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg"};
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -60,6 +61,26 @@ std::string work_precision_csv(const Report& report) {
            std::to_string(row.repeats) + "," + std::to_string(row.lines) + "," + std::to_string(row.points) +
            "," + std::to_string(row.error.compared) + "," + std::to_string(row.error.sinks) + "," +
            std::to_string(row.error.different_ends) + "\n";
+  }
+  return out;
+}
+
+std::string constraint_csv(const Report& report) {
+  std::string out =
+      "path,iterations,cells,swept,force_error_median_n,force_error_p99_n,force_error_max_n,lag_p99,lag_max,"
+      "distance_p99,distance_max,us_mean,us_p50,us_p99,us_max,steps,steps_compared,releases,fallbacks\n";
+  for (const ConstraintRow& row : report.constraint.rows) {
+    out += std::string(name_of(row.path)) + "," + std::to_string(row.budget.iterations) + "," +
+           std::to_string(row.budget.cells) + "," + (row.cells_swept ? "cells" : "iterations");
+    for (const double value :
+         {row.force_error.median, row.force_error.p99, row.force_error.max, row.lag.p99, row.lag.max,
+          row.residual.p99, row.residual.max, row.us_mean, row.us_p50, row.us_p99, row.us_max}) {
+      out += "," + exact_number(value);
+    }
+    for (const std::size_t count : {row.steps, row.compared, row.releases, row.fallbacks}) {
+      out += "," + std::to_string(count);
+    }
+    out += "\n";
   }
   return out;
 }
@@ -117,6 +138,9 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     write_file(temporary / "stability.csv", stability_csv(report));
     write_file(temporary / "work_precision.svg", work_precision_plot(report));
     write_file(temporary / "stated_error.svg", honesty_plot(report));
+    write_file(temporary / "constraint.csv", constraint_csv(report));
+    write_file(temporary / "constraint_force.svg", constraint_force_plot(report));
+    write_file(temporary / "constraint_distance.svg", constraint_distance_plot(report));
   } catch (const Error&) {
     fs::remove_all(temporary, error);
     throw;

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +24,9 @@ Json comparison(const LineComparison& c) {
 
 std::string report_json(const Report& report) {
   Json rows = Json::array();
-  for (const WorkPrecision& row : work_precision_rows(report.sweep)) {
+  std::vector<WorkPrecision> measured = work_precision_rows(report.sweep);
+  for (WorkPrecision& row : work_precision_rows(report.constraint)) measured.push_back(std::move(row));
+  for (const WorkPrecision& row : measured) {
     rows.push_back({{"subject", row.subject},
                     {"method", row.method},
                     {"parameter", row.parameter},

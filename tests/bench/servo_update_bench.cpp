@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <string>
@@ -26,22 +25,15 @@
 #include "common/field/analytic/sampled.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/vector_field.h"
-#include "common/haptics/constraint/streamline.h"
 #include "common/report/probe_paths.h"
+#include "common/report/probe_run.h"
 #include "common/scene/input.h"
-#include "common/servo/hand_step.h"
 
 namespace palpate::bench {
 namespace {
 
 constexpr int kLattice = 60;  // points along an edge: 59^3 * 5 = 1026895 tetrahedra
 constexpr std::size_t kStepsPerPath = 10'000;
-
-double thread_microseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
 
 struct Timing {
   double microseconds = 0.0;
@@ -64,30 +56,6 @@ double clock_cost() {
   }
   std::ranges::sort(apart);
   return quantile(apart, 0.5);
-}
-
-std::unique_ptr<ProxyChain> streamline_chain(const std::shared_ptr<const VectorField>& field,
-                                             const Workspace& workspace) {
-  std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(std::make_unique<StreamlineConstraint>(
-      std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, 0), workspace));
-  return std::make_unique<ProxyChain>(std::move(links), ChainSettings{});
-}
-
-std::vector<Timing> follow(HandStepper& stepper, const std::vector<PathRow>& path,
-                           const Workspace& workspace) {
-  std::vector<Timing> timings;
-  timings.reserve(path.size());
-  (void)stepper.step({});  // no hand: the last path is forgotten
-  for (const PathRow& row : path) {
-    HandInput hand{.time = row.time, .present = true};
-    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
-    const double before = thread_microseconds();
-    const HandStep step = stepper.step(hand);
-    const double after = thread_microseconds();
-    timings.push_back({after - before, step.chain.cells, step.chain.iterations, step.state});
-  }
-  return timings;
 }
 
 void print_distribution(const char* name, const std::vector<Timing>& timings) {
@@ -136,8 +104,7 @@ void run(const std::string& name, const std::shared_ptr<const VectorField>& fiel
     std::printf("%s: trilinear\n", name.c_str());
   }
   const Workspace workspace(Workspace::default_scale(field->diagonal()), field->frame());
-  const ChainSettings settings;
-  HandStepper stepper(streamline_chain(field, workspace), DeviceLimits{});
+  ProbeRun probe(field, workspace, 0);
   std::vector<Timing> all;
   for (const PathKind kind : kPathKinds) {
     std::mt19937_64 random(7);
@@ -146,10 +113,12 @@ void run(const std::string& name, const std::shared_ptr<const VectorField>& fiel
     while (timings.size() < steps / kPathKinds.size()) {
       const double x = unit(), y = unit(), z = unit();
       const Vec3 seed = field->bounds().lower + field->bounds().size() * Vec3{x, y, z};
-      const auto path = make_probe_path({*field, workspace, settings.release_distance}, kind, seed,
+      const auto path = make_probe_path({*field, workspace, probe.settings().release_distance}, kind, seed,
                                         kStepsPerPath, random());
-      const auto more = follow(stepper, path, workspace);
-      timings.insert(timings.end(), more.begin(), more.end());
+      for (const RunStep& step : probe.follow(path)) {
+        timings.push_back(
+            {step.microseconds, step.hand.chain.cells, step.hand.chain.iterations, step.hand.state});
+      }
     }
     print_distribution(std::string(name_of(kind)).c_str(), timings);
     all.insert(all.end(), timings.begin(), timings.end());

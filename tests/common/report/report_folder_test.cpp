@@ -18,6 +18,10 @@ Report sample_report() {
   report.sweep.rows.push_back(
       {.method = "dp54", .parameter = "tolerance=1e-06", .error = {.p95 = 1e-7}, .seconds = 0.5});
   report.sweep.rows.back().error.max = HUGE_VAL;
+  report.constraint.subject = "a";
+  report.constraint.release_force = 2.0;
+  report.constraint.rows.push_back(
+      {.path = PathKind::kTremor, .budget = {.iterations = 4}, .force_error = {.max = 0.25}, .us_p99 = 3.0});
   report.stability.push_back({{"NaN hole", 1.0, 0.0, false}, "points", "what was done"});
   return report;
 }
@@ -34,8 +38,9 @@ ExitCode code_of(const std::function<void()>& call) {
 TEST(ReportFolder, HoldsPageTablesAndPlots) {
   const TempFolder folder;
   write_report(sample_report(), folder.path("r"), false);
-  for (const char* name : {"index.html", "report.json", "work_precision.csv", "work_precision.svg",
-                           "stability.csv", "stated_error.svg"}) {
+  for (const char* name :
+       {"index.html", "report.json", "work_precision.csv", "work_precision.svg", "stability.csv",
+        "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg"}) {
     EXPECT_GT(std::filesystem::file_size(folder.path("r") / name), 0U) << name;
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
@@ -50,6 +55,19 @@ TEST(ReportFolder, KeepsTheSchemaOfReportJson) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }
   EXPECT_NE(json.find("\"error\": null"), std::string::npos) << "JSON has no infinity";
+}
+
+TEST(ReportFolder, TellsOfTheConstraintBesideTheIntegrators) {
+  const std::string json = report_json(sample_report());
+  EXPECT_NE(json.find("streamline constraint, tremor"), std::string::npos);
+  EXPECT_NE(json.find("\"iterations=4\""), std::string::npos);
+  EXPECT_NE(json.find("3e-06"), std::string::npos) << "seconds, not microseconds";
+  EXPECT_NE(constraint_csv(sample_report()).find("tremor,4,8,iterations,"), std::string::npos);
+  EXPECT_NE(report_page(sample_report()).find("constraint_force.svg"), std::string::npos);
+  // A report of a scene without lines to follow has no such part.
+  Report without = sample_report();
+  without.constraint.rows.clear();
+  EXPECT_EQ(report_page(without).find("constraint_force.svg"), std::string::npos);
 }
 
 TEST(ReportFolder, ShowsFailuresAndEscapesNames) {
