@@ -1,6 +1,5 @@
 #include "common/app/haptic/kept_lines.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -29,8 +28,10 @@ std::vector<double> forces_along(const Line& line, std::span<const FeltForce> fe
         ++at;
       while (at > 0 && distance(at - 1, place.position) < distance(at, place.position)) --at;
     }
-    // A hand that is faster than the points are dense has felt something at those it passed, too.
-    const auto [low, high] = std::minmax(found ? before : at, at);
+    // A hand that is faster than the points are dense has felt something at those it passed, too; what was
+    // felt at the one before stays.
+    const std::size_t low = found && at > before ? before + 1 : at;
+    const std::size_t high = found && at < before ? before - 1 : at;
     for (std::size_t i = low; i <= high; ++i) forces[i] = place.force;
     before = at;
     found = true;
