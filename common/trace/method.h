@@ -21,6 +21,10 @@ class ExplicitMethod {
   /// Order of the error per unit step.
   static constexpr int kPower = kAdaptive ? std::min(Tableau::kOrder, Tableau::kEmbeddedOrder) : 1;
 
+  /// Whether error() is that of the solution kept, to leading order, rather than one of lower order.
+  static constexpr bool kEstimatesKept =
+      kAdaptive ? Tableau::kOrder < Tableau::kEmbeddedOrder : Tableau::kOrder == 1;
+
   template <class Slope, class Jacobian>
   bool attempt(const Slope& slope, const Jacobian&, const Pack4& y, const Pack4& first, double h) {
     step_.start = y;
@@ -63,6 +67,7 @@ class ExplicitMethod {
 class RodasMethod {
  public:
   static constexpr bool kAdaptive = true;
+  static constexpr bool kEstimatesKept = false;
   static constexpr int kPower = 3;
 
   template <class Slope, class Jacobian>

@@ -1,0 +1,108 @@
+/// Carries the position error of a line along with it as an ellipse across the flow.
+///
+///   e' = J e                                                                                    (1)
+///
+/// is the linearised flow about the line (Hairer, Norsett, Wanner 1993, I.14). One vector e would follow the
+/// direction that grew most so far and miss what grows in the other one from here on. So all e within an
+/// ellipse of semi-axes a and b are carried: both obey (1), and each step lengthens both by its own local
+/// error, whatever its direction and sign, so contributions never cancel. What lies along the flow only
+/// shifts the point on its curve; it never turns into distance from the curve and is left out.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/vec.h"
+
+namespace palpate {
+
+class ErrorEllipse {
+ public:
+  /// A circle. @param direction unit tangent of the line at its seed.  @param radius the error to begin with.
+  void start(const Vec3& direction, double radius) noexcept {
+    const Vec3 oblique{0.533, -0.717, 0.449};  // to every axis that a field may have
+    const Vec3 u = oblique - glm::dot(oblique, direction) * direction;
+    const double length = glm::length(u);
+    a_ = length > 0.1 ? u * (radius / length) : Vec3{radius, 0.0, 0.0};
+    b_ = glm::cross(direction, a_);
+    largest_ = radius;
+  }
+
+  /// Advances (1) by `h` with the Jacobian J held: two terms of its exponential, or the implicit midpoint
+  /// rule where J is stiff. `apply(d)` is J d, `matrix()` is J.
+  template <class Apply, class Matrix>
+  void advance(const Apply& apply, const Matrix& matrix, double h) {
+    advance(a_, apply, matrix, h);
+    advance(b_, apply, matrix, h);
+  }
+
+  /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.
+  void add(double size, const Vec3& direction) noexcept {
+    a_ -= glm::dot(a_, direction) * direction;
+    b_ -= glm::dot(b_, direction) * direction;
+    double aa = glm::dot(a_, a_), bb = glm::dot(b_, b_);
+    const double ab = glm::dot(a_, b_);
+    constexpr double kAskew = 0.01;  // square of the cosine between them: half of it is neglected
+    if (ab * ab > kAskew * aa * bb) {
+      turn_to_axes(aa, bb, ab);
+      aa = glm::dot(a_, a_);
+      bb = glm::dot(b_, b_);
+    }
+    if (!(aa > 0.0 && bb > 0.0)) {  // shrunk to nothing
+      start(direction, std::sqrt(std::max(aa, bb)) + size);
+      return;
+    }
+    const double a = std::sqrt(aa), b = std::sqrt(bb);
+    a_ *= 1.0 + size / a;
+    b_ *= 1.0 + size / b;
+    largest_ = std::max(a, b) + size;
+  }
+
+  /// The longer semi-axis, the largest distance from the curve. @pre `direction` is that of the last add().
+  [[nodiscard]] double across(const Vec3& /*direction*/) const noexcept { return largest_; }
+
+ private:
+  template <class Apply, class Matrix>
+  static void advance(Vec3& e, const Apply& apply, const Matrix& matrix, double h) {
+    const Vec3 first = h * apply(e);
+    const double change = glm::dot(first, first), size = glm::dot(e, e);
+    constexpr double kSmall = 0.01, kStiff = 0.25;  // squares of |h J e| / |e|
+    if (change > kStiff * size) {
+      advance_stiff(e, matrix(), h);
+    } else if (change > kSmall * size) {
+      e += first + (0.5 * h) * apply(first);
+    } else {
+      e += first;
+    }
+  }
+
+  static void advance_stiff(Vec3& e, const Mat3& jacobian, double h) noexcept {
+    const Mat3 left = Mat3{1.0} - (0.5 * h) * jacobian;
+    const double det = glm::determinant(left);
+    const Vec3 right = e + (0.5 * h) * (jacobian * e);
+    const Vec3 moved = glm::inverse(left) * right;
+    // Past the pole of (1 - hJ/2)^-1 the rule means nothing; growth is then bounded by that of the rows.
+    if (det > 0.0 && is_finite(moved)) {
+      e = moved;
+    } else {
+      e *= 1.0 + h * (glm::length(jacobian[0]) + glm::length(jacobian[1]) + glm::length(jacobian[2]));
+    }
+  }
+
+  /// a cos t + b sin t is the same ellipse for any two conjugate semi-diameters; makes them perpendicular,
+  /// by the rotation of a 2 x 2 Jacobi sweep.
+  void turn_to_axes(double aa, double bb, double ab) noexcept {
+    const double theta = (bb - aa) / (2.0 * ab);
+    const double tangent = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(1.0 + theta * theta));
+    const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
+    const Vec3 a = a_;
+    a_ = cosine * (a - tangent * b_);
+    b_ = cosine * (b_ + tangent * a);
+  }
+
+  Vec3 a_{0.0};
+  Vec3 b_{0.0};
+  double largest_ = 0.0;
+};
+
+}  // namespace palpate
