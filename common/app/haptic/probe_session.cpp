@@ -57,6 +57,7 @@ HapticChain ProbeSession::build(const std::string& description) const {
 
 void ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name) {
   if (!available() || !field || field == open_.field) return;
+  let_go();
   open_ = {std::move(field), name};
   hint_ = {};
   readout_ = {};
@@ -64,11 +65,11 @@ void ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std
   clear_path();
   kept_.clear();
   last_line_.reset();
+  last_drawn_.reset();
   if (replay_) return;  // its chains are built; what is shown behind it is the user's affair
   if (options_.replay) {
     start_replay();
   } else {
-    let_go();
     restart_chain();
   }
 }
@@ -278,11 +279,8 @@ bool ProbeSession::lively() const noexcept {
 
 bool ProbeSession::keep_line() {
   Line line;
-  if (curve_ && curve_->number() != 0) {
-    line = curve_->line();
-  } else if (last_line_) {
-    line = *last_line_;
-  }
+  if (curve_) line = curve_->line();
+  if (line.points.size() < 2 && last_line_) line = *last_line_;
   if (line.points.size() < 2) return false;
   std::vector<double> forces = forces_along(line, felt_);
   kept_.keep(std::move(line), std::move(forces));
