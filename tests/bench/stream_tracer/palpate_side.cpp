@@ -29,11 +29,15 @@ TraceOptions options_of(Integrator integrator, double tolerance, int threads) {
 double trace_seconds(const VectorField& field, const Case& c, const TraceOptions& options, int repeats,
                      TraceResult& result) {
   std::vector<double> seconds;
-  for (int i = 0; i < repeats; ++i) {
+  // Runs of a millisecond are repeated until the first ones, on cold caches, no longer matter.
+  constexpr double kLongEnough = 0.05;  // seconds
+  double total = 0.0;
+  for (int i = 0; i < repeats || total < kLongEnough; ++i) {
     const Stopwatch watch;
     const double start = processor_seconds();
     result = trace_lines(field, c.seeds, options);
     seconds.push_back(options.threads == 1 ? processor_seconds() - start : watch.seconds());
+    total += seconds.back();
   }
   std::sort(seconds.begin(), seconds.end());
   return seconds[seconds.size() / 2];

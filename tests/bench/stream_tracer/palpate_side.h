@@ -14,7 +14,8 @@ namespace palpate::bench {
 
 [[nodiscard]] TraceOptions options_of(Integrator integrator, double tolerance, int threads);
 
-/// Median seconds of `repeats` runs: processor time of one thread, wall time of several.
+/// Median seconds of `repeats` runs, or more where they are short: processor time of one thread, wall time of
+/// several.
 [[nodiscard]] double trace_seconds(const VectorField& field, const Case& c, const TraceOptions& options,
                                    int repeats, TraceResult& result);
 
