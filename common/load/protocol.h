@@ -5,7 +5,8 @@
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
-///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "blocks": [{"name", "grid", "points": [i, j, k],
+///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "blocks": [{"name", "grid",
+///   "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"
 ///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?}…]}  to "read"

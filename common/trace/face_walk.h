@@ -93,8 +93,8 @@ class FaceWalk final : public LineWalk {
     point.time = y[3];
     point.arc += arc;
     point.speed = glm::length(domain_.velocity(y).xyz());
-    // The dense output is off too, most in the middle of the step. Along a curve of constant fourth derivative
-    // the Hermite cubic of rk34 is off by 2.4 times the local error of its step.
+    // The dense output is off too, most in the middle of the step. Along a curve of constant fourth
+    // derivative the Hermite cubic of rk34 is off by 2.4 times the local error of its step.
     constexpr double kDense = 2.4;
     const double middle = 4.0 * theta * (1.0 - theta);
     point.error += theta * (end_.error - begin_.error) + kDense * middle * middle * local_;
