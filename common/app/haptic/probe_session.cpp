@@ -7,6 +7,8 @@
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
 
 namespace palpate {
 namespace {
@@ -242,7 +244,16 @@ void ProbeSession::read_out() {
   const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
   readout_.sampled = sample.status == SampleStatus::kOk;
   readout_.velocity = sample.value;
-  readout_.cell = readout_.sampled ? hint_.cell : -1;
+  readout_.cell.clear();
+  if (!readout_.sampled) return;
+  if (const BoxGrid* grid = open_.field->box_grid()) {
+    Index3 cell{0};
+    if (grid->locate(open_.field->frame().local_from_data(readout_.proxy), cell)) {
+      readout_.cell = std::to_string(cell.x) + "  " + std::to_string(cell.y) + "  " + std::to_string(cell.z);
+    }
+  } else if (open_.field->tet_mesh() != nullptr) {
+    readout_.cell = std::to_string(hint_.cell);
+  }
 }
 
 void ProbeSession::ask_local(const Camera& camera) {

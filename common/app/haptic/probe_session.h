@@ -62,8 +62,8 @@ struct ProbeReadout {
   ForceCut cut = ForceCut::kNone;
   Vec3 probe{0.0};
   Vec3 proxy{0.0};
-  std::int64_t cell = -1;  ///< of the grid, at the proxy; -1 where it has none
-  Vec3 velocity{0.0};      ///< at the proxy; meaningless where `sampled` is false
+  std::string cell;    ///< of the grid, at the proxy: a number, or i j k; empty where there is none
+  Vec3 velocity{0.0};  ///< at the proxy; meaningless where `sampled` is false
   bool sampled = false;
   double residual = 0.0;
   double force = 0.0;    ///< [N]

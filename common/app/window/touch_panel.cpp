@@ -136,7 +136,7 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
   ReadoutRows rows("readout");
   rows.add("probe", "%s", state.c_str());
   rows.add("at", "%.5g  %.5g  %.5g", readout.proxy.x, readout.proxy.y, readout.proxy.z);
-  if (readout.cell >= 0) rows.add("cell", "%lld", static_cast<long long>(readout.cell));
+  if (!readout.cell.empty()) rows.add("cell", "%s", readout.cell.c_str());
   if (readout.sampled) {
     rows.add("value", "%.4g  %.4g  %.4g", readout.velocity.x, readout.velocity.y, readout.velocity.z);
     rows.add("speed", "%.4g", glm::length(readout.velocity));
