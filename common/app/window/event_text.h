@@ -1,4 +1,4 @@
-/// Input events as the text of a recording, one line each: "press 512.5 300 left", "keydown 71 0".
+/// Input events as the text of a recording, one line each: "move 512.5 300", "press 0", "keydown 71 0".
 #pragma once
 
 #include <optional>
