@@ -1,5 +1,6 @@
 #include "common/load/write_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -187,6 +188,64 @@ TEST(WriteCsv, HoldsEveryNumberExactly) {
     }
   }
   EXPECT_FALSE(std::getline(text, row));
+}
+
+// Further columns: one number a point, in the files that have room for them.
+TEST(WriteLines, ColumnsStandBesideThePoints) {
+  const test::TempFolder folder;
+  const auto written = lines();
+  std::size_t count = 0;
+  for (const Line& line : written) count += line.points.size();
+  PointColumn force{.name = "force", .values = {}}, far{.name = "far", .values = {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    force.values.push_back(i % 3 == 0 ? std::nan("") : 1.0 / (1.0 + static_cast<double>(i)));
+    far.values.push_back(1e300 * static_cast<double>(i));
+  }
+  const std::vector<PointColumn> columns{force, far};
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+
+  write_lines(folder.path("a.vtp"), written, false, columns);
+  const auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  reader->SetFileName(folder.path("a.vtp").c_str());
+  reader->Update();
+  ASSERT_EQ(reader->GetErrorCode(), 0U);
+  for (const PointColumn& column : columns) {
+    vtkDataArray* const array = reader->GetOutput()->GetPointData()->GetArray(column.name.c_str());
+    ASSERT_NE(array, nullptr) << column.name;
+    ASSERT_EQ(array->GetNumberOfTuples(), static_cast<vtkIdType>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_TRUE(same(array->GetComponent(static_cast<vtkIdType>(i), 0), column.values[i])) << i;
+  }
+  EXPECT_NE(reader->GetOutput()->GetPointData()->GetArray("speed"), nullptr);
+
+  write_lines(folder.path("a.csv"), written, false, columns);
+  std::istringstream text(test::read_file(folder.path("a.csv")));
+  std::vector<std::string> names;
+  std::size_t row_number = 0;
+  for (std::string row; std::getline(text, row); ++row_number) {
+    std::vector<std::string> cells;
+    std::istringstream parts(row);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    if (row_number == 0) {
+      names = cells;
+      continue;
+    }
+    ASSERT_EQ(cells.size(), names.size());
+    for (const PointColumn& column : columns) {
+      const auto at = std::find(names.begin(), names.end(), column.name);
+      ASSERT_NE(at, names.end());
+      EXPECT_TRUE(same(std::stod(cells[static_cast<std::size_t>(at - names.begin())]),
+                       column.values[row_number - 1]));
+    }
+  }
+  EXPECT_EQ(row_number, count + 1);
+
+  for (const char* name : {"a.tck", "a.trk"}) {
+    write_lines(folder.path(name), written, false, columns);
+    const auto plain = folder.path(std::string("plain") + name);
+    write_lines(plain, written, false);
+    EXPECT_EQ(test::read_file(folder.path(name)), test::read_file(plain)) << "no room for them in " << name;
+  }
 }
 
 ExitCode code_of(const std::function<void()>& work) {
