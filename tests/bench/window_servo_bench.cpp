@@ -1,0 +1,160 @@
+// A minute of following a streamline in flow's window, beside a bare timer loop in the same process: does the
+// picture make the servo late?
+//
+//   xvfb-run -a window_servo_bench [--seconds N] [--example NAME] [--still]
+//
+// The window is that of `flow`, at 60 frames a second where it can; the mouse holds the probe and goes about
+// slowly in a circle, so that the line is followed, popped over and drawn anew. Both loops run at the same
+// rate, on the same clock, with the same priority where it is granted. --still leaves the probe alone: then
+// the picture rests, and the machine is as idle as it gets. Counts of late ticks (woken more than half a
+// period after the deadline) belong to the machine as much as to the loop: only their ratio is worth
+// comparing, and only where neither count is a handful.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "apps/flow/flow_model.h"
+#include "apps/flow/flow_modes.h"
+#include "common/app/window/window.h"
+#include "common/base/error.h"
+#include "common/base/version.h"
+
+namespace palpate::bench {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
+constexpr double kFrameRate = 60.0;
+
+struct BareStatistics {
+  std::uint64_t ticks = 0;
+  std::uint64_t late = 0;
+  std::uint64_t skipped = 0;
+  TimeHistogram lateness;
+};
+
+void bare_loop(const std::stop_token& stop, BareStatistics& result) {
+  request_real_time_priority(80);
+  for (std::int64_t due = monotonic_ns() + kPeriod / 2; !stop.stop_requested();) {
+    sleep_until_ns(due);
+    const std::int64_t woken = monotonic_ns();
+    ++result.ticks;
+    result.late += 2 * (woken - due) > kPeriod ? 1 : 0;
+    result.lateness.add(woken - due);
+    due += kPeriod;
+    for (const std::int64_t now = monotonic_ns(); due <= now; due += kPeriod) ++result.skipped;
+  }
+}
+
+/// Grabs the probe in the middle of the picture and leads it about there, once in eight seconds.
+std::vector<ScriptedEvent> circling(int frames, double x, double y) {
+  constexpr double kRadius = 60.0, kTurn = 8.0;
+  constexpr int kGrabAt = 10;
+  std::vector<ScriptedEvent> script;
+  script.push_back({kGrabAt - 1, {.kind = InputKind::kMove, .x = x, .y = y}});
+  script.push_back({kGrabAt, {.kind = InputKind::kKeyDown, .key = 'G'}});
+  for (int frame = kGrabAt + 1; frame < frames; ++frame) {
+    const double angle = 6.283185307179586 * (frame - kGrabAt) / (kTurn * kFrameRate);
+    script.push_back({frame,
+                      {.kind = InputKind::kMove,
+                       .x = x + kRadius * std::sin(angle),
+                       .y = y + kRadius * (1.0 - std::cos(angle))}});
+  }
+  return script;
+}
+
+double microseconds(std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); }
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+void print(const char* name, const TimeHistogram& times) {
+  std::printf("  %-22s p50 %8.2f   p99 %8.2f   p99.9 %8.2f   max %9.2f us\n", name,
+              microseconds(times.percentile_ns(0.5)), microseconds(times.percentile_ns(0.99)),
+              microseconds(times.percentile_ns(0.999)), microseconds(times.max_ns()));
+}
+
+void run(double seconds, const std::string& example, bool still) {
+  Options options;
+  options.input.example = example;
+  FlowModel model(options, "flow");
+  WindowOptions window{.program = "flow"};
+  window.touch.modes = flow_modes();
+  window.frames = static_cast<int>(seconds * kFrameRate);
+  if (!still) window.script = circling(window.frames, 860.0, 400.0);
+  std::vector<double> gaps;  // between frames [ms]
+  auto due = std::chrono::steady_clock::now(), before = due;
+  const auto end = due + std::chrono::duration<double>(seconds);
+  window.stop_requested = [&] {
+    // As a display that is refreshed at this rate does it; a late frame is not made up for.
+    constexpr auto kFrame = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / kFrameRate));
+    due = std::max(due + kFrame, std::chrono::steady_clock::now());
+    std::this_thread::sleep_until(due);
+    const auto now = std::chrono::steady_clock::now();
+    gaps.push_back(std::chrono::duration<double, std::milli>(now - before).count());
+    before = now;
+    return now >= end;
+  };
+  BareStatistics bare;
+  WindowResult result;
+  {
+    std::jthread beside([&](const std::stop_token& stop) { bare_loop(stop, bare); });
+    result = run_window(model, window);
+  }
+  const ServoState& state = result.probe.servo;
+  const ServoStatistics& servo = state.statistics;
+  const double servo_late = percent(servo.late, servo.ticks), bare_late = percent(bare.late, bare.ticks);
+  std::printf("%s, %s, %d frames, real-time priority %s, memory locked %s, on %u cores\n",
+              build_text().c_str(), example.c_str(), result.frames,
+              state.real_time.real_time_priority ? "yes" : "no", state.real_time.memory_locked ? "yes" : "no",
+              std::thread::hardware_concurrency());
+  std::printf("  %-22s %12s %12s %8s\n", "", "servo", "bare", "ratio");
+  std::printf("  %-22s %12llu %12llu\n", "ticks", static_cast<unsigned long long>(servo.ticks),
+              static_cast<unsigned long long>(bare.ticks));
+  std::printf("  %-22s %12llu %12llu\n", "late", static_cast<unsigned long long>(servo.late),
+              static_cast<unsigned long long>(bare.late));
+  std::printf("  %-22s %12.4f %12.4f %8.3f\n", "late, % of the ticks", servo_late, bare_late,
+              servo_late / bare_late);
+  std::printf("  %-22s %12.4f %12.4f\n", "skipped, %", percent(servo.skipped, servo.ticks + servo.skipped),
+              percent(bare.skipped, bare.ticks + bare.skipped));
+  print("lateness, servo", servo.lateness);
+  print("lateness, bare", bare.lateness);
+  print("update, processor time", servo.update);
+  std::sort(gaps.begin(), gaps.end());
+  const auto part = [&](double p) {
+    return gaps[static_cast<std::size_t>(p * static_cast<double>(gaps.size() - 1))];
+  };
+  std::printf("  between frames         p50 %8.2f   p99 %8.2f   max %8.2f ms\n", part(0.5), part(0.99),
+              part(1.0));
+  std::printf("  watchdog stalls %llu, steps nobody drained %llu, probe %s\n",
+              static_cast<unsigned long long>(servo.stalls),
+              static_cast<unsigned long long>(state.path_dropped),
+              result.probe.held ? "held to the end" : "not held");
+}
+
+}  // namespace
+}  // namespace palpate::bench
+
+int main(int argc, char** argv) {
+  double seconds = 60.0;
+  std::string example = "tornado";
+  bool still = false;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--still") == 0) still = true;
+    if (i + 1 == argc) continue;
+    if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--example") == 0) example = argv[i + 1];
+  }
+  try {
+    palpate::bench::run(seconds, example, still);
+  } catch (const palpate::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.code());
+  }
+  return 0;
+}
