@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "common/app/window/readout_rows.h"
 #include "common/base/text.h"
 #include "common/render/probe_view.h"
 

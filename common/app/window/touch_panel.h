@@ -4,9 +4,10 @@
 #include <string>
 
 #include "common/app/haptic/probe_session.h"
-#include "common/app/window/readout_rows.h"
 
 namespace palpate {
+
+class ReadoutRows;
 
 /// What the user asked for in this frame.
 struct TouchActions {
