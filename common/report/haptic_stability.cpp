@@ -123,7 +123,7 @@ Tally tally_on(const FieldPtr& field, std::vector<Vec3> seeds, int threads, Prog
   return tally;
 }
 
-FieldPtr field_of(std::vector<DataSet> blocks, const VectorChoice& choice) {
+FieldPtr field_of(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
   return make_vector_field(blocks, choice, "made data");
 }
 
@@ -151,7 +151,7 @@ double different_rows(const std::vector<DataSet>& blocks, const VectorChoice& ch
         if (block.arrays[a].name == choice.arrays.back()) copies.back().arrays[a] = block.arrays[a];
       }
     }
-    return field_of(std::move(copies), choice);
+    return field_of(copies, choice);
   };
   const FieldPtr one = scaled(1.0, 1.0), other = scaled(power, 1.0 / (power * power));
   const Workspace workspace = workspace_of(*one);

@@ -20,10 +20,11 @@ class ExplorerTest : public ::testing::Test {
  protected:
   explicit ExplorerTest(std::string explorer) : explorer_(std::move(explorer)) {}
 
-  ProgramResult run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), bin(explorer_).string());
+  ProgramResult run(const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{bin(explorer_).string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
     // Without a display: what opens a window in front of a user must not do so in front of a test.
-    return Program(arguments, folder_.path(), {"DISPLAY=", "WAYLAND_DISPLAY="}).finish();
+    return Program(command, folder_.path(), {"DISPLAY=", "WAYLAND_DISPLAY="}).finish();
   }
 
   /// The one JSON object on stdout; anything else there fails to parse.
@@ -31,7 +32,7 @@ class ExplorerTest : public ::testing::Test {
     arguments.emplace_back("--json");
     const ProgramResult result = run(arguments);
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
-    const Json object = Json::parse(result.out, nullptr, false);
+    Json object = Json::parse(result.out, nullptr, false);
     EXPECT_TRUE(object.is_object()) << result.out;
     return object;
   }
