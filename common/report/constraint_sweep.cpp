@@ -34,6 +34,8 @@ constexpr std::array<int, 6> kCells{1, 2, 4, 8, 16, 32};
 // seed, and rough ones do not stay long on a line.
 constexpr double kReferenceLength = 0.6, kRoughReferenceLength = 0.2;
 
+constexpr double kNear = 1e-7;  // diagonals: well below what is promised
+
 StepErrors errors_of(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
@@ -132,7 +134,12 @@ class Sweeper {
       }
       if (!step.follows || curve == nullptr || curve->empty()) continue;
       const Vec3 proxy = workspace_.data_from_workspace(step.hand.chain.proxies[0]);
-      const auto q = curve->nearest(path[n].position, ideal), p = curve->nearest(proxy, real);
+      const auto q = curve->nearest(path[n].position, ideal);
+      auto p = curve->nearest(proxy, real);
+      // A proxy that went far in one step is looked for on the whole curve: the way downhill may end
+      // elsewhere.
+      const double near = kNear * field_->diagonal();
+      if (glm::distance(proxy, p.position) > near) p = curve->nearest_of_all(proxy);
       ideal = q.point;
       real = p.point;
       if (q.beyond || p.beyond) {

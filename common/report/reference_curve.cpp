@@ -76,16 +76,30 @@ Vec3 ReferenceCurve::at(std::size_t middle, double arc) const noexcept {
          (to_a * to_b / (ac * bc)) * c.position;
 }
 
+double ReferenceCurve::squared_distance(std::size_t i, const Vec3& x) const noexcept {
+  const Vec3 away = points_[i].position - x;
+  return glm::dot(away, away);
+}
+
 ReferenceCurve::Place ReferenceCurve::nearest(const Vec3& x, std::size_t from) const noexcept {
-  const auto squared = [&](std::size_t i) {
-    const Vec3 away = points_[i].position - x;
-    return glm::dot(away, away);
-  };
   std::size_t i = from;
-  while (i + 1 < points_.size() && squared(i + 1) < squared(i)) ++i;
+  while (i + 1 < points_.size() && squared_distance(i + 1, x) < squared_distance(i, x)) ++i;
   if (i == from) {
-    while (i > 0 && squared(i - 1) < squared(i)) --i;
+    while (i > 0 && squared_distance(i - 1, x) < squared_distance(i, x)) --i;
   }
+  return refined(x, i);
+}
+
+ReferenceCurve::Place ReferenceCurve::nearest_of_all(const Vec3& x) const noexcept {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    if (squared_distance(i, x) < squared_distance(nearest, x)) nearest = i;
+  }
+  return refined(x, nearest);
+}
+
+/// The nearest place of the parabola about the point `i`.
+ReferenceCurve::Place ReferenceCurve::refined(const Vec3& x, std::size_t i) const noexcept {
   // Golden section between the neighbours: slow and sure.
   const std::size_t middle = std::clamp<std::size_t>(i, 1, points_.size() - 2);
   double low = points_[i > 0 ? i - 1 : 0].arc, high = points_[std::min(i + 1, points_.size() - 1)].arc;

@@ -30,6 +30,8 @@ class ReferenceCurve {
   };
   /// The local minimum of the distance from `x` next to the point `from`, downhill. @pre !empty().
   [[nodiscard]] Place nearest(const Vec3& x, std::size_t from) const noexcept;
+  /// The place nearest to `x` on the whole curve. @pre !empty().
+  [[nodiscard]] Place nearest_of_all(const Vec3& x) const noexcept;
 
  private:
   struct Point {
@@ -38,6 +40,8 @@ class ReferenceCurve {
   };
   void add(const VectorField& field, const Vec3& seed, double length, double spacing);
   [[nodiscard]] bool turns_sharply() const noexcept;
+  [[nodiscard]] double squared_distance(std::size_t i, const Vec3& x) const noexcept;
+  [[nodiscard]] Place refined(const Vec3& x, std::size_t i) const noexcept;
   [[nodiscard]] Vec3 at(std::size_t middle, double arc) const noexcept;
 
   std::vector<Point> points_;
