@@ -25,9 +25,9 @@ enum class HoldState : std::uint8_t {
 inline constexpr int kHoldStateCount = 6;
 [[nodiscard]] std::string_view name_of(HoldState state) noexcept;  ///< "fell_back"
 
-/// What one update may cost. Counted, never timed, so that a replay does the same. By default no more than
-/// `report` shows to pay: twice as many iterations or cells lessen neither residual nor force error, half as
-/// many show after jumps.
+/// What one update may cost. Counted, never timed, so that a replay does the same. The defaults are what
+/// `report` shows to pay: more lessen neither residual nor force error; half the iterations, or a quarter of
+/// the cells, show after jumps of the hand.
 struct UpdateBudget {
   int iterations = 128;  ///< pieces passed and Newton steps of a closest-point search
   int cells = 4;         ///< cells by which a line is grown
