@@ -27,6 +27,7 @@ TEST_F(Flow, HelpsWithExamplesAndListsItsVerbs) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"trace", "--help"},
                                                     {"info", "-h"},
+                                                    {"probe", "--help"},
                                                     {"render", "--help"},
                                                     {"report", "--help"},
                                                     {"open", "--help"}}) {
@@ -303,6 +304,16 @@ TEST_F(Flow, ReportsErrorAgainstTime) {
   for (const char* key : {"subject", "method", "parameter", "error", "error_kind", "seconds"}) {
     EXPECT_TRUE(report["work_precision"][0].contains(key)) << key;
   }
+  // The hand's part: every budget on every kind of path, and the distance from lines traced independently.
+  std::size_t constraint_rows = 0;
+  for (const Json& row : report["work_precision"]) {
+    const auto subject = row["subject"].get<std::string>();
+    constraint_rows += subject.starts_with("streamline constraint, ") ? 1 : 0;
+    if (row["error_kind"] != "distance from the line, worst step / diagonal") continue;
+    EXPECT_EQ(row["method"], "streamline");
+    EXPECT_LE(row["error"].get<double>(), 1e-6) << subject << ", " << row["parameter"];
+  }
+  EXPECT_GE(constraint_rows, 100U);
   for (const Json& row : report["stability"]) EXPECT_TRUE(row["holds"].get<bool>()) << row["case"];
   EXPECT_EQ(run({"report", "--example", "saddle", "--quick", "--out", "r"}).exit_code, 2);
 }
