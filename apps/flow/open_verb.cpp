@@ -77,6 +77,7 @@ ProbeSessionOptions touch_of(const Options& options, const std::string& program,
   touch.overwrite = options.common.force;
   touch.recorded.program = program;
   touch.recorded.version = version();
+  touch.recorded.build = build_text();
   const auto add = [&](const std::filesystem::path& file) {
     const SessionInput input = describe_input(file, false, &progress);
     touch.recorded.inputs.push_back({input.file.string(), input.bytes, input.sha256});
