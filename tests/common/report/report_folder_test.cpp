@@ -20,8 +20,10 @@ Report sample_report() {
   report.sweep.rows.back().error.max = HUGE_VAL;
   report.constraint.subject = "a";
   report.constraint.release_force = 2.0;
-  report.constraint.rows.push_back(
-      {.path = PathKind::kTremor, .budget = {.iterations = 4}, .force_error = {.max = 0.25}, .us_p99 = 3.0});
+  report.constraint.rows.push_back({.path = PathKind::kTremor,
+                                    .budget = {.iterations = 4, .cells = 8},
+                                    .force_error = {.max = 0.25},
+                                    .us_p99 = 3.0});
   report.stability.push_back({{"NaN hole", 1.0, 0.0, false}, "points", "what was done"});
   return report;
 }
