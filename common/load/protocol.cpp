@@ -1,148 +1,13 @@
 #include "common/load/protocol.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <optional>
 
-#include <nlohmann/json.hpp>
+#include "common/load/block_json.h"
+#include "common/load/message_json.h"
 
 namespace palpate {
 namespace {
 
-using nlohmann::json;
-
-/// More JSON than any sensible input needs; a million blocks stay below it.
-constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20;
-/// Components of one array: a tensor has 9, a histogram some hundreds.
-constexpr int kMaxComponents = 4096;
-constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 46;
-
-[[noreturn]] void malformed(const std::string& what) { throw ProtocolError(what); }
-
-// ---- bytes as text -------------------------------------------------------------------------------------
-
-/// Byte b becomes character U+00b in UTF-8: readable where it is ASCII, and reversible for any bytes.
-std::string text_from_bytes(std::string_view bytes) {
-  std::string text;
-  text.reserve(bytes.size());
-  for (const char c : bytes) {
-    const auto b = static_cast<unsigned char>(c);
-    if (b < 0x80) {
-      text += c;
-    } else {
-      text += static_cast<char>(0xc0 | (b >> 6));
-      text += static_cast<char>(0x80 | (b & 0x3f));
-    }
-  }
-  return text;
-}
-
-std::string bytes_from_text(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto b = static_cast<unsigned char>(text[i]);
-    if (b < 0x80) {
-      bytes += text[i];
-    } else if ((b & 0xfc) == 0xc0 && i + 1 < text.size()) {
-      bytes += static_cast<char>(((b & 0x03) << 6) | (static_cast<unsigned char>(text[++i]) & 0x3f));
-    } else {
-      malformed("a character above U+00FF");
-    }
-  }
-  return bytes;
-}
-
-// ---- reading JSON with every type checked --------------------------------------------------------------
-
-json parse(std::string_view text) {
-  if (text.size() > kMaxJsonBytes) malformed("message of " + std::to_string(text.size()) + " bytes");
-  json value = json::parse(text, nullptr, false);
-  if (!value.is_object()) malformed("message is not a JSON object");
-  return value;
-}
-
-const json& member(const json& object, const char* key) {
-  if (!object.is_object()) malformed(std::string("no object around '") + key + "'");
-  const auto found = object.find(key);
-  if (found == object.end()) malformed(std::string("'") + key + "' is missing");
-  return *found;
-}
-
-std::string string_at(const json& object, const char* key) {
-  const json& value = member(object, key);
-  if (!value.is_string()) malformed(std::string("'") + key + "' is no string");
-  return bytes_from_text(value.get_ref<const std::string&>());
-}
-
-std::uint64_t count_of(const json& value, const char* key) {
-  if (!value.is_number_unsigned()) malformed(std::string("'") + key + "' is no count");
-  const auto count = value.get<std::uint64_t>();
-  if (count > kMaxCount) malformed(std::string("'") + key + "' is too large");
-  return count;
-}
-
-std::uint64_t count_at(const json& object, const char* key) { return count_of(member(object, key), key); }
-
-/// Finite numbers only: JSON has no others.
-double number_of(const json& value, const char* key) {
-  if (!value.is_number()) malformed(std::string("'") + key + "' is no number");
-  const double number = value.get<double>();
-  if (!std::isfinite(number)) malformed(std::string("'") + key + "' is not finite");
-  return number;
-}
-
-const json& array_at(const json& object, const char* key) {
-  const json& value = member(object, key);
-  if (!value.is_array()) malformed(std::string("'") + key + "' is no array");
-  return value;
-}
-
-const json& array_at(const json& object, const char* key, std::size_t size) {
-  const json& value = array_at(object, key);
-  if (value.size() != size) malformed(std::string("'") + key + "' has the wrong length");
-  return value;
-}
-
-std::vector<std::string> strings_at(const json& object, const char* key) {
-  std::vector<std::string> strings;
-  for (const json& value : array_at(object, key)) {
-    if (!value.is_string()) malformed(std::string("'") + key + "' holds something else than strings");
-    strings.push_back(bytes_from_text(value.get_ref<const std::string&>()));
-  }
-  return strings;
-}
-
-Vec3 vector_at(const json& object, const char* key) {
-  const json& value = array_at(object, key, 3);
-  return {number_of(value[0], key), number_of(value[1], key), number_of(value[2], key)};
-}
-
-Index3 index_at(const json& object, const char* key) {
-  const json& value = array_at(object, key, 3);
-  Index3 index{0};
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::uint64_t count = count_of(value[static_cast<std::size_t>(axis)], key);
-    if (count > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) {
-      malformed(std::string("'") + key + "' is too large");
-    }
-    index[axis] = static_cast<int>(count);
-  }
-  return index;
-}
-
-/// The number of points of a structured block. Three counts below 2^31 can pass 2^64, so it is checked.
-std::uint64_t points_of(const Index3& index, const char* key) {
-  std::uint64_t points = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (index[axis] < 1) malformed(std::string("'") + key + "' has an empty axis");
-    points *= static_cast<std::uint64_t>(index[axis]);
-    if (points > kMaxCount) malformed(std::string("'") + key + "' is too large");
-  }
-  return points;
-}
+using namespace message;
 
 void throw_failure(const json& answer) {
   const auto failed = answer.find("failed");
@@ -152,296 +17,9 @@ void throw_failure(const json& answer) {
   throw Error(code == 1 || code == 2 ? static_cast<ExitCode>(code) : ExitCode::kBadInput, line);
 }
 
-// ---- arrays --------------------------------------------------------------------------------------------
-
-constexpr std::array kTypes{
-    ScalarType::kInt8,   ScalarType::kUint8, ScalarType::kInt16,  ScalarType::kUint16,  ScalarType::kInt32,
-    ScalarType::kUint32, ScalarType::kInt64, ScalarType::kUint64, ScalarType::kFloat32, ScalarType::kFloat64};
-
-ScalarType type_at(const json& object) {
-  const std::string name = string_at(object, "type");
-  for (const ScalarType type : kTypes) {
-    if (name == name_of(type)) return type;
-  }
-  malformed("unknown number type '" + name + "'");
-}
-
-json encode_array_info(const std::string& name, Association association, int components, ScalarType type,
-                       std::size_t tuples) {
-  return {{"name", text_from_bytes(name)},
-          {"on", association == Association::kPoint ? "point" : "cell"},
-          {"components", components},
-          {"type", name_of(type)},
-          {"tuples", tuples}};
-}
-
-ArrayInfo decode_array_info(const json& object) {
-  ArrayInfo info;
-  info.name = string_at(object, "name");
-  const std::string on = string_at(object, "on");
-  if (on != "point" && on != "cell") malformed("'on' is neither point nor cell");
-  info.association = on == "point" ? Association::kPoint : Association::kCell;
-  const std::uint64_t components = count_at(object, "components");
-  if (components < 1 || components > kMaxComponents)
-    malformed("array '" + info.name + "' has no sensible components");
-  info.components = static_cast<int>(components);
-  info.type = type_at(object);
-  info.tuples = count_at(object, "tuples");
-  return info;
-}
-
-json encode_array(const DataArray& array, MemoryFile& memory) {
-  json object = encode_array_info(array.name, array.association, array.components, array.type, array.tuples);
-  object["offset"] = memory.append(array.bytes);
-  return object;
-}
-
-/// What the blocks of an answer point into.
-struct Memory {
-  std::span<const std::byte> bytes;
-  const std::shared_ptr<const void>& owner;
-
-  /// `count` numbers of `size` bytes at `offset`. count <= 2^46 and size <= 2^15, so no product wraps.
-  [[nodiscard]] std::span<const std::byte> at(std::uint64_t offset, std::uint64_t count,
-                                              std::uint64_t size) const {
-    if (offset % MemoryFile::kAlignment != 0) malformed("an array is not aligned");
-    if (offset > bytes.size() || count > (bytes.size() - offset) / size)
-      malformed("an array lies outside its memory");
-    return bytes.subspan(offset, count * size);
-  }
-
-  template <typename T>
-  [[nodiscard]] std::vector<T> copy(std::uint64_t offset, std::uint64_t count) const {
-    const std::span<const std::byte> source = at(offset, count, sizeof(T));
-    std::vector<T> values(count);
-    if (count > 0) std::memcpy(values.data(), source.data(), source.size());
-    return values;
-  }
-};
-
-DataArray decode_array(const json& object, const Memory& memory) {
-  ArrayInfo info = decode_array_info(object);
-  DataArray array;
-  array.name = std::move(info.name);
-  array.association = info.association;
-  array.components = info.components;
-  array.type = info.type;
-  array.tuples = info.tuples;
-  array.bytes = memory.at(count_at(object, "offset"), info.tuples,
-                          static_cast<std::uint64_t>(info.components) * byte_size(info.type));
-  array.owner = memory.owner;
-  return array;
-}
-
-DataArray decode_positions(const json& object, const Memory& memory) {
-  DataArray positions = decode_array(member(object, "positions"), memory);
-  const bool real = positions.type == ScalarType::kFloat32 || positions.type == ScalarType::kFloat64;
-  if (positions.components != 3 || positions.association != Association::kPoint || !real) {
-    malformed("positions are not three floats a point");
-  }
-  return positions;
-}
-
-// ---- topologies ----------------------------------------------------------------------------------------
-
-json counts_json(const Index3& index) { return {index.x, index.y, index.z}; }
-json vector_json(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-template <typename T>
-std::uint64_t append(const std::vector<T>& values, MemoryFile& memory) {
-  return memory.append(std::as_bytes(std::span(values)));
-}
-
-struct TopologyEncoder {
-  MemoryFile& memory;
-
-  json operator()(const UniformTopology& t) const {
-    json axes = json::array();
-    for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) axes.push_back(t.axes[c][r]);
-    }
-    return {{"kind", "uniform"},
-            {"points", counts_json(t.points)},
-            {"origin", vector_json(t.origin)},
-            {"axes", axes}};
-  }
-  json operator()(const RectilinearTopology& t) const {
-    const auto& [x, y, z] = t.coordinates;
-    return {{"kind", "rectilinear"},
-            {"counts", {x.size(), y.size(), z.size()}},
-            {"x", append(x, memory)},
-            {"y", append(y, memory)},
-            {"z", append(z, memory)}};
-  }
-  json operator()(const StructuredTopology& t) const {
-    return {{"kind", "curvilinear"},
-            {"points", counts_json(t.points)},
-            {"positions", encode_array(t.positions, memory)}};
-  }
-  json operator()(const UnstructuredTopology& t) const {
-    return {{"kind", "unstructured"},
-            {"positions", encode_array(t.positions, memory)},
-            {"cells", t.types.size()},
-            {"types", append(t.types, memory)},
-            {"offsets", append(t.offsets, memory)},
-            {"connectivity", append(t.connectivity, memory)},
-            {"connectivity_count", t.connectivity.size()}};
-  }
-};
-
-UniformTopology decode_uniform(const json& object) {
-  UniformTopology t;
-  t.points = index_at(object, "points");
-  points_of(t.points, "points");
-  t.origin = vector_at(object, "origin");
-  const json& axes = array_at(object, "axes", 9);
-  std::size_t next = 0;
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) t.axes[c][r] = number_of(axes[next++], "axes");
-  }
-  return t;
-}
-
-RectilinearTopology decode_rectilinear(const json& object, const Memory& memory) {
-  RectilinearTopology t;
-  const Index3 counts = index_at(object, "counts");
-  points_of(counts, "counts");
-  const std::array keys{"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    t.coordinates[a] =
-        memory.copy<double>(count_at(object, keys[a]), static_cast<std::uint64_t>(counts[axis]));
-    const auto& x = t.coordinates[a];
-    const bool finite = std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-    if (!finite || std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end()) {
-      malformed("rectilinear coordinates do not increase");
-    }
-  }
-  return t;
-}
-
-StructuredTopology decode_curvilinear(const json& object, const Memory& memory) {
-  StructuredTopology t;
-  t.points = index_at(object, "points");
-  t.positions = decode_positions(object, memory);
-  if (t.positions.tuples != points_of(t.points, "points"))
-    malformed("positions do not match the block's points");
-  return t;
-}
-
-constexpr std::uint8_t kPolyhedron = 42;  // of the VTK file format
-
-/// Checks a polyhedron's face stream: face count, then for each face its point count and points.
-void check_faces(std::span<const std::int64_t> stream, std::int64_t points) {
-  std::size_t at = 0;
-  const auto take = [&] {
-    if (at >= stream.size()) malformed("a polyhedron's faces are cut off");
-    return stream[at++];
-  };
-  const std::int64_t faces = take();
-  if (faces < 0 || static_cast<std::uint64_t>(faces) > stream.size()) malformed("a polyhedron's face count");
-  for (std::int64_t face = 0; face < faces; ++face) {
-    const std::int64_t corners = take();
-    if (corners < 0 || static_cast<std::uint64_t>(corners) > stream.size() - at)
-      malformed("a polyhedron's face");
-    for (std::int64_t corner = 0; corner < corners; ++corner) {
-      const std::int64_t point = take();
-      if (point < 0 || point >= points) malformed("a polyhedron names a point that is not there");
-    }
-  }
-  if (at != stream.size()) malformed("a polyhedron's faces are followed by something else");
-}
-
-UnstructuredTopology decode_unstructured(const json& object, const Memory& memory) {
-  UnstructuredTopology t;
-  t.positions = decode_positions(object, memory);
-  const std::uint64_t cells = count_at(object, "cells");
-  t.types = memory.copy<std::uint8_t>(count_at(object, "types"), cells);
-  t.offsets = memory.copy<std::int64_t>(count_at(object, "offsets"), cells + 1);
-  t.connectivity =
-      memory.copy<std::int64_t>(count_at(object, "connectivity"), count_at(object, "connectivity_count"));
-  if (t.offsets.front() != 0 || t.offsets.back() != static_cast<std::int64_t>(t.connectivity.size()) ||
-      !std::is_sorted(t.offsets.begin(), t.offsets.end())) {
-    malformed("cell offsets do not increase from 0 to the end of the connectivity");
-  }
-  const auto points = static_cast<std::int64_t>(t.positions.tuples);
-  for (std::size_t cell = 0; cell < t.types.size(); ++cell) {
-    const auto first = static_cast<std::size_t>(t.offsets[cell]);
-    const auto last = static_cast<std::size_t>(t.offsets[cell + 1]);
-    const std::span<const std::int64_t> corners =
-        std::span<const std::int64_t>(t.connectivity).subspan(first, last - first);
-    if (t.types[cell] == kPolyhedron) {
-      check_faces(corners, points);
-    } else if (std::any_of(corners.begin(), corners.end(),
-                           [points](std::int64_t point) { return point < 0 || point >= points; })) {
-      malformed("cell " + std::to_string(cell) + " names a point that is not there");
-    }
-  }
-  return t;
-}
-
-/// Counts worked out here rather than by DataSet, whose methods expect checked blocks.
-struct Counts {
-  std::uint64_t points = 0;
-  std::uint64_t cells = 0;
-};
-
-Counts structured_counts(const Index3& n) {
-  Counts counts{1, 1};
-  for (int axis = 0; axis < 3; ++axis) {
-    counts.points *= static_cast<std::uint64_t>(n[axis]);
-    counts.cells *= static_cast<std::uint64_t>(std::max(1, n[axis] - 1));
-  }
-  return counts;
-}
-
-struct TopologyCounts {
-  Counts operator()(const UniformTopology& t) const { return structured_counts(t.points); }
-  Counts operator()(const RectilinearTopology& t) const {
-    return structured_counts({static_cast<int>(t.coordinates[0].size()),
-                              static_cast<int>(t.coordinates[1].size()),
-                              static_cast<int>(t.coordinates[2].size())});
-  }
-  Counts operator()(const StructuredTopology& t) const { return structured_counts(t.points); }
-  Counts operator()(const UnstructuredTopology& t) const { return {t.positions.tuples, t.types.size()}; }
-};
-
-DataSet decode_block(const json& object, const Memory& memory) {
-  DataSet block;
-  block.name = string_at(object, "name");
-  const json& topology = member(object, "topology");
-  const std::string kind = string_at(topology, "kind");
-  if (kind == "uniform") {
-    block.topology = decode_uniform(topology);
-  } else if (kind == "rectilinear") {
-    block.topology = decode_rectilinear(topology, memory);
-  } else if (kind == "curvilinear") {
-    block.topology = decode_curvilinear(topology, memory);
-  } else if (kind == "unstructured") {
-    block.topology = decode_unstructured(topology, memory);
-  } else {
-    malformed("unknown topology '" + kind + "'");
-  }
-  const Counts counts = std::visit(TopologyCounts{}, block.topology);
-  for (const json& value : array_at(object, "arrays")) {
-    DataArray array = decode_array(value, memory);
-    if (array.tuples != (array.association == Association::kPoint ? counts.points : counts.cells)) {
-      malformed("array '" + array.name + "' has " + std::to_string(array.tuples) + " tuples for " +
-                std::to_string(counts.points) + " points and " + std::to_string(counts.cells) + " cells");
-    }
-    block.arrays.push_back(std::move(array));
-  }
-  if (object.contains("visible")) {
-    block.visible = memory.copy<std::uint8_t>(count_at(object, "visible"), counts.points);
-  }
-  return block;
-}
-
 json box_corner(const Vec3& corner) { return is_finite(corner) ? vector_json(corner) : json(nullptr); }
 
 }  // namespace
-
-// ---- requests ------------------------------------------------------------------------------------------
 
 std::string encode(const RequestMessage& request) {
   json message;
@@ -477,8 +55,6 @@ RequestMessage decode_request(std::string_view text) {
   malformed("unknown request '" + request + "'");
 }
 
-// ---- answers -------------------------------------------------------------------------------------------
-
 std::string encode_failure(ExitCode code, const std::string& line) {
   return json{{"failed", static_cast<int>(code)}, {"line", text_from_bytes(line)}}.dump();
 }
@@ -487,10 +63,7 @@ std::string encode_info(const FileInfo& info) {
   json blocks = json::array();
   for (const BlockInfo& block : info.blocks) {
     json arrays = json::array();
-    for (const ArrayInfo& array : block.arrays) {
-      arrays.push_back(
-          encode_array_info(array.name, array.association, array.components, array.type, array.tuples));
-    }
+    for (const ArrayInfo& array : block.arrays) arrays.push_back(encode_array_info(array));
     blocks.push_back({{"name", text_from_bytes(block.name)},
                       {"grid", block.grid},
                       {"points", counts_json(block.points)},
@@ -514,15 +87,7 @@ std::string encode_info(const FileInfo& info) {
 
 std::string encode_blocks(const std::vector<DataSet>& blocks, MemoryFile& memory) {
   json list = json::array();
-  for (const DataSet& block : blocks) {
-    json arrays = json::array();
-    for (const DataArray& array : block.arrays) arrays.push_back(encode_array(array, memory));
-    json object{{"name", text_from_bytes(block.name)},
-                {"topology", std::visit(TopologyEncoder{memory}, block.topology)},
-                {"arrays", std::move(arrays)}};
-    if (!block.visible.empty()) object["visible"] = append(block.visible, memory);
-    list.push_back(std::move(object));
-  }
+  for (const DataSet& block : blocks) list.push_back(encode_block(block, memory));
   return json{{"blocks", std::move(list)}}.dump();
 }
 
@@ -557,9 +122,8 @@ std::vector<DataSet> decode_blocks(std::string_view text, std::span<const std::b
                                    const std::shared_ptr<const void>& owner) {
   const json answer = parse(text);
   throw_failure(answer);
-  const Memory memory{bytes, owner};
   std::vector<DataSet> blocks;
-  for (const json& object : array_at(answer, "blocks")) blocks.push_back(decode_block(object, memory));
+  for (const json& object : array_at(answer, "blocks")) blocks.push_back(decode_block(object, bytes, owner));
   return blocks;
 }
 

@@ -19,8 +19,7 @@
 /// Offsets count bytes in the memory file of the answer. Names and paths are bytes, not text: each byte
 /// travels as the character of that number, so any of them comes back as it went.
 ///
-/// The explorer believes nothing: decode_info() and decode_blocks() check every number against the memory
-/// that came along, every cell against its points and every type against the known ones.
+/// The explorer believes nothing of what it is told: message_json.h, block_json.h.
 #pragma once
 
 #include <cstddef>
@@ -35,14 +34,9 @@
 #include "common/load/format.h"
 #include "common/load/load.h"
 #include "common/load/memory_file.h"
+#include "common/load/protocol_error.h"
 
 namespace palpate {
-
-/// A message that breaks the rules above.
-class ProtocolError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct OpenMessage {
   Format format = Format::kLegacyVtk;
