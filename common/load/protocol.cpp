@@ -1,6 +1,5 @@
 #include "common/load/protocol.h"
 
-
 #include "common/load/block_json.h"
 #include "common/load/message_json.h"
 
