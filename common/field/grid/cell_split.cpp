@@ -3,31 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "common/base/error.h"
 #include "common/field/data_set_check.h"
+#include "common/field/grid/block_join.h"
+#include "common/field/grid/cell_cone.h"
 #include "common/field/grid/cell_faces.h"
-#include "common/field/grid/point_merge.h"
 #include "common/field/grid/tet_shape.h"
-#include "common/math/power_of_two.h"
 
 namespace palpate {
 namespace {
 
 using Ids = std::span<const std::uint32_t>;
 
-bool structured(const DataSet& block) {
-  return !std::holds_alternative<UnstructuredTopology>(block.topology);
-}
-
 class Splitter {
  public:
-  Splitter(std::span<const DataSet> blocks, std::string file) : blocks_(blocks), file_(std::move(file)) {}
+  Splitter(std::span<const DataSet> blocks, std::string file)
+      : blocks_(blocks), file_(std::move(file)), joined_(join_blocks(blocks, file_)) {
+    mesh_.points = std::move(joined_.points);
+    mesh_.merged_points = joined_.merged;
+  }
 
   SplitMesh run() {
-    gather_points();
-    merge();
     choose_refinement();
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       block_ = b;
@@ -63,253 +60,25 @@ class Splitter {
         {.file = file_, .place = {}, .found = found, .expected = "a volume grid", .remedy = {}});
   }
 
-  // --- points -------------------------------------------------------------------------------------------
-
-  void gather_points() {
-    std::size_t points = 0;
-    std::size_t cells = 0;
-    for (block_ = 0; block_ < blocks_.size(); ++block_) {
-      first_point_.push_back(static_cast<std::uint32_t>(points));
-      check_block(blocks_[block_], block_, blocks_.size(), file_);
-      points += blocks_[block_].point_count();
-      cells += blocks_[block_].cell_count();
-      if (points >= kNoPoint || cells >= kNoPoint) refuse("more than 2^32 - 2 points or cells", "fewer");
-    }
-    block_ = 0;
-    mesh_.points.reserve(points);
-    odd_.reserve(points);
-    for (const DataSet& block : blocks_) append_points(block);
-
-    Box bounds;
-    for (const Vec3& x : mesh_.points) {
-      if (is_finite(x)) bounds.include(x);
-    }
-    const Vec3 size = bounds.size();
-    unit_ = power_of_two(-binary_exponent(std::max({size.x, size.y, size.z})));
-  }
-
-  void append_points(const DataSet& block) {
-    const auto append_array = [this](const DataArray& positions) {
-      for (std::size_t i = 0; i < positions.tuples; ++i) {
-        mesh_.points.emplace_back(positions.at(i, 0), positions.at(i, 1), positions.at(i, 2));
-      }
-    };
-    if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
-      append_array(cells->positions);
-      odd_.insert(odd_.end(), cells->positions.tuples, 0);
-      return;
-    }
-    const Index3 n = structured_points(block);
-    const auto* uniform = std::get_if<UniformTopology>(&block.topology);
-    const auto* lines = std::get_if<RectilinearTopology>(&block.topology);
-    if (const auto* grid = std::get_if<StructuredTopology>(&block.topology)) append_array(grid->positions);
-    for (int k = 0; k < n.z; ++k) {
-      for (int j = 0; j < n.y; ++j) {
-        for (int i = 0; i < n.x; ++i) {
-          odd_.push_back(static_cast<std::uint8_t>((i + j + k) & 1));
-          if (uniform != nullptr) {
-            mesh_.points.push_back(uniform->origin + uniform->axes * Vec3(i, j, k));
-          } else if (lines != nullptr) {
-            mesh_.points.emplace_back(lines->coordinates[0][static_cast<std::size_t>(i)],
-                                      lines->coordinates[1][static_cast<std::size_t>(j)],
-                                      lines->coordinates[2][static_cast<std::size_t>(k)]);
-          }
-        }
-      }
-    }
-  }
-
-  // --- joining blocks -----------------------------------------------------------------------------------
-
-  void merge() {
-    std::vector<MergeCandidate> candidates;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const DataSet& block = blocks_[b];
-      if (structured(block)) {
-        // Uniform and rectilinear blocks have no seams of their own.
-        const bool seams = std::holds_alternative<StructuredTopology>(block.topology);
-        if (seams || blocks_.size() > 1) add_shell(b, seams, candidates);
-      } else if (blocks_.size() > 1) {
-        add_points(b, std::get<UnstructuredTopology>(block.topology), candidates);
-      }
-    }
-    first_of_ = merge_points(mesh_.points, candidates, kMergeDistance);
-    for (std::size_t p = 0; p < first_of_.size(); ++p) mesh_.merged_points += first_of_[p] != p ? 1 : 0;
-  }
-
-  void include_edge(double& spacing, std::size_t p, std::size_t q) const {
-    const double length = glm::length((mesh_.points[p] - mesh_.points[q]) * unit_) / unit_;
-    if (length > 0.0 && std::isfinite(length)) spacing = spacing == 0.0 ? length : std::min(spacing, length);
-  }
-
-  /// The points on the outer faces of a structured block.
-  void add_shell(std::size_t b, bool seams, std::vector<MergeCandidate>& candidates) const {
-    const Index3 n = structured_points(blocks_[b]);
-    const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n.x),
-                                          static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y)};
-    for (int k = 0; k < n.z; ++k) {
-      for (int j = 0; j < n.y; ++j) {
-        const bool shell_row = k == 0 || k == n.z - 1 || j == 0 || j == n.y - 1;
-        const int stride = shell_row ? 1 : std::max(1, n.x - 1);
-        for (int i = 0; i < n.x; i += stride) {
-          const Index3 at{i, j, k};
-          const std::size_t p = first_point_[b] + static_cast<std::size_t>(i) +
-                                step[1] * static_cast<std::size_t>(j) + step[2] * static_cast<std::size_t>(k);
-          if (!is_finite(mesh_.points[p])) continue;
-          double spacing = 0.0;
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (at[static_cast<int>(axis)] > 0) include_edge(spacing, p, p - step[axis]);
-            if (at[static_cast<int>(axis)] + 1 < n[static_cast<int>(axis)]) {
-              include_edge(spacing, p, p + step[axis]);
-            }
-          }
-          candidates.push_back(
-              {static_cast<std::uint32_t>(p), spacing, static_cast<std::uint32_t>(b), seams});
-        }
-      }
-    }
-  }
-
-  /// All points that the volume cells of an unstructured block name.
-  void add_points(std::size_t b, const UnstructuredTopology& cells,
-                  std::vector<MergeCandidate>& candidates) const {
-    const std::size_t count = cells.positions.tuples;
-    std::vector<double> spacing(count, 0.0);
-    std::vector<std::uint8_t> used(count, 0);
-    const auto known = [&](std::int64_t id) { return id >= 0 && static_cast<std::size_t>(id) < count; };
-    for (std::size_t c = 0; c < cells.types.size(); ++c) {
-      if (!is_volume(cells.types[c]) || cells.types[c] == kPolyhedron) continue;
-      const auto begin = static_cast<std::size_t>(cells.offsets[c]);
-      const auto end = static_cast<std::size_t>(cells.offsets[c + 1]);
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!known(cells.connectivity[i])) continue;  // refused when the cell is split
-        const auto p = static_cast<std::size_t>(cells.connectivity[i]);
-        used[p] = 1;
-        const std::int64_t other = cells.connectivity[i + 1 < end ? i + 1 : begin];
-        if (!known(other)) continue;
-        const auto q = static_cast<std::size_t>(other);
-        include_edge(spacing[p], first_point_[b] + p, first_point_[b] + q);
-        include_edge(spacing[q], first_point_[b] + p, first_point_[b] + q);
-      }
-    }
-    for_each_polyhedron_edge(cells, [&](std::size_t p, std::size_t q) {
-      used[p] = 1;
-      include_edge(spacing[p], first_point_[b] + p, first_point_[b] + q);
-      include_edge(spacing[q], first_point_[b] + p, first_point_[b] + q);
-    });
-    for (std::size_t p = 0; p < count; ++p) {
-      if (used[p] == 0 || !is_finite(mesh_.points[first_point_[b] + p])) continue;
-      candidates.push_back({first_point_[b] + static_cast<std::uint32_t>(p), spacing[p],
-                            static_cast<std::uint32_t>(b), false});
-    }
-  }
-
   // --- cells --------------------------------------------------------------------------------------------
-
-  /// Order of vertices that both cells beside a face see: even points of structured blocks first.
-  [[nodiscard]] std::uint64_t key(std::uint32_t id) const {
-    return (static_cast<std::uint64_t>(odd_[id]) << 32U) | id;
-  }
-
-  [[nodiscard]] std::size_t least(Ids ids) const {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < ids.size(); ++i) {
-      if (key(ids[i]) < key(ids[best])) best = i;
-    }
-    return best;
-  }
-
-  void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    if (a == b || a == c || a == d || b == c || b == d || c == d) return;
-    mesh_.tets.push_back({a, b, c, d});
-  }
-
-  /// Cones the cell with these outward faces from its vertex of the smallest key.
-  void cone(const FaceList& faces) {
-    std::uint32_t apex = faces.ids.front();
-    for (const std::uint32_t id : faces.ids) {
-      if (key(id) < key(apex)) apex = id;
-    }
-    std::size_t begin = 0;
-    for (const std::size_t end : faces.ends) {
-      // A face that collapsed to an edge, or touches itself, covers nothing.
-      face_.clear();
-      bool repeats = false;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!face_.empty() && face_.back() == faces.ids[i]) continue;
-        repeats = repeats || (std::ranges::find(face_, faces.ids[i]) != face_.end() &&
-                              !(i + 1 == end && face_.front() == faces.ids[i]));
-        face_.push_back(faces.ids[i]);
-      }
-      while (face_.size() > 1 && face_.front() == face_.back()) face_.pop_back();
-      begin = end;
-      if (repeats || face_.size() < 3 || std::ranges::find(face_, apex) != face_.end()) continue;
-      const std::size_t n = face_.size();
-      const std::size_t root = least(face_);
-      for (std::size_t i = 1; i + 1 < n; ++i) {
-        emit(apex, face_[root], face_[(root + i) % n], face_[(root + i + 1) % n]);
-      }
-    }
-  }
-
-  /// A hexahedron whose eight vertices differ. Where no diagonal of the faces away from the smallest vertex
-  /// meets the vertex opposite to it, five tetrahedra do; else the cone's six.
-  void split_hexahedron(const std::array<std::uint32_t, 8>& v) {
-    static constexpr std::array<std::size_t, 8> kOpposite{6, 7, 4, 5, 2, 3, 0, 1};
-    const std::size_t apex = least(v);
-    const std::size_t far = kOpposite[apex];
-    struct Corner {
-      std::uint32_t before, across, after;  ///< of a face around the far vertex
-    };
-    std::array<Corner, 3> corners{};
-    std::size_t count = 0;
-    bool far_on_diagonal = false;
-    for (const auto& face : kHexahedronFaces) {
-      const auto at = std::ranges::find(face, far);
-      if (at == face.end()) continue;
-      const auto i = static_cast<std::size_t>(at - face.begin());
-      const Corner corner{v[face[(i + 3) % 4]], v[face[(i + 2) % 4]], v[face[(i + 1) % 4]]};
-      const std::uint64_t least_key =
-          std::min({key(corner.before), key(corner.across), key(corner.after), key(v[far])});
-      far_on_diagonal = far_on_diagonal || least_key == key(v[far]) || least_key == key(corner.across);
-      corners[count++] = corner;
-    }
-    if (far_on_diagonal) {
-      faces_.clear();
-      for (const auto& face : kHexahedronFaces) {
-        for (const std::size_t i : face) faces_.ids.push_back(v[i]);
-        faces_.ends.push_back(faces_.ids.size());
-      }
-      cone(faces_);
-      return;
-    }
-    // The cap at the far vertex is cut off by the triangle of its three neighbours.
-    for (const Corner& c : corners) emit(v[apex], c.after, c.across, c.before);
-    const std::uint32_t x = corners[0].after;
-    const std::uint32_t y = corners[0].before;
-    const std::uint32_t z =
-        corners[1].before == x || corners[1].before == y ? corners[1].after : corners[1].before;
-    emit(v[apex], x, y, z);
-    emit(v[far], x, z, y);
-  }
 
   /// Splits one cell of `type`; `ids` are joined points. Types are those of the VTK file format.
   void split_cell(std::uint8_t type, Ids ids) {
     const std::size_t first_tet = mesh_.tets.size();
     const CellFaces* shape = faces_of(type);
     if (type == kTetrahedron) {
-      emit(ids[0], ids[1], ids[2], ids[3]);
+      cone_.tetrahedron(ids[0], ids[1], ids[2], ids[3]);
     } else if (type == kHexahedron && all_differ(ids)) {
       std::array<std::uint32_t, 8> v{};
       std::copy_n(ids.begin(), 8, v.begin());
-      split_hexahedron(v);
+      cone_.hexahedron(v);
     } else if (shape != nullptr) {
       faces_.clear();
       for (const auto& face : shape->faces) {
         for (const std::uint8_t i : face) faces_.ids.push_back(ids[i]);
         faces_.ends.push_back(faces_.ids.size());
       }
-      cone(faces_);
+      cone_.cell(faces_);
     }
     settle_cell(type, first_tet);
   }
@@ -330,7 +99,7 @@ class Splitter {
     bool negative = false;
     for (std::size_t t = first_tet; t < mesh_.tets.size(); ++t) {
       const auto& v = mesh_.tets[t];
-      const auto x = [&](std::size_t i) { return mesh_.points[v[i]] * unit_; };
+      const auto x = [&](std::size_t i) { return mesh_.points[v[i]] * joined_.unit; };
       const TetShape shape(x(0), x(1), x(2), x(3));
       volume += shape.volume6;
       if (shape.flat()) continue;
@@ -361,7 +130,7 @@ class Splitter {
 
   [[nodiscard]] bool usable(std::uint32_t input) const {
     const DataSet& block = blocks_[block_];
-    return (block.visible.empty() || block.visible[input - first_point_[block_]] != 0) &&
+    return (block.visible.empty() || block.visible[input - joined_.first_point[block_]] != 0) &&
            is_finite(mesh_.points[input]);
   }
 
@@ -376,7 +145,7 @@ class Splitter {
     const std::uint32_t slice = row * static_cast<std::uint32_t>(n.y);
     for (int k = 0; k + 1 < n.z; ++k) {
       for (int j = 0; j + 1 < n.y; ++j) {
-        std::uint32_t p = first_point_[block_] + row * static_cast<std::uint32_t>(j) +
+        std::uint32_t p = joined_.first_point[block_] + row * static_cast<std::uint32_t>(j) +
                           slice * static_cast<std::uint32_t>(k);
         for (int i = 0; i + 1 < n.x; ++i, ++p, ++cell_) {
           std::array<std::uint32_t, 8> v{p,         p + 1,         p + 1 + row,         p + row,
@@ -385,7 +154,7 @@ class Splitter {
             ++mesh_.blanked_cells;
             continue;
           }
-          for (std::uint32_t& id : v) id = first_of_[id];
+          for (std::uint32_t& id : v) id = joined_.first_of[id];
           split_cell(kHexahedron, v);
         }
       }
@@ -443,7 +212,7 @@ class Splitter {
       for (const std::int64_t id : stream) {
         const std::uint32_t input = checked(c, id, cells.positions.tuples);
         complete = complete && usable(input);
-        ids.push_back(first_of_[input]);
+        ids.push_back(joined_.first_of[input]);
       }
       if (!complete) {
         ++mesh_.blanked_cells;
@@ -458,7 +227,7 @@ class Splitter {
       refuse("cell " + std::to_string(cell) + " names the point " + std::to_string(id),
              "a number from 0 to " + std::to_string(points == 0 ? 0 : points - 1));
     }
-    return first_point_[block_] + static_cast<std::uint32_t>(id);
+    return joined_.first_point[block_] + static_cast<std::uint32_t>(id);
   }
 
   void split_known(std::uint8_t type, const std::vector<std::uint32_t>& ids) {
@@ -489,7 +258,7 @@ class Splitter {
   /// Four tetrahedra at the corners and four around the shortest diagonal of the octahedron between them.
   [[nodiscard]] std::array<std::array<std::uint32_t, 4>, 8> quadratic_tetrahedron_parts(Ids v) const {
     const auto square = [&](std::size_t i, std::size_t j) {
-      const Vec3 d = (mesh_.points[v[i]] - mesh_.points[v[j]]) * unit_;
+      const Vec3 d = (mesh_.points[v[i]] - mesh_.points[v[j]]) * joined_.unit;
       return glm::dot(d, d);
     };
     // The octahedron's diagonals and, for each, the other four vertices in turn around it.
@@ -533,7 +302,7 @@ class Splitter {
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t input = checked(c, stream[at + i], points);
         complete = complete && usable(input);
-        faces_.ids.push_back(first_of_[input]);
+        faces_.ids.push_back(joined_.first_of[input]);
       }
       faces_.ends.push_back(faces_.ids.size());
       at += count;
@@ -546,7 +315,7 @@ class Splitter {
     const std::size_t first_tet = mesh_.tets.size();
     if (!faces_.ids.empty()) {
       orient_faces(faces_);
-      cone(faces_);
+      cone_.cell(faces_);
     }
     settle_cell(kPolyhedron, first_tet);
   }
@@ -602,24 +371,21 @@ class Splitter {
       for (std::uint32_t& v : tet) v = place[v];
     }
     mesh_.point_of_input.resize(place.size());
-    for (std::size_t p = 0; p < place.size(); ++p) mesh_.point_of_input[p] = place[first_of_[p]];
+    for (std::size_t p = 0; p < place.size(); ++p) mesh_.point_of_input[p] = place[joined_.first_of[p]];
   }
 
   std::span<const DataSet> blocks_;
   std::string file_;
+  JoinedPoints joined_;  ///< without the points themselves, which are in mesh_
   SplitMesh mesh_;
-  std::vector<std::uint32_t> first_point_;  ///< of each block
-  std::vector<std::uint8_t> odd_;           ///< i + j + k of structured points is odd
-  std::vector<std::uint32_t> first_of_;     ///< joined points
-  double unit_ = 1.0;                       ///< power of two that makes lengths about one
+  CellCone cone_{joined_.odd, mesh_.tets};
   std::size_t block_ = 0;
   std::uint32_t first_cell_ = 0;  ///< of the block
   std::uint32_t cell_ = 0;
   std::uint8_t refine_ = 0;                  ///< type of the cells to be refined
   std::array<std::size_t, 256> positive_{};  ///< cells of the block by type and orientation
   std::array<std::size_t, 256> negative_{};
-  FaceList faces_;                   ///< scratch
-  std::vector<std::uint32_t> face_;  ///< scratch
+  FaceList faces_;  ///< scratch
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
 /// Splitting curvilinear and mixed cells into tetrahedra so that shared faces agree.
 ///
-/// Every quadrilateral (or larger) face is cut by the diagonals through its vertex of the smallest key,
-/// and every cell is coned from its vertex of the smallest key over the triangles of the faces that do not
-/// hold it (Dompierre et al. 1999). Both cells beside a face see the same keys, so they agree on the
-/// diagonals. In structured blocks the key puts points with even i + j + k first, which gives five
-/// tetrahedra a hexahedron; where no such order exists it is the point's index.
+/// Both cells beside a face see the same keys of its vertices, so they agree on the diagonals (cell_cone.h).
+/// In structured blocks the key puts points with even i + j + k first, which gives five tetrahedra a
+/// hexahedron; where no such order exists it is the point's index.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/grid/block_join.h"
 #include "common/field/grid/tet_mesh.h"
 
 namespace palpate {
@@ -35,12 +34,6 @@ struct SplitMesh {
   std::size_t repeated_tets = 0;   ///< tetrahedra that several blocks hold (ghost cells), left out
   std::size_t left_handed_blocks = 0;  ///< blocks most of whose cells turn the other way; not errors
 };
-
-inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
-
-/// Border points of different blocks, and of one structured block, are joined where they are closer than
-/// this part of the shortest edge at either of them.
-inline constexpr double kMergeDistance = 0x1p-10;
 
 /// Ten-node tetrahedra and 27-node hexahedra become eight linear cells each where all cells of all blocks
 /// are of that one type; in other meshes higher-order cells are taken through their corners, so that their

@@ -1,0 +1,180 @@
+#include "common/field/grid/block_join.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/field/data_set_check.h"
+#include "common/field/grid/cell_faces.h"
+#include "common/field/grid/point_merge.h"
+#include "common/math/power_of_two.h"
+
+namespace palpate {
+namespace {
+
+class Joiner {
+ public:
+  Joiner(std::span<const DataSet> blocks, const std::string& file) : blocks_(blocks), file_(file) {}
+
+  JoinedPoints run() {
+    gather_points();
+    merge();
+    return std::move(out_);
+  }
+
+ private:
+  void gather_points() {
+    std::size_t points = 0;
+    std::size_t cells = 0;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      out_.first_point.push_back(static_cast<std::uint32_t>(points));
+      check_block(blocks_[b], b, blocks_.size(), file_);
+      points += blocks_[b].point_count();
+      cells += blocks_[b].cell_count();
+      if (points >= kNoPoint || cells >= kNoPoint) {
+        throw block_error(blocks_[b], b, blocks_.size(), file_, "more than 2^32 - 2 points or cells",
+                          "fewer");
+      }
+    }
+    out_.points.reserve(points);
+    out_.odd.reserve(points);
+    for (const DataSet& block : blocks_) append_points(block);
+
+    Box bounds;
+    for (const Vec3& x : out_.points) {
+      if (is_finite(x)) bounds.include(x);
+    }
+    const Vec3 size = bounds.size();
+    out_.unit = power_of_two(-binary_exponent(std::max({size.x, size.y, size.z})));
+  }
+
+  void append_points(const DataSet& block) {
+    const auto append_array = [this](const DataArray& positions) {
+      for (std::size_t i = 0; i < positions.tuples; ++i) {
+        out_.points.emplace_back(positions.at(i, 0), positions.at(i, 1), positions.at(i, 2));
+      }
+    };
+    if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
+      append_array(cells->positions);
+      out_.odd.insert(out_.odd.end(), cells->positions.tuples, 0);
+      return;
+    }
+    const Index3 n = structured_points(block);
+    const auto* uniform = std::get_if<UniformTopology>(&block.topology);
+    const auto* lines = std::get_if<RectilinearTopology>(&block.topology);
+    if (const auto* grid = std::get_if<StructuredTopology>(&block.topology)) append_array(grid->positions);
+    for (int k = 0; k < n.z; ++k) {
+      for (int j = 0; j < n.y; ++j) {
+        for (int i = 0; i < n.x; ++i) {
+          out_.odd.push_back(static_cast<std::uint8_t>((i + j + k) & 1));
+          if (uniform != nullptr) {
+            out_.points.push_back(uniform->origin + uniform->axes * Vec3(i, j, k));
+          } else if (lines != nullptr) {
+            out_.points.emplace_back(lines->coordinates[0][static_cast<std::size_t>(i)],
+                                     lines->coordinates[1][static_cast<std::size_t>(j)],
+                                     lines->coordinates[2][static_cast<std::size_t>(k)]);
+          }
+        }
+      }
+    }
+  }
+
+  void merge() {
+    std::vector<MergeCandidate> candidates;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      const DataSet& block = blocks_[b];
+      if (structured(block)) {
+        // Uniform and rectilinear blocks have no seams of their own.
+        const bool seams = std::holds_alternative<StructuredTopology>(block.topology);
+        if (seams || blocks_.size() > 1) add_shell(b, seams, candidates);
+      } else if (blocks_.size() > 1) {
+        add_points(b, std::get<UnstructuredTopology>(block.topology), candidates);
+      }
+    }
+    out_.first_of = merge_points(out_.points, candidates, kMergeDistance);
+    for (std::size_t p = 0; p < out_.first_of.size(); ++p) out_.merged += out_.first_of[p] != p ? 1 : 0;
+  }
+
+  void include_edge(double& spacing, std::size_t p, std::size_t q) const {
+    const double length = glm::length((out_.points[p] - out_.points[q]) * out_.unit) / out_.unit;
+    if (length > 0.0 && std::isfinite(length)) spacing = spacing == 0.0 ? length : std::min(spacing, length);
+  }
+
+  /// The points on the outer faces of a structured block.
+  void add_shell(std::size_t b, bool seams, std::vector<MergeCandidate>& candidates) const {
+    const Index3 n = structured_points(blocks_[b]);
+    const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n.x),
+                                          static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y)};
+    for (int k = 0; k < n.z; ++k) {
+      for (int j = 0; j < n.y; ++j) {
+        const bool shell_row = k == 0 || k == n.z - 1 || j == 0 || j == n.y - 1;
+        const int stride = shell_row ? 1 : std::max(1, n.x - 1);
+        for (int i = 0; i < n.x; i += stride) {
+          const Index3 at{i, j, k};
+          const std::size_t p = out_.first_point[b] + static_cast<std::size_t>(i) +
+                                step[1] * static_cast<std::size_t>(j) + step[2] * static_cast<std::size_t>(k);
+          if (!is_finite(out_.points[p])) continue;
+          double spacing = 0.0;
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (at[static_cast<int>(axis)] > 0) include_edge(spacing, p, p - step[axis]);
+            if (at[static_cast<int>(axis)] + 1 < n[static_cast<int>(axis)]) {
+              include_edge(spacing, p, p + step[axis]);
+            }
+          }
+          candidates.push_back(
+              {static_cast<std::uint32_t>(p), spacing, static_cast<std::uint32_t>(b), seams});
+        }
+      }
+    }
+  }
+
+  /// All points that the volume cells of an unstructured block name.
+  void add_points(std::size_t b, const UnstructuredTopology& cells,
+                  std::vector<MergeCandidate>& candidates) const {
+    const std::size_t count = cells.positions.tuples;
+    std::vector<double> spacing(count, 0.0);
+    std::vector<std::uint8_t> used(count, 0);
+    const auto known = [&](std::int64_t id) { return id >= 0 && static_cast<std::size_t>(id) < count; };
+    for (std::size_t c = 0; c < cells.types.size(); ++c) {
+      if (!is_volume(cells.types[c]) || cells.types[c] == kPolyhedron) continue;
+      const auto begin = static_cast<std::size_t>(cells.offsets[c]);
+      const auto end = static_cast<std::size_t>(cells.offsets[c + 1]);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!known(cells.connectivity[i])) continue;  // refused when the cell is split
+        const auto p = static_cast<std::size_t>(cells.connectivity[i]);
+        used[p] = 1;
+        const std::int64_t other = cells.connectivity[i + 1 < end ? i + 1 : begin];
+        if (!known(other)) continue;
+        const auto q = static_cast<std::size_t>(other);
+        include_edge(spacing[p], out_.first_point[b] + p, out_.first_point[b] + q);
+        include_edge(spacing[q], out_.first_point[b] + p, out_.first_point[b] + q);
+      }
+    }
+    for_each_polyhedron_edge(cells, [&](std::size_t p, std::size_t q) {
+      used[p] = 1;
+      include_edge(spacing[p], out_.first_point[b] + p, out_.first_point[b] + q);
+      include_edge(spacing[q], out_.first_point[b] + p, out_.first_point[b] + q);
+    });
+    for (std::size_t p = 0; p < count; ++p) {
+      if (used[p] == 0 || !is_finite(out_.points[out_.first_point[b] + p])) continue;
+      candidates.push_back({out_.first_point[b] + static_cast<std::uint32_t>(p), spacing[p],
+                            static_cast<std::uint32_t>(b), false});
+    }
+  }
+
+  std::span<const DataSet> blocks_;
+  const std::string& file_;
+  JoinedPoints out_;
+};
+
+}  // namespace
+
+bool structured(const DataSet& block) noexcept {
+  return !std::holds_alternative<UnstructuredTopology>(block.topology);
+}
+
+JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file) {
+  return Joiner(blocks, file).run();
+}
+
+}  // namespace palpate

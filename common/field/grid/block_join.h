@@ -1,0 +1,38 @@
+/// The points of several blocks as one list, joined where the blocks meet.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Border points of different blocks, and of one structured block, are joined where they are closer than
+/// this part of the shortest edge at either of them.
+inline constexpr double kMergeDistance = 0x1p-10;
+
+/// "No point" in lists of point numbers.
+inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
+
+struct JoinedPoints {
+  std::vector<Vec3> points;                ///< data coordinates, block after block
+  std::vector<std::uint8_t> odd;           ///< i + j + k of structured points is odd
+  std::vector<std::uint32_t> first_of;     ///< for each point, the one that stands for its place
+  std::vector<std::uint32_t> first_point;  ///< of each block
+  std::size_t merged = 0;                  ///< points for which another one stands
+  double unit = 1.0;                       ///< power of two that makes lengths about one
+};
+
+[[nodiscard]] bool structured(const DataSet& block) noexcept;
+
+/// Checks the blocks and joins their points.
+/// @throws Error (bad input) with `file` where sizes disagree, or points or cells are too many to be
+/// numbered.
+[[nodiscard]] JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file);
+
+}  // namespace palpate
