@@ -57,8 +57,8 @@ HapticChain ProbeSession::build(const std::string& description) const {
   return build_chain(description, options_.modes, open_, options_.threads);
 }
 
-void ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name) {
-  if (!available() || !field || field == open_.field) return;
+bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name) {
+  if (!available() || !field || field == open_.field) return false;
   let_go();
   open_ = {std::move(field), name};
   hint_ = {};
@@ -68,12 +68,13 @@ void ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std
   kept_.clear();
   last_line_.reset();
   last_drawn_.reset();
-  if (replay_) return;  // its chains are built; what is shown behind it is the user's affair
+  if (replay_) return true;  // its chains are built; what is shown behind it is the user's affair
   if (options_.replay) {
     start_replay();
   } else {
     restart_chain();
   }
+  return true;
 }
 
 void ProbeSession::start_replay() {

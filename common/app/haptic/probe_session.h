@@ -82,9 +82,9 @@ class ProbeSession {
   [[nodiscard]] bool available() const noexcept { return !options_.modes.empty(); }
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
 
-  /// Takes another field; `name` is its field_key(). The same field again changes
-  /// nothing.
-  void set_field(std::shared_ptr<const VectorField> field, const std::string& name);
+  /// Takes another field and lets go; `name` is its field_key(). The same field again changes nothing.
+  /// @return whether it was another one.
+  bool set_field(std::shared_ptr<const VectorField> field, const std::string& name);
 
   /// @name The hand
   /// @{

@@ -188,8 +188,9 @@ class Window {
   /// The hand feels what the lines show.
   void adopt_field() {
     if (!scene_->probed || !touch_->available()) return;
-    touch_control_->let_go();
-    touch_->set_field(scene_->probed, field_key(scene_->settings.field, scene_->settings.time_step));
+    if (touch_->set_field(scene_->probed, field_key(scene_->settings.field, scene_->settings.time_step))) {
+      touch_control_->let_go();
+    }
     if (!view_.probe) view_.probe.emplace();
     view_.probe->reference_speed = reference_speed(view_);
   }
