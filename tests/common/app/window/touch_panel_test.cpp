@@ -202,6 +202,16 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
   EXPECT_EQ(saved.view.probe->kept->size(), 1U);
 }
 
+TEST_F(TouchPanelTest, OtherLinesOfTheSameFieldLeaveTheProbeInTheHand) {
+  constexpr double kTolerance = 588.0;  // among the lines' controls
+  grab();
+  press(kLeastOf, kTolerance);
+  const WindowResult traced = run();
+  EXPECT_GT(model_.updated, 0);
+  EXPECT_EQ(traced.settings.tolerance, 1e-12);
+  EXPECT_TRUE(traced.probe.held);
+}
+
 TEST_F(TouchPanelTest, ThePathIsCleared) {
   grab();
   lead_to(80.0, 0.0);
