@@ -134,6 +134,7 @@ TEST_F(FollowedCurveTest, IsAnotherObjectOnlyWhereSomethingHasChanged) {
 TEST_F(FollowedCurveTest, TheWholeLineBeginsAtItsUpstreamEnd) {
   start({1.0, 0.0, 0.0});
   grow(2000);
+  curve_.update(0.0, ColorBy::kSpeed);
   const Line line = curve_.line();
   ASSERT_GT(line.points.size(), 10U);
   EXPECT_EQ(line.points.front().arc, 0.0);
