@@ -58,7 +58,7 @@ std::vector<PathRow> device_path(const std::string& device) {
 }
 
 /// What the hand feels in the window, and where it is recorded or comes from.
-ProbeSessionOptions touch_of(const Options& options, const std::string& program, Progress& progress) {
+ProbeSessionOptions touch_of(const Options& options, const VerbContext& context) {
   ProbeSessionOptions touch;
   touch.modes = flow_modes();
   if (!options.touch.mode.empty()) {
@@ -70,16 +70,22 @@ ProbeSessionOptions touch_of(const Options& options, const std::string& program,
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;
+  check_replay_options(options);
   touch.path = device_path(options.device);
-  if (!options.replay.empty()) touch.replay = read_recording(options.replay.string());
+  if (!options.replay.empty()) {
+    touch.replay = read_recording(options.replay.string());
+    for (const std::string& line : changed_since(touch.replay->header, options, context.progress)) {
+      context.console.note(options.replay.string() + ": " + line);
+    }
+  }
   if (options.record.empty()) return touch;
   touch.record = options.record;
   touch.overwrite = options.common.force;
-  touch.recorded.program = program;
+  touch.recorded.program = context.explorer.name;
   touch.recorded.version = version();
   touch.recorded.build = build_text();
   const auto add = [&](const std::filesystem::path& file) {
-    const SessionInput input = describe_input(file, false, &progress);
+    const SessionInput input = describe_input(file, false, &context.progress);
     touch.recorded.inputs.push_back({input.file.string(), input.bytes, input.sha256});
   };
   for (const auto& file : options.input.files) add(file);
@@ -95,7 +101,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   if (nothing_named) options.input.example = examples().front().name;
   const TraceOptions trace = trace_options(options, "both");
   const CameraAngles angles = camera_angles(options.view.camera);
-  ProbeSessionOptions touch = touch_of(options, context.explorer.name, context.progress);
+  ProbeSessionOptions touch = touch_of(options, context);
   if (!window_available() && nothing_named) return headless_tour(options, context);
   if (options.common.explain) {
     const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);

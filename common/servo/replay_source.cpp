@@ -62,6 +62,9 @@ std::string verdict_text(const ReplayVerdict& verdict, const Recording& recordin
   if (verdict.differs != 0) {
     text = "differs from the recording, first between steps " + std::to_string(verdict.same) + " and " +
            std::to_string(verdict.differs - 1);
+  } else if (verdict.same == 0) {
+    text = "nothing compared: the recording holds no sum of its first " +
+           counted(recording.steps.size(), "step");
   } else {
     text = "identical: " + std::to_string(verdict.same) + " of " + counted(recording.steps.size(), "step");
   }

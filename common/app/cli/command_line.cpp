@@ -110,7 +110,7 @@ class VerbParser {
   void check() const {
     const auto positive = [](double value, const char* name) {
       if (!(std::isfinite(value) && value >= 0.0)) {
-        throw usage_error(std::string(name) + ": a positive number is expected");
+        throw usage_error(std::string(name) + ": a finite number, not below zero, is expected");
       }
     };
     positive(options_.tracing.tolerance, "--tolerance");
@@ -220,7 +220,7 @@ class VerbParser {
     TouchOptions& touch = options_.touch;
     scene("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", group);
     scene("--workspace-scale", touch.workspace_scale,
-          "metres per data unit; by default the diagonal of the data is 0.25 m", "M", group);
+          "metres per data unit; 0, the default: the diagonal of the data is 0.25 m", "M", group);
     scene("--stiffness", touch.stiffness, "of the spring between probe and proxy, in N/m; default 200", "K",
           group);
     scene("--release", touch.release, "stretch in mm at which a line lets go; default 10", "MM", group);

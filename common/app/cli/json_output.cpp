@@ -218,6 +218,7 @@ std::string probe_json(const ProbeSummary& summary) {
   if (!summary.replay.empty()) {
     json["replay"] = summary.replay;
     json["replay_differs"] = summary.replay_differs;
+    json["changed_inputs"] = summary.changed_inputs;
   }
   add_plan(json, summary.plan, summary.measured);
   return text_of(json);

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <string_view>
+#include <vector>
 
 #include "common/app/cli/command_line.h"
 #include "common/app/cli/explorer.h"
+#include "common/base/error.h"
 
 namespace palpate {
 namespace {
@@ -17,6 +21,30 @@ std::string joined(const std::string& program, const std::vector<std::string>& a
   return line;
 }
 
+/// No output may be one of the inputs, under whatever name: --force would destroy it.
+/// @throws Error (usage).
+void check_outputs(const Options& options) {
+  std::vector<std::filesystem::path> inputs = options.input.files;
+  if (options.input.solution) inputs.push_back(*options.input.solution);
+  constexpr std::string_view kReplay = "replay:";
+  const std::string device =
+      options.device.starts_with(kReplay) ? options.device.substr(kReplay.size()) : std::string();
+  for (const std::filesystem::path& input :
+       {options.path, options.replay, options.session, std::filesystem::path(options.tracing.seeds),
+        std::filesystem::path(device)}) {
+    inputs.push_back(input);
+  }
+  for (const std::filesystem::path& output : {options.out, options.record}) {
+    for (const std::filesystem::path& input : inputs) {
+      std::error_code ignored;
+      if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored)) {
+        throw usage_error(output.string() + " is the input " + input.string() +
+                          "; give the output another name");
+      }
+    }
+  }
+}
+
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
 ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& context) {
   const auto interrupted = [&] {
@@ -25,6 +53,7 @@ ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& c
     return ExitCode::kInterrupted;
   };
   try {
+    check_outputs(options);
     const ExitCode code = verb.run(options, context);
     context.console.finish();
     return code;

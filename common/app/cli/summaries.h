@@ -79,6 +79,7 @@ struct ProbeSummary {
   std::array<std::size_t, kHoldStateCount> states{};
   std::string replay;  ///< verdict on a replayed recording; empty: it was none
   bool replay_differs = false;
+  std::vector<std::string> changed_inputs;          ///< of the recording, a sentence each
   double us_p50 = 0.0, us_p99 = 0.0, us_max = 0.0;  ///< [us] thread CPU time of a step
   double seconds_load = 0.0;
   double seconds_probe = 0.0;

@@ -1,9 +1,14 @@
 #include "common/app/cli/touch_options.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <string_view>
 
 #include "common/app/haptic/haptic_mode.h"
 #include "common/base/error.h"
+#include "common/scene/session.h"
 
 namespace palpate {
 namespace {
@@ -31,9 +36,12 @@ ChainSettings touch_settings(const TouchOptions& options) {
       throw usage_error("--ticks: 'auto' or a time in data units is expected, found '" + options.ticks + "'");
     }
   }
-  if (!settings.valid()) {
-    throw usage_error("--release must be above 0 mm, and all of stiffness, drag, ticks and forces finite");
+  if (!(settings.release_distance > 0.0)) throw usage_error("--release: a number above zero is expected");
+  if (!std::isfinite(settings.tick_interval)) throw usage_error("--ticks: a finite time is expected");
+  if (!(settings.tick_stiffness >= 0.0 && settings.tick_stiffness <= 1.0)) {
+    throw usage_error("--tick-stiffness: a number from 0 to 1 is expected");
   }
+  if (!std::isfinite(settings.speed_force)) throw usage_error("--speed-force: a finite force is expected");
   return settings;
 }
 
@@ -44,6 +52,43 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField& fie
     settings.tick_interval = default_tick_interval(field, workspace);
   }
   return settings;
+}
+
+void check_replay_options(const Options& options) {
+  if (options.replay.empty()) return;
+  constexpr std::array<std::string_view, 10> kRecorded{
+      "mode",  "workspace-scale", "stiffness",   "release",   "drag",
+      "ticks", "tick-stiffness",  "speed-force", "force-cap", "slew-cap"};
+  for (const auto& [name, value] : options.given) {
+    if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
+      throw usage_error("--" + name + " is part of the recording; leave it out with --replay");
+    }
+  }
+  if (options.device != "mouse") throw usage_error("give either --replay or --device, not both");
+}
+
+std::vector<std::string> changed_since(const RecordingHeader& header, const Options& options,
+                                       Progress& progress) {
+  std::vector<SessionInput> open;
+  for (const auto& file : options.input.files) open.push_back(describe_input(file, false, &progress));
+  if (options.input.solution) open.push_back(describe_input(*options.input.solution, true, &progress));
+  std::vector<std::string> changed;
+  for (std::size_t i = 0; i < std::max(open.size(), header.inputs.size()); ++i) {
+    if (i >= open.size()) {
+      changed.push_back("it was recorded on " + header.inputs[i].file + ", which is not open");
+    } else if (i >= header.inputs.size()) {
+      changed.push_back(open[i].file.string() + " was not open when it was recorded");
+    } else if (open[i].bytes != header.inputs[i].bytes || open[i].sha256 != header.inputs[i].sha256) {
+      changed.push_back(open[i].file.string() + " is not the file that was recorded as " +
+                        header.inputs[i].file);
+    }
+  }
+  for (const auto& [key, value] : header.values) {
+    if (key == "example" && value != options.input.example) {
+      changed.push_back("it was recorded on example " + value);
+    }
+  }
+  return changed;
 }
 
 DeviceLimits touch_limits(const TouchOptions& options) {

@@ -126,11 +126,15 @@ class ProbeRun {
     if (log_) log_->add(row, step, microseconds);
     times_.push_back(static_cast<float>(microseconds));
     ++summary_.states[static_cast<std::size_t>(step.state)];
+    if (step.state == HoldState::kFault && first_fault_ == 0) first_fault_ = summary_.steps + 1;
     summary_.max_force = std::max(summary_.max_force, glm::length(step.force));
     summary_.max_residual = std::max(summary_.max_residual, step.chain.residual / workspace_.scale());
     if (++summary_.steps % kStepsBetweenChecks == 0) context_.progress.check();
     context_.progress.advance();
   }
+
+  /// Counted from 1; 0: none.
+  [[nodiscard]] std::size_t first_fault() const noexcept { return first_fault_; }
 
   void finish() {
     summary_.seconds_probe = watch_.seconds();
@@ -146,6 +150,7 @@ class ProbeRun {
   const VerbContext& context_;
   std::optional<ProbeLog> log_;
   std::vector<float> times_;
+  std::size_t first_fault_ = 0;
   Stopwatch watch_;
 };
 
@@ -177,12 +182,15 @@ void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun
 
 /// What can be refused before any work is done.
 void check_request(const Options& options) {
-  if (options.path.empty() == options.replay.empty()) {
+  if (options.path.empty() && options.replay.empty()) {
     throw usage_error(
         "probe needs a path or a recording: try --path path.csv, a table with the header t,x,y,z, or "
-        "--replay "
-        "run.rec");
+        "--replay run.rec");
   }
+  if (!options.path.empty() && !options.replay.empty()) {
+    throw usage_error("give either --path or --replay, not both");
+  }
+  check_replay_options(options);
   if (options.out.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
   }
@@ -203,6 +211,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     path = read_probe_path(options.path.string());
   } else {
     recording = read_recording(options.replay.string());
+    summary.changed_inputs = changed_since(recording->header, options, context.progress);
+    for (const std::string& line : summary.changed_inputs)
+      console.note(options.replay.string() + ": " + line);
     summary.limits = recording->header.limits;
   }
 
@@ -238,6 +249,15 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     });
     if (file) run.log_to(*file, links);
     follow_recording(replay, workspace, run, context.progress);
+    if (!replay.recording().chains.empty()) {
+      const DescribedChain chain = parse_chain(replay.recording().chains.back());
+      summary.mode = chain.mode;
+      summary.settings = chain.settings;
+      summary.workspace_scale = chain.workspace_scale;
+    }
+    for (const RecordedChange& change : replay.recording().changes) {
+      if (const auto* settings = std::get_if<ChainSettings>(&change.change)) summary.settings = *settings;
+    }
     summary.replay = verdict_text(replay.verdict(), replay.recording());
     summary.replay_differs = replay.verdict().differs != 0;
   } else {
@@ -247,6 +267,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     follow_path(path, stepper, workspace, run, context.progress);
   }
   run.finish();
+  if (path.empty() && options.replay.empty()) console.note(options.path.string() + ": the path has no rows");
+  if (run.first_fault() > 0) {
+    console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +
+                 " without a force, the first is step " + std::to_string(run.first_fault()) +
+                 ": a position that is not finite, or time that stands still or runs backwards");
+  }
   if (file) {
     file->finish();
     context.interrupt.keep(options.out);

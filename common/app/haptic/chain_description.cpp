@@ -1,5 +1,6 @@
 #include "common/app/haptic/chain_description.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -50,24 +51,33 @@ std::string describe_chain(const std::string& mode, double workspace_scale, cons
   return text.append(kFieldKey) + field_name;
 }
 
-HapticChain build_chain(const std::string& description, std::span<const HapticMode> modes,
-                        const NamedField& open, int threads) {
-  const HapticMode& mode = find_mode(modes, description.substr(0, description.find(' ')));
+DescribedChain parse_chain(const std::string& description) {
   const std::size_t name_at = description.find(kFieldKey);
   if (name_at == std::string::npos) refuse(description, "it names no field");
-  const std::string name = description.substr(name_at + kFieldKey.size());
-  if (name != open.name) {
-    refuse(description, "it was recorded on field '" + name + "', open is '" + open.name +
+  DescribedChain chain;
+  chain.mode = description.substr(0, description.find(' '));
+  chain.field_name = description.substr(name_at + kFieldKey.size());
+  chain.workspace_scale = number_of(description, "scale");
+  const auto fields = settings_fields(chain.settings);
+  for (std::size_t i = 0; i < fields.size(); ++i) *fields[i] = number_of(description, kSettingNames[i]);
+  const bool usable =
+      chain.settings.valid() && chain.workspace_scale > 0.0 && std::isfinite(chain.workspace_scale);
+  if (!usable) refuse(description, "its numbers make no chain");
+  return chain;
+}
+
+HapticChain build_chain(const std::string& description, std::span<const HapticMode> modes,
+                        const NamedField& open, int threads) {
+  const DescribedChain chain = parse_chain(description);
+  if (chain.field_name != open.name) {
+    refuse(description, "it was recorded on field '" + chain.field_name + "', open is '" + open.name +
                             "'; give --field and --time as in the recording");
   }
-  const double scale = number_of(description, "scale");
-  ChainSettings settings;
-  const auto fields = settings_fields(settings);
-  for (std::size_t i = 0; i < fields.size(); ++i) *fields[i] = number_of(description, kSettingNames[i]);
-  if (!settings.valid() || !(scale > 0.0) || !std::isfinite(scale)) {
-    refuse(description, "its numbers make no chain");
-  }
-  return mode.make({open.field, Workspace(scale, open.field->frame()), settings, threads});
+  const auto mode = std::find_if(modes.begin(), modes.end(),
+                                 [&](const HapticMode& each) { return each.name == chain.mode; });
+  if (mode == modes.end()) refuse(description, "there is no mode '" + chain.mode + "'");
+  return mode->make(
+      {open.field, Workspace(chain.workspace_scale, open.field->frame()), chain.settings, threads});
 }
 
 }  // namespace palpate

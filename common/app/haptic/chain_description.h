@@ -24,7 +24,17 @@ struct NamedField {
 [[nodiscard]] std::string describe_chain(const std::string& mode, double workspace_scale,
                                          const ChainSettings& settings, const std::string& field_name);
 
-/// @throws Error (bad input) where the description makes no sense or means another field.
+/// What a description says.
+struct DescribedChain {
+  std::string mode;
+  double workspace_scale = 0.0;  ///< [m] per data unit
+  ChainSettings settings;
+  std::string field_name;
+};
+/// @throws Error (bad input) where the description makes no sense.
+[[nodiscard]] DescribedChain parse_chain(const std::string& description);
+
+/// @throws Error (bad input) where the description makes no sense, or means another field or an unknown mode.
 [[nodiscard]] HapticChain build_chain(const std::string& description, std::span<const HapticMode> modes,
                                       const NamedField& open, int threads);
 

@@ -63,6 +63,22 @@ void add_balls(const GrowingLine& line, const LocalFrame& frame, double interval
   }
 }
 
+Line whole_line(const GrowingLine& line, const LocalFrame& frame) {
+  Line result;
+  const int first = line.first(), last = line.last();
+  const double start = line.node(first).arc;
+  for (int i = first; i <= last; ++i) {
+    const LineNode& node = line.node(i);
+    result.points.push_back({.position = frame.data_from_local(node.position),
+                             .time = node.time * frame.time_scale(),
+                             .arc = (node.arc - start) * frame.length_scale(),
+                             .speed = node.speed * frame.speed_scale(),
+                             .error = (node.error + node.gap) * frame.length_scale()});
+  }
+  result.end = line.end(GrowingLine::Side::kDownstream).value_or(End::kMaxLength);
+  return result;
+}
+
 }  // namespace
 
 FollowedCurve::FollowedCurve(std::shared_ptr<const LiveLine> live) : live_(std::move(live)) {}
@@ -103,27 +119,8 @@ void FollowedCurve::update(double ball_interval, ColorBy color_by) {
     add(line->node(last).position, line->node(last), line->node(last), 0.0);
     add_balls(*line, frame, ball_interval / frame.time_scale(), color_by, *drawn);
     drawn_ = std::move(drawn);
+    line_ = whole_line(*line, frame);
   });
-}
-
-Line FollowedCurve::line() const {
-  Line result;
-  const LocalFrame& frame = live_->field().frame();
-  live_->read([&](const GrowingLine* line, std::uint64_t) {
-    if (line == nullptr) return;
-    const int first = line->first(), last = line->last();
-    const double start = line->node(first).arc;
-    for (int i = first; i <= last; ++i) {
-      const LineNode& node = line->node(i);
-      result.points.push_back({.position = frame.data_from_local(node.position),
-                               .time = node.time * frame.time_scale(),
-                               .arc = (node.arc - start) * frame.length_scale(),
-                               .speed = node.speed * frame.speed_scale(),
-                               .error = (node.error + node.gap) * frame.length_scale()});
-    }
-    result.end = line->end(GrowingLine::Side::kDownstream).value_or(End::kMaxLength);
-  });
-  return result;
 }
 
 }  // namespace palpate

@@ -27,14 +27,16 @@ class FollowedCurve {
   /// Null while no line is followed. Points are so close that the chords between them leave the line by no
   /// more than half a millionth of the diagonal.
   [[nodiscard]] const std::shared_ptr<const FollowedLine>& drawn() const noexcept { return drawn_; }
-  /// Changes with the line.
+  /// Changes with the line; 0 while none is followed.
   [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
-  /// The whole line from its upstream end, data units; arc counts from there. Empty while none is followed.
-  [[nodiscard]] Line line() const;
+  /// The whole line as of the last update(), from its upstream end, data units; arc counts from there. When
+  /// none is followed any more it is still the last one.
+  [[nodiscard]] const Line& line() const noexcept { return line_; }
 
  private:
   std::shared_ptr<const LiveLine> live_;
   std::shared_ptr<const FollowedLine> drawn_;
+  Line line_;
   std::uint64_t number_ = 0;
   int first_ = 0, last_ = 0;
   double ball_interval_ = 0.0;

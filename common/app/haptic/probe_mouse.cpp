@@ -49,6 +49,15 @@ Vec3 pushed(const Camera& camera, const Vec3& from, double notches, std::optiona
   return from + (notches * kStep * camera.view_height) * direction;
 }
 
+Vec3 at_depth_of(const Camera& camera, const Vec3& x, const Vec3& depth_of) {
+  const Vec3& back = camera.axes[2];
+  if (camera.projection == Projection::kOrthographic) return x + glm::dot(depth_of - x, back) * back;
+  const Vec3 viewer = eye(camera);
+  const double depth = glm::dot(viewer - x, back), wanted = glm::dot(viewer - depth_of, back);
+  if (!(depth > 0.0) || !(wanted > 0.0)) return x;
+  return viewer + (wanted / depth) * (x - viewer);
+}
+
 Vec3 under_mouse(const Camera& camera, const PictureSize& size, const PicturePoint& mouse,
                  const Vec3& depth_of) {
   const Vec3 shown = project(camera, depth_of, size.width, size.height);

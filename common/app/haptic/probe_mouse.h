@@ -30,6 +30,10 @@ struct PictureSize {
 /// view's height each; with a locked axis along that, to the side that is away from the viewer.
 [[nodiscard]] Vec3 pushed(const Camera& camera, const Vec3& from, double notches, std::optional<int> axis);
 
+/// The point that is drawn where `x` is, at the depth of `depth_of`. `x` itself where either is behind the
+/// eye.
+[[nodiscard]] Vec3 at_depth_of(const Camera& camera, const Vec3& x, const Vec3& depth_of);
+
 /// The point under the mouse in the plane through `depth_of` that the camera faces.
 [[nodiscard]] Vec3 under_mouse(const Camera& camera, const PictureSize& size, const PicturePoint& mouse,
                                const Vec3& depth_of);

@@ -20,6 +20,17 @@ constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
 constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
 constexpr std::size_t kMostFelt = 1U << 20U;
 
+bool same_points(const Line& a, const Line& b) {
+  return a.points.size() == b.points.size() && a.points.front().position == b.points.front().position &&
+         a.points.back().position == b.points.back().position;
+}
+
+/// NaN, for none felt, counts as equal to itself.
+bool same_forces(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
 }  // namespace
 
 ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wake)
@@ -66,7 +77,6 @@ bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   clear_path();
   kept_.clear();
-  last_line_.reset();
   last_drawn_.reset();
   if (replay_) return true;  // its chains are built; what is shown behind it is the user's affair
   if (options_.replay) {
@@ -117,14 +127,11 @@ void ProbeSession::restart_chain() {
 void ProbeSession::grab(double time, const Vec3& position) {
   if (!servo_ || replay_ || path_device_) return;
   target_ = position;
-  last_line_.reset();
   mouse_.grab(time, workspace().workspace_from_data(position), 1);
 }
 
 void ProbeSession::let_go() noexcept {
-  if (!mouse_.grabbed()) return;
-  mouse_.let_go();
-  if (curve_ && curve_->number() != 0) last_line_ = curve_->line();
+  if (mouse_.grabbed()) mouse_.let_go();
 }
 
 void ProbeSession::force_off() noexcept {
@@ -205,13 +212,20 @@ void ProbeSession::take(const HandStep& step) {
   const Workspace workspace = this->workspace();
   const Vec3 proxy = workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[0] : step.probe);
   const double force = glm::length(step.force);
+  const bool on_line = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
   if (step.chain.jumped) {
     path_->append(gap, 0.0);
-    felt_.clear();
+    other_line_ = true;
   }
-  path_->append(proxy, force);
+  if (on_line && other_line_) {
+    felt_.clear();
+    other_line_ = false;
+  }
+  path_->append(on_line ? proxy : gap, force);
   const double spacing = kPathSpacing * open_.field->diagonal();
-  if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
+  if (!on_line) {
+    // Nothing is felt of a line.
+  } else if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
     if (felt_.size() < kMostFelt) felt_.push_back({proxy, force});
   } else {
     felt_.back().force = force;
@@ -289,14 +303,16 @@ bool ProbeSession::lively() const noexcept {
          (replay_ && !readout_.servo.replay_done);
 }
 
-bool ProbeSession::keep_line() {
-  Line line;
-  if (curve_) line = curve_->line();
-  if (line.points.size() < 2 && last_line_) line = *last_line_;
-  if (line.points.size() < 2) return false;
-  std::vector<double> forces = forces_along(line, felt_);
-  kept_.keep(std::move(line), std::move(forces));
-  return true;
+ProbeSession::Keeping ProbeSession::keep_line() {
+  if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
+  const std::vector<KeptLines::Entry>& kept = kept_.entries();
+  std::vector<double> forces = forces_along(curve_->line(), felt_);
+  if (!kept.empty() && same_points(*kept.back().line, curve_->line()) &&
+      same_forces(kept.back().forces, forces)) {
+    return Keeping::kAlready;
+  }
+  kept_.keep(curve_->line(), std::move(forces));
+  return Keeping::kKept;
 }
 
 void ProbeSession::record_event(std::uint64_t frame, const std::string& text) {

@@ -110,8 +110,11 @@ class ProbeSession {
   /// Something moves without the user's doing: the line grows, a replay runs.
   [[nodiscard]] bool lively() const noexcept;
 
-  /// Keeps the followed line with the forces felt along it; false where none is followed.
-  bool keep_line();
+  enum class Keeping : std::uint8_t { kKept, kAlready, kNothing };
+  /// Keeps the line that is followed, or was last, with the forces felt along it.
+  Keeping keep_line();
+  /// Whether mouse and keys move the probe: not in a replay, nor with a path as the device.
+  [[nodiscard]] bool by_mouse() const noexcept { return options_.path.empty() && !replaying(); }
   [[nodiscard]] KeptLines& kept() noexcept { return kept_; }
   [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
   void clear_path();
@@ -149,10 +152,10 @@ class ProbeSession {
   std::optional<FollowedCurve> curve_;
   std::shared_ptr<ProbePath> path_;
   std::vector<FeltForce> felt_;  ///< since the line was caught
+  bool other_line_ = false;      ///< it was let go, or another one caught, since then
   KeptLines kept_;
   ProbeReadout readout_;
   CellHint hint_;
-  std::optional<Line> last_line_;                   ///< that was followed when the hand let go
   std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
   std::size_t next_event_ = 0, next_change_ = 0;    ///< of the replay
   bool growing_ = false;

@@ -15,21 +15,30 @@ PictureSize size_of(const PictureArea& area) {
 }  // namespace
 
 Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse) {
-  constexpr double kReach = 0.25;     // heights of the picture
-  constexpr double kAboutAsNear = 6;  // [pixels]
+  constexpr double kReach = 0.25;  // heights of the picture
+  constexpr double kOnLine = 3.0;  // [pixels] as near as that, the mouse is on a line: of those the front one
   double nearest = kReach * size.height, depth = HUGE_VAL;
   Vec3 start = under_mouse(view.camera, size, mouse, view.camera.focal_point);
   if (!view.lines) return start;
+  const Vec2 at{mouse.x, mouse.y};
   for (const Line& line : *view.lines) {
-    for (const LinePoint& point : line.points) {
-      const Vec3 shown = project(view.camera, point.position, size.width, size.height);
-      if (!(shown.z > 0.0)) continue;
-      const double away = std::hypot(shown.x - mouse.x, shown.y - mouse.y);
-      const bool better = away < nearest - kAboutAsNear || (away < nearest + kAboutAsNear && shown.z < depth);
-      if (!better) continue;
-      nearest = std::min(nearest, away);
-      depth = shown.z;
-      start = point.position;
+    Vec3 before{0.0};
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Vec3 shown = project(view.camera, line.points[i].position, size.width, size.height);
+      if (i > 0 && shown.z > 0.0 && before.z > 0.0) {
+        const Vec2 a{before}, along = Vec2{shown} - a;
+        const double square = glm::dot(along, along);
+        const double u = square > 0.0 ? std::clamp(glm::dot(at - a, along) / square, 0.0, 1.0) : 0.0;
+        const double away = glm::distance(at, a + u * along);
+        const double z = before.z + u * (shown.z - before.z);
+        const bool on_both = away <= kOnLine && nearest <= kOnLine;
+        if (on_both ? z < depth : away < nearest) {
+          nearest = away;
+          depth = z;
+          start = glm::mix(line.points[i - 1].position, line.points[i].position, u);
+        }
+      }
+      before = shown;
     }
   }
   return start;
@@ -48,7 +57,7 @@ void TouchControl::let_go() noexcept {
 }
 
 bool TouchControl::handle(const InputEvent& event, const PictureArea& area, const SceneView& view,
-                          double time) {
+                          double time, bool over_panel) {
   const bool shift = event.key == kLeftShift || event.key == kRightShift;
   switch (event.kind) {
     case InputKind::kMove: {
@@ -56,11 +65,13 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       x_ = event.x;
       y_ = event.y;
       if (!grabbed_ || buttons_ > 0) return false;
-      session_.move(dragged(view.camera, size_of(area), session_.target(), dx, dy, axis_));
+      // Over a panel the mouse is on its way to something else: the probe waits where it is.
+      if (over_panel || !area.contains(x_, y_)) return true;
+      session_.move(dragged(view.camera, size_of(area), start_of_move(view.camera), dx, dy, axis_));
       return true;
     }
     case InputKind::kWheel:
-      if (!grabbed_ || !area.contains(x_, y_)) return false;
+      if (!grabbed_ || over_panel || !area.contains(x_, y_)) return false;
       session_.move(pushed(view.camera, session_.target(), event.y, axis_));
       return true;
     case InputKind::kPress:
@@ -83,6 +94,14 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
   }
 }
 
+/// Where the probe is moved from: at the depth of the proxy while a line holds it, so that a line can be
+/// followed away from the viewer, too. Its place in the picture is the same.
+Vec3 TouchControl::start_of_move(const Camera& camera) const {
+  const ProbeReadout& readout = session_.readout();
+  if (axis_ || !readout.held || readout.state != HoldState::kHeld) return session_.target();
+  return at_depth_of(camera, session_.target(), readout.proxy);
+}
+
 std::string TouchControl::choose_mode(std::size_t mode) {
   if (mode >= session_.modes().size()) return "there is no mode " + std::to_string(mode + 1);
   TouchChoice choice = session_.choice();
@@ -102,12 +121,15 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
   };
   switch (command) {
     case Command::kGrab:
+      if (!session_.by_mouse() && !session_.replaying()) {
+        return "the probe is moved by the path that was given as the device";
+      }
       if (grabbed_) {
         let_go();
         return "let go";
       }
       grab(area, view, time);
-      return "grabbed: move the mouse; wheel: along the view; Space: keep the line; Esc: let go";
+      return "grabbed: the mouse moves the probe, the wheel along the view; K keeps the line, G lets go";
     case Command::kForceOff:
       session_.force_off();
       return "force off; switch it on again in the panel";
@@ -118,7 +140,15 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
     case Command::kLockZ:
       return lock(2);
     case Command::kKeepLine:
-      if (!session_.keep_line()) return "no line is followed: grab the probe (G) and move it on to one";
+      switch (session_.keep_line()) {
+        case ProbeSession::Keeping::kNothing:
+          return grabbed_ ? "no line is followed here: move the probe to where the lines are"
+                          : "no line is followed: grab the probe (G) and move it on to one";
+        case ProbeSession::Keeping::kAlready:
+          return "that line is kept already";
+        case ProbeSession::Keeping::kKept:
+          break;
+      }
       return "kept line " + std::to_string(session_.kept().entries().back().number) +
              "; Ctrl+E saves all that are kept";
     case Command::kUndo:

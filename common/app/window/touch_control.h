@@ -18,9 +18,11 @@ class TouchControl {
  public:
   explicit TouchControl(ProbeSession& session) : session_(session) {}
 
-  /// @param time [s] of a steady clock.
+  /// @param time [s] of a steady clock.  @param over_panel the mouse is over a panel, which takes what it
+  /// does.
   /// @return whether the event was the probe's, and not for the camera.
-  bool handle(const InputEvent& event, const PictureArea& area, const SceneView& view, double time);
+  bool handle(const InputEvent& event, const PictureArea& area, const SceneView& view, double time,
+              bool over_panel);
   /// @return what to say to the user, if the command is one about touch.
   std::optional<std::string> run(Command command, const PictureArea& area, const SceneView& view,
                                  double time);
@@ -32,6 +34,7 @@ class TouchControl {
 
  private:
   void grab(const PictureArea& area, const SceneView& view, double time);
+  [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
   std::string choose_mode(std::size_t mode);
 
   ProbeSession& session_;
@@ -42,8 +45,8 @@ class TouchControl {
   double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
 };
 
-/// Where the probe starts when it is grabbed: on the drawn line nearest to the mouse in the picture, the
-/// nearer to the viewer of those that lie about as near; at the depth of the focal point where there is none.
+/// Where the probe starts when it is grabbed: on the line under the mouse, that of several which is in front;
+/// else on the nearest one in the picture, and at the depth of the focal point where none is near.
 [[nodiscard]] Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse);
 
 }  // namespace palpate

@@ -286,10 +286,14 @@ class Window {
       const bool key = event.kind == InputKind::kKeyDown || event.kind == InputKind::kKeyUp;
       const bool of_panel =
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
-      if (!of_panel && !touch_control_->handle(event, parts.picture, view_, glfwGetTime())) {
+      if (!of_panel &&
+          !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse)) {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
       }
-      if (command && !io.WantTextInput && command != Command::kForceOff) run_command(*command);
+      // An open list takes Esc for itself.
+      const bool of_list =
+          command == Command::kLetGo && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+      if (command && !io.WantTextInput && !of_list && command != Command::kForceOff) run_command(*command);
     }
   }
 
@@ -351,8 +355,15 @@ class Window {
   std::string save_lines() {
     if (touch_->kept().entries().empty())
       throw work_error("no line is kept; grab the probe (G), then K keeps one");
-    const std::filesystem::path path = (options_.picture_folder / state_.lines_file).lexically_normal();
-    touch_->kept().save(path, std::exchange(saved_as_, path) == path);
+    const std::filesystem::path folder = std::filesystem::absolute(options_.picture_folder);
+    std::filesystem::path path = (folder / state_.lines_file).lexically_normal();
+    const std::filesystem::path stem = path.stem(), ending = path.extension();
+    for (int number = 2; path != saved_as_ && std::filesystem::exists(path); ++number) {
+      path.replace_filename(stem.string() + "-" + std::to_string(number) + ending.string());
+    }
+    touch_->kept().save(path, path == saved_as_);
+    saved_as_ = path;
+    state_.lines_file = path.lexically_proximate(folder).string();
     return path.string();
   }
 
