@@ -8,7 +8,7 @@ namespace palpate {
 namespace {
 
 // Cost of the robust path, in fast pieces.
-constexpr int kRobustWork = 32;
+constexpr int kRobustCellWork = 160, kRobustPieceWork = 16;
 
 Pack4 to_pack(const AffineModes::Four& b) {
   return {static_cast<double>(b[0]), static_cast<double>(b[1]), static_cast<double>(b[2]),
@@ -18,7 +18,7 @@ Pack4 to_pack(const AffineModes::Four& b) {
 }  // namespace
 
 void ExactWalk::enter_robust() {
-  work_ += kRobustWork;
+  work_ += kRobustCellWork;
   AffineModes::Four b{};
   AffineModes::Real sum = 0.0L;
   for (int i = 0; i < 4; ++i) sum += b[static_cast<std::size_t>(i)] = b_[i];
@@ -48,7 +48,7 @@ ExactWalk::RobustFlow ExactWalk::robust_flow(AffineModes::Real start, AffineMode
 std::optional<End> ExactWalk::robust_piece() {
   using Real = AffineModes::Real;
   ++robust_pieces_;
-  work_ += kRobustWork;
+  work_ += kRobustPieceWork;
   const AffineModes::Exit exit = modes_->exit();
   const bool leaves = exit.face >= 0;
   if (leaves && !(exit.time > mode_time_)) {
@@ -59,11 +59,11 @@ std::optional<End> ExactWalk::robust_piece() {
       ignored_face_ = entry_;
       modes_.reset();
       enter_robust();
-      return advance();
+      return std::nullopt;
     }
     const int face = exit.face;
     if (const std::optional<End> ended = cross_standing(face)) return ended;
-    return advance();
+    return std::nullopt;
   }
 
   // Rest within reach: the line is drawn to the distance asked for and ends.

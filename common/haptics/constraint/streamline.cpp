@@ -106,6 +106,7 @@ bool StreamlineConstraint::catch_at(const Vec3& x, const UpdateBudget& budget, L
     line_->drop();
     return false;
   }
+  debt_ += std::max(0, link.cells - budget.cells);
   fit();
   return true;
 }
@@ -132,13 +133,17 @@ void StreamlineConstraint::grow(const Vec3& x, const UpdateBudget& budget, LinkU
   const bool downstream = glm::dot(x - point(), tangent()) >= 0.0;
   const Side ahead = downstream ? Side::kDownstream : Side::kUpstream;
   const Side behind = downstream ? Side::kUpstream : Side::kDownstream;
+  debt_ = std::max(0, debt_ - budget.cells);
   while (link.cells < budget.cells) {
     const double room_ahead = room(ahead), room_behind = room(behind);
     const Side side = room_ahead < wanted || room_ahead <= room_behind ? ahead : behind;
+    // What is not wanted yet waits until dear pieces of steps before are paid for.
+    if (debt_ > 0 && room(side) >= wanted) break;
     const int work = line.grow(side);
     if (work == 0) break;  // that side had no less room than the other: both have ended
     link.cells += work;
   }
+  debt_ += std::max(0, link.cells - budget.cells);
   fit();
 }
 

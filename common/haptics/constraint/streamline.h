@@ -72,6 +72,7 @@ class StreamlineConstraint final : public Constraint {
   double speed_force_ = 0.0;  ///< [N] at the highest speed
   double local_max_speed_ = 1.0;
   double resolution_ = 0.0;  ///< frame L: displacements below this are rounding
+  int debt_ = 0;  ///< cells grown beyond the budget of steps before: a piece in a stiff cell costs many
   int piece_ = 0;
   double arc_ = 0.0;
   std::uint64_t catches_ = 0;
