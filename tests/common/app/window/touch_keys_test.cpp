@@ -35,7 +35,7 @@ TEST_F(TouchWindowTest, TheProbeStaysUnderTheMouse) {
   };
   EXPECT_NEAR(shown(result.probe.probe).x - shown(start).x, 80.0, 1e-6);
   EXPECT_NEAR(shown(result.probe.probe).y - shown(start).y, -50.0, 1e-6);
-  EXPECT_NEAR(shown(result.probe.probe).z, shown(start).z, 1e-9);
+  EXPECT_LT(glm::distance(result.probe.probe, result.probe.proxy), 0.4) << "at the depth of its line";
   EXPECT_GT(result.view.probe->path.count, 20U);
 }
 
@@ -113,7 +113,7 @@ TEST_F(TouchWindowTest, AForeignFileOfLinesIsNotReplaced) {
   key('K');
   key('E', kModifierControl);
   const WindowResult result = run();
-  EXPECT_NE(result.message.find("followed.vtp"), std::string::npos);
+  EXPECT_NE(result.message.find("followed-2.vtp"), std::string::npos) << result.message;
   EXPECT_EQ(read_file(folder_.path("followed.vtp")), "mine");
 }
 
