@@ -1,37 +1,30 @@
-// Files of every VTK format, written by VTK's own writers and read back through the helper programs:
-// topology and values must be those of the VTK objects.
-#include <array>
+// Files of every VTK format with a volume, written by VTK's own writers and read back through the helper
+// programs: topology and values must be those of the VTK objects.
 #include <cmath>
-#include <functional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataSetWriter.h>
 #include <vtkDoubleArray.h>
-#include <vtkExodusIIWriter.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
-#include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkMultiBlockDataSetAlgorithm.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkShortArray.h>
 #include <vtkSmartPointer.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStructuredGrid.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataSetWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 #include <vtkXMLWriter.h>
 
-#include "common/base/error.h"
 #include "common/load/load.h"
 #include "tests/support/temp_folder.h"
 
@@ -331,285 +324,6 @@ TEST(VtkMultiBlock, BlocksInsideBlocksAreListedByName) {
   ASSERT_EQ(blocks.size(), 2U);
   expect_same(blocks[0], a);
   expect_same(blocks[1], b);
-}
-
-/// An image whose array "t" holds `value` everywhere.
-void write_state(const std::filesystem::path& file, double value) {
-  const auto data = Ptr<vtkImageData>::New();
-  data->SetDimensions(2, 2, 2);
-  const auto array = Ptr<vtkDoubleArray>::New();
-  array->SetName("t");
-  for (int p = 0; p < 8; ++p) array->InsertNextValue(value);
-  data->GetPointData()->AddArray(array);
-  const auto writer = Ptr<vtkXMLDataSetWriter>::New();
-  writer->SetFileName(file.c_str());
-  writer->SetInputData(data);
-  ASSERT_EQ(writer->Write(), 1);
-}
-
-TEST(TimeSeries, PvdListsItsStepsInTheOrderOfTime) {
-  const test::TempFolder folder;
-  write_state(folder.path("late.vti"), 2.5);
-  write_state(folder.path("early.vti"), 0.5);
-  const auto file =
-      folder.write("a.pvd",
-                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-                   "<DataSet timestep=\"2.5\" part=\"0\" file=\"late.vti\"/>\n"
-                   "<DataSet timestep=\"0.5\" part=\"0\" file=\"early.vti\"/>\n</Collection>\n</VTKFile>\n");
-  Source source = Source::open({{file}, {}});
-  EXPECT_EQ(source.info().times, (std::vector<double>{0.5, 2.5}));
-  EXPECT_EQ(source.read({"t"}, 0).at(0).arrays.at(0).at(0), 0.5);
-  EXPECT_EQ(source.read({"t"}, 1).at(0).arrays.at(0).at(0), 2.5);
-  EXPECT_EQ(source.read({"t"}, 0).at(0).arrays.at(0).at(0), 0.5) << "going back";
-  EXPECT_THROW((void)source.read({"t"}, 2), Error);
-}
-
-TEST(TimeSeries, SeriesFilesAreReadLikePvd) {
-  const test::TempFolder folder;
-  write_state(folder.path("a0.vti"), 1.0);
-  write_state(folder.path("a1.vti"), 3.0);
-  const auto file = folder.write(
-      "a.vti.series",
-      R"({"file-series-version":"1.0","files":[{"name":"a0.vti","time":1},{"name":"a1.vti","time":3}]})");
-  Source source = Source::open({{file}, {}});
-  EXPECT_EQ(source.info().times, (std::vector<double>{1.0, 3.0}));
-  EXPECT_EQ(source.read({"t"}, 1).at(0).arrays.at(0).at(0), 3.0);
-}
-
-TEST(TimeSeries, NumberedFilesAreStepsInTheOrderOfTheirNumbers) {
-  const test::TempFolder folder;
-  LoadRequest request;
-  for (const int number : {10, 9, 100}) {
-    request.files.push_back(folder.path("flow_" + std::to_string(number) + ".vti"));
-    write_state(request.files.back(), number);
-  }
-  Source source = Source::open(request);
-  EXPECT_EQ(source.info().times, (std::vector<double>{9.0, 10.0, 100.0}));
-  EXPECT_EQ(source.read({"t"}, 2).at(0).arrays.at(0).at(0), 100.0);
-}
-
-TEST(TimeSeries, FilesThatNamePartsAreBlocks) {
-  const test::TempFolder folder;
-  LoadRequest request;
-  for (const int number : {0, 1}) {
-    request.files.push_back(folder.path("block_" + std::to_string(number) + ".vti"));
-    write_state(request.files.back(), number);
-  }
-  Source source = Source::open(request);
-  EXPECT_TRUE(source.info().times.empty());
-  const auto blocks = source.read({"t"});
-  ASSERT_EQ(blocks.size(), 2U);
-  EXPECT_EQ(blocks[1].arrays.at(0).at(0), 1.0);
-}
-
-/// Writes `data` as XML and as a legacy file.
-std::vector<std::filesystem::path> written(const test::TempFolder& folder, vtkDataSet* data) {
-  const std::vector<std::filesystem::path> files{folder.path("a.xml"), folder.path("a.vtk")};
-  const auto xml = Ptr<vtkXMLDataSetWriter>::New();
-  xml->SetFileName(files[0].c_str());
-  xml->SetInputData(data);
-  EXPECT_EQ(xml->Write(), 1);
-  const auto legacy = Ptr<vtkDataSetWriter>::New();
-  legacy->SetFileName(files[1].c_str());
-  legacy->SetInputData(data);
-  EXPECT_EQ(legacy->Write(), 1);
-  return files;
-}
-
-// A file without a volume is opened and read all the same, and says that it is none.
-TEST(PolyData, IsReadAsCellsAndSaidToBeNoVolume) {
-  const auto data = Ptr<vtkPolyData>::New();
-  const auto points = Ptr<vtkPoints>::New();
-  for (int p = 0; p < 6; ++p) points->InsertNextPoint(p, p % 2, 0.5 * p);
-  data->SetPoints(points);
-  const auto cells = [](const std::vector<std::vector<vtkIdType>>& lists) {
-    auto array = Ptr<vtkCellArray>::New();
-    for (const auto& list : lists) array->InsertNextCell(static_cast<vtkIdType>(list.size()), list.data());
-    return array;
-  };
-  data->SetVerts(cells({{5}, {0, 1}}));
-  data->SetLines(cells({{0, 1}, {1, 2, 3}}));
-  data->SetPolys(cells({{0, 1, 2}, {0, 1, 2, 3}, {0, 1, 2, 3, 4}}));
-  data->SetStrips(cells({{0, 1, 2, 3}}));
-  const auto number = Ptr<vtkDoubleArray>::New();
-  number->SetName("number");
-  for (int c = 0; c < 8; ++c) number->InsertNextValue(c);
-  data->GetCellData()->AddArray(number);
-  const test::TempFolder folder;
-  for (const auto& file : written(folder, data)) {
-    SCOPED_TRACE(file);
-    Source source = Source::open({{file}, {}});
-    ASSERT_EQ(source.info().blocks.size(), 1U);
-    const BlockInfo& about = source.info().blocks[0];
-    EXPECT_NE(about.not_volume.find("not a volume"), std::string::npos) << about.not_volume;
-    EXPECT_EQ(about.grid, "polygonal");
-    EXPECT_EQ(about.point_count, 6U);
-    EXPECT_EQ(about.cell_count, 8U);
-    EXPECT_EQ(about.bounds.upper, Vec3(5.0, 1.0, 2.5));
-    const auto blocks = source.read({"number"});
-    ASSERT_EQ(blocks.size(), 1U);
-    const auto& mesh = std::get<UnstructuredTopology>(blocks[0].topology);
-    EXPECT_EQ(mesh.types, (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 9, 7, 6}));
-    EXPECT_EQ(mesh.offsets, (std::vector<std::int64_t>{0, 1, 3, 5, 8, 11, 15, 20, 24}));
-    EXPECT_EQ(mesh.connectivity.at(0), 5);
-    EXPECT_EQ(mesh.connectivity.at(7), 3);
-    ASSERT_EQ(blocks[0].arrays.size(), 1U);
-    EXPECT_EQ(blocks[0].arrays[0].at(7), 7.0);
-  }
-}
-
-TEST(FlatData, IsReadAndSaidToBeNoVolume) {
-  const auto flat_image = Ptr<vtkImageData>::New();
-  flat_image->SetDimensions(4, 3, 1);
-  const auto values = Ptr<vtkFloatArray>::New();
-  values->SetName("t");
-  for (int p = 0; p < 12; ++p) values->InsertNextValue(static_cast<float>(p));
-  flat_image->GetPointData()->AddArray(values);
-  const auto surface = Ptr<vtkUnstructuredGrid>::New();
-  const auto points = Ptr<vtkPoints>::New();
-  for (int p = 0; p < 12; ++p) points->InsertNextPoint(p, p * p, 0);
-  surface->SetPoints(points);
-  const std::vector<vtkIdType> corners{0, 1, 2};
-  surface->InsertNextCell(VTK_TRIANGLE, 3, corners.data());
-  surface->GetPointData()->AddArray(values);
-  for (vtkDataSet* data :
-       {static_cast<vtkDataSet*>(flat_image.Get()), static_cast<vtkDataSet*>(surface.Get())}) {
-    const test::TempFolder folder;
-    for (const auto& file : written(folder, data)) {
-      SCOPED_TRACE(file);
-      Source source = Source::open({{file}, {}});
-      EXPECT_NE(source.info().blocks.at(0).not_volume.find("not a volume"), std::string::npos);
-      const auto blocks = source.read({"t"});
-      ASSERT_EQ(blocks.size(), 1U);
-      EXPECT_EQ(blocks[0].point_count(), 12U);
-      EXPECT_EQ(blocks[0].arrays.at(0).at(11), 11.0);
-    }
-  }
-}
-
-TEST(EmptyData, IsRefused) {
-  const test::TempFolder folder;
-  for (const auto& file : written(folder, Ptr<vtkPolyData>::New())) {
-    try {
-      (void)Source::open({{file}, {}});
-      FAIL() << file << " was accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kBadInput);
-      const std::string line = error.what();
-      EXPECT_TRUE(line.find("holds no points") != std::string::npos ||
-                  line.find("No Points element") != std::string::npos)
-          << line;
-    }
-  }
-}
-
-/// One hexahedron whose pressure is corner + 100 time at three times, as VTK's pipeline asks for them.
-class MovingCube : public vtkMultiBlockDataSetAlgorithm {
- public:
-  static MovingCube* New() { return new MovingCube; }
-  static constexpr std::array<double, 3> kTimes{0.0, 0.25, 1.5};
-
- protected:
-  MovingCube() { SetNumberOfInputPorts(0); }
-
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override {
-    const std::array<double, 2> range{kTimes.front(), kTimes.back()};
-    vtkInformation* about = output->GetInformationObject(0);
-    about->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), kTimes.data(), 3);
-    about->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range.data(), 2);
-    return 1;
-  }
-
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override {
-    vtkInformation* about = output->GetInformationObject(0);
-    auto* const wanted = vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP();
-    const double time = about->Has(wanted) != 0 ? about->Get(wanted) : kTimes.front();
-    const auto grid = Ptr<vtkUnstructuredGrid>::New();
-    const auto points = Ptr<vtkPoints>::New();
-    const auto pressure = Ptr<vtkDoubleArray>::New();
-    pressure->SetName("pressure");
-    for (int p = 0; p < 8; ++p) {
-      points->InsertNextPoint(p & 1, p >> 1 & 1, p >> 2 & 1);
-      pressure->InsertNextValue(p + 100.0 * time);
-    }
-    grid->SetPoints(points);
-    const std::vector<vtkIdType> corners{0, 1, 3, 2, 4, 5, 7, 6};
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, corners.data());
-    grid->GetPointData()->AddArray(pressure);
-    auto* blocks = vtkMultiBlockDataSet::SafeDownCast(about->Get(vtkDataObject::DATA_OBJECT()));
-    blocks->SetBlock(0, grid);
-    blocks->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    return 1;
-  }
-};
-
-TEST(Exodus, TimeStepsAreReadOneByOne) {
-  const test::TempFolder folder;
-  const auto file = folder.path("a.ex2");
-  const auto cube = Ptr<MovingCube>::New();
-  const auto writer = Ptr<vtkExodusIIWriter>::New();
-  writer->SetFileName(const_cast<char*>(file.c_str()));
-  writer->WriteAllTimeStepsOn();
-  writer->SetInputConnection(cube->GetOutputPort());
-  ASSERT_EQ(writer->Write(), 1);
-
-  Source source = Source::open({{file}, {}});
-  ASSERT_EQ(source.info().times, std::vector<double>(MovingCube::kTimes.begin(), MovingCube::kTimes.end()));
-  for (const std::size_t step : {2U, 0U, 1U, 2U}) {
-    const auto blocks = source.read({"pressure"}, step);
-    const DataArray* pressure = blocks.at(0).find("pressure", Association::kPoint);
-    ASSERT_NE(pressure, nullptr);
-    for (std::size_t p = 0; p < 8; ++p)
-      EXPECT_EQ(pressure->at(p), static_cast<double>(p) + 100.0 * MovingCube::kTimes[step]) << step;
-  }
-  EXPECT_THROW((void)source.read({"pressure"}, 3), Error);
-}
-
-TEST(Exodus, ElementBlocksAreJoinedIntoOneMesh) {
-  // Two blocks of one hexahedron each that share a face, four nodes.
-  const auto blocks = Ptr<vtkMultiBlockDataSet>::New();
-  for (unsigned b = 0; b < 2; ++b) {
-    const auto grid = Ptr<vtkUnstructuredGrid>::New();
-    const auto points = Ptr<vtkPoints>::New();
-    for (int k = 0; k < 2; ++k) {
-      for (int j = 0; j < 2; ++j) {
-        for (int i = 0; i < 2; ++i) points->InsertNextPoint(static_cast<double>(b) + i, j, k);
-      }
-    }
-    grid->SetPoints(points);
-    const std::vector<vtkIdType> corners{0, 1, 3, 2, 4, 5, 7, 6};
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, corners.data());
-    const auto pressure = Ptr<vtkDoubleArray>::New();
-    pressure->SetName("pressure");
-    for (int p = 0; p < 8; ++p) pressure->InsertNextValue(points->GetPoint(p)[0]);
-    grid->GetPointData()->AddArray(pressure);
-    const auto cell = Ptr<vtkDoubleArray>::New();
-    cell->SetName("density");
-    cell->InsertNextValue(10.0 + b);
-    grid->GetCellData()->AddArray(cell);
-    blocks->SetBlock(b, grid);
-  }
-  const test::TempFolder folder;
-  const auto file = folder.path("a.ex2");
-  const auto writer = Ptr<vtkExodusIIWriter>::New();
-  writer->SetFileName(const_cast<char*>(file.c_str()));
-  writer->SetInputData(blocks);
-  ASSERT_EQ(writer->Write(), 1);
-
-  Source source = Source::open({{file}, {}});
-  ASSERT_EQ(source.info().blocks.size(), 1U);
-  EXPECT_EQ(source.info().blocks[0].cell_count, 2U);
-  const auto read = source.read({"pressure", "density"});
-  ASSERT_EQ(read.size(), 1U);
-  const auto& mesh = std::get<UnstructuredTopology>(read[0].topology);
-  ASSERT_EQ(mesh.types.size(), 2U);
-  const DataArray* pressure = read[0].find("pressure", Association::kPoint);
-  ASSERT_NE(pressure, nullptr);
-  for (std::size_t p = 0; p < pressure->tuples; ++p) EXPECT_EQ(pressure->at(p), mesh.positions.at(p, 0));
-  const DataArray* density = read[0].find("density", Association::kCell);
-  ASSERT_NE(density, nullptr);
-  EXPECT_EQ(density->at(0), 10.0);
-  EXPECT_EQ(density->at(1), 11.0);
 }
 
 }  // namespace
