@@ -150,6 +150,15 @@ class FaceWalk final : public LineWalk {
     return m;
   }
 
+  /// How far rounding of the position and of the interpolation turns the direction: the velocity is a sum of
+  /// terms as large as the Jacobian times the coordinates and the cell, which cancel near a zero.
+  [[nodiscard]] double slope_rounding() const {
+    const Mat3 j = domain_.jacobian(y_);
+    const double rate = std::sqrt(glm::dot(j[0], j[0]) + glm::dot(j[1], j[1]) + glm::dot(j[2], j[2]));
+    constexpr double kRoundings = 8.0;  // of coordinates and of each term
+    return kRoundings * kUlp * rate * (magnitude(y_.xyz()) + domain_.size()) * k_[3];
+  }
+
   /// The first part of the last attempt's step at which the curve leaves the cell; above 1 where it does not.
   [[nodiscard]] Crossing first_exit() const {
     const auto q = method_.dense();
@@ -196,7 +205,10 @@ class FaceWalk final : public LineWalk {
         if constexpr (Method::kAdaptive) {
           // The error in time counts as the way that it stands for.
           const double time_error = std::abs(e.hi[1]) / k_[3];
-          const double ratio = std::max(local, time_error) / (settings_.tolerance * h);
+          const double error = std::max(local, time_error);
+          double ratio = error / (settings_.tolerance * h);
+          // Next to a zero the direction is rounding: no step is short enough for an error below that.
+          if (ratio > 1.0) ratio = error / ((settings_.tolerance + slope_rounding()) * h);
           constexpr double kFarBelow = 0.1;
           if (face >= 0 && ratio <= kFarBelow && sound) {
             verdict = {true, h_ > h ? 1.0 : 2.0};  // cut short by a face: nothing to learn for the next step

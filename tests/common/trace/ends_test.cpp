@@ -98,6 +98,21 @@ TEST(Ends, StagnateWithinTheToleranceOfASink) {
   }
 }
 
+// Next to the sink the direction is rounding, by more than the tolerance: no step is short enough for it.
+TEST(Ends, StagnateWhereTheDirectionIsRounding) {
+  const Vec3 sink{0.1, 0.05, 0.02};
+  for (const Way& way : ways(rows(-2, 1, 0.5, 0.25, -1, 0.75, 0, 0.5, -1.5), sink)) {
+    // Lower orders rightly need ever more steps.
+    if (way.name != "dp54 on boxes" && way.name != "dp54 on a formula") continue;
+    TraceOptions options;
+    options.tolerance = 1e-11;
+    for (const Line& line : traced(way, test::random_seeds(40, 0.5, 1), options).lines) {
+      EXPECT_EQ(line.end, End::kStagnation) << way.name << " " << name_of(line.end);
+      EXPECT_LE(glm::distance(line.points.back().position, sink), 1e-9) << way.name;
+    }
+  }
+}
+
 TEST(Ends, StagnateAtAWallWhereTheFlowRests) {
   // v = (z, 0, -z): straight lines that never arrive at z = -1 + 1: the plane z = 0 is at rest.
   for (const Way& way : ways(rows(0, 0, 1, 0, 0, 0, 0, 0, -1), {0, 0, 0})) {
