@@ -383,6 +383,20 @@ TEST_F(Probe, KeepsItsForcesUnderPowersOfTwo) {
   EXPECT_TRUE(any_force);
 }
 
+TEST_F(Probe, WritesOverNoInputWhateverItIsCalled) {
+  const std::string path = "t,x,y,z\n0,0.5,0.5,0.5\n0.001,0.5,0.5,0.5\n";
+  folder_.write("path.csv", path);
+  std::filesystem::create_hard_link(folder_.path("path.csv"), folder_.path("hard.csv"));
+  std::filesystem::create_symlink(folder_.path("path.csv"), folder_.path("soft.csv"));
+  for (const char* out : {"path.csv", "./path.csv", "hard.csv", "soft.csv"}) {
+    const ProgramResult refused =
+        run({"probe", "--example", "cavity", "--path", "path.csv", "--out", out, "--force"});
+    EXPECT_EQ(refused.exit_code, 2) << out;
+    EXPECT_NE(refused.err.find("is the input"), std::string::npos) << refused.err;
+    EXPECT_EQ(read_file(folder_.path("path.csv")), path) << out;
+  }
+}
+
 TEST_F(Probe, KeepsItsPromisesOnEveryExample) {
   for (const ExampleInfo& info : examples()) expect_promises(example_scene(info.name));
 }

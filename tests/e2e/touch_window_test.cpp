@@ -101,6 +101,32 @@ TEST_F(TouchWindow, ARecordingThatWasCutOffIsGoodUpToThere) {
   EXPECT_NE(summary["replay"].get<std::string>().find("identical"), std::string::npos) << summary["replay"];
 }
 
+TEST_F(TouchWindow, ModeAndSettingsAreThoseOfTheRecording) {
+  record_a_hand();
+  const Json summary = json({"probe", "--example", "tornado", "--replay", "run.txt"});
+  EXPECT_EQ(summary["mode"], "streamline");
+  EXPECT_EQ(summary["stiffness_n_per_m"], 200.0);
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--stiffness", "999"},
+                                                 {"--mode", "isotropic"},
+                                                 {"--workspace-scale", "2"}}) {
+    std::vector<std::string> arguments{"probe", "--example", "tornado", "--replay", "run.txt", "--json"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    const ProgramResult refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << option[0];
+    EXPECT_NE(refused.err.find(option[0]), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(TouchWindow, AnInputThatWasNotRecordedIsNamed) {
+  record_a_hand();
+  std::string text = read_file(folder_.path("run.txt"));
+  text.insert(text.find("limits "), "input 5 " + std::string(64, '0') + " elsewhere.vtk\n");
+  folder_.write("other.txt", text);
+  const Json summary = json({"probe", "--example", "tornado", "--replay", "other.txt"});
+  ASSERT_EQ(summary["changed_inputs"].size(), 1U);
+  EXPECT_NE(summary["changed_inputs"][0].get<std::string>().find("elsewhere.vtk"), std::string::npos);
+}
+
 TEST_F(TouchWindow, IsOfOneFieldOnly) {
   record_a_hand();
   const ProgramResult other = run({"probe", "--example", "abc", "--replay", "run.txt", "--json"});

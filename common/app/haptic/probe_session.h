@@ -46,9 +46,9 @@ struct ProbeSessionOptions {
   DeviceLimits limits;
   double workspace_scale = 0.0;  ///< [m] per data unit; 0: the default
   int threads = 0;
-  /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
   /// Moves the probe in place of the mouse, from the moment when a field is there; none: the mouse.
   std::vector<PathRow> path;
+  /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
   std::filesystem::path record;
   bool overwrite = false;
   RecordingHeader recorded;

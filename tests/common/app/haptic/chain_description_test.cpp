@@ -67,8 +67,8 @@ TEST_F(ChainDescription, RefusesAnotherField) {
 TEST_F(ChainDescription, RefusesWhatMakesNoSense) {
   const std::string good = describe_chain("held", 0.1, {}, open_.name);
   const std::string field = " field=" + open_.name;
-  EXPECT_NE(code_of(""), ExitCode::kDone);
-  EXPECT_NE(code_of(describe_chain("unheard-of", 0.1, {}, open_.name)), ExitCode::kDone);
+  EXPECT_EQ(code_of(""), ExitCode::kBadInput);
+  EXPECT_EQ(code_of(describe_chain("unheard-of", 0.1, {}, open_.name)), ExitCode::kBadInput);
   EXPECT_EQ(code_of("held"), ExitCode::kBadInput);
   EXPECT_EQ(code_of("held" + field), ExitCode::kBadInput) << "no numbers";
   EXPECT_EQ(code_of(good.substr(0, good.find(" field="))), ExitCode::kBadInput);

@@ -40,6 +40,20 @@ TEST(ProbeMouse, WhatIsDraggedStaysUnderTheMouse) {
   }
 }
 
+TEST(ProbeMouse, AnotherDepthKeepsThePlaceInThePicture) {
+  for (const Camera& camera : cameras()) {
+    const Vec3 x{0.2, 0.6, 0.9}, line{1.4, -0.3, 0.1};
+    const Vec3 moved = at_depth_of(camera, x, line);
+    EXPECT_NEAR(shown(camera, moved).x, shown(camera, x).x, 1e-9);
+    EXPECT_NEAR(shown(camera, moved).y, shown(camera, x).y, 1e-9);
+    EXPECT_NEAR(project(camera, moved, 640, 400).z, project(camera, line, 640, 400).z, 1e-12);
+    const Vec3 behind = eye(camera) + camera.axes[2];
+    if (camera.projection == Projection::kPerspective) {
+      EXPECT_EQ(at_depth_of(camera, x, behind), x);
+    }
+  }
+}
+
 TEST(ProbeMouse, TheWheelMovesAlongTheView) {
   for (const Camera& camera : cameras()) {
     const Vec3 from{0.2, 0.6, 0.9};
