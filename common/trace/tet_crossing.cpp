@@ -11,8 +11,21 @@ CellIndex sound_cell_beyond(const TetMesh& mesh, CellIndex flat, CellIndex from,
   std::array<CellIndex, kMaxCluster> cluster{};
   std::size_t count = 0;
   cluster[count++] = flat;
-  CellIndex best = kNoCell;
-  double best_margin = -HUGE_VAL;
+  // At a vertex of the flat cells those on the near side hold the point as well as those beyond.
+  const TetMesh::Neighbors& around = mesh.neighbors()[static_cast<std::size_t>(from)];
+  const auto* const left_by = std::find(around.cbegin(), around.cend(), flat);
+  const auto near_side = [&](CellIndex cell) {
+    Vec3 centre{0.0};
+    for (const std::uint32_t v : mesh.cells()[static_cast<std::size_t>(cell)])
+      centre += 0.25 * mesh.points()[v];
+    return left_by != around.cend() &&
+           mesh.barycentric(from, centre)[static_cast<int>(left_by - around.cbegin())] > 0.0;
+  };
+  struct Best {
+    CellIndex cell = kNoCell;
+    double margin = -HUGE_VAL;
+  };
+  Best beyond, near;
   for (std::size_t k = 0; k < count; ++k) {
     for (const CellIndex next : mesh.neighbors()[static_cast<std::size_t>(cluster[k])]) {
       if (next == kNoCell || next == from) continue;
@@ -23,15 +36,14 @@ CellIndex sound_cell_beyond(const TetMesh& mesh, CellIndex flat, CellIndex from,
       }
       const Vec4 b = mesh.barycentric(next, x);
       const double margin = std::min(std::min(b[0], b[1]), std::min(b[2], b[3]));
-      if (margin > best_margin) {
-        best_margin = margin;
-        best = next;
-      }
+      Best& best = near_side(next) ? near : beyond;
+      if (margin > best.margin) best = {next, margin};
     }
   }
   // A cell that the point misses by more than a flat cell's own coordinates are uncertain is not beyond it.
   constexpr double kMiss = -1e-6;
-  return best_margin >= kMiss ? best : kNoCell;
+  if (beyond.margin >= kMiss) return beyond.cell;
+  return near.margin >= kMiss ? near.cell : kNoCell;
 }
 
 }  // namespace palpate
