@@ -37,7 +37,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
     : options_(std::move(options)),
       wake_(std::move(wake)),
       choice_(options_.choice),
-      mouse_(options_.limits) {
+      mouse_(std::make_unique<MouseDevice>(options_.limits)) {
   if (!available()) return;
   if (!options_.record.empty()) {
     options_.recorded.limits = options_.limits;
@@ -99,7 +99,7 @@ void ProbeSession::start_replay() {
 
 /// The device of this session; a path is laid over the first field that is opened.
 Device& ProbeSession::device() {
-  if (options_.path.empty()) return mouse_;
+  if (options_.path.empty()) return *mouse_;
   const Workspace workspace = this->workspace();
   std::vector<DeviceSample> samples;
   for (const PathRow& row : options_.path) {
@@ -127,11 +127,11 @@ void ProbeSession::restart_chain() {
 void ProbeSession::grab(double time, const Vec3& position) {
   if (!servo_ || replay_ || path_device_) return;
   target_ = position;
-  mouse_.grab(time, workspace().workspace_from_data(position), 1);
+  mouse_->grab(time, workspace().workspace_from_data(position), 1);
 }
 
 void ProbeSession::let_go() noexcept {
-  if (mouse_.grabbed()) mouse_.let_go();
+  if (mouse_->grabbed()) mouse_->let_go();
 }
 
 void ProbeSession::force_off() noexcept {
@@ -180,7 +180,7 @@ void ProbeSession::clear_path() {
 
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
   if (!servo_) return;
-  if (mouse_.grabbed()) mouse_.move(time, workspace().workspace_from_data(target_), 1);
+  if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), 1);
   servo_->collect_retired();
   servo_->read(readout_.servo);
   drain_steps();
@@ -299,7 +299,7 @@ void ProbeSession::describe(ProbeView& view) const {
 }
 
 bool ProbeSession::lively() const noexcept {
-  return mouse_.grabbed() || growing_ || (path_device_ && readout_.held) ||
+  return mouse_->grabbed() || growing_ || (path_device_ && readout_.held) ||
          (replay_ && !readout_.servo.replay_done);
 }
 

@@ -88,7 +88,7 @@ class ProbeSession {
 
   /// @name The hand
   /// @{
-  [[nodiscard]] bool grabbed() const noexcept { return mouse_.grabbed(); }
+  [[nodiscard]] bool grabbed() const noexcept { return mouse_->grabbed(); }
   /// @param time [s] of a steady clock.
   void grab(double time, const Vec3& position);
   void move(const Vec3& position) noexcept { target_ = position; }
@@ -161,7 +161,7 @@ class ProbeSession {
   bool growing_ = false;
 
   std::unique_ptr<LocalLines> local_;
-  MouseDevice mouse_;
+  std::unique_ptr<MouseDevice> mouse_;
   std::unique_ptr<ReplayDevice> path_device_;  ///< in place of the mouse
   std::unique_ptr<Recorder> recorder_;
   std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
