@@ -384,11 +384,13 @@ std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const s
   std::string why = "holds no data";
   for (const VtkBlock& block : leaves) {
     if (const std::string reason = why_not_readable(block.data); !reason.empty()) {
-      why = kind + " '" + block.name + "' " + reason;
+      why = kind;
+      why.append(" '").append(block.name).append("' ").append(reason);
       left_out.push_back(why + "; left out");
     } else if (const std::string flat = why_not_volume(block.data); !flat.empty()) {
       flats.push_back(block);
-      flat_left_out.push_back(kind + " '" + block.name + "' " + flat + "; left out");
+      std::string& line = flat_left_out.emplace_back(kind);
+      line.append(" '").append(block.name).append("' ").append(flat).append("; left out");
     } else {
       volumes.push_back(block);
     }
