@@ -38,7 +38,8 @@ struct LinkUpdate {
   Vec3 proxy{0.0};
   Mat3 frame{1.0};        ///< orthonormal, columns e_a
   Vec3 kappa{1.0};        ///< stiffness factors along e_a, in [0, 1] (eq. 6.9)
-  Vec3 extra_force{0.0};  ///< [N] on top of the springs
+  Vec3 damping{0.0};      ///< viscous drag along e_a [N s/m], >= 0: it takes energy from the hand only
+  Vec3 extra_force{0.0};  ///< [N] on top of springs and drag
   double residual = 0.0;  ///< [m] distance of the proxy from its own feature
   HoldState state = HoldState::kFree;
   bool jumped = false;  ///< the feature itself changed: the force must start from zero

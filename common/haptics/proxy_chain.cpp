@@ -29,7 +29,7 @@ void ProxyChain::reset() noexcept {
   for (const auto& link : links_) link->reset();
 }
 
-ChainStep ProxyChain::step(const Vec3& probe) noexcept {
+ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
   Vec3 pulled = probe;
   for (const auto& link : links_) {
@@ -37,6 +37,9 @@ ChainStep ProxyChain::step(const Vec3& probe) noexcept {
     link->update(pulled, budget_, update);
     const Vec3 stretch = (update.proxy - pulled) * update.frame;  // in the axes of the link
     result.force += settings_.stiffness * (update.frame * (update.kappa * stretch)) + update.extra_force;
+    if (update.damping != Vec3{0.0}) {
+      result.force -= update.frame * (update.damping * (velocity * update.frame));
+    }
     result.proxies[static_cast<std::size_t>(result.links++)] = update.proxy;
     result.state = std::max(result.state, update.state);
     result.residual = update.residual;

@@ -2,8 +2,11 @@
 ///
 ///   F = sum_i K_i (p_i - p_(i-1)),   K_i = k sum_a kappa_a e_a e_a^T,   p_0 the probe
 ///
-/// is the force on the hand: eq. 6.1 in the sense in which it pulls the probe to its proxy, without the
-/// damper, which that work leaves out as well.
+/// is the force of the springs on the hand: eq. 6.1 in the sense in which it pulls the probe to its proxy.
+/// Its damper, which would spike where a proxy jumps, acts on the hand instead, along the axes of a link that
+/// asks for it:
+///
+///   F -= sum_i B_i xdot,   B_i = sum_a b_a e_a e_a^T,   b_a >= 0, so that F . xdot <= 0
 #pragma once
 
 #include <array>
@@ -46,8 +49,9 @@ class ProxyChain {
 
   /// Forgets all proxies.
   void reset() noexcept;
-  /// Moves the proxies after `probe`, one after the other. @pre is_finite(probe).
-  [[nodiscard]] ChainStep step(const Vec3& probe) noexcept;
+  /// Moves the proxies after `probe`, one after the other.
+  /// @param velocity xdot of the hand [m/s]. @pre both finite.
+  [[nodiscard]] ChainStep step(const Vec3& probe, const Vec3& velocity = Vec3{0.0}) noexcept;
 
  private:
   std::vector<std::unique_ptr<Constraint>> links_;

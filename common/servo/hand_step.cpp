@@ -57,9 +57,10 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
   if (request.cut == ForceCut::kNone) {
     request.age = input.time - input.sample.time;
     request.speed = speed_to(input.sample);
+    estimate_velocity(input.sample);
     last_sample_ = input.sample;
     last_sample_time_ = input.sample.time;
-    const ChainStep now = chain_ ? chain_->step(input.sample.position) : ChainStep{};
+    const ChainStep now = chain_ ? chain_->step(input.sample.position, velocity_) : ChainStep{};
     if (!is_finite(now)) {
       chain_->reset();
       request.cut = ForceCut::kNotFinite;
@@ -105,9 +106,19 @@ double HandStepper::speed_to(const DeviceSample& sample) const noexcept {
   return glm::length((sample.position - last_sample_.position) / dt);
 }
 
+void HandStepper::estimate_velocity(const DeviceSample& sample) noexcept {
+  constexpr double kSmoothing = 0.005;  // [s] time constant: 32 Hz
+  const double dt = sample.time - last_sample_time_;
+  if (!(dt > 0.0)) return;
+  const Vec3 difference = (sample.position - last_sample_.position) / dt;
+  velocity_ += (difference - velocity_) * (dt / (dt + kSmoothing));
+  if (!is_finite(velocity_)) velocity_ = Vec3{0.0};
+}
+
 void HandStepper::let_go() noexcept {
   if (std::isnan(last_sample_time_)) return;
   last_sample_time_ = kNever;
+  velocity_ = Vec3{0.0};
   last_ = {};
   if (chain_) chain_->reset();
 }

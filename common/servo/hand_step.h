@@ -73,6 +73,8 @@ class HandStepper {
   [[nodiscard]] ForceCut judge(const HandInput& input, double dt) const noexcept;
   /// The speed of the hand since the last sample that was used [m/s].
   [[nodiscard]] double speed_to(const DeviceSample& sample) const noexcept;
+  /// Takes the sample into velocity_.
+  void estimate_velocity(const DeviceSample& sample) noexcept;
   void let_go() noexcept;
 
   std::unique_ptr<ProxyChain> chain_;
@@ -80,6 +82,7 @@ class HandStepper {
   ChainStep last_;                    ///< what the chain said last
   DeviceSample last_sample_;          ///< the last one that was used
   double last_sample_time_ = kNever;  ///< [s] NaN while there is none to measure a speed from
+  Vec3 velocity_{0.0};                ///< of the hand [m/s], for what damps it
   double last_time_ = kNever;         ///< [s] the last finite time of a step
   std::uint64_t next_ = 0;
   bool starting_ = true;  ///< the next step starts from zero force
