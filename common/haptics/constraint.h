@@ -40,6 +40,17 @@ struct LinkUpdate {
   Vec3 kappa{1.0};        ///< stiffness factors along e_a, in [0, 1] (eq. 6.9)
   Vec3 damping{0.0};      ///< viscous drag along e_a [N s/m], >= 0: it takes energy from the hand only
   Vec3 extra_force{0.0};  ///< [N] on top of springs and drag
+  /// J = dp/dx: how the proxy moves with its probe, all memory of earlier steps held fixed. Dimensionless and
+  /// finite. Forces of later links reach the hand through its transpose (chain_force.h).
+  ///
+  ///   proxy is the probe, or the link says nothing     1, the default
+  ///   proxy stays where it is (fixed, stuck, on a tick mark, at the end of its feature)      0
+  ///   nearest point of a curve c(s) of arc length, with t = c'      t t^T / (1 - (x - p) . c'')
+  ///   nearest point of a surface with normal n, shape operator S = grad n and d = (x - p) . n
+  ///                                                              (1 - n n^T) (1 + d S)^-1
+  ///   dragged at a distance of tau, with u the unit vector from the last proxy to the probe at distance l
+  ///                                                              1 - (tau / l) (1 - u u^T)
+  Mat3 jacobian{1.0};
   double residual = 0.0;  ///< [m] distance of the proxy from its own feature
   HoldState state = HoldState::kFree;
   bool jumped = false;  ///< the feature itself changed: the force must start from zero
