@@ -31,15 +31,13 @@ void ProxyChain::reset() noexcept {
 
 ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
-  Vec3 pulled = probe;
+  ChainForce springs(form_);
+  Vec3 damper{0.0}, pulled = probe;
   for (const auto& link : links_) {
     LinkUpdate update;
     link->update(pulled, budget_, update);
-    const Vec3 stretch = (update.proxy - pulled) * update.frame;  // in the axes of the link
-    result.force += settings_.stiffness * (update.frame * (update.kappa * stretch)) + update.extra_force;
-    if (update.damping != Vec3{0.0}) {
-      result.force -= update.frame * (update.damping * (velocity * update.frame));
-    }
+    springs.add(update, update.proxy - pulled, settings_.stiffness);
+    if (update.damping != Vec3{0.0}) damper -= update.frame * (update.damping * (velocity * update.frame));
     result.proxies[static_cast<std::size_t>(result.links++)] = update.proxy;
     result.state = std::max(result.state, update.state);
     result.residual = update.residual;
@@ -48,6 +46,7 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
     result.cells += update.cells;
     pulled = update.proxy;
   }
+  result.force = springs.force() + damper;
   return result;
 }
 

@@ -1,10 +1,10 @@
 /// The proxy chain (Ikits 2006, sec. 6.7): constraints in series, each proxy the probe of the next.
 ///
-///   F = sum_i K_i (p_i - p_(i-1)),   K_i = k sum_a kappa_a e_a e_a^T,   p_0 the probe
+///   f_i = K_i (p_i - p_(i-1)),   K_i = k sum_a kappa_a e_a e_a^T,   p_0 the probe
 ///
-/// is the force of the springs on the hand: eq. 6.1 in the sense in which it pulls the probe to its proxy.
-/// Its damper, which would spike where a proxy jumps, acts on the hand instead, along the axes of a link that
-/// asks for it:
+/// is the force of a spring: eq. 6.1 in the sense in which it pulls the probe to its proxy; chain_force.h
+/// adds them up on the hand. The damper of that equation, which would spike where a proxy jumps, acts on the
+/// hand instead, along the axes of a link that asks for it:
 ///
 ///   F -= sum_i B_i xdot,   B_i = sum_a b_a e_a e_a^T,   b_a >= 0, so that F . xdot <= 0
 #pragma once
@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "common/haptics/chain_force.h"
 #include "common/haptics/constraint.h"
 
 namespace palpate {
@@ -45,6 +46,8 @@ class ProxyChain {
   void apply(const ChainSettings& settings) noexcept;
   [[nodiscard]] const ChainSettings& settings() const noexcept { return settings_; }
   void set_budget(const UpdateBudget& budget) noexcept { budget_ = budget; }
+  /// How the links' springs add up on the hand; kDefaultChainForceForm to begin with.
+  void set_force_form(ChainForceForm form) noexcept { form_ = form; }
   [[nodiscard]] int size() const noexcept { return static_cast<int>(links_.size()); }
 
   /// Forgets all proxies.
@@ -57,6 +60,7 @@ class ProxyChain {
   std::vector<std::unique_ptr<Constraint>> links_;
   ChainSettings settings_;
   UpdateBudget budget_;
+  ChainForceForm form_ = kDefaultChainForceForm;
 };
 
 }  // namespace palpate
