@@ -16,7 +16,7 @@ HapticChain make_streamline(const HapticScene& scene) {
   std::vector<std::unique_ptr<Constraint>> links;
   links.push_back(std::move(streamline));
   // Without tick marks the chain ends with the streamline's proxy, which is then the one that is logged.
-  if (scene.settings.tick_interval > 0.0) links.push_back(std::make_unique<TickMarks>(followed));
+  if (scene.settings.ticks.interval > 0.0) links.push_back(std::make_unique<TickMarks>(followed));
   HapticChain made;
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   made.followed = std::move(line);

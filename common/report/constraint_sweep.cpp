@@ -69,7 +69,7 @@ class Sweeper {
   ConstraintSweep run() {
     const PathPlan plan = plan_of(request_.effort);
     ConstraintSweep sweep{.subject = request_.subject, .clock_microseconds = clock_cost()};
-    sweep.release_force = run_.settings().stiffness * run_.settings().release_distance;
+    sweep.release_force = run_.settings().stiffness * run_.settings().streamline.release_distance;
     sweep.seeds = std::min(plan.seeds, request_.seeds.size());
     for (const PathKind kind : kPathKinds) {
       if (progress_) progress_->begin("constraint: " + std::string(name_of(kind)) + " paths", 0);
@@ -78,8 +78,8 @@ class Sweeper {
           (kind == PathKind::kRough ? kRoughReferenceLength : kReferenceLength) * field_->diagonal();
       std::vector<std::vector<PathRow>> paths;
       for (std::size_t s = 0; s < sweep.seeds; ++s) {
-        paths.push_back(make_probe_path({*field_, workspace_, run_.settings().release_distance}, kind,
-                                        request_.seeds[s], plan.steps, s + 1));
+        paths.push_back(make_probe_path({*field_, workspace_, run_.settings().streamline.release_distance},
+                                        kind, request_.seeds[s], plan.steps, s + 1));
       }
       for (const int iterations : kIterations) {
         sweep.rows.push_back(measure(kind, paths, false, {.iterations = iterations}));

@@ -115,7 +115,7 @@ Tally tally_on(const FieldPtr& field, std::vector<Vec3> seeds, int threads, Prog
   seeds.resize(std::min(seeds.size(), kPaths));
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (progress) progress->check();
-    const auto path = spoiled(make_probe_path({*field, workspace, run.settings().release_distance},
+    const auto path = spoiled(make_probe_path({*field, workspace, run.settings().streamline.release_distance},
                                               PathKind::kRough, seeds[s], kSteps, 100 + s));
     if (path.empty()) continue;
     add_run(path, run.follow(path), run.limits(), Workspace::kDefaultSize, tally);
@@ -159,8 +159,8 @@ double different_rows(const std::vector<DataSet>& blocks, const VectorChoice& ch
   ProbeRun run(one, workspace, threads), other_run(other, other_workspace, threads);
   double different = 0.0;
   for (std::size_t s = 0; s < std::min(seeds.size(), kPaths); ++s) {
-    auto path = make_probe_path({*one, workspace, run.settings().release_distance}, PathKind::kRough,
-                                seeds[s], kSteps, 200 + s);
+    auto path = make_probe_path({*one, workspace, run.settings().streamline.release_distance},
+                                PathKind::kRough, seeds[s], kSteps, 200 + s);
     const auto steps = run.follow(path);
     for (PathRow& row : path) row.position *= power;
     const auto other_steps = other_run.follow(path);

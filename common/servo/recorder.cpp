@@ -9,6 +9,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/line_reader.h"
+#include "common/haptics/settings_text.h"
 
 namespace palpate {
 namespace {
@@ -150,7 +151,7 @@ void Recorder::write(const RecordedChange& change) {
   } else if (const auto* settings = std::get_if<ChainSettings>(&change.change)) {
     text_ += "settings";
     append(text_, change.step);
-    for (const double* field : settings_fields(*settings)) append(text_, *field);
+    (text_ += ' ') += settings_text(*settings);
   } else {
     text_ += "switch";
     append(text_, change.step);

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/line_reader.h"
+#include "common/haptics/settings_text.h"
 
 namespace palpate {
 namespace {
@@ -155,9 +156,8 @@ class BodyReader {
       recording_.chains.push_back(words.rest());
     } else if (kind == "settings") {
       ChainSettings settings;
-      for (double* field : settings_fields(settings)) *field = words.number<double>("six numbers");
-      if (!settings.valid())
-        words.refuse("settings that no chain can use", "finite numbers, none below its least");
+      const std::optional<std::string> problem = read_settings(words.rest(), settings);
+      if (problem) words.refuse("settings that no chain can use: " + *problem, "all of them, as recorded");
       change.change = settings;
     } else {
       const std::string_view name = words.word("the name of a switch");

@@ -11,7 +11,7 @@
 ///   limits CAP SLEW GATE STALE RAMP           DeviceLimits
 ///   begin
 ///   chain STEP DESCRIPTION                    before the step: another chain, in words of the program
-///   settings STEP K RELEASE TAU TICK KAPPA SPEED   before the step: ChainSettings
+///   settings STEP NAME=VALUE …                before the step: ChainSettings (haptics/settings_text.h)
 ///   switch STEP NAME                          before the step: HandSwitch
 ///   s STEP TIME SAMPLE_TIME X Y Z BUTTONS     a step with a sample
 ///   n STEP TIME                               a step without a hand
@@ -121,12 +121,7 @@ class StepHash {
 
 [[nodiscard]] std::string_view name_of(HandSwitch change) noexcept;  ///< "force_off"
 
-/// The fields of ChainSettings and DeviceLimits in the order of the file: reader and writer share them.
-template <typename Settings>
-auto settings_fields(Settings& s) noexcept {
-  return std::array{&s.stiffness,     &s.release_distance, &s.drag_threshold,
-                    &s.tick_interval, &s.tick_stiffness,   &s.speed_force};
-}
+/// The fields of DeviceLimits in the order of the file: reader and writer share them.
 template <typename Limits>
 auto limits_fields(Limits& l) noexcept {
   return std::array{&l.force_cap, &l.slew_cap, &l.velocity_gate, &l.stale_after, &l.start_ramp};

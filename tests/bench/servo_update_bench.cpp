@@ -113,8 +113,8 @@ void run(const std::string& name, const std::shared_ptr<const VectorField>& fiel
     while (timings.size() < steps / kPathKinds.size()) {
       const double x = unit(), y = unit(), z = unit();
       const Vec3 seed = field->bounds().lower + field->bounds().size() * Vec3{x, y, z};
-      const auto path = make_probe_path({*field, workspace, probe.settings().release_distance}, kind, seed,
-                                        kStepsPerPath, random());
+      const auto path = make_probe_path({*field, workspace, probe.settings().streamline.release_distance},
+                                        kind, seed, kStepsPerPath, random());
       for (const RunStep& step : probe.follow(path)) {
         timings.push_back(
             {step.microseconds, step.hand.chain.cells, step.hand.chain.iterations, step.hand.state});

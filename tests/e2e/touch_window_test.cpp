@@ -80,10 +80,10 @@ TEST_F(TouchWindow, AHandOfTheWindowIsRepeatedByProbeToTheLastBit) {
 TEST_F(TouchWindow, AnotherHandIsToldFromIt) {
   record_a_hand();
   std::string text = read_file(folder_.path("run.txt"));
-  const std::size_t stiffness = text.find("stiffness=200");
-  ASSERT_NE(stiffness, std::string::npos);
-  text.replace(stiffness, 13, "stiffness=201");
-  text.replace(text.find("settings 0 200"), 14, "settings 0 201");
+  const std::string softer = " stiffness=200 ", stiffer = " stiffness=201 ";
+  std::size_t at = text.find(softer);
+  ASSERT_NE(at, std::string::npos);
+  for (; at != std::string::npos; at = text.find(softer, at)) text.replace(at, softer.size(), stiffer);
   folder_.write("other.txt", text);
   std::vector<std::string> arguments{"probe", "--example", "tornado", "--replay", "other.txt", "--json"};
   const ProgramResult result = run(arguments);

@@ -24,32 +24,35 @@ Workspace touch_workspace(const TouchOptions& options, const VectorField& field)
 }
 
 ChainSettings touch_settings(const TouchOptions& options) {
-  ChainSettings settings{.stiffness = options.stiffness,
-                         .release_distance = kMetresPerMillimetre * options.release,
-                         .drag_threshold = kMetresPerMillimetre * options.drag,
-                         .tick_stiffness = options.tick_stiffness,
+  ChainSettings settings;
+  settings.stiffness = options.stiffness;
+  settings.streamline = {.release_distance = kMetresPerMillimetre * options.release,
                          .speed_force = options.speed_force};
+  settings.drag.threshold = kMetresPerMillimetre * options.drag;
+  settings.ticks.stiffness = options.tick_stiffness;
   if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();
-    const auto parsed = std::from_chars(options.ticks.data(), end, settings.tick_interval);
-    if (parsed.ec != std::errc() || parsed.ptr != end || !(settings.tick_interval >= 0.0)) {
+    const auto parsed = std::from_chars(options.ticks.data(), end, settings.ticks.interval);
+    if (parsed.ec != std::errc() || parsed.ptr != end || !(settings.ticks.interval >= 0.0)) {
       throw usage_error("--ticks: 'auto' or a time in data units is expected, found '" + options.ticks + "'");
     }
   }
-  if (!(settings.release_distance > 0.0)) throw usage_error("--release: a number above zero is expected");
-  if (!std::isfinite(settings.tick_interval)) throw usage_error("--ticks: a finite time is expected");
-  if (!(settings.tick_stiffness >= 0.0 && settings.tick_stiffness <= 1.0)) {
+  if (!(settings.streamline.release_distance > 0.0))
+    throw usage_error("--release: a number above zero is expected");
+  if (!std::isfinite(settings.ticks.interval)) throw usage_error("--ticks: a finite time is expected");
+  if (!(settings.ticks.stiffness >= 0.0 && settings.ticks.stiffness <= 1.0)) {
     throw usage_error("--tick-stiffness: a number from 0 to 1 is expected");
   }
-  if (!std::isfinite(settings.speed_force)) throw usage_error("--speed-force: a finite force is expected");
+  if (!std::isfinite(settings.streamline.speed_force))
+    throw usage_error("--speed-force: a finite force is expected");
   return settings;
 }
 
 ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
                              const Workspace& workspace) {
   ChainSettings settings = touch_settings(options);
-  if (wants_ticks(options) && settings.tick_interval == 0.0) {
-    settings.tick_interval = default_tick_interval(field, workspace);
+  if (wants_ticks(options) && settings.ticks.interval == 0.0) {
+    settings.ticks.interval = default_tick_interval(field, workspace);
   }
   return settings;
 }

@@ -102,7 +102,7 @@ std::string summary_text(const ProbeSummary& summary) {
   text += "  residual   at most " + short_number(summary.max_residual) + ", " +
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
   text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
-          short_number(1e3 * summary.settings.release_distance) + " mm\n";
+          short_number(1e3 * summary.settings.streamline.release_distance) + " mm\n";
   if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";
   text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
           short_number(summary.us_p99) + " us, at most " + short_number(summary.us_max) + " us\n";

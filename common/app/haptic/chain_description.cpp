@@ -1,38 +1,21 @@
 #include "common/app/haptic/chain_description.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/servo/recording.h"
+#include "common/haptics/settings_text.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::string_view kFieldKey = " field=";
-/// In the order of settings_fields().
-constexpr std::array<std::string_view, 6> kSettingNames{"stiffness", "release", "drag",
-                                                        "tick",      "kappa",   "speed"};
+constexpr std::string_view kScaleKey = " scale=", kFieldKey = " field=";
 
 [[noreturn]] void refuse(const std::string& description, const std::string& what) {
   throw Error(ExitCode::kBadInput, "the recording's chain '" + description + "': " + what);
-}
-
-double number_of(const std::string& description, std::string_view name) {
-  const std::string key = " " + std::string(name) + "=";
-  const std::size_t at = description.find(key);
-  double value = 0.0;
-  if (at != std::string::npos) {
-    const char* const begin = description.data() + at + key.size();
-    const char* const end = description.data() + description.size();
-    const auto parsed = std::from_chars(begin, end, value);
-    if (parsed.ec == std::errc() && (parsed.ptr == end || *parsed.ptr == ' ')) return value;
-  }
-  refuse(description, "it lacks a number " + std::string(name) + "=");
 }
 
 }  // namespace
@@ -43,11 +26,8 @@ std::string field_key(const std::string& label, std::size_t time_step) {
 
 std::string describe_chain(const std::string& mode, double workspace_scale, const ChainSettings& settings,
                            const std::string& field_name) {
-  std::string text = mode + " scale=" + exact_number(workspace_scale);
-  const auto fields = settings_fields(settings);
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    ((text += ' ').append(kSettingNames[i]) += '=') += exact_number(*fields[i]);
-  }
+  std::string text = mode;
+  text.append(kScaleKey) += exact_number(workspace_scale) + " " + settings_text(settings);
   return text.append(kFieldKey) + field_name;
 }
 
@@ -57,12 +37,18 @@ DescribedChain parse_chain(const std::string& description) {
   DescribedChain chain;
   chain.mode = description.substr(0, description.find(' '));
   chain.field_name = description.substr(name_at + kFieldKey.size());
-  chain.workspace_scale = number_of(description, "scale");
-  const auto fields = settings_fields(chain.settings);
-  for (std::size_t i = 0; i < fields.size(); ++i) *fields[i] = number_of(description, kSettingNames[i]);
-  const bool usable =
-      chain.settings.valid() && chain.workspace_scale > 0.0 && std::isfinite(chain.workspace_scale);
-  if (!usable) refuse(description, "its numbers make no chain");
+
+  std::string_view rest =
+      std::string_view(description).substr(chain.mode.size(), name_at - chain.mode.size());
+  if (!rest.starts_with(kScaleKey)) refuse(description, "it lacks a scale");
+  rest.remove_prefix(kScaleKey.size());
+  const auto scale = std::from_chars(rest.data(), rest.data() + rest.size(), chain.workspace_scale);
+  if (scale.ec != std::errc() || !(chain.workspace_scale > 0.0) || !std::isfinite(chain.workspace_scale)) {
+    refuse(description, "its scale is no number above zero");
+  }
+  rest.remove_prefix(static_cast<std::size_t>(scale.ptr - rest.data()));
+  if (!rest.starts_with(' ')) refuse(description, "it lacks settings");
+  if (const auto problem = read_settings(rest.substr(1), chain.settings)) refuse(description, *problem);
   return chain;
 }
 

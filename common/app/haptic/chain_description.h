@@ -1,8 +1,9 @@
 /// A chain as a line of text, as recordings carry it:
 ///
-///   streamline scale=0.0025 stiffness=200 release=0.01 drag=0.004 tick=0 kappa=0.25 speed=0 field=NAME
+///   streamline scale=0.0025 stiffness=200 streamline.release=0.01 … field=NAME
 ///
-/// Numbers read back to the same bits. The name of the field comes last, since it may hold spaces.
+/// The settings are those of haptics/settings_text.h. Numbers read back to the same bits. The name of the
+/// field comes last, since it may hold spaces.
 #pragma once
 
 #include <memory>

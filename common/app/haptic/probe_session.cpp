@@ -57,9 +57,9 @@ Workspace ProbeSession::workspace() const {
 ChainSettings ProbeSession::chain_settings() const {
   ChainSettings settings = choice_.settings;
   if (!choice_.ticks) {
-    settings.tick_interval = 0.0;
-  } else if (settings.tick_interval == 0.0) {
-    settings.tick_interval = default_tick_interval(*open_.field, workspace());
+    settings.ticks.interval = 0.0;
+  } else if (settings.ticks.interval == 0.0) {
+    settings.ticks.interval = default_tick_interval(*open_.field, workspace());
   }
   return settings;
 }
@@ -160,12 +160,12 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   std::vector<std::pair<std::string, std::string>> options{
       {"mode", options_.modes[choice_.mode].name},
       {"stiffness", exact_number(settings.stiffness)},
-      {"release", exact_number(kMillimetres * settings.release_distance)},
-      {"drag", exact_number(kMillimetres * settings.drag_threshold)},
-      {"tick-stiffness", exact_number(settings.tick_stiffness)},
-      {"speed-force", exact_number(settings.speed_force)}};
+      {"release", exact_number(kMillimetres * settings.streamline.release_distance)},
+      {"drag", exact_number(kMillimetres * settings.drag.threshold)},
+      {"tick-stiffness", exact_number(settings.ticks.stiffness)},
+      {"speed-force", exact_number(settings.streamline.speed_force)}};
   if (choice_.ticks) {
-    const double interval = settings.tick_interval;
+    const double interval = settings.ticks.interval;
     options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");
   }
   if (options_.workspace_scale > 0.0) {

@@ -31,7 +31,7 @@ namespace palpate {
 struct TouchChoice {
   std::size_t mode = 0;  ///< index into the modes
   ChainSettings settings;
-  bool ticks = false;  ///< tick marks: at settings.tick_interval, or default_tick_interval() where that is 0
+  bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
   bool show_balls = true;
   bool show_path = true;
   bool fade_rest = true;  ///< the scene's own lines step back while a hand is on the probe

@@ -38,14 +38,15 @@ void edit_settings(TouchChoice& choice) {
   constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0;
   ChainSettings& settings = choice.settings;
   slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
-  double release = kMillimetres * settings.release_distance, drag = kMillimetres * settings.drag_threshold;
+  double release = kMillimetres * settings.streamline.release_distance,
+         drag = kMillimetres * settings.drag.threshold;
   if (slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
-    settings.release_distance = release / kMillimetres;
-  if (slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag_threshold = drag / kMillimetres;
-  slider("speed force", settings.speed_force, -kStrongest, kStrongest, "%.2f N");
+    settings.streamline.release_distance = release / kMillimetres;
+  if (slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
+  slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
   ImGui::Checkbox("tick marks", &choice.ticks);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
-  if (choice.ticks) slider("tick stiffness", settings.tick_stiffness, 0.0, 1.0, "%.2f");
+  if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
 }
 
 void choose_looks(TouchChoice& choice, float half) {

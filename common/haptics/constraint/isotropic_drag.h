@@ -8,7 +8,7 @@ namespace palpate {
 
 class IsotropicDrag final : public Constraint {
  public:
-  void apply(const ChainSettings& settings) noexcept override { tau_ = settings.drag_threshold; }
+  void apply(const ChainSettings& settings) noexcept override { tau_ = settings.drag.threshold; }
   void reset() noexcept override { caught_ = false; }
   void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override;
 

@@ -41,8 +41,8 @@ StreamlineConstraint::StreamlineConstraint(std::shared_ptr<LiveLine> line, const
 }
 
 void StreamlineConstraint::apply(const ChainSettings& settings) noexcept {
-  release_ = settings.release_distance / workspace_.local_scale();
-  speed_force_ = settings.speed_force;
+  release_ = settings.streamline.release_distance / workspace_.local_scale();
+  speed_force_ = settings.streamline.speed_force;
 }
 
 void StreamlineConstraint::reset() noexcept {

@@ -10,8 +10,8 @@ namespace palpate {
 
 void TickMarks::apply(const ChainSettings& settings) noexcept {
   const LocalFrame& frame = streamline_.field().frame();
-  interval_ = settings.tick_interval * power_of_two(frame.speed_exponent - frame.length_exponent);
-  kappa_ = settings.tick_stiffness;
+  interval_ = settings.ticks.interval * power_of_two(frame.speed_exponent - frame.length_exponent);
+  kappa_ = settings.ticks.stiffness;
 }
 
 void TickMarks::update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept {

@@ -24,9 +24,10 @@ struct FollowedFlow {
     constraint = streamline.get();
     std::vector<std::unique_ptr<Constraint>> links;
     links.push_back(std::move(streamline));
-    ChainSettings settings{.release_distance = release};
+    ChainSettings settings;
+    settings.streamline.release_distance = release;
     if (tick_interval > 0.0) {
-      settings.tick_interval = tick_interval;
+      settings.ticks.interval = tick_interval;
       links.push_back(std::make_unique<TickMarks>(*constraint));
     }
     chain = std::make_unique<ProxyChain>(std::move(links), settings);

@@ -193,7 +193,7 @@ TEST(Streamline, BoundsItsWorkAndAllocatesNothing) {
 TEST(Streamline, PushesAlongTheLineBySpeed) {
   FollowedFlow flow(rotation());
   ChainSettings settings = flow.chain->settings();
-  settings.speed_force = 1.0;
+  settings.streamline.speed_force = 1.0;
   flow.chain->apply(settings);
   for (const double radius : {0.25, 0.5}) {
     flow.chain->reset();

@@ -60,7 +60,7 @@ std::vector<HandStep> record_run(const std::string& file, int steps, std::size_t
     x += 1e-3 * Vec3{unit(random), unit(random), unit(random)};
     x *= 0.052 / glm::length(x);
     if (i == 300) put_chain("0.053");
-    if (i == 400) change(ChainSettings{.stiffness = 123.456789, .tick_stiffness = 1.0 / 3.0});
+    if (i == 400) change(ChainSettings{.stiffness = 123.456789, .ticks = {.stiffness = 1.0 / 3.0}});
     if (i == 500) change(HandSwitch::kForceOff);
     if (i == 510) change(HandSwitch::kArm);
     if (i == 520) change(HandSwitch::kPause);
@@ -232,7 +232,7 @@ TEST_F(RecordingTest, NamesTheLineOfAnythingElse) {
   EXPECT_EQ(of(head + "n 5 0.1\nswitch 5 arm\n"),
             "line 4: a change before step 5; expected one before step 6 or later");
   EXPECT_EQ(of(head + "switch 0 on\n").substr(0, 25), "line 3: 'on' is no switch");
-  EXPECT_EQ(of(head + "settings 0 nan 1 1 1 1 1\n").substr(0, 32), "line 3: settings that no chain c");
+  EXPECT_EQ(of(head + "settings 0 stiffness=200\n").substr(0, 32), "line 3: settings that no chain c");
   EXPECT_EQ(of(head + "hash 256 0\nhash 256 0\n").substr(0, 9), "line 4: a");
   EXPECT_EQ(of(head + "end 0\nend 0\n"), "line 4: a line after the end; expected nothing");
   EXPECT_EQ(of(head + "dance\n").substr(0, 24), "line 3: 'dance' is not k");

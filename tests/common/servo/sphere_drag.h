@@ -14,7 +14,9 @@ class SphereDrag final : public Constraint {
  public:
   explicit SphereDrag(double radius) : radius_(radius) {}
 
-  void apply(const ChainSettings& settings) noexcept override { release_ = settings.release_distance; }
+  void apply(const ChainSettings& settings) noexcept override {
+    release_ = settings.streamline.release_distance;
+  }
   void reset() noexcept override { held_ = false; }
   void update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
     const double length = glm::length(probe);

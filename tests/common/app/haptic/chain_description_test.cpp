@@ -12,11 +12,9 @@ namespace palpate::test {
 namespace {
 
 const ChainSettings kOdd{.stiffness = 1000.0 / 3.0,
-                         .release_distance = 0.1 + 0.2,
-                         .drag_threshold = 5e-324,
-                         .tick_interval = 1.7976931348623157e308,
-                         .tick_stiffness = 1.0 / 7.0,
-                         .speed_force = -0.1};
+                         .streamline = {.release_distance = 0.1 + 0.2, .speed_force = -0.1},
+                         .ticks = {.interval = 1.7976931348623157e308, .stiffness = 1.0 / 7.0},
+                         .drag = {.threshold = 5e-324}};
 
 class ChainDescription : public ::testing::Test {
  protected:
@@ -72,7 +70,7 @@ TEST_F(ChainDescription, RefusesWhatMakesNoSense) {
   EXPECT_EQ(code_of("held"), ExitCode::kBadInput);
   EXPECT_EQ(code_of("held" + field), ExitCode::kBadInput) << "no numbers";
   EXPECT_EQ(code_of(good.substr(0, good.find(" field="))), ExitCode::kBadInput);
-  for (const char* name : {"scale", "stiffness", "release", "drag", "tick", "kappa", "speed"}) {
+  for (const char* name : {"scale", "stiffness", "streamline.release", "drag.threshold", "ticks.stiffness"}) {
     const std::string key = std::string(" ") + name + "=";
     const std::size_t at = good.find(key) + key.size(), end = good.find(' ', at);
     for (const char* bad : {"", "x", "nan", "inf", "1e999", "1,5", "0x"}) {

@@ -19,7 +19,7 @@ inline std::vector<HapticMode> sample_modes() {
     const StreamlineConstraint& followed = *held;
     std::vector<std::unique_ptr<Constraint>> links;
     links.push_back(std::move(held));
-    if (scene.settings.tick_interval > 0.0) links.push_back(std::make_unique<TickMarks>(followed));
+    if (scene.settings.ticks.interval > 0.0) links.push_back(std::make_unique<TickMarks>(followed));
     return {std::make_unique<ProxyChain>(std::move(links), scene.settings), std::move(line)};
   };
   const auto drag = [](const HapticScene& scene) -> HapticChain {

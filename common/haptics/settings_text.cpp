@@ -1,0 +1,58 @@
+#include "common/haptics/settings_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+// How a value of a setting is written and read: an overload each for every type that one may have.
+
+std::string value_text(double value) { return exact_number(value); }
+
+bool read_value(std::string_view text, double& value) noexcept {
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, value);
+  return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+}  // namespace
+
+std::string settings_text(const ChainSettings& settings) {
+  std::string text;
+  ChainSettings::each(settings, [&](std::string_view name, const auto& value) {
+    if (!text.empty()) text += ' ';
+    (text.append(name) += '=') += value_text(value);
+  });
+  return text;
+}
+
+std::optional<std::string> read_settings(std::string_view text, ChainSettings& settings) {
+  std::vector<std::string_view> words = split(text, ' ');
+  std::string problem;
+  ChainSettings::each(settings, [&](std::string_view name, auto& value) {
+    const auto at = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
+      return word.size() > name.size() && word.starts_with(name) && word[name.size()] == '=';
+    });
+    if (at == words.end()) {
+      if (problem.empty()) problem = "it lacks " + std::string(name) + "=";
+      return;
+    }
+    if (!read_value(at->substr(name.size() + 1), value) && problem.empty()) {
+      problem = "'" + std::string(at->substr(0, 40)) + "' cannot be read";
+    }
+    words.erase(at);
+  });
+  if (problem.empty() && !words.empty()) {
+    problem = "'" + std::string(words.front().substr(0, 40)) + "' is not known here, or stands there twice";
+  }
+  if (problem.empty() && !settings.valid()) problem = "its values make no chain";
+  if (!problem.empty()) return problem;
+  return std::nullopt;
+}
+
+}  // namespace palpate
