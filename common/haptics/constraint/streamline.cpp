@@ -74,7 +74,7 @@ void StreamlineConstraint::update(const Vec3& probe, const UpdateBudget& budget,
       return;
     }
   }
-  describe(link);
+  describe(x, link);
   if (glm::distance(point(), x) == 0.0)
     link.proxy = probe;  // not away from it by the rounding of a change of frame
 }
@@ -247,7 +247,23 @@ void StreamlineConstraint::settle_in(const Vec3& x, double low, double high, con
   arc_ = origin + s;
 }
 
-void StreamlineConstraint::describe(LinkUpdate& link) const noexcept {
+/// |dp/dx|, by (1); 0 where the end of the line keeps the proxy from following `x`.
+double StreamlineConstraint::pace(const Vec3& x) const noexcept {
+  const GrowingLine& line = *this->line();
+  if (line.first() == line.last()) return 0.0;
+  const HermitePiece piece = line.piece(piece_);
+  const double s = arc_ - line.node(piece_).arc;
+  const Vec3 away = piece.at(s) - x, tangent = piece.tangent(s);
+  const double f = glm::dot(away, tangent);
+  const bool past_last = arc_ >= line.node(line.last()).arc && f < -resolution_;
+  const bool before_first = arc_ <= line.node(line.first()).arc && f > resolution_;
+  if (past_last || before_first) return 0.0;
+  constexpr double kLeastSlope = 0x1p-20;  // next to a centre of curvature, where the proxy is about to leap
+  const double squared = glm::dot(tangent, tangent);
+  return squared / std::max(squared + glm::dot(away, piece.bend(s)), kLeastSlope);
+}
+
+void StreamlineConstraint::describe(const Vec3& x, LinkUpdate& link) const noexcept {
   const GrowingLine& line = *this->line();
   link.proxy = workspace_.workspace_from_local(point());
   double speed = line.node(0).speed;
@@ -258,6 +274,7 @@ void StreamlineConstraint::describe(LinkUpdate& link) const noexcept {
   }
   const Vec3 along = workspace_.turned(tangent());
   link.frame = frame_along(along);
+  link.jacobian = glm::outerProduct(pace(x) * along, along);
   link.extra_force = (speed_force_ * (speed / local_max_speed_)) * along;
 }
 

@@ -59,7 +59,8 @@ class StreamlineConstraint final : public Constraint {
   void search(const Vec3& x, const UpdateBudget& budget, LinkUpdate& link) noexcept;
   void settle_in(const Vec3& x, double low, double high, const UpdateBudget& budget,
                  LinkUpdate& link) noexcept;
-  void describe(LinkUpdate& link) const noexcept;
+  void describe(const Vec3& x, LinkUpdate& link) const noexcept;
+  [[nodiscard]] double pace(const Vec3& x) const noexcept;
   [[nodiscard]] double room(Side side) const noexcept;
   [[nodiscard]] double look_ahead() const noexcept;
   void fit() noexcept;

@@ -33,6 +33,7 @@ void TickMarks::update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate
   link.proxy = workspace.workspace_from_local(piece.at(place.arc - line->node(place.piece).arc));
   link.residual = line->gap(place.piece) * workspace.local_scale();
   link.kappa = Vec3{kappa_};
+  link.jacobian = Mat3{0.0};  // it sits on its mark
   link.state = HoldState::kHeld;
 }
 
