@@ -3,9 +3,9 @@
 /// Workspace frame, metres, newtons; times are seconds of CLOCK_MONOTONIC.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
+#include "common/device/device_limits.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -17,23 +17,6 @@ struct DeviceSample {
   std::uint32_t buttons = 0;  ///< bit i: button i is down
 
   bool operator==(const DeviceSample&) const = default;
-};
-
-/// What a device may be asked to do. The safety stage (servo/safety_stage.h) holds every force to it.
-struct DeviceLimits {
-  double force_cap = 4.0;           ///< [N] largest force
-  double slew_cap = 200.0;          ///< [N/s] fastest growth and turn of the force
-  double velocity_gate = HUGE_VAL;  ///< [m/s] a faster hand gets no force until it is armed again
-  double stale_after = 0.1;         ///< [s] an older sample gets no force
-  double start_ramp = 0.0;          ///< [s] over which the cap grows from zero after a start or a fault
-
-  bool operator==(const DeviceLimits&) const = default;
-
-  /// Whether every value can be used: positive, the ramp zero at least; only gate and age may be infinite.
-  [[nodiscard]] bool valid() const noexcept {
-    return std::isfinite(force_cap) && force_cap > 0.0 && std::isfinite(slew_cap) && slew_cap > 0.0 &&
-           velocity_gate > 0.0 && stale_after > 0.0 && std::isfinite(start_ramp) && start_ramp >= 0.0;
-  }
 };
 
 class Device {

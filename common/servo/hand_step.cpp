@@ -57,6 +57,8 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
   if (request.cut == ForceCut::kNone) {
     request.age = input.time - input.sample.time;
     request.speed = speed_to(input.sample);
+    request.position = input.sample.position;
+    request.buttons = input.sample.buttons;
     estimate_velocity(input.sample);
     last_sample_ = input.sample;
     last_sample_time_ = input.sample.time;
@@ -120,6 +122,7 @@ void HandStepper::let_go() noexcept {
   last_sample_time_ = kNever;
   velocity_ = Vec3{0.0};
   last_ = {};
+  starting_ = true;
   if (chain_) chain_->reset();
 }
 

@@ -1,48 +1,25 @@
 /// The last stage before the device: whatever force is asked for, what leaves here is finite, no larger than
-/// the cap, and changes no faster than the slew limit, but for a drop to zero, which is immediate.
+/// the cap, and grows and turns no faster than the slew limit. The rules themselves are in safety_rules.h.
 ///
 /// Symbols: F_n force of step n [N], C cap [N], S slew limit [N/s], dt time since the last step [s].
 ///
-///   |F_n| <= C            |F_n - F_(n-1)| <= S min(dt, kLongestStep)   or   F_n = 0
+///   |F_n| <= C            |F_n - lambda F_(n-1)| <= S min(dt, kLongestStep) for some lambda in [0, 1]
 ///
-/// The second bounds growth, turning and a partial fall alike. After any cut F grows from zero again.
+/// So falling is free: a force drops to zero at once where it must (ForceCut), and fades out within
+/// DeviceLimits::fade_time where the hand may lean on it. From anything that makes it zero it grows anew,
+/// under a cap that rises from zero over DeviceLimits::start_ramp.
+///
+/// Latched reasons last until arm(); nothing else switches the force on again.
 /// This is no certified safety function.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <string_view>
 
-#include "common/device/device.h"
+#include "common/device/device_limits.h"
 #include "common/math/vec.h"
+#include "common/servo/safety_rules.h"
 
 namespace palpate {
-
-/// Why a force is exactly zero whatever was asked for.
-enum class ForceCut : std::uint8_t {
-  kNone,         ///< it is not cut
-  kNoHand,       ///< no hand on the device
-  kPaused,       ///< the servo was told to hold still
-  kStart,        ///< first step, a new chain, or after a stall: the force grows from here
-  kJump,         ///< a proxy changed to another feature: the force grows from here
-  kSwitchedOff,  ///< latched until arm()
-  kTooFast,      ///< the hand passed the velocity gate; latched until arm()
-  kStale,        ///< fault: the sample is too old
-  kTime,         ///< fault: time stood still or ran backwards
-  kNotFinite,    ///< fault: the sample or the force is no finite number
-  kChain         ///< fault: the chain could make no sense of its input
-};
-[[nodiscard]] std::string_view name_of(ForceCut cut) noexcept;  ///< "switched_off"
-/// Whether it says that something is wrong, rather than wanted.
-[[nodiscard]] constexpr bool is_fault(ForceCut cut) noexcept { return cut >= ForceCut::kTooFast; }
-
-/// `force` shortened to `cap` where it is longer, its direction kept; without overflow for any finite force.
-/// @pre is_finite(force), cap >= 0.
-[[nodiscard]] Vec3 capped(const Vec3& force, double cap) noexcept;
-
-/// As far from `previous` towards `wanted` as a step of the length `most` goes.
-/// @pre both finite and far from overflow, most >= 0.
-[[nodiscard]] Vec3 slewed(const Vec3& previous, const Vec3& wanted, double most) noexcept;
 
 /// One step's wish. Nothing in it need be finite.
 struct ForceRequest {
@@ -51,6 +28,8 @@ struct ForceRequest {
   double age = 0.0;                ///< [s] of the sample that it rests on
   double speed = 0.0;              ///< [m/s] of the hand
   ForceCut cut = ForceCut::kNone;  ///< the caller's own reason for a zero force
+  Vec3 position{0.0};              ///< [m] of the hand
+  std::uint32_t buttons = 0;       ///< bit i: button i is down
 };
 
 class SafetyStage {
@@ -60,7 +39,7 @@ class SafetyStage {
   /// @pre limits.valid().
   explicit SafetyStage(const DeviceLimits& limits) noexcept : limits_(limits) {}
 
-  /// The force for the device; cut() says why it is zero. @rt Safe.
+  /// The force for the device; cut() says why it is zero or fades. @rt Safe.
   [[nodiscard]] Vec3 apply(const ForceRequest& request) noexcept;
   [[nodiscard]] ForceCut cut() const noexcept { return cut_; }
 
@@ -73,11 +52,15 @@ class SafetyStage {
   [[nodiscard]] const DeviceLimits& limits() const noexcept { return limits_; }
 
  private:
-  [[nodiscard]] ForceCut reason_to_cut(const ForceRequest& request) noexcept;
+  [[nodiscard]] ForceCut reason_to_cut(const ForceRequest& request) const noexcept;
+  [[nodiscard]] Vec3 fade(double dt) noexcept;
+  [[nodiscard]] Vec3 follow(const ForceRequest& request) noexcept;
 
   DeviceLimits limits_;
   Vec3 force_{0.0};         ///< F_(n-1)
-  double ramp_time_ = 0.0;  ///< [s] since the start or the last fault
+  double fade_time_ = 0.0;  ///< [s] for which it has been fading
+  double ramp_time_ = 0.0;  ///< [s] since the start, or the last cut other than a jump
+  double heat_ = 0.0;       ///< [N^2], see warmed()
   ForceCut latch_ = ForceCut::kNone;
   ForceCut cut_ = ForceCut::kNone;
 };

@@ -1,5 +1,6 @@
 #include "common/servo/hand_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -89,7 +90,86 @@ TEST(HandStepper, ForgetsItsProxiesWhenTheHandLetsGo) {
   EXPECT_EQ(away.chain.links, 0);
   EXPECT_EQ(away.cut, ForceCut::kNoHand);
   // Far away, where a chain that still held would have jumped.
-  EXPECT_EQ(stepper.step(at(t + 0.002, {1, 0, 0})).cut, ForceCut::kNone);
+  const HandStep back = stepper.step(at(t + 0.002, {1, 0, 0}));
+  EXPECT_EQ(back.cut, ForceCut::kStart) << "another hand starts from zero";
+  EXPECT_FALSE(back.chain.jumped);
+}
+
+TEST(HandStepper, LetsTheForceFadeWhereSamplesStopOrTheButtonIsReleased) {
+  constexpr double kStep = 1.0 / 1024.0;  // ages are exact
+  constexpr int kHeld = 100, kOld = 20, kFade = 50;
+  const DeviceLimits limits{.stale_after = kOld * kStep, .fade_time = kFade * kStep, .enabling_button = 0};
+  const double whole = 200.0 * 0.002;
+  for (const bool stale : {true, false}) {
+    HandStepper stepper(sphere_chain(kRadius), limits);
+    HandInput input;
+    const int last = kHeld + (stale ? kOld : 0);  // step with the whole force
+    for (int i = 0; i <= last + kFade; ++i) {
+      input.time = kStep * i;
+      input.present = true;
+      if (i <= kHeld || !stale) input.sample = {input.time, kNear, i <= kHeld ? 1U : 0U};
+      const HandStep step = stepper.step(input);
+      const double part = std::clamp(1.0 - static_cast<double>(i - last) / kFade, 0.0, 1.0);
+      if (i >= kHeld) {
+        ASSERT_NEAR(glm::length(step.force), whole * part, 1e-12) << i;
+      }
+      if (i <= last) continue;
+      EXPECT_EQ(step.cut, stale ? ForceCut::kStale : ForceCut::kReleased);
+      EXPECT_EQ(step.state, stale ? HoldState::kFault : HoldState::kHeld);
+    }
+  }
+}
+
+// What is felt when a force is switched on, a hand comes back or a chain is changed, all deep in a wall.
+TEST(HandStepper, StartsWithASmallForceEachTime) {
+  constexpr double kRamp = 0.5, kCap = 4.0;
+  const Vec3 deep{0.0, 0.0, 0.059};
+  HandStepper stepper(sphere_chain(kRadius, {.stiffness = 2000.0}),
+                      {.force_cap = kCap, .slew_cap = 1e5, .start_ramp = kRamp});
+  double t = 0.0;
+  const auto start = [&](const char* what) {
+    for (int i = 0; i <= 600; ++i) {
+      t += 0.001;
+      const double force = glm::length(stepper.step(at(t, deep)).force);
+      ASSERT_NEAR(force, kCap * std::min(1.0, 0.001 * i / kRamp), 1e-6) << what << ", step " << i;
+    }
+  };
+  start("first");
+  stepper.apply(HandSwitch::kForceOff);
+  (void)stepper.step(at(t += 0.001, deep));
+  stepper.apply(HandSwitch::kArm);
+  start("armed");
+  stepper.apply(HandSwitch::kPause);
+  (void)stepper.step(at(t += 0.001, deep));
+  stepper.apply(HandSwitch::kResume);
+  start("resumed");
+  stepper.apply(HandSwitch::kRestart);
+  start("after a stall");
+  (void)stepper.step({.time = t += 0.001});
+  start("another hand");
+  (void)stepper.exchange_chain(sphere_chain(kRadius, {.stiffness = 2000.0}));
+  start("another chain");
+}
+
+/// A chain that drags the hand.
+class Drag final : public Constraint {
+ public:
+  void apply(const ChainSettings& /*settings*/) noexcept override {}
+  void reset() noexcept override {}
+  void update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
+    link.proxy = probe;
+    link.damping = {5.0, 5.0, 0.0};
+  }
+};
+
+TEST(HandStepper, DragsAMovingHandAgainstItsVelocityOnly) {
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<Drag>());
+  HandStepper stepper(std::make_unique<ProxyChain>(std::move(links), ChainSettings{}), {});
+  HandStep step;
+  const Vec3 velocity{0.1, 0.0, 0.2};
+  for (int i = 0; i < 200; ++i) step = stepper.step(at(0.001 * i, velocity * (0.001 * i)));
+  EXPECT_NEAR(glm::distance(step.force, Vec3(-0.5, 0.0, 0.0)), 0.0, 1e-6);
 }
 
 TEST(HandStepper, StartsFromZeroWhereAFeatureChanges) {
