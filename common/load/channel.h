@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "common/load/memory_file.h"
-#include "common/load/unique_fd.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate {
 

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/load/errno_text.h"
+#include "common/base/errno_text.h"
 
 namespace palpate {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "common/load/unique_fd.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate {
 

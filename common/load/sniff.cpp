@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/load/errno_text.h"
+#include "common/base/errno_text.h"
 #include "common/load/plot3d_layout.h"
-#include "common/load/unique_fd.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate {
 namespace {

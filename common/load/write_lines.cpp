@@ -13,7 +13,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 
 namespace palpate {
 namespace {

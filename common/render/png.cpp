@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include <stb_image_write.h>
-#include <unistd.h>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/output_file.h"
 
 // Exported by the library; its header shows it only where the implementation is compiled.
 extern "C" unsigned char* stbi_write_png_to_mem(const unsigned char* pixels, int stride_bytes, int x, int y,
@@ -98,26 +98,10 @@ std::vector<PngText> png_texts(const std::vector<std::uint8_t>& png) {
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, const std::vector<PngText>& texts) {
+  OutputFile file(path, true);
   const auto png = encode_png(image, texts);
-  std::filesystem::path part = path;
-  part += ".part" + std::to_string(getpid());
-  {
-    std::ofstream file(part, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    file.close();
-    if (!file) {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
-      throw work_error(path.string() + ": cannot be written");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw work_error(path.string() + ": cannot be written: " + error.message());
-  }
+  file.write(std::as_bytes(std::span(png)));
+  file.finish();
 }
 
 }  // namespace palpate

@@ -23,7 +23,7 @@ struct PngText {
 /// The texts of a PNG in memory; empty where it is none.
 [[nodiscard]] std::vector<PngText> png_texts(const std::vector<std::uint8_t>& png);
 
-/// Writes a PNG under a temporary name and renames it.
+/// Writes a PNG under a temporary name and renames it; a file of that name is replaced.
 /// @throws Error (work failed) naming the file.
 void write_png(const std::filesystem::path& path, const Image& image, const std::vector<PngText>& texts);
 

@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 #include "common/report/report.h"
 
 namespace palpate {

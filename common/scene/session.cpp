@@ -7,7 +7,7 @@
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 #include "common/scene/sha256.h"
 
 namespace palpate {

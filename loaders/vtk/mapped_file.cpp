@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 
 #include "common/base/error.h"
-#include "common/load/errno_text.h"
-#include "common/load/unique_fd.h"
+#include "common/base/errno_text.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate {
 

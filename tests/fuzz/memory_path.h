@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "common/load/unique_fd.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate::test {
 

@@ -13,7 +13,7 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"

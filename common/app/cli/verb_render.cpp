@@ -13,7 +13,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/scene/plan.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/load/unique_fd.h"
+#include "common/base/unique_fd.h"
 
 namespace palpate {
 

@@ -1,4 +1,4 @@
-#include "common/load/output_file.h"
+#include "common/base/output_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/base/errno_text.h"
 #include "common/base/error.h"
-#include "common/load/errno_text.h"
 
 namespace palpate {
 namespace {
