@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/workspace.h"
@@ -22,10 +23,11 @@ struct HapticChain {
 
 /// What a chain is built over.
 struct HapticScene {
-  std::shared_ptr<const VectorField> field;
+  std::shared_ptr<const VectorField> field;  ///< null for a volume of scalars alone
   Workspace workspace;
   ChainSettings settings;
-  int threads = 0;  ///< for the preparation; 0: all cores
+  int threads = 0;                            ///< for the preparation; 0: all cores
+  std::shared_ptr<const ScalarField> scalar;  ///< what modes of a scalar work on; null where there is none
 };
 
 struct HapticMode {

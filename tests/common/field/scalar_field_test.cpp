@@ -1,6 +1,7 @@
 #include "common/field/scalar_field.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -124,6 +125,149 @@ TEST(ScalarField, WrongRequestsAreRefused) {
   EXPECT_THROW((void)make_scalar_field(*field, {other}, {"t"}, "test"), Error);
   const auto formula = make_vector_field(example("abc"));
   EXPECT_THROW((void)make_scalar_field(*formula, {block}, {"t"}, "test"), Error);
+}
+
+TEST(ScalarField, StandsAloneOnVolumesOfAnyType) {
+  // The number of the point, in each type, over a uniform grid: linear, so exact between the points too.
+  const Index3 n{4, 5, 6};
+  UniformTopology topology;
+  topology.points = n;
+  topology.origin = {10.0, 0.0, -3.0};
+  topology.axes = Mat3{0.5};
+  std::vector<float> floats;
+  for (int i = 0; i < n.x * n.y * n.z; ++i) floats.push_back(static_cast<float>(i));
+  const std::vector<std::uint8_t> bytes(floats.begin(), floats.end());
+  const std::vector<std::int16_t> shorts(floats.begin(), floats.end());
+  const std::vector<std::uint16_t> words(floats.begin(), floats.end());
+  const std::vector<std::int32_t> longs(floats.begin(), floats.end());
+  const auto array = [&](const auto& values, ScalarType type) {
+    DataArray out = make_array("t", Association::kPoint, 1, std::span<const float>(floats));
+    out.type = type;
+    out.bytes = std::as_bytes(std::span(values));
+    return out;
+  };
+  std::vector<DataArray> arrays{array(floats, ScalarType::kFloat32), array(bytes, ScalarType::kUint8),
+                                array(shorts, ScalarType::kInt16), array(words, ScalarType::kUint16),
+                                array(longs, ScalarType::kInt32)};
+  for (const DataArray& each : arrays) {
+    DataSet block;
+    block.topology = topology;
+    block.arrays = {each};
+    const auto field = make_scalar_field({block}, {"t"}, "test");
+    ASSERT_NE(field->grid(), nullptr);
+    EXPECT_EQ(field->bounds().lower, topology.origin);
+    EXPECT_EQ(field->lowest(), 0.0);
+    EXPECT_EQ(field->highest(), 119.0);
+    EXPECT_GE(field->local_range(), 1.0);
+    EXPECT_LT(field->local_range(), 2.0);
+    CellHint hint;
+    const Vec3 at{1.25, 2.5, 3.75};  // in points
+    const Vec3 x = topology.origin + 0.5 * at;
+    EXPECT_NEAR(field->sample(x, hint).value, at.x + 4.0 * (at.y + 5.0 * at.z), 1e-12);
+    EXPECT_LT(glm::distance(field->gradient(x, hint).value, Vec3(2.0, 8.0, 40.0)), 1e-12);
+  }
+  // What the type already holds is not copied.
+  DataSet block;
+  block.topology = topology;
+  block.arrays = {arrays[3]};
+  const auto stored = make_scalar_field({block}, {"t"}, "test")->values();
+  EXPECT_EQ(std::get<std::span<const std::uint16_t>>(stored.values).data(), words.data());
+}
+
+TEST(ScalarField, LeavesOutBlocksWithoutTheArrayAndRefusesWhereNoneHasIt) {
+  const DataSet with = with_scalar(sample_uniform(*example("cavity"), {5, 5, 5}), false);
+  const DataSet without = sample_uniform(*example("cavity"), {5, 5, 5});
+  const auto field = make_scalar_field({without, with}, {"t"}, "test");
+  ASSERT_NE(field->box_grid(), nullptr);
+  EXPECT_NE(field->notes().lines.front().find("left out"), std::string::npos);
+  EXPECT_THROW((void)make_scalar_field({without}, {"t"}, "test"), Error);
+  EXPECT_THROW((void)make_scalar_field({with}, {"t", Association::kPoint, 2}, "test"), Error);
+}
+
+// Local values and lengths differ by powers of two alone.
+TEST(ScalarField, ScalingByPowersOfTwoGivesTheSameBitsInFrameL) {
+  const auto make = [](int length_exponent, int value_exponent) {
+    DataSet block =
+        with_scalar(sample_tetrahedra(*example("cavity"), {5, 5, 5}, 0.2, 1, SampledType::kFloat64), true);
+    auto& topology = std::get<UnstructuredTopology>(block.topology);
+    const auto scaled = [](const DataArray& array, int exponent) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < array.tuples; ++i) {
+        for (int c = 0; c < array.components; ++c) values.push_back(std::ldexp(array.at(i, c), exponent));
+      }
+      return make_array(array.name, Association::kPoint, array.components, std::span<const double>(values));
+    };
+    topology.positions = scaled(topology.positions, length_exponent);
+    block.arrays = {scaled(block.arrays[1], value_exponent)};
+    return make_scalar_field({block}, {"t"}, "test");
+  };
+  const auto plain = make(0, 0);
+  const auto scaled = make(70, -900);
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 x = plain->frame().local_from_data({unit(random), unit(random), unit(random)});
+    CellHint hint;
+    Jet3 a, b;
+    ASSERT_EQ(plain->jet(x, hint, a), SampleStatus::kOk);
+    ASSERT_EQ(scaled->jet(x, hint, b), SampleStatus::kOk);
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.gradient, b.gradient);
+  }
+}
+
+// The derivatives of the trilinear interpolant, against central differences, which are exact along an axis.
+TEST(ScalarField, JetsHoldTheDerivativesOfTheCellsInterpolant) {
+  std::mt19937_64 random(3);
+  DataSet block = sample_rectilinear(*example("cavity"), {5, 6, 7});
+  std::vector<double> values;
+  for (int i = 0; i < 5 * 6 * 7; ++i) values.push_back(unit(random));
+  block.arrays = {make_array("t", Association::kPoint, 1, std::span<const double>(values))};
+  const auto field = make_scalar_field({block}, {"t"}, "test");
+  constexpr double kStep = 0x1p-20;
+  int asked = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 x = field->frame().local_from_data({unit(random), unit(random), unit(random)});
+    Index3 cell, same;
+    Jet3 at;
+    CellHint hint;
+    ASSERT_EQ(field->jet(x, hint, at), SampleStatus::kOk);
+    ASSERT_TRUE(field->box_grid()->locate(x, cell));
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 ahead = x, behind = x;
+      ahead[axis] += kStep;
+      behind[axis] -= kStep;
+      if (!field->box_grid()->locate(ahead, same) || same != cell) continue;
+      if (!field->box_grid()->locate(behind, same) || same != cell) continue;
+      ++asked;
+      Jet3 a, b;
+      (void)field->jet(ahead, hint, a);
+      (void)field->jet(behind, hint, b);
+      EXPECT_NEAR(at.gradient[axis], (a.value - b.value) / (2.0 * kStep), 1e-8);
+      EXPECT_LT(glm::distance(at.hessian[axis], (a.gradient - b.gradient) / (2.0 * kStep)), 1e-7);
+    }
+  }
+  EXPECT_GT(asked, 600);
+}
+
+TEST(ScalarField, SpeedIsThatOfTheFlow) {
+  const auto formula = example("abc");
+  const auto exact = make_speed_field(make_vector_field(formula, 3, -2));
+  const auto sampled = make_speed_field(
+      make_vector_field({sample_uniform(*formula, {9, 9, 9}, SampledType::kFloat64)}, kVelocity, "test"));
+  const Vec3 node = formula->bounds().size() * 0.25;
+  CellHint hint;
+  EXPECT_DOUBLE_EQ(sampled->sample(node, hint).value, glm::length(formula->velocity(node)));
+  EXPECT_DOUBLE_EQ(exact->sample(8.0 * node, hint).value, 0.25 * glm::length(formula->velocity(node)));
+  Jet3 at, ahead;
+  ASSERT_EQ(exact->jet(node, hint, at), SampleStatus::kOk);
+  constexpr double kStep = 1e-6;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 x = node;
+    x[axis] += kStep;
+    ASSERT_EQ(exact->jet(x, hint, ahead), SampleStatus::kOk);
+    EXPECT_NEAR((ahead.value - at.value) / kStep, at.gradient[axis], 1e-5);
+    EXPECT_LT(glm::distance((ahead.gradient - at.gradient) / kStep, at.hessian[axis]), 1e-5);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,327 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/field/analytic/analytic_field.h"
+#include "common/field/data_set_check.h"
+#include "common/field/field_grid.h"
+#include "common/field/scalar_field.h"
+
+namespace palpate {
+namespace {
+
+/// One number of a tuple.
+double number_of(const DataArray& array, std::size_t tuple, int component) noexcept {
+  if (component != ScalarChoice::kMagnitude) return array.at(tuple, component);
+  double norm = 0.0;
+  for (int c = 0; c < array.components; ++c) norm = std::hypot(norm, array.at(tuple, c));
+  return norm;
+}
+
+/// Whether single precision would lose digits.
+bool wants_double(ScalarType type) {
+  return type == ScalarType::kFloat64 || type == ScalarType::kInt64 || type == ScalarType::kUint64 ||
+         type == ScalarType::kInt32 || type == ScalarType::kUint32;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& expected) {
+  throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
+}
+
+[[noreturn]] void refuse_missing(const ScalarChoice& choice, const std::string& file) {
+  refuse(file,
+         "no " + std::string(choice.association == Association::kPoint ? "point" : "cell") + " array '" +
+             choice.array + "'",
+         {});
+}
+
+void check_component(const DataArray& array, const ScalarChoice& choice) {
+  if (choice.component < array.components && choice.component >= ScalarChoice::kMagnitude) return;
+  throw usage_error("array '" + choice.array + "' has " + std::to_string(array.components) +
+                    " components: no component " + std::to_string(choice.component));
+}
+
+template <typename T>
+bool share(const DataArray& array, PointScalars& values) {
+  if (reinterpret_cast<std::uintptr_t>(array.bytes.data()) % alignof(T) != 0) return false;
+  values.values = std::span(reinterpret_cast<const T*>(array.bytes.data()), array.tuples);
+  values.owner = array.owner;
+  return true;
+}
+
+/// Uses a plain array over the grid's own points where it lies.
+bool share_values(const FieldGrid& grid, const std::vector<DataSet>& used, const ScalarChoice& choice,
+                  PointScalars& values) {
+  if (used.size() != 1 || choice.association != Association::kPoint || choice.component != 0 ||
+      !grid.same_points()) {
+    return false;
+  }
+  const DataArray& array = *used.front().find(choice.array, Association::kPoint);
+  if (array.components != 1) return false;
+  switch (array.type) {
+    case ScalarType::kFloat32:
+      return share<float>(array, values);
+    case ScalarType::kFloat64:
+      return share<double>(array, values);
+    case ScalarType::kUint8:
+      return share<std::uint8_t>(array, values);
+    case ScalarType::kInt16:
+      return share<std::int16_t>(array, values);
+    case ScalarType::kUint16:
+      return share<std::uint16_t>(array, values);
+    default:
+      return false;
+  }
+}
+
+/// The speed of a formula. Its Hessian, on which convergence rests but no result, is a central difference of
+/// its gradient, which is exact.
+class SpeedFormula final : public AnalyticScalar {
+ public:
+  explicit SpeedFormula(std::shared_ptr<const VectorField> field) : field_(std::move(field)) {}
+
+  [[nodiscard]] double value(const Vec3& x) const noexcept override {
+    return glm::length(field_->analytic()->velocity(x));
+  }
+  [[nodiscard]] Jet3 jet(const Vec3& x) const noexcept override {
+    const double step = 0x1p-16 * bounds().diagonal();
+    Jet3 out(value(x), gradient(x));
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 ahead = x, behind = x;
+      ahead[axis] += step;
+      behind[axis] -= step;
+      out.hessian[axis] = (gradient(ahead) - gradient(behind)) / (ahead[axis] - behind[axis]);
+    }
+    out.hessian = 0.5 * (out.hessian + glm::transpose(out.hessian));
+    return out;
+  }
+  [[nodiscard]] Box bounds() const noexcept override { return field_->analytic()->bounds(); }
+  [[nodiscard]] std::string name() const override { return "speed"; }
+  [[nodiscard]] std::string description() const override {
+    return "speed of " + field_->analytic()->description();
+  }
+
+ private:
+  /// J^T v / |v|; zero where the flow rests.
+  [[nodiscard]] Vec3 gradient(const Vec3& x) const noexcept {
+    const Vec3 v = field_->analytic()->velocity(x);
+    const double speed = glm::length(v);
+    return speed > 0.0 ? (v / speed) * field_->analytic()->jacobian(x) : Vec3{0.0};
+  }
+
+  std::shared_ptr<const VectorField> field_;
+};
+
+}  // namespace
+
+/// Puts a ScalarField together.
+class ScalarFieldBuilder {
+ public:
+  static std::shared_ptr<const ScalarField> from_data(std::shared_ptr<const FieldGrid> grid,
+                                                      const std::vector<DataSet>& used,
+                                                      const ScalarChoice& choice, FieldNotes notes,
+                                                      int threads) {
+    auto field = on_grid(std::move(grid), choice.array);
+    field->notes_ = std::move(notes);
+    if (!share_values(*field->grid_, used, choice, field->values_)) gather(used, choice, threads, *field);
+    if (choice.association == Association::kCell) {
+      field->notes_.lines.emplace_back(
+          "cell values brought to the points: volume-weighted mean of the cells around each point");
+    }
+    take_range(*field);
+    return field;
+  }
+
+  static std::shared_ptr<const ScalarField> from_formula(std::shared_ptr<const AnalyticScalar> formula,
+                                                         int length_exponent, int value_exponent) {
+    auto field = std::make_shared<ScalarField>();
+    field->name_ = formula->name();
+    field->frame_.length_exponent = length_exponent;
+    field->values_.scale = power_of_two(-value_exponent);
+    const Box box = formula->bounds();
+    field->bounds_ = {field->frame_.data_from_local(box.lower), field->frame_.data_from_local(box.upper)};
+    // A formula's range is taken from a lattice: it sets units and colours, no result.
+    constexpr int kSteps = 32;
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;
+    for (int k = 0; k <= kSteps; ++k) {
+      for (int j = 0; j <= kSteps; ++j) {
+        for (int i = 0; i <= kSteps; ++i) {
+          const double s = formula->value(box.lower + box.size() * (Vec3(i, j, k) / double{kSteps}));
+          if (!std::isfinite(s)) continue;
+          lowest = std::min(lowest, s);
+          highest = std::max(highest, s);
+        }
+      }
+    }
+    field->lowest_ = lowest / field->values_.scale;
+    field->highest_ = highest / field->values_.scale;
+    field->notes_.lines.push_back(formula->description());
+    field->analytic_ = std::move(formula);
+    return field;
+  }
+
+  static std::shared_ptr<const ScalarField> speed_of(const std::shared_ptr<const VectorField>& like) {
+    if (like->analytic() != nullptr) {
+      return from_formula(std::make_shared<SpeedFormula>(like), like->frame().length_exponent,
+                          like->frame().speed_exponent);
+    }
+    auto field = on_grid(like->grid(), "speed");
+    const PointVectors& vectors = like->values();
+    std::visit(
+        [&](const auto& v) {
+          using T = std::remove_const_t<typename std::remove_reference_t<decltype(v)>::element_type>;
+          auto stored = std::make_shared<std::vector<T>>(v.size() / 3);
+          for (std::size_t p = 0; p < stored->size(); ++p) {
+            // Local units: no square overflows.
+            const Vec3 at = Vec3{static_cast<double>(v[3 * p]), static_cast<double>(v[3 * p + 1]),
+                                 static_cast<double>(v[3 * p + 2])} *
+                            vectors.scale;
+            (*stored)[p] = static_cast<T>(glm::length(at) / vectors.scale);
+          }
+          field->values_.values = std::span<const T>(*stored);
+          field->values_.owner = std::move(stored);
+        },
+        vectors.values);
+    take_range(*field);
+    return field;
+  }
+
+ private:
+  static std::shared_ptr<ScalarField> on_grid(std::shared_ptr<const FieldGrid> grid,
+                                              const std::string& name) {
+    auto field = std::make_shared<ScalarField>();
+    field->name_ = name;
+    field->frame_ = grid->frame;
+    field->bounds_ = grid->bounds;
+    field->box_ = grid->box;
+    field->tets_ = grid->tets;
+    field->grid_ = std::move(grid);
+    return field;
+  }
+
+  static void gather(const std::vector<DataSet>& used, const ScalarChoice& choice, int threads,
+                     ScalarField& field) {
+    bool use_double = false;
+    for (const DataSet& block : used) {
+      const DataArray* array = block.find(choice.array, choice.association);
+      use_double = use_double || (array != nullptr && wants_double(array->type));
+    }
+    const TupleReader read = [&choice](const DataSet& block, std::size_t tuple, double* out) {
+      const DataArray* array = block.find(choice.array, choice.association);
+      *out = array == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                              : number_of(*array, tuple, choice.component);
+    };
+    auto stored = std::make_shared<const GatheredValues>(
+        gather_values(*field.grid_, used, choice.association, 1, use_double, read, threads));
+    if (use_double) {
+      field.values_.values = std::span<const double>(stored->doubles);
+    } else {
+      field.values_.values = std::span<const float>(stored->floats);
+    }
+    field.values_.owner = std::move(stored);
+  }
+
+  static void take_range(ScalarField& field) {
+    field.lowest_ = std::numeric_limits<double>::infinity();
+    field.highest_ = -std::numeric_limits<double>::infinity();
+    std::size_t bad = 0;
+    std::visit(
+        [&](const auto& values) {
+          for (const auto stored : values) {
+            const auto value = static_cast<double>(stored);
+            if (!std::isfinite(value)) {
+              ++bad;
+              continue;
+            }
+            field.lowest_ = std::min(field.lowest_, value);
+            field.highest_ = std::max(field.highest_, value);
+          }
+        },
+        field.values_.values);
+    field.notes_.bad_values = bad;
+    if (bad > 0) {
+      field.notes_.lines.push_back(std::to_string(bad) + (bad == 1 ? " point" : " points") +
+                                   " with a value that is not finite: cells around them are bad data");
+    }
+    if (bad == field.grid_->point_count()) return;
+    // Halves, since the range itself may overflow.
+    const double half_range = 0.5 * field.highest_ - 0.5 * field.lowest_;
+    if (half_range > 0.0) field.values_.scale = power_of_two(-binary_exponent(half_range) - 1);
+    if (half_range == 0.0) field.notes_.lines.emplace_back("the field is the same everywhere");
+  }
+};
+
+std::shared_ptr<const ScalarField> make_scalar_field(const std::vector<DataSet>& blocks,
+                                                     const ScalarChoice& choice, const std::string& file,
+                                                     int threads) {
+  FieldNotes notes;
+  std::vector<DataSet> used;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const DataSet& block = blocks[b];
+    if (block.cell_count() == 0) continue;
+    const DataArray* array = block.find(choice.array, choice.association);
+    if (array == nullptr) {
+      notes.lines.push_back("block " + (block.name.empty() ? std::to_string(b + 1) : "'" + block.name + "'") +
+                            " left out: it has no array '" + choice.array + "'");
+      continue;
+    }
+    check_block(block, b, blocks.size(), file);
+    check_component(*array, choice);
+    used.push_back(block);
+  }
+  if (used.empty()) refuse_missing(choice, file);
+  auto grid = make_field_grid(used, file, threads);
+  notes.zero_volume_cells = grid->notes.zero_volume_cells;
+  notes.inverted_cells = grid->notes.inverted_cells;
+  notes.lines.insert(notes.lines.end(), grid->notes.lines.begin(), grid->notes.lines.end());
+  return ScalarFieldBuilder::from_data(std::move(grid), used, choice, std::move(notes), threads);
+}
+
+std::shared_ptr<const ScalarField> make_scalar_field(const VectorField& like,
+                                                     const std::vector<DataSet>& blocks,
+                                                     const ScalarChoice& choice, const std::string& file,
+                                                     int threads) {
+  if (!like.grid()) throw usage_error("a formula has no array '" + choice.array + "'");
+  std::vector<DataSet> used;
+  bool found = false;
+  for (const std::size_t b : like.blocks()) {
+    if (b >= blocks.size()) {
+      refuse(file, std::to_string(blocks.size()) + " blocks",
+             "at least " + std::to_string(b + 1) + ", as in the vector field");
+    }
+    used.push_back(blocks[b]);
+    check_block(used.back(), b, blocks.size(), file);
+    const DataArray* array = used.back().find(choice.array, choice.association);
+    if (array == nullptr) continue;
+    found = true;
+    check_component(*array, choice);
+  }
+  if (!found) refuse_missing(choice, file);
+  std::size_t points = 0;
+  std::size_t cells = 0;
+  for (const DataSet& block : used) {
+    points += block.point_count();
+    cells += block.cell_count();
+  }
+  if (points != like.grid()->input_points || cells != like.grid()->input_cells) {
+    refuse(file, std::to_string(points) + " points and " + std::to_string(cells) + " cells",
+           std::to_string(like.grid()->input_points) + " and " + std::to_string(like.grid()->input_cells) +
+               ", as in the vector field");
+  }
+  return ScalarFieldBuilder::from_data(like.grid(), used, choice, {}, threads);
+}
+
+std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const AnalyticScalar> formula,
+                                                     int length_exponent, int value_exponent) {
+  return ScalarFieldBuilder::from_formula(std::move(formula), length_exponent, value_exponent);
+}
+
+std::shared_ptr<const ScalarField> make_speed_field(const std::shared_ptr<const VectorField>& field) {
+  return ScalarFieldBuilder::speed_of(field);
+}
+
+}  // namespace palpate
