@@ -35,6 +35,8 @@ std::shared_ptr<const SceneInfo> describe(const Input& input, const VectorField&
   auto info = std::make_shared<SceneInfo>();
   info->name = input.title();
   if (const FileInfo* file = input.file()) {
+    for (const auto& path : input.spec().files) info->files.files.push_back(std::filesystem::absolute(path));
+    if (input.spec().solution) info->files.solution = std::filesystem::absolute(*input.spec().solution);
     info->facts.push_back(file->format);
     for (const VectorChoice& choice : input.choices()) info->fields.push_back(choice.label);
     info->times = file->times;
@@ -144,11 +146,12 @@ SceneState FlowModel::start(Progress& progress) {
               progress);
 }
 
-SceneState FlowModel::open(const std::vector<std::filesystem::path>& files, Progress& progress) {
+SceneState FlowModel::open(const InputFiles& files, Progress& progress) {
   // A new input starts afresh: fields, seeds and lengths of the old one mean nothing to it.
   Options options;
   options.common = options_.common;
-  options.input.files = files;
+  options.input.files = files.files;
+  options.input.solution = files.solution;
   SceneState state = show(load(options, progress), options, {}, progress);
   options_ = std::move(options);
   return state;

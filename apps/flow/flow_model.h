@@ -16,7 +16,7 @@ class FlowModel final : public WindowModel {
   FlowModel(Options options, std::string program);
 
   SceneState start(Progress& progress) override;
-  SceneState open(const std::vector<std::filesystem::path>& files, Progress& progress) override;
+  SceneState open(const InputFiles& files, Progress& progress) override;
   SceneState update(const SceneSettings& settings, Progress& progress) override;
   std::string save_session(const SceneSettings& settings, const SceneView& view,
                            const std::vector<std::pair<std::string, std::string>>& touch) override;

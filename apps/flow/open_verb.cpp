@@ -134,7 +134,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
     const auto by = static_cast<ColorBy>(i);
     if (name_of(by) == options.view.color) window.view.style.color_by = by;
   }
-  run_window(model, window);
+  run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
   if (options.common.explain) context.console.print(measured_text(model.costs()));
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }

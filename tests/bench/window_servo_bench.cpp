@@ -1,14 +1,18 @@
 // A minute of following a streamline in flow's window, beside a bare timer loop in the same process: does the
 // picture make the servo late?
 //
-//   xvfb-run -a window_servo_bench [--seconds N] [--example NAME] [--still]
+//   xvfb-run -a window_servo_bench [--runs N] [--seconds N] [--example NAME] [--still]
 //
 // The window is that of `flow`, at 60 frames a second where it can; the mouse holds the probe and goes about
-// slowly in a circle, so that the line is followed, popped over and drawn anew. Both loops run at the same
+// slowly in a circle, so that the line is followed, popped over and drawn anew. All loops run at the same
 // rate, on the same clock, with the same priority where it is granted. --still leaves the probe alone: then
-// the picture rests, and the machine is as idle as it gets. Counts of late ticks (woken more than half a
-// period after the deadline) belong to the machine as much as to the loop: only their ratio is worth
-// comparing, and only where neither count is a handful.
+// the picture rests, and the machine is as idle as it gets.
+//
+// A late tick (woken more than half a period after its deadline) comes from a processor that was taken away
+// for a while, by the system or by a host below it, and it strikes one core at a time, dozens of ticks in a
+// row. So a bare loop sits on each core, the servo is compared with their mean, and the runs are pooled; the
+// spread of the ratio is that of leaving out one run after the other (jackknife: Efron and Tibshirani 1993,
+// ch. 11).
 
 #include <algorithm>
 #include <chrono>
@@ -18,6 +22,8 @@
 #include <cstring>
 #include <thread>
 #include <vector>
+
+#include <sched.h>
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
@@ -38,7 +44,11 @@ struct BareStatistics {
   TimeHistogram lateness;
 };
 
-void bare_loop(const std::stop_token& stop, BareStatistics& result) {
+void bare_loop(const std::stop_token& stop, unsigned core, BareStatistics& result) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(core, &cores);
+  sched_setaffinity(0, sizeof cores, &cores);
   request_real_time_priority(80);
   for (std::int64_t due = monotonic_ns() + kPeriod / 2; !stop.stop_requested();) {
     sleep_until_ns(due);
@@ -69,8 +79,8 @@ std::vector<ScriptedEvent> circling(int frames, double x, double y) {
 }
 
 double microseconds(std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); }
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+double part_of(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
 void print(const char* name, const TimeHistogram& times) {
@@ -79,7 +89,12 @@ void print(const char* name, const TimeHistogram& times) {
               microseconds(times.percentile_ns(0.999)), microseconds(times.max_ns()));
 }
 
-void run(double seconds, const std::string& example, bool still) {
+/// Late ticks of one run.
+struct LateCounts {
+  double servo = 0.0, bare = 0.0;  ///< parts of the ticks
+};
+
+LateCounts run(double seconds, const std::string& example, bool still) {
   Options options;
   options.input.example = example;
   FlowModel model(options, "flow");
@@ -100,30 +115,35 @@ void run(double seconds, const std::string& example, bool still) {
     before = now;
     return now >= end;
   };
-  BareStatistics bare;
+  const unsigned cores = std::thread::hardware_concurrency();
+  std::vector<BareStatistics> bare(cores);
   WindowResult result;
   {
-    std::jthread beside([&](const std::stop_token& stop) { bare_loop(stop, bare); });
+    std::vector<std::jthread> beside;
+    for (unsigned core = 0; core < cores; ++core) {
+      beside.emplace_back([&, core](const std::stop_token& stop) { bare_loop(stop, core, bare[core]); });
+    }
     result = run_window(model, window);
   }
   const ServoState& state = result.probe.servo;
   const ServoStatistics& servo = state.statistics;
-  const double servo_late = percent(servo.late, servo.ticks), bare_late = percent(bare.late, bare.ticks);
   std::printf("%s, %s, %d frames, real-time priority %s, memory locked %s, on %u cores\n",
               build_text().c_str(), example.c_str(), result.frames,
               state.real_time.real_time_priority ? "yes" : "no", state.real_time.memory_locked ? "yes" : "no",
-              std::thread::hardware_concurrency());
-  std::printf("  %-22s %12s %12s %8s\n", "", "servo", "bare", "ratio");
-  std::printf("  %-22s %12llu %12llu\n", "ticks", static_cast<unsigned long long>(servo.ticks),
-              static_cast<unsigned long long>(bare.ticks));
-  std::printf("  %-22s %12llu %12llu\n", "late", static_cast<unsigned long long>(servo.late),
-              static_cast<unsigned long long>(bare.late));
-  std::printf("  %-22s %12.4f %12.4f %8.3f\n", "late, % of the ticks", servo_late, bare_late,
-              servo_late / bare_late);
-  std::printf("  %-22s %12.4f %12.4f\n", "skipped, %", percent(servo.skipped, servo.ticks + servo.skipped),
-              percent(bare.skipped, bare.ticks + bare.skipped));
+              cores);
+  LateCounts late{.servo = part_of(servo.late, servo.ticks)};
+  std::printf("  %-18s %8s %8s %8s\n", "", "ticks", "late", "skipped");
+  const auto row = [](const char* name, const auto& loop) {
+    std::printf("  %-18s %8llu %8llu %8llu\n", name, static_cast<unsigned long long>(loop.ticks),
+                static_cast<unsigned long long>(loop.late), static_cast<unsigned long long>(loop.skipped));
+  };
+  row("servo", servo);
+  for (const BareStatistics& loop : bare) {
+    row("bare", loop);
+    late.bare += part_of(loop.late, loop.ticks) / cores;
+  }
   print("lateness, servo", servo.lateness);
-  print("lateness, bare", bare.lateness);
+  for (const BareStatistics& loop : bare) print("lateness, bare", loop.lateness);
   print("update, processor time", servo.update);
   std::sort(gaps.begin(), gaps.end());
   const auto part = [&](double p) {
@@ -135,6 +155,32 @@ void run(double seconds, const std::string& example, bool still) {
               static_cast<unsigned long long>(servo.stalls),
               static_cast<unsigned long long>(state.path_dropped),
               result.probe.held ? "held to the end" : "not held");
+  std::fflush(stdout);
+  return late;
+}
+
+/// The ratio of the sums over all runs but `left_out` (none where it is their number).
+double ratio_without(const std::vector<LateCounts>& runs, std::size_t left_out) {
+  LateCounts sum;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i == left_out) continue;
+    sum.servo += runs[i].servo;
+    sum.bare += runs[i].bare;
+  }
+  return sum.servo / sum.bare;
+}
+
+void print_ratio(const std::vector<LateCounts>& runs) {
+  const auto n = static_cast<double>(runs.size());
+  double mean = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < runs.size(); ++i) mean += ratio_without(runs, i) / n;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double off = ratio_without(runs, i) - mean;
+    spread += off * off;
+  }
+  std::printf("late ticks, servo over bare: %.3f", ratio_without(runs, runs.size()));
+  if (runs.size() > 1) std::printf(" +- %.3f over %zu runs", std::sqrt(spread * (n - 1.0) / n), runs.size());
+  std::printf("\n");
 }
 
 }  // namespace
@@ -142,16 +188,22 @@ void run(double seconds, const std::string& example, bool still) {
 
 int main(int argc, char** argv) {
   double seconds = 60.0;
+  int runs = 1;
   std::string example = "tornado";
   bool still = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--still") == 0) still = true;
     if (i + 1 == argc) continue;
     if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--runs") == 0) runs = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--example") == 0) example = argv[i + 1];
   }
   try {
-    palpate::bench::run(seconds, example, still);
+    std::vector<palpate::bench::LateCounts> late;
+    while (static_cast<int>(late.size()) < runs) {
+      late.push_back(palpate::bench::run(seconds, example, still));
+    }
+    palpate::bench::print_ratio(late);
   } catch (const palpate::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.code());

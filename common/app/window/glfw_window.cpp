@@ -112,4 +112,11 @@ void GlfwWindow::toggle_full_screen() {
   glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
+std::pair<int, int> GlfwWindow::size() const {
+  if (glfwGetWindowMonitor(window_) != nullptr) return {windowed_.width, windowed_.height};
+  std::pair<int, int> size{0, 0};
+  glfwGetWindowSize(window_, &size.first, &size.second);
+  return size;
+}
+
 }  // namespace palpate

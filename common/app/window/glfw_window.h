@@ -1,6 +1,7 @@
 /// A window of the system with an OpenGL 4.5 core context, and its events as plain data.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "common/app/window/input_event.h"
@@ -29,6 +30,8 @@ class GlfwWindow {
   /// Whether the window has to be drawn again whatever it shows; asked once.
   [[nodiscard]] bool take_damage() noexcept;
   void toggle_full_screen();
+  /// Width and height, those before where it takes the full screen [screen coordinates].
+  [[nodiscard]] std::pair<int, int> size() const;
 
  private:
   void listen();

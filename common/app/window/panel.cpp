@@ -54,6 +54,28 @@ bool decade_slider(const char* label, double& value, int lower, int upper) {
   return true;
 }
 
+std::string name_of(const InputFiles& input) {
+  std::string name;
+  for (const auto& file : input.files) name += (name.empty() ? "" : " ") + file.filename().string();
+  return input.solution ? name + " " + input.solution->filename().string() : name;
+}
+
+// What was open before; the line above says what is open now.
+void draw_recent(const PanelState& state, PanelActions& actions) {
+  const InputFiles& now = state.scene->info->files;
+  const auto other = [&](const InputFiles& input) { return !(input == now); };
+  if (std::none_of(state.recent.begin(), state.recent.end(), other)) return;
+  if (!ImGui::BeginCombo("##recent", "open recent")) return;
+  for (const InputFiles& input : state.recent) {
+    if (!other(input)) continue;
+    ImGui::PushID(&input);
+    if (ImGui::Selectable(name_of(input).c_str())) actions.open = input;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.files.front().string().c_str());
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+}
+
 void draw_input(const SceneState& scene) {
   section("INPUT");
   ImGui::TextWrapped("%s", scene.info->name.c_str());
@@ -361,6 +383,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
   if (state.job != nullptr) draw_job(*state.job, actions);
   if (state.scene != nullptr) {
     draw_input(*state.scene);
+    draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       section("TOUCH");
       actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file);

@@ -29,6 +29,7 @@ struct PanelState {
   bool playing = false;
   ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
+  std::vector<InputFiles> recent;           ///< newest first
   std::string replay_verdict;               ///< that was said
   std::string lines_file = "followed.vtp";  ///< edited
 };
@@ -39,6 +40,7 @@ struct PanelActions {
   bool reset_camera = false;
   bool save_picture = false;
   bool save_session = false;
+  std::optional<InputFiles> open;  ///< one of the recent inputs
   TouchActions touch;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -19,6 +20,7 @@
 #include "common/app/window/keys.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/touch_control.h"
+#include "common/app/window/user_settings.h"
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -53,6 +55,7 @@ class Window {
     touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
     touch_control_ = std::make_unique<TouchControl>(*touch_);
     state_.touch = touch_.get();
+    state_.recent = options_.recent;
     job_ = std::make_unique<BackgroundJob>([] { glfwPostEmptyEvent(); });
     start_job(JobKind::kStart, [this](Progress& progress) { return model_.start(progress); });
   }
@@ -76,8 +79,14 @@ class Window {
       glfwSwapBuffers(glfw_.get());
     }
     touch_->finish();
-    WindowResult result{
-        frame_, view_, state_.settings, state_.message, 0.0, touch_->readout(), touch_->replay_verdict()};
+    WindowResult result{.frames = frame_,
+                        .recent = state_.recent,
+                        .view = view_,
+                        .settings = state_.settings,
+                        .message = state_.message,
+                        .probe = touch_->readout(),
+                        .replay = touch_->replay_verdict()};
+    std::tie(result.width, result.height) = glfw_.size();
     if (!frame_ms_.empty()) {
       const auto middle = frame_ms_.begin() + static_cast<std::ptrdiff_t>(frame_ms_.size() / 2);
       std::nth_element(frame_ms_.begin(), middle, frame_ms_.end());
@@ -144,8 +153,8 @@ class Window {
       dirty_ = true;
     }
     if (job_->running()) return;
-    if (!dropped_.empty()) {
-      start_job(JobKind::kOpen, [this, files = std::exchange(dropped_, {})](Progress& progress) {
+    if (to_open_) {
+      start_job(JobKind::kOpen, [this, files = *std::exchange(to_open_, {})](Progress& progress) {
         return model_.open(files, progress);
       });
     } else if (scene_ && !(state_.settings == requested_)) {
@@ -174,6 +183,7 @@ class Window {
       state_.settings = requested_ = scene_->settings;
       view_.style.range.reset();
       needs_camera_ = true;
+      remember(state_.recent, scene_->info->files);
       glfwSetWindowTitle(glfw_.get(), (scene_->info->name + " - " + options_.program).c_str());
     } else {
       // What the panel has been set to meanwhile stays; what was left to a default is now known.
@@ -254,6 +264,7 @@ class Window {
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
+    if (actions.open) to_open_ = actions.open;
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
     if (actions.touch.grab) run_command(Command::kGrab);
@@ -275,7 +286,7 @@ class Window {
   void handle_events(const WindowLayout& parts) {
     const ImGuiIO& io = ImGui::GetIO();
     for (const InputEvent& event : glfw_.events()) {
-      if (event.kind == InputKind::kDrop) dropped_ = event.files;
+      if (event.kind == InputKind::kDrop) to_open_ = InputFiles{event.files, {}};
       if (const std::string text = event_text(event); !text.empty()) {
         touch_->record_event(static_cast<std::uint64_t>(frame_), text);
       }
@@ -461,7 +472,7 @@ class Window {
   PanelState state_;
   SceneSettings requested_;  // of the last job
   ViewControl control_;
-  std::vector<std::filesystem::path> dropped_;
+  std::optional<InputFiles> to_open_;
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]
   std::vector<double> frame_ms_;
@@ -478,6 +489,28 @@ bool window_available() { return start_glfw(); }
 
 WindowResult run_window(WindowModel& model, const WindowOptions& options) {
   return Window(model, options).run();
+}
+
+WindowResult run_user_window(WindowModel& model, WindowOptions options,
+                             const std::function<void(const std::string&)>& note) {
+  const auto files = user_files(options.program);
+  if (!files) return run_window(model, options);
+  std::vector<std::string> notes;
+  const UserSettings before = load_user_settings(*files, notes);
+  for (const std::string& line : notes) note(line);
+  options.width = before.width;
+  options.height = before.height;
+  options.recent = before.recent;
+  apply_look(before.look, options.view);
+  const WindowResult result = run_window(model, options);
+  const UserSettings after{
+      .width = result.width, .height = result.height, .look = look_of(result.view), .recent = result.recent};
+  try {
+    save_user_settings(*files, after, before);
+  } catch (const Error& error) {
+    note(error.what());
+  }
+  return result;
 }
 
 }  // namespace palpate

@@ -22,6 +22,7 @@ struct WindowOptions {
   CameraAngles angles;                         ///< the first view, and that of a reset
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
+  std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   ProbeSessionOptions touch;                   ///< without modes: the window knows no touch
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
@@ -40,10 +41,13 @@ struct WindowOptions {
 
 /// What happened, for tests.
 struct WindowResult {
-  int frames = 0;          ///< drawn since the first scene was shown
-  SceneView view;          ///< at the end
-  SceneSettings settings;  ///< at the end
-  std::string message;     ///< last line that the window said to the user
+  int frames = 0;  ///< drawn since the first scene was shown
+  int width = 0;   ///< at the end, before a full screen [screen coordinates]
+  int height = 0;
+  std::vector<InputFiles> recent;  ///< with what was opened in this window
+  SceneView view;                  ///< at the end
+  SceneSettings settings;          ///< at the end
+  std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
   ProbeReadout probe;  ///< at the end
   std::string replay;  ///< verdict on a replay that came to its end
@@ -55,5 +59,11 @@ struct WindowResult {
 /// Shows the window until it is closed. Call it on the main thread.
 /// @throws Error (work failed) where no window can be opened, and whatever WindowModel::start() throws.
 WindowResult run_window(WindowModel& model, const WindowOptions& options);
+
+/// The same, as the user left it the last time (user_settings.h), for the next time to come.
+/// @param note told in a sentence what of the user's files cannot be read or written.
+/// @throws Error as run_window().
+WindowResult run_user_window(WindowModel& model, WindowOptions options,
+                             const std::function<void(const std::string&)>& note);
 
 }  // namespace palpate

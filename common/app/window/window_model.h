@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,14 @@
 #include "common/render/scene_view.h"
 
 namespace palpate {
+
+/// Files that are opened together.
+struct InputFiles {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::filesystem::path> solution;  ///< PLOT3D
+
+  bool operator==(const InputFiles&) const = default;
+};
 
 /// What the panel can change about the lines.
 struct SceneSettings {
@@ -39,6 +48,7 @@ struct SceneSettings {
 /// What is known of an open input.
 struct SceneInfo {
   std::string name;                       ///< file or example, for the title
+  InputFiles files;                       ///< absolute paths; none of an example
   std::vector<std::string> facts;         ///< one line each: "legacy VTK, 76x49x45 points", …
   std::vector<std::string> fields;        ///< vector fields that can be chosen
   std::vector<std::string> integrators;   ///< those that this grid can be traced with
@@ -76,9 +86,10 @@ class WindowModel {
   /// @throws Error, Cancelled.
   virtual SceneState start(Progress& progress) = 0;
 
-  /// Opens files that were dropped on the window, with the program's own settings for a new input.
+  /// Opens other files, dropped on the window or opened before, with the program's own settings for a new
+  /// input.
   /// @throws Error, Cancelled; what was open before then stays open.
-  virtual SceneState open(const std::vector<std::filesystem::path>& files, Progress& progress) = 0;
+  virtual SceneState open(const InputFiles& files, Progress& progress) = 0;
 
   /// Lines of the open input with other settings; only what changed is read or traced again.
   /// @throws Error, Cancelled; what was open before then stays open.

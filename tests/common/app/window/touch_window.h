@@ -31,7 +31,7 @@ inline constexpr int kEscape = 256, kF12 = 301, kShift = 340;
 class HelixModel final : public WindowModel {
  public:
   SceneState start(Progress&) override { return make({.field = "velocity"}); }
-  SceneState open(const std::vector<std::filesystem::path>&, Progress&) override { return make({}); }
+  SceneState open(const InputFiles&, Progress&) override { return make({}); }
   SceneState update(const SceneSettings& settings, Progress&) override {
     ++updated;
     return make(settings);

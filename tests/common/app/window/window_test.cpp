@@ -27,7 +27,8 @@ class FakeModel : public WindowModel {
     settings.color_array = first_array;
     return make("whirlwind", settings);
   }
-  SceneState open(const std::vector<std::filesystem::path>& files, Progress&) override {
+  SceneState open(const InputFiles& input, Progress&) override {
+    const auto& files = input.files;
     ++opened;
     if (files.front().string().starts_with("bad")) {
       throw input_error({.file = files.front().string(), .found = "not a data file"});
