@@ -6,7 +6,7 @@ packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev li
 packages_explorer="libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
-packages_loaders="libvtk9-dev libteem-dev"
+packages_loaders="libvtk9-dev libteem-dev libnifti2-dev zlib1g-dev"
 # The tests: framework, benchmarks, virtual display, style.
 packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy"
 

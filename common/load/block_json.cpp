@@ -16,14 +16,6 @@ constexpr std::array kTypes{
     ScalarType::kInt8,   ScalarType::kUint8, ScalarType::kInt16,  ScalarType::kUint16,  ScalarType::kInt32,
     ScalarType::kUint32, ScalarType::kInt64, ScalarType::kUint64, ScalarType::kFloat32, ScalarType::kFloat64};
 
-ScalarType type_at(const json& object) {
-  const std::string name = string_at(object, "type");
-  for (const ScalarType type : kTypes) {
-    if (name == name_of(type)) return type;
-  }
-  malformed("unknown number type '" + name + "'");
-}
-
 /// The number of points of a structured block. Three counts below 2^31 can pass 2^64, so it is checked.
 std::uint64_t points_of(const Index3& index, const char* key) {
   std::uint64_t points = 1;
@@ -249,6 +241,14 @@ struct TopologyCounts {
 
 }  // namespace
 
+ScalarType scalar_type_at(const json& object) {
+  const std::string name = string_at(object, "type");
+  for (const ScalarType type : kTypes) {
+    if (name == name_of(type)) return type;
+  }
+  malformed("unknown number type '" + name + "'");
+}
+
 json encode_array_info(const ArrayInfo& info) {
   return {{"name", text_from_bytes(info.name)},
           {"on", info.association == Association::kPoint ? "point" : "cell"},
@@ -267,7 +267,7 @@ ArrayInfo decode_array_info(const json& object) {
   if (components < 1 || components > kMaxComponents)
     malformed("array '" + info.name + "' has no sensible components");
   info.components = static_cast<int>(components);
-  info.type = type_at(object);
+  info.type = scalar_type_at(object);
   info.tuples = count_at(object, "tuples");
   return info;
 }

@@ -15,6 +15,9 @@
 
 namespace palpate::message {
 
+/// The number type that `object` names at "type".
+[[nodiscard]] ScalarType scalar_type_at(const json& object);
+
 /// An array's description, without the place of its numbers.
 [[nodiscard]] json encode_array_info(const ArrayInfo& info);
 [[nodiscard]] ArrayInfo decode_array_info(const json& object);

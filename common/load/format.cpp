@@ -6,8 +6,9 @@ namespace palpate {
 
 std::string_view name_of(Format format) noexcept {
   static constexpr std::array<std::string_view, kFormatCount> kNames{
-      "legacy VTK", "VTK XML", "VTK multi-block", "VTK XML in pieces", "VTK time series",
-      "PLOT3D",     "EnSight", "Exodus II",       "OpenFOAM",          "NRRD"};
+      "legacy VTK", "VTK XML",   "VTK multi-block", "VTK XML in pieces", "VTK time series",
+      "PLOT3D",     "EnSight",   "Exodus II",       "OpenFOAM",          "NRRD",
+      "NIfTI",      "MetaImage", "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -21,6 +22,12 @@ std::string_view helper_of(Format format) noexcept {
       return "palpate-load-vtk";
     case Format::kNrrd:
       return "palpate-load-nrrd";
+    case Format::kNifti:
+      return "palpate-load-nifti";
+    case Format::kMetaImage:
+      return "palpate-load-meta";
+    case Format::kRaw:
+      return "palpate-load-raw";
     default:
       return "palpate-load-solver";
   }

@@ -16,9 +16,12 @@ enum class Format : std::uint8_t {
   kEnsight,
   kExodus,
   kOpenFoam,
-  kNrrd
+  kNrrd,
+  kNifti,
+  kMetaImage,  ///< .mha, .mhd
+  kRaw         ///< voxels without a header: never found by content
 };
-inline constexpr int kFormatCount = 10;
+inline constexpr int kFormatCount = 13;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

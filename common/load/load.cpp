@@ -41,7 +41,8 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
   for (const auto& file : request.files) bytes += size_of(file);
   const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
                      format == Format::kParaviewSeries || format == Format::kEnsight ||
-                     format == Format::kOpenFoam || format == Format::kNrrd;
+                     format == Format::kOpenFoam || format == Format::kNrrd || format == Format::kNifti ||
+                     format == Format::kMetaImage;
   if (!index) return bytes;
   std::filesystem::path folder = request.files.front();
   std::error_code error;
@@ -125,9 +126,14 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
   auto state = std::make_unique<State>();
   state->file = request.files.front().string();
 
-  const Format format = find_format(request.files.front());
+  const auto format_of = [&request](const std::filesystem::path& file) {
+    if (!request.raw) return find_format(file);
+    (void)read_head(file, 0);  // a regular file, at least
+    return Format::kRaw;
+  };
+  const Format format = format_of(request.files.front());
   for (const auto& file : request.files) {
-    const Format other = find_format(file);
+    const Format other = format_of(file);
     if (other != format) {
       throw input_error({file.string(), "", "is " + std::string(name_of(other)),
                          std::string(name_of(format)) + " like " + state->file,

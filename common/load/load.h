@@ -14,12 +14,14 @@
 #include "common/base/progress.h"
 #include "common/field/data_set.h"
 #include "common/field/vector_choice.h"
+#include "common/load/raw_layout.h"
 
 namespace palpate {
 
 struct LoadRequest {
   std::vector<std::filesystem::path> files;       ///< several: blocks to be joined, or a numbered time series
   std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file
+  std::optional<RawLayout> raw;                   ///< the file holds voxels without a header
 };
 
 struct LoadLimits {
@@ -46,6 +48,7 @@ struct FileInfo {
   std::vector<BlockInfo> blocks;   ///< volumes; where the file has none, what else it holds
   std::vector<double> times;       ///< empty for a single state
   std::string units;               ///< as the file states them ("coordinates in mm"), or empty
+  bool anatomical = false;         ///< coordinates are RAS+: x to the right, y to the front, z up
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
 };
 

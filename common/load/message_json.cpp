@@ -82,6 +82,12 @@ double number_of(const json& value, const char* key) {
   return number;
 }
 
+bool bool_at(const json& object, const char* key) {
+  const json& value = member(object, key);
+  if (!value.is_boolean()) malformed(std::string("'") + key + "' is neither true nor false");
+  return value.get<bool>();
+}
+
 const json& array_at(const json& object, const char* key) {
   const json& value = member(object, key);
   if (!value.is_array()) malformed(std::string("'") + key + "' is no array");

@@ -38,6 +38,7 @@ inline constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 46;
 [[nodiscard]] std::uint64_t count_at(const json& object, const char* key);
 /// Finite numbers only: JSON has no others.
 [[nodiscard]] double number_of(const json& value, const char* key);
+[[nodiscard]] bool bool_at(const json& object, const char* key);
 [[nodiscard]] const json& array_at(const json& object, const char* key);
 [[nodiscard]] const json& array_at(const json& object, const char* key, std::size_t size);
 [[nodiscard]] Vec3 vector_at(const json& object, const char* key);

@@ -18,6 +18,23 @@ void throw_failure(const json& answer) {
 
 json box_corner(const Vec3& corner) { return is_finite(corner) ? vector_json(corner) : json(nullptr); }
 
+json encode_raw(const RawLayout& raw) {
+  return {{"size", counts_json(raw.size)},     {"type", name_of(raw.type)},
+          {"big_endian", raw.big_endian},      {"spacing", vector_json(raw.spacing)},
+          {"origin", vector_json(raw.origin)}, {"skip", raw.skip}};
+}
+
+RawLayout decode_raw(const json& object) {
+  RawLayout raw;
+  raw.size = index_at(object, "size");
+  raw.type = scalar_type_at(object);
+  raw.big_endian = bool_at(object, "big_endian");
+  raw.spacing = vector_at(object, "spacing");
+  raw.origin = vector_at(object, "origin");
+  raw.skip = count_at(object, "skip");
+  return raw;
+}
+
 }  // namespace
 
 std::string encode(const RequestMessage& request) {
@@ -28,6 +45,7 @@ std::string encode(const RequestMessage& request) {
     message["files"] = json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
+    if (open->request.raw) message["raw"] = encode_raw(*open->request.raw);
   } else {
     const auto& read = std::get<ReadMessage>(request);
     message["request"] = "read";
@@ -48,6 +66,7 @@ RequestMessage decode_request(std::string_view text) {
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
+    if (message.contains("raw")) open.request.raw = decode_raw(member(message, "raw"));
     return open;
   }
   if (request == "read") return ReadMessage{strings_at(message, "arrays"), count_at(message, "step")};
@@ -79,6 +98,7 @@ std::string encode_info(const FileInfo& info) {
               {"loader", text_from_bytes(info.loader)},
               {"times", info.times},
               {"units", text_from_bytes(info.units)},
+              {"anatomical", info.anatomical},
               {"notes", std::move(notes)},
               {"blocks", std::move(blocks)}}
       .dump();
@@ -98,6 +118,7 @@ FileInfo decode_info(std::string_view text) {
   info.loader = string_at(answer, "loader");
   info.notes = strings_at(answer, "notes");
   info.units = string_at(answer, "units");
+  info.anatomical = bool_at(answer, "anatomical");
   for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
   for (const json& object : array_at(answer, "blocks")) {
     BlockInfo block;

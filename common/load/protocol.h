@@ -1,12 +1,12 @@
 /// Messages between an explorer and a helper program, as JSON. The frames they travel in: channel.h.
 ///
 /// Requests
-///   {"request": "open", "format": F, "files": [path…], "solution": path?}
+///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
-///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "blocks": [{"name", "grid",
-///   "points": [i, j, k],
+///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool,
+///   "blocks": [{"name", "grid", "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"
 ///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?}…]}  to "read"
@@ -16,6 +16,7 @@
 ///     | {"kind": "curvilinear", "points", "positions": A}
 ///     | {"kind": "unstructured", "positions": A, "cells", "types": offset, "offsets": offset,
 ///        "connectivity": offset, "connectivity_count"}                                uint8, int64, int64
+///   R = {"size": [i, j, k], "type", "big_endian": bool, "spacing", "origin", "skip": bytes}
 /// Offsets count bytes in the memory file of the answer. Names and paths are bytes, not text: each byte
 /// travels as the character of that number, so any of them comes back as it went.
 ///

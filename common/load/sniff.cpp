@@ -11,15 +11,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/base/error.h"
 #include "common/base/errno_text.h"
-#include "common/load/plot3d_layout.h"
+#include "common/base/error.h"
 #include "common/base/unique_fd.h"
+#include "common/load/gzip_head.h"
+#include "common/load/plot3d_layout.h"
 
 namespace palpate {
 namespace {
 
-constexpr const char* kReadable = "a VTK, PLOT3D, EnSight, Exodus II, OpenFOAM or NRRD file";
+constexpr const char* kReadable =
+    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II or OpenFOAM file";
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -64,16 +66,40 @@ Sniffed sniff_vtk_xml(std::string_view text) {
           "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
 }
 
+/// Whether one of the lines begins with `word`.
+bool line_starts(std::string_view text, std::string_view word) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r') return true;
+  }
+  return false;
+}
+
 /// EnSight's case file is text with section keywords; FORMAT comes first and GEOMETRY must be there.
 bool looks_like_ensight(std::string_view text) {
-  const auto line_starts = [text](std::string_view word) {
-    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
-      if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r') return true;
-    }
-    return false;
+  return line_starts(text, "FORMAT") && line_starts(text, "GEOMETRY") &&
+         text.find("type:") != std::string_view::npos && text.find("ensight") != std::string_view::npos;
+}
+
+/// MetaImage's header is lines of "key = value", these three among them.
+bool looks_like_meta_image(std::string_view text) {
+  return line_starts(text, "NDims") && line_starts(text, "DimSize") && line_starts(text, "ElementType");
+}
+
+/// NIfTI's mark stands at the end of its 348 bytes, in version 2 behind the size of the header.
+bool looks_like_nifti(std::string_view text) {
+  constexpr std::size_t kMark1 = 344, kMark2 = 4, kMarkBytes = 4;
+  const auto has = [text](std::size_t at, char version) {
+    if (text.size() < at + kMarkBytes) return false;
+    const std::string_view mark = text.substr(at, kMarkBytes);
+    return mark[0] == 'n' && (mark[1] == '+' || mark[1] == 'i') && mark[2] == version && mark[3] == '\0';
   };
-  return line_starts("FORMAT") && line_starts("GEOMETRY") && text.find("type:") != std::string_view::npos &&
-         text.find("ensight") != std::string_view::npos;
+  return has(kMark1, '1') || has(kMark2, '2');
+}
+
+/// The ancestor of NIfTI has the same size of header and no mark.
+bool looks_like_analyze(std::string_view text, std::uint64_t file_size) {
+  return file_size == 348 && (text.starts_with(std::string_view("\x5c\x01\0\0", 4)) ||
+                              text.starts_with(std::string_view("\0\0\x01\x5c", 4)));
 }
 
 std::string printable(std::string_view bytes) {
@@ -109,6 +135,10 @@ Sniffed sniff(const FileHead& head) {
   if (starts_with(text, "\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
   if (starts_with(text, "# vtk DataFile")) return {Format::kLegacyVtk, "", ""};
   if (starts_with(text, "NRRD000")) return {Format::kNrrd, "", ""};
+  if (looks_like_nifti(text)) return {Format::kNifti, "", ""};
+  if (looks_like_analyze(text, head.file_size))
+    return {{}, "an Analyze header, which does not say how its axes lie", "convert it to NIfTI"};
+  if (looks_like_meta_image(text)) return {Format::kMetaImage, "", ""};
 
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const std::string_view trimmed = first == std::string_view::npos ? std::string_view() : text.substr(first);
@@ -134,7 +164,7 @@ Sniffed sniff(const FileHead& head) {
     }
     return {{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
   }
-  if (starts_with(text, "\x1f\x8b")) return {{}, "a gzip file", "unpack it first"};
+  if (is_gzip(text)) return {{}, "a gzip file", "unpack it first"};
   if (looks_like_ensight(text)) return {Format::kEnsight, "", ""};
   if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {
     return {Format::kOpenFoam, "", ""};
@@ -145,7 +175,9 @@ Sniffed sniff(const FileHead& head) {
   if (find_plot3d_layout(bytes, Plot3dFile::kSolution) || may_be_plot3d_text(bytes, Plot3dFile::kSolution)) {
     return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
   }
-  return {{}, "not recognised (it starts with \"" + printable(text) + "\")", ""};
+  return {{},
+          "not recognised (it starts with \"" + printable(text) + "\")",
+          "voxels without a header need --raw-size and --raw-type"};
 }
 
 HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::size_t tail_bytes) {
@@ -188,7 +220,7 @@ Format find_format(const std::filesystem::path& path) {
     if (is_openfoam_case(path)) return Format::kOpenFoam;
     refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
   }
-  const HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);
+  HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);
   const std::string ending = lower_ending(path);
   if (ending == ".foam" || ending == ".openfoam") {
     // By custom an empty file that only marks the case's folder.
@@ -197,8 +229,18 @@ Format find_format(const std::filesystem::path& path) {
     refuse(path, "marks no OpenFOAM case", "system/controlDict and constant/ beside it");
   }
   if (head.file_size == 0) refuse(path, "is empty", kReadable);
+  const bool packed = is_gzip(head.bytes);
+  if (packed) {
+    head.bytes = gzip_head(head.bytes, kSniffBytes);
+    head.tail.clear();
+  }
   const Sniffed sniffed = sniff(
       {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size, ending});
+  if (packed && sniffed.format != Format::kNifti) {
+    refuse(path,
+           "a gzip file" + (sniffed.format ? " of " + std::string(name_of(*sniffed.format)) : std::string()),
+           kReadable, "unpack it first");
+  }
   if (!sniffed.format) refuse(path, sniffed.found, kReadable, sniffed.remedy);
   return *sniffed.format;
 }

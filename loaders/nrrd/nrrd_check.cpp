@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/load/gzip_head.h"
 #include "common/load/sniff.h"
 
 namespace palpate {
@@ -21,8 +22,7 @@ constexpr std::size_t kMaxAxes = 16;
 constexpr std::size_t kMaxDataFiles = 100'000;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
 
-/// How far the encodings compress at best: deflate 1032 : 1, bzip2 (runs of one byte) some 45 000 : 1.
-constexpr std::uint64_t kGzipRatio = 1032;
+/// How far bzip2 compresses at best (runs of one byte): some 45 000 : 1. For deflate see gzip_head.h.
 constexpr std::uint64_t kBzip2Ratio = 50'000;
 
 std::string trim(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <teem/nrrd.h>
 
 #include "common/base/error.h"
+#include "common/load/volume_block.h"
 #include "loaders/nrrd/nrrd_check.h"
 
 namespace palpate {
@@ -158,28 +159,10 @@ class NrrdLoader : public Loader {
     info.format = name_of(Format::kNrrd);
     info.units = units_of(*nrrd, axes_);
     place(*nrrd, info.notes);
+    info.anatomical = anatomical_;
     describe_values(*nrrd, info.notes);
 
-    BlockInfo block;
-    block.grid = "uniform";
-    block.points = topology_.points;
-    block.point_count = array_.tuples;
-    block.cell_count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      block.cell_count *= static_cast<std::uint64_t>(std::max(1, block.points[axis] - 1));
-      if (block.points[axis] == 1)
-        block.not_volume =
-            "is flat (one sample along axis " + std::to_string(axes_.space[axis]) + "), not a volume";
-    }
-    for (int corner = 0; corner < 8; ++corner) {
-      Vec3 index{0.0};
-      for (int axis = 0; axis < 3; ++axis) {
-        if ((corner >> axis & 1) != 0) index[axis] = static_cast<double>(block.points[axis] - 1);
-      }
-      block.bounds.include(topology_.origin + topology_.axes * index);
-    }
-    block.arrays.push_back(array_);
-    info.blocks.push_back(std::move(block));
+    info.blocks.push_back(describe_image(topology_, array_));
     return info;
   }
 
@@ -224,6 +207,7 @@ class NrrdLoader : public Loader {
       throw input_error({file_, "header", "its axes span no volume",
                          "three independent, finite space directions or spacings"});
     }
+    anatomical_ = signs.has_value();
     if (signs) {
       notes.emplace_back(std::string("space ") + airEnumStr(nrrdSpace, nrrd.space) +
                          (*signs == Vec3{1.0} ? "" : ", turned into RAS"));
@@ -320,6 +304,7 @@ class NrrdLoader : public Loader {
   std::string file_;
   Axes axes_;
   Vec3 signs_{1.0};
+  bool anatomical_ = false;
   Mat3 turn_{1.0};
   bool turned_ = false;
   UniformTopology topology_;

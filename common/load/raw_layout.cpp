@@ -1,0 +1,117 @@
+#include "common/load/raw_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <regex>
+#include <string_view>
+#include <utility>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+template <typename T>
+bool parse_number(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Three numbers with `separator` between them.
+template <typename T>
+bool parse_three(std::string_view text, char separator, std::array<T, 3>& values) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t end = i < 2 ? text.find(separator) : text.size();
+    if (end == std::string_view::npos || !parse_number(text.substr(0, end), values[i])) return false;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return true;
+}
+
+Vec3 parse_vector(const std::string& text, const char* option, const char* expected) {
+  std::array<double, 3> v{};
+  if (!parse_three(text, ',', v) || !is_finite(Vec3{v[0], v[1], v[2]}))
+    throw usage_error(std::string(option) + " " + text + ": " + expected);
+  return {v[0], v[1], v[2]};
+}
+
+constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{{"uint8", ScalarType::kUint8},
+                                                                          {"int8", ScalarType::kInt8},
+                                                                          {"uint16", ScalarType::kUint16},
+                                                                          {"int16", ScalarType::kInt16},
+                                                                          {"uint32", ScalarType::kUint32},
+                                                                          {"int32", ScalarType::kInt32},
+                                                                          {"uint64", ScalarType::kUint64},
+                                                                          {"int64", ScalarType::kInt64},
+                                                                          {"float32", ScalarType::kFloat32},
+                                                                          {"float64", ScalarType::kFloat64},
+                                                                          {"uchar", ScalarType::kUint8},
+                                                                          {"char", ScalarType::kInt8},
+                                                                          {"ushort", ScalarType::kUint16},
+                                                                          {"short", ScalarType::kInt16},
+                                                                          {"float", ScalarType::kFloat32},
+                                                                          {"double", ScalarType::kFloat64}}};
+
+}  // namespace
+
+RawLayout parse_raw_layout(const RawWords& words) {
+  RawLayout layout;
+  if (words.size.empty() || words.type.empty())
+    throw usage_error(
+        "voxels without a header need --raw-size and --raw-type, such as 256x256x178 and uint16");
+  std::array<int, 3> size{};
+  if (!parse_three(words.size, 'x', size) || *std::min_element(size.begin(), size.end()) < 1) {
+    throw usage_error("--raw-size " + words.size +
+                      ": voxels along three axes are expected, such as 256x256x178");
+  }
+  layout.size = {size[0], size[1], size[2]};
+  const auto* const type = std::find_if(kTypes.begin(), kTypes.end(),
+                                        [&](const auto& known) { return known.first == words.type; });
+  if (type == kTypes.end()) {
+    throw usage_error(
+        "--raw-type " + words.type +
+        ": known are uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64");
+  }
+  layout.type = type->second;
+  if (!words.endian.empty() && words.endian != "little" && words.endian != "big")
+    throw usage_error("--raw-endian " + words.endian + ": little or big is expected");
+  layout.big_endian = words.endian == "big";
+  if (!words.spacing.empty()) {
+    constexpr const char* kExpected = "three steps above zero are expected, such as 0.5,0.5,1";
+    layout.spacing = parse_vector(words.spacing, "--raw-spacing", kExpected);
+    if (!(std::min({layout.spacing.x, layout.spacing.y, layout.spacing.z}) > 0.0))
+      throw usage_error("--raw-spacing " + words.spacing + ": " + kExpected);
+  }
+  if (!words.origin.empty()) {
+    layout.origin =
+        parse_vector(words.origin, "--raw-origin", "the place of the first voxel is expected, such as 0,0,0");
+  }
+  constexpr std::uint64_t kMostSkipped = std::uint64_t{1} << 46;
+  const bool skips =
+      words.skip.empty() || (parse_number(words.skip, layout.skip) && layout.skip <= kMostSkipped);
+  if (!skips) throw usage_error("--raw-skip " + words.skip + ": a count of bytes is expected");
+  return layout;
+}
+
+std::uint64_t byte_count(const RawLayout& layout) noexcept {
+  std::uint64_t bytes = byte_size(layout.type);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (__builtin_mul_overflow(bytes, static_cast<std::uint64_t>(layout.size[axis]), &bytes))
+      return std::numeric_limits<std::uint64_t>::max();
+  }
+  return bytes;
+}
+
+RawWords raw_words_of_name(const std::string& name) {
+  static const std::regex kPattern(R"((?:.*_)?([0-9]+x[0-9]+x[0-9]+)_([a-z]+[0-9]*)\.raw)");
+  std::smatch parts;
+  // A name is short; a hostile one would send the matcher deep.
+  constexpr std::size_t kLongestName = 255;
+  if (name.size() > kLongestName || !std::regex_match(name, parts, kPattern)) return {};
+  return {.size = parts[1], .type = parts[2], .endian = {}, .spacing = {}, .origin = {}, .skip = {}};
+}
+
+}  // namespace palpate

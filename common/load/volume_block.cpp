@@ -1,0 +1,41 @@
+#include "common/load/volume_block.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace palpate {
+
+Box sample_bounds(const UniformTopology& topology) noexcept {
+  Box bounds;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 index{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((corner >> static_cast<unsigned>(axis) & 1U) != 0) index[axis] = topology.points[axis] - 1;
+    }
+    bounds.include(topology.origin + topology.axes * index);
+  }
+  return bounds;
+}
+
+BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array) {
+  static constexpr std::array<const char*, 3> kAxes{"first", "second", "third"};
+  BlockInfo block;
+  block.grid = "uniform";
+  block.points = topology.points;
+  block.point_count = array.tuples;
+  block.cell_count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    block.cell_count *= static_cast<std::uint64_t>(std::max(1, block.points[axis] - 1));
+    if (block.points[axis] == 1) {
+      block.not_volume = std::string("is flat (one sample along its ") +
+                         kAxes[static_cast<std::size_t>(axis)] + " spatial axis), not a volume";
+    }
+  }
+  block.bounds = sample_bounds(topology);
+  block.arrays.push_back(array);
+  return block;
+}
+
+}  // namespace palpate

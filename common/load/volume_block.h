@@ -1,0 +1,15 @@
+/// What loaders of images say of the one block that an image is.
+#pragma once
+
+#include "common/field/data_set.h"
+#include "common/load/load.h"
+
+namespace palpate {
+
+/// The smallest box around all samples.
+[[nodiscard]] Box sample_bounds(const UniformTopology& topology) noexcept;
+
+/// The block of an image with one array; it is no volume where it has one sample only along an axis.
+[[nodiscard]] BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array);
+
+}  // namespace palpate

@@ -1,0 +1,107 @@
+#include "loaders/raw/raw_loader.h"
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/load/raw_layout.h"
+#include "common/load/sniff.h"
+#include "common/load/volume_block.h"
+
+namespace palpate {
+namespace {
+
+/// Turns the bytes of every number around.
+void swap_bytes(std::span<std::byte> bytes, std::size_t size) {
+  for (std::size_t at = 0; at + size <= bytes.size(); at += size)
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(at + size));
+}
+
+class RawLoader : public Loader {
+ public:
+  FileInfo open(const LoadRequest& request, Format) override {
+    file_ = request.files.front().string();
+    if (request.files.size() > 1)
+      throw input_error({request.files[1].string(), "", "is a second file of voxels", "one file"});
+    if (!request.raw) throw input_error({file_, "", "comes without the layout of its voxels"});
+    layout_ = *request.raw;
+    const std::uint64_t behind = check_size();
+
+    array_ = {.name = "scalars",
+              .association = Association::kPoint,
+              .components = 1,
+              .type = layout_.type,
+              .tuples = 1};
+    for (int axis = 0; axis < 3; ++axis) array_.tuples *= static_cast<std::size_t>(layout_.size[axis]);
+    topology_.points = layout_.size;
+    topology_.origin = layout_.origin;
+    for (int axis = 0; axis < 3; ++axis) {
+      topology_.axes[axis] = Vec3{0.0};
+      topology_.axes[axis][axis] = layout_.spacing[axis];
+    }
+    FileInfo info;
+    info.format = name_of(Format::kRaw);
+    info.notes.emplace_back("no orientation known: coordinates are spacings times indices");
+    if (behind > 0) info.notes.push_back(counted(behind, "byte") + " behind the voxels left unread");
+    info.blocks.push_back(describe_image(topology_, array_));
+    return info;
+  }
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
+    DataSet block;
+    block.topology = topology_;
+    if (std::find(names.begin(), names.end(), array_.name) != names.end()) block.arrays.push_back(values());
+    std::vector<DataSet> blocks;
+    blocks.push_back(std::move(block));
+    return blocks;
+  }
+
+ private:
+  /// @return how many bytes follow the voxels.
+  std::uint64_t check_size() const {
+    const std::uint64_t there = read_head(file_, 0).file_size;
+    const std::uint64_t wanted = byte_count(layout_);
+    if (there >= layout_.skip && there - layout_.skip >= wanted) return there - layout_.skip - wanted;
+    const std::string skipped = layout_.skip > 0 ? " behind the first " + std::to_string(layout_.skip) : "";
+    throw input_error({file_, "", "has " + std::to_string(there) + " bytes",
+                       std::to_string(wanted) + skipped + " for " + std::to_string(layout_.size.x) + " x " +
+                           std::to_string(layout_.size.y) + " x " + std::to_string(layout_.size.z) + " of " +
+                           name_of(layout_.type),
+                       "check size and type"});
+  }
+
+  DataArray values() const {
+    (void)check_size();
+    const auto bytes = std::make_shared<std::vector<std::byte>>(byte_count(layout_));
+    std::ifstream in(file_, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(layout_.skip));
+    in.read(reinterpret_cast<char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
+    if (!in) throw input_error({file_, "", "cannot be read to the end of its voxels"});
+    const bool native = layout_.big_endian == (std::endian::native == std::endian::big);
+    if (!native) swap_bytes(*bytes, byte_size(layout_.type));
+    DataArray array;
+    array.name = array_.name;
+    array.type = array_.type;
+    array.tuples = array_.tuples;
+    array.bytes = std::as_const(*bytes);
+    array.owner = bytes;
+    return array;
+  }
+
+  std::string file_;
+  RawLayout layout_;
+  UniformTopology topology_;
+  ArrayInfo array_;
+};
+
+}  // namespace
+
+std::unique_ptr<Loader> make_raw_loader() { return std::make_unique<RawLoader>(); }
+
+}  // namespace palpate

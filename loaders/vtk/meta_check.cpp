@@ -1,0 +1,247 @@
+#include "loaders/vtk/meta_check.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <zlib.h>
+
+#include "common/base/error.h"
+#include "common/load/gzip_head.h"
+#include "common/load/sniff.h"
+#include "loaders/vtk/mapped_file.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kHeadBytes = std::size_t{64} << 10;
+constexpr std::size_t kLongestLine = 1000;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
+
+std::string_view trim(std::string_view text) {
+  const auto space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  while (!text.empty() && space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string_view> words(std::string_view text) {
+  std::vector<std::string_view> list;
+  for (text = trim(text); !text.empty(); text = trim(text)) {
+    const auto* const end = std::find_if(
+        text.begin(), text.end(), [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
+    const auto length = static_cast<std::size_t>(end - text.begin());
+    list.push_back(text.substr(0, length));
+    text.remove_prefix(length);
+  }
+  return list;
+}
+
+std::optional<std::int64_t> number(std::string_view text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool is_true(std::string_view text) { return text.starts_with('T') || text.starts_with('t') || text == "1"; }
+
+/// Bytes of one value of a MetaImage type that is read, or 0.
+std::uint64_t bytes_of_type(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, std::uint64_t>, 10> kTypes{{{"MET_CHAR", 1},
+                                                                               {"MET_UCHAR", 1},
+                                                                               {"MET_SHORT", 2},
+                                                                               {"MET_USHORT", 2},
+                                                                               {"MET_INT", 4},
+                                                                               {"MET_UINT", 4},
+                                                                               {"MET_LONG_LONG", 8},
+                                                                               {"MET_ULONG_LONG", 8},
+                                                                               {"MET_FLOAT", 4},
+                                                                               {"MET_DOUBLE", 8}}};
+  const auto* const found =
+      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& type) { return type.first == name; });
+  return found == kTypes.end() ? 0 : found->second;
+}
+
+/// What is collected while the lines go by.
+struct Fields {
+  std::int64_t axes = 0;
+  std::vector<std::string_view> size;
+  std::uint64_t bytes = 0;
+  std::int64_t channels = 1;
+};
+
+void read_field(std::string_view key, std::string_view value, Fields& fields, MetaClaims& claims) {
+  const auto count = [&](std::int64_t least, std::int64_t most) {
+    const auto found = number(value);
+    if (found && *found >= least && *found <= most) return *found;
+    claims.problem = std::string("'").append(key) + "' is '" + std::string(value.substr(0, 40)) + "'";
+    return least;
+  };
+  constexpr std::int64_t kMostChannels = 4096;
+  if (key == "NDims") {
+    fields.axes = count(1, 10);
+  } else if (key == "DimSize") {
+    fields.size = words(value);
+  } else if (key == "ElementType") {
+    fields.bytes = bytes_of_type(value);
+    if (fields.bytes == 0)
+      claims.problem = "has values of type '" + std::string(value.substr(0, 40)) + "', expected numbers";
+  } else if (key == "ElementNumberOfChannels") {
+    fields.channels = count(1, kMostChannels);
+  } else if (key == "BinaryData") {
+    claims.binary = is_true(value);
+  } else if (key == "CompressedData") {
+    claims.compressed = is_true(value);
+  } else if (key == "CompressedDataSize") {
+    claims.compressed_bytes = static_cast<std::uint64_t>(count(0, static_cast<std::int64_t>(kMaxBytes)));
+  } else if (key == "HeaderSize") {
+    claims.skip = count(-1, static_cast<std::int64_t>(kMaxBytes));
+  } else if (key == "ElementDataFile") {
+    if (value == "LIST" || words(value).size() != 1) {
+      claims.problem = "has its voxels in a list of files, expected LOCAL or one file";
+    } else if (value != "LOCAL" && value != "Local" && value != "local") {
+      claims.data_file = value;
+    }
+  }
+}
+
+void combine(const Fields& fields, MetaClaims& claims) {
+  if (fields.axes < 2 || fields.axes > 3) {
+    claims.problem = "has " + std::to_string(fields.axes) + " axes, expected 3";
+  } else if (fields.size.size() != static_cast<std::size_t>(fields.axes)) {
+    claims.problem = "'DimSize' names " + std::to_string(fields.size.size()) + " counts for " +
+                     std::to_string(fields.axes) + " axes";
+  } else if (fields.bytes == 0) {
+    claims.problem = "has no field 'ElementType'";
+  }
+  if (!claims.problem.empty()) return;
+  constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;
+  for (std::size_t axis = 0; axis < fields.size.size(); ++axis) {
+    const auto found = number(fields.size[axis]);
+    if (!found || *found < 1 || *found > kMostVoxels) {
+      claims.problem = "'DimSize' holds '" + std::string(fields.size[axis].substr(0, 40)) + "'";
+      return;
+    }
+    claims.size[axis] = static_cast<std::uint64_t>(*found);
+  }
+  claims.bytes_per_voxel = fields.bytes * static_cast<std::uint64_t>(fields.channels);
+}
+
+/// Where the voxels lie: the file, and how many bytes of it are before them.
+struct VoxelPlace {
+  std::string file;
+  std::uint64_t offset = 0;
+};
+
+VoxelPlace place_of(const MetaClaims& claims, const std::string& file) {
+  if (claims.data_file.empty()) return {file, claims.header_bytes};
+  // Relative names start from the header's folder.
+  const std::filesystem::path path = std::filesystem::path(file).parent_path() / claims.data_file;
+  return {path.string(), claims.skip > 0 ? static_cast<std::uint64_t>(claims.skip) : 0};
+}
+
+MetaClaims claims_of(const std::string& file) {
+  MetaClaims claims = read_meta_claims(read_head(file, kHeadBytes).bytes);
+  if (!claims.problem.empty())
+    throw input_error({file, "header", claims.problem, "", "the file may be damaged"});
+  return claims;
+}
+
+}  // namespace
+
+MetaClaims read_meta_claims(std::string_view head) {
+  MetaClaims claims;
+  Fields fields;
+  bool ended = false;
+  std::size_t at = 0;
+  while (at < head.size() && claims.problem.empty() && !ended) {
+    const std::size_t end = std::min(head.find('\n', at), head.size());
+    const std::string_view line = head.substr(at, end - at);
+    at = std::min(end + 1, head.size());
+    if (line.size() > kLongestLine) {
+      claims.problem = "has a line of " + std::to_string(line.size()) + " bytes in its header";
+      break;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view key = trim(line.substr(0, equals));
+    read_field(key, trim(line.substr(equals + 1)), fields, claims);
+    ended = key == "ElementDataFile";
+  }
+  claims.header_bytes = at;
+  if (claims.problem.empty() && !ended) claims.problem = "its header does not name 'ElementDataFile'";
+  if (claims.problem.empty()) combine(fields, claims);
+  return claims;
+}
+
+std::string meta_size_problem(const MetaClaims& claims, std::uint64_t available) {
+  std::uint64_t bytes = claims.bytes_per_voxel;
+  bool huge = false;
+  for (const std::uint64_t size : claims.size) huge = huge || __builtin_mul_overflow(bytes, size, &bytes);
+  huge = huge || bytes > kMaxBytes;
+  std::uint64_t possible = available;
+  if (claims.compressed) {
+    possible = std::min(available, kMaxBytes) * kGzipRatio;
+    if (claims.compressed_bytes > available)
+      return "claims " + std::to_string(claims.compressed_bytes) + " packed bytes, but there are " +
+             std::to_string(available);
+  } else if (!claims.binary) {
+    possible = (available / 2 + 1) * claims.bytes_per_voxel;  // a digit and a separator make a value
+  }
+  if (!huge && bytes <= possible) return "";
+  return "claims " + (huge ? std::string("over 2^50") : std::to_string(bytes)) +
+         " bytes of voxels, but there are " + std::to_string(available) +
+         (claims.compressed ? " packed" : "");
+}
+
+void check_meta(const std::string& file) {
+  const MetaClaims claims = claims_of(file);
+  const VoxelPlace place = place_of(claims, file);
+  std::uint64_t there = 0;
+  try {
+    there = read_head(place.file, 0).file_size;
+  } catch (const Error& error) {
+    if (claims.data_file.empty()) throw;
+    throw input_error({file, "ElementDataFile", error.what()});
+  }
+  const std::string problem = meta_size_problem(claims, there - std::min(there, place.offset));
+  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+}
+
+void check_meta_stream(const std::string& file) {
+  const MetaClaims claims = claims_of(file);
+  if (!claims.compressed) return;
+  const VoxelPlace place = place_of(claims, file);
+  const MappedFile mapped(place.file);
+  std::string_view packed = mapped.text().substr(std::min<std::size_t>(place.offset, mapped.text().size()));
+  z_stream stream{};
+  constexpr int kAnyWrapper = 32;  // added to the size of the window: zlib's or gzip's header
+  if (inflateInit2(&stream, MAX_WBITS + kAnyWrapper) != Z_OK) throw work_error("zlib cannot be started");
+  std::vector<unsigned char> out(std::size_t{256} << 10);
+  std::uint64_t unpacked = 0;
+  int state = Z_OK;
+  while (state == Z_OK) {
+    if (stream.avail_in == 0 && !packed.empty()) {
+      const std::size_t part = std::min(packed.size(), std::size_t{1} << 20);
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+      stream.avail_in = static_cast<uInt>(part);
+      packed.remove_prefix(part);
+    }
+    stream.next_out = out.data();
+    stream.avail_out = static_cast<uInt>(out.size());
+    state = inflate(&stream, Z_NO_FLUSH);
+    unpacked += out.size() - stream.avail_out;
+  }
+  inflateEnd(&stream);
+  const std::uint64_t wanted = claims.bytes_per_voxel * claims.size[0] * claims.size[1] * claims.size[2];
+  if (state == Z_STREAM_END && unpacked >= wanted) return;
+  throw input_error({file, "", "only " + std::to_string(unpacked) + " bytes of voxels can be unpacked",
+                     std::to_string(wanted), "the file may be truncated"});
+}
+
+}  // namespace palpate

@@ -1,0 +1,14 @@
+/// MetaImage volumes (.mha, .mhd) through MetaIO, VTK's copy of it. Positions come out in RAS+ millimetres
+/// where the header says how the patient lies; ITK, which writes most of these files, means LPS.
+#pragma once
+
+#include <memory>
+
+#include "common/load/serve.h"
+
+namespace palpate {
+
+/// The Loader of the helper program palpate-load-meta.
+[[nodiscard]] std::unique_ptr<Loader> make_meta_loader();
+
+}  // namespace palpate
