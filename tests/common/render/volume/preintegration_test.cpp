@@ -1,0 +1,181 @@
+#include "common/render/volume/preintegration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+using Rgba = std::array<double, 4>;
+
+// (1) by its definition: the trapezoidal rule in double precision, `steps` to a cell.
+Rgba integrated(const std::vector<OpticalEntry>& entries, std::size_t front, std::size_t back, double length,
+                int steps_of_cell) {
+  const auto at = [&](double u) {
+    const double s =
+        static_cast<double>(front) + u * (static_cast<double>(back) - static_cast<double>(front));
+    const auto cell = std::min(static_cast<std::size_t>(s), entries.size() - 2);
+    const double part = s - static_cast<double>(cell);
+    const OpticalEntry& a = entries[cell];
+    const OpticalEntry& b = entries[cell + 1];
+    Rgba result{};
+    for (int c = 0; c < 3; ++c) {
+      result[static_cast<std::size_t>(c)] =
+          (1.0 - part) * static_cast<double>(a.color[c]) + part * static_cast<double>(b.color[c]);
+    }
+    result[3] = (1.0 - part) * static_cast<double>(a.depth) + part * static_cast<double>(b.depth);
+    return result;
+  };
+  const int cells = std::max(std::abs(static_cast<int>(back) - static_cast<int>(front)), 1);
+  const int steps = cells * steps_of_cell;
+  Rgba sum{};
+  double depth = 0.0;
+  Rgba before = at(0.0);
+  const double h = length / steps;
+  for (int i = 1; i <= steps; ++i) {
+    const Rgba here = at(static_cast<double>(i) / steps);
+    const double next = depth + 0.5 * h * (before[3] + here[3]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum[c] += 0.5 * h * (before[3] * before[c] * std::exp(-depth) + here[3] * here[c] * std::exp(-next));
+    }
+    depth = next;
+    before = here;
+  }
+  sum[3] = 1.0 - std::exp(-depth);
+  return sum;
+}
+
+struct Table {
+  std::size_t count, lengths;
+  std::vector<std::uint16_t> rgba;
+
+  Table(const std::vector<OpticalEntry>& entries, std::size_t length_count, int threads = 0)
+      : count(entries.size()), lengths(length_count), rgba(4 * count * count * lengths) {
+    preintegrate(entries, lengths, threads, rgba);
+  }
+  Rgba at(std::size_t front, std::size_t back, std::size_t layer) const {
+    Rgba result{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      result[c] = rgba[4 * (front + count * (back + count * layer)) + c] / 65535.0;
+    }
+    return result;
+  }
+};
+
+double worst(const Rgba& a, const Rgba& b) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < 4; ++c) most = std::max(most, std::abs(a[c] - b[c]));
+  return most;
+}
+
+// Piecewise linear with a corner at every entry, from clear to all but opaque.
+std::vector<OpticalEntry> random_entries(std::size_t count, unsigned seed, float deepest) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+  std::vector<OpticalEntry> entries(count);
+  for (OpticalEntry& e : entries) {
+    e.color = {unit(random), unit(random), unit(random)};
+    const float u = unit(random);
+    e.depth = u < 0.3F ? 0.0F : deepest * u * u * u;
+  }
+  return entries;
+}
+
+TEST(Preintegration, AgreesWithDirectIntegrationOfEverySegment) {
+  const auto entries = random_entries(24, 1, 11.0F);
+  const Table table(entries, 16);
+  double most = 0.0;
+  for (std::size_t back = 0; back < 24; ++back) {
+    for (std::size_t front = 0; front < 24; ++front) {
+      for (const std::size_t layer : {0U, 1U, 7U, 8U, 15U}) {
+        const Rgba expected = integrated(entries, front, back, static_cast<double>(layer) / 15.0, 500);
+        most = std::max(most, worst(table.at(front, back, layer), expected));
+      }
+    }
+  }
+  EXPECT_LT(most, 0.5 / 4096.0);
+}
+
+// The size and contents of tables in use: a segment of the largest table among many.
+TEST(Preintegration, AgreesWithDirectIntegrationInALargeTable) {
+  const auto entries = random_entries(128, 2, 9.0F);
+  const Table table(entries, 256);
+  std::mt19937 random(3);
+  std::uniform_int_distribution<std::size_t> entry(0, 127), length(0, 255);
+  double most = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const std::size_t front = entry(random), back = entry(random), layer = length(random);
+    const Rgba expected = integrated(entries, front, back, static_cast<double>(layer) / 255.0, 500);
+    most = std::max(most, worst(table.at(front, back, layer), expected));
+  }
+  EXPECT_LT(most, 1.0 / 4096.0);
+}
+
+// A wall so dense that nothing passes its first part: only the front colour is left.
+TEST(Preintegration, ShowsTheFrontOfWhatIsOpaque) {
+  std::vector<OpticalEntry> entries(9, {Vec3f(0.2F, 0.4F, 0.6F), 5000.0F});
+  entries[8].color = Vec3f(1.0F, 0.0F, 0.0F);
+  const Table table(entries, 8);
+  for (std::size_t back = 0; back < 8; ++back) {
+    EXPECT_LT(worst(table.at(0, back, 7), {0.2, 0.4, 0.6, 1.0}), 1e-4) << back;
+  }
+  EXPECT_LT(worst(table.at(8, 0, 7), {1.0, 0.0, 0.0, 1.0}), 0.01);
+}
+
+TEST(Preintegration, OfNoLengthOrOfClearMatterShowsNothing) {
+  const Table dense(random_entries(16, 4, 9.0F), 8);
+  const Table clear(std::vector<OpticalEntry>(16, {Vec3f(1.0F), 0.0F}), 8);
+  for (std::size_t back = 0; back < 16; ++back) {
+    for (std::size_t front = 0; front < 16; ++front) {
+      EXPECT_LT(worst(dense.at(front, back, 0), {}), 3e-5);
+      EXPECT_LT(worst(clear.at(front, back, 7), {}), 3e-5);
+    }
+  }
+}
+
+// A step between two entries: the bound of the header, against the step itself at 200 times as many entries.
+TEST(Preintegration, DrawsAStepBetweenEntriesWithinItsBound) {
+  constexpr std::size_t kCoarse = 17, kFine = 3201;  // 200 fine cells to a coarse one
+  const auto entry = [](double u) {
+    return u < 0.533 ? OpticalEntry{Vec3f(0.9F, 0.1F, 0.3F), 0.0F}
+                     : OpticalEntry{Vec3f(0.2F, 0.8F, 0.5F), 2.0F};
+  };
+  std::vector<OpticalEntry> coarse, fine;
+  for (std::size_t i = 0; i < kCoarse; ++i) coarse.push_back(entry(static_cast<double>(i) / (kCoarse - 1)));
+  for (std::size_t i = 0; i < kFine; ++i) fine.push_back(entry(static_cast<double>(i) / (kFine - 1)));
+  const Table table(coarse, 8);
+  double reached = 0.0;
+  for (std::size_t back = 0; back < kCoarse; ++back) {
+    for (std::size_t front = 0; front < kCoarse; ++front) {
+      if (front == back) continue;
+      const Rgba expected = integrated(fine, 200 * front, 200 * back, 1.0, 4);
+      const double cells = std::abs(static_cast<double>(back) - static_cast<double>(front));
+      const double off = worst(table.at(front, back, 7), expected);
+      EXPECT_LT(off, 2.0 * 2.0 / cells + 0.002) << front << " " << back;
+      reached = std::max(reached, off);
+    }
+  }
+  EXPECT_GT(reached, 0.01);  // the step does matter
+}
+
+TEST(Preintegration, DoesNotDependOnTheNumberOfThreads) {
+  const auto entries = random_entries(40, 5, 6.0F);
+  EXPECT_EQ(Table(entries, 64, 1).rgba, Table(entries, 64, 4).rgba);
+}
+
+TEST(OpticalEntries, SampleTheTransferFunctionForTheLongestSegment) {
+  const ColorTransfer transfer({{10.0, Vec3f(0.0F), 0.0}, {20.0, {1.0F, 0.5F, 0.0F}, 0.5}});
+  const auto entries = optical_entries(transfer, 10.0, 20.0, 3, 4.0);
+  ASSERT_EQ(entries.size(), 3U);
+  EXPECT_EQ(entries[0].depth, 0.0F);
+  EXPECT_FLOAT_EQ(entries[1].depth, static_cast<float>(-4.0 * std::log(0.75)));
+  EXPECT_FLOAT_EQ(entries[2].color.y, 0.5F);
+}
+
+}  // namespace
+}  // namespace palpate
