@@ -1,0 +1,73 @@
+/// Lenses: convex regions of a volume that are drawn in a way of their own.
+///
+/// A shape is the intersection of at most one quadric and of half-spaces, in data coordinates:
+///
+///   |M (x - c)| <= 1   and   n_i . x <= h_i for all i                                            (1)
+///
+/// M of rank three gives an ellipsoid, of rank two an elliptic cylinder without ends. A line meets a convex
+/// shape in one interval (lens_segments in shaders/volume/), so a ray is split into context, focus, context
+/// (Ikits 2006, sec. 5.3). Of several lenses the first in the list wins where they overlap.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/field/color_transfer.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+struct ConvexShape {
+  struct Quadric {
+    Mat3 unit_from_data{1.0};  ///< M
+    Vec3 center{0.0};          ///< c
+
+    bool operator==(const Quadric&) const = default;
+  };
+  struct HalfSpace {
+    Vec3 outward{0.0, 0.0, 1.0};  ///< n, unit
+    double offset = 0.0;          ///< h [data units]
+
+    bool operator==(const HalfSpace&) const = default;
+  };
+  std::optional<Quadric> quadric;
+  std::vector<HalfSpace> half_spaces;
+
+  [[nodiscard]] bool contains(const Vec3& x) const noexcept;
+  bool operator==(const ConvexShape&) const = default;
+};
+
+/// Where the line x(t) = origin + t direction runs inside; empty where `first` >= `last`.
+struct LineInterval {
+  double first = 0.0;
+  double last = 0.0;
+};
+[[nodiscard]] LineInterval clip_line(const ConvexShape& shape, const Vec3& origin,
+                                     const Vec3& direction) noexcept;
+
+/// @pre for all shapes: finite numbers, sizes >= 0, directions that are not zero. A shape of no size holds no
+/// more than a set of measure zero, and is not seen.
+[[nodiscard]] ConvexShape make_sphere(const Vec3& center, double radius);
+/// @param axes columns: from the centre to the middles of three faces, at right angles to each other.
+[[nodiscard]] ConvexShape make_box(const Vec3& center, const Mat3& axes);
+[[nodiscard]] ConvexShape make_cylinder(const Vec3& from, const Vec3& to, double radius);
+/// All that `outward` points away from, from `point` on.
+[[nodiscard]] ConvexShape make_half_space(const Vec3& point, const Vec3& outward);
+/// The tetrahedron, pyramid or other polyhedron that half-spaces enclose; normals need not be unit.
+[[nodiscard]] ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces);
+
+inline constexpr std::size_t kMostLenses = 8;
+inline constexpr std::size_t kMostHalfSpaces = 32;  ///< of one lens
+
+struct Lens {
+  ConvexShape shape;
+  std::optional<ColorTransfer> transfer;  ///< absent: that of the context
+  double samples_per_voxel = 2.0;         ///< > 0
+  bool shading = true;
+  bool cut = false;  ///< cut away: nothing is drawn inside
+
+  bool operator==(const Lens&) const = default;
+};
+
+}  // namespace palpate

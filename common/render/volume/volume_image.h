@@ -1,0 +1,52 @@
+/// A scalar on a uniform grid as the GPU samples it: in the type of its file where that can be.
+///
+/// Symbols.  g grid coordinates, whole numbers at the points; x = origin + axes g data coordinates. Values
+/// are trilinear between points. An axis with one point is one step thick, and the value is constant along
+/// it. A cell with a value that is not finite at one of its corners shows nothing.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "common/field/data_set.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Immutable where shared.
+struct VolumeImage {
+  Index3 points{0};
+  Vec3 origin{0.0};
+  Mat3 axes{1.0};                          ///< columns: steps along i, j, k [data units]
+  ScalarType type = ScalarType::kFloat32;  ///< kUint8, kUint16 or kFloat32
+  std::span<const std::byte> bytes;        ///< points.x * points.y * points.z numbers, x fastest
+  std::shared_ptr<const void> owner;       ///< keeps `bytes` alive
+  double scale = 1.0;                      ///< value = offset + scale * number
+  double offset = 0.0;
+  double lowest = 0.0;  ///< of the finite values; lowest > highest where there are none
+  double highest = -1.0;
+
+  /// The number at a point; @pre index < points.x * points.y * points.z.
+  [[nodiscard]] double number(std::size_t index) const noexcept;
+  [[nodiscard]] double value(std::size_t index) const noexcept { return offset + scale * number(index); }
+  [[nodiscard]] std::size_t point_count() const noexcept;
+  /// Grid coordinates of the lower and upper corners of what is shown.
+  [[nodiscard]] Vec3 lower() const noexcept;
+  [[nodiscard]] Vec3 upper() const noexcept;
+  /// Box around all of it, data coordinates.
+  [[nodiscard]] Box bounds() const noexcept;
+};
+
+/// One component of a point array of a uniform block. Numbers of 8 and 16 bits and single-precision ones are
+/// shared with the array where it has one component; others are converted to single precision, wide ranges
+/// with a power of two as `scale`. Blanked points become NaN.
+/// @throws Error (bad input) with `file` where the block is not uniform, has no such array, sizes disagree,
+/// or the axes do not span a space; (usage) where the array has no such component.
+[[nodiscard]] std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block,
+                                                                   const std::string& array,
+                                                                   const std::string& file,
+                                                                   int component = 0);
+
+}  // namespace palpate

@@ -1,0 +1,56 @@
+/// Draws a volume by casting one ray a pixel (shaders/volume/).
+///
+/// Symbols.  t length along a ray in the scene frame, from the eye (perspective) or from the plane through it
+/// (orthographic); d distance of samples.
+///
+/// Samples stand at t = n d for whole n, on one lattice a ray; the box of the volume, borders of lenses and
+/// opaque things only split the intervals between them. A whole interval takes colour and opacity from the
+/// layer of the preintegrated table for length d; a part of one from the two layers about its length (Ikits
+/// 2006, sec. 5.4). Rays choose d from the lengths of the table so that they sample a voxel as often as asked
+/// for, whatever the spacing of voxels along them; never more than kStepRatio times the shortest step of all.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "common/render/camera.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+class VolumePass {
+ public:
+  VolumePass();
+  ~VolumePass();
+  VolumePass(const VolumePass&) = delete;
+  VolumePass& operator=(const VolumePass&) = delete;
+
+  /// Uploads what `view` changes: voxels when the image is another one, tables when transfer functions or
+  /// lengths are, and compiles the shader that it needs.
+  /// @throws Error (usage) where the volume is larger than the driver's textures.
+  void update(const VolumeView& view, const SceneFrame& frame);
+
+  /// Draws over the framebuffer that is bound, behind none of what it holds but in front of it as far as the
+  /// depths say: with associated colours, without writing depth. Needs the frame's uniform block bound to 0.
+  /// @param opaque_depth a texture with the depths of opaque things, one sample for each pixel of the frame
+  /// block, or 0 where there are none (RenderTarget::depth_texture).
+  /// @pre update().
+  void draw(std::uint32_t opaque_depth);
+
+  /// What was made for the last view, for `--explain`.
+  struct Cost {
+    int programs = 0;               ///< compiled by this pass so far
+    std::uint64_t voxel_bytes = 0;  ///< textures on the GPU
+    std::uint64_t table_bytes = 0;
+    std::uint64_t brick_bytes = 0;
+    double table_ms = 0.0;     ///< of the last preintegration
+    double empty_share = 0.0;  ///< of the bricks, for the context
+  };
+  [[nodiscard]] const Cost& cost() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palpate

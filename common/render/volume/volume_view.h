@@ -1,0 +1,36 @@
+/// What a picture shows of a volume, as plain data.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/field/color_transfer.h"
+#include "common/render/lens/lens.h"
+#include "common/render/volume/volume_image.h"
+
+namespace palpate {
+
+struct VolumeView {
+  std::shared_ptr<const VolumeImage> image;
+  ColorTransfer transfer;
+  /// Length along which matter has the opacity of the transfer function [data units]; 0: a 512th of the
+  /// diagonal, whatever the number of voxels.
+  double opacity_length = 0.0;
+  double samples_per_voxel = 2.0;  ///< > 0, along the ray, outside lenses
+  bool shading = true;             ///< Phong, with gradients of the values as normals
+  std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
+
+  /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
+  int table_entries = 256;
+  int table_lengths = 32;
+  bool skip_empty = true;         ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
+  bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
+};
+
+/// Whether both give the same picture; images count as the same where they are the same objects.
+[[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
+
+/// Length in data units that `view` uses for its opacities.
+[[nodiscard]] double opacity_length_of(const VolumeView& view) noexcept;
+
+}  // namespace palpate
