@@ -1,0 +1,87 @@
+/// A simulated arm in a simulated hand: three axes (simulated_axis.h) with encoders and motors.
+///
+/// Each axis moves by itself and has its own friction, as the motors of a real arm do, whose axes are taken
+/// to be those of the workspace. A command takes effect after the actuators' delay, is held until the next
+/// one does (zero-order hold), and is shortened to the peak force. Encoders round to their step.
+///
+/// The sensors' delay needs no memory: the arm is simulated up to the instant that the sensors show, which
+/// lies that delay in the past, and commands given now take effect both delays later. A loop sees their sum.
+///
+/// What becomes of energy is kept to rounding, per axis with a constant force in each interval:
+///
+///   motors + pushes + hand = viscous + friction + kinetic + stored                                  (1)
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "common/device/device_profile.h"
+#include "common/device/hand_model.h"
+#include "common/device/simulated_axis.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// What the parts of (1) have come to since the start [J].
+struct ArmEnergy {
+  double motors = 0.0;    ///< work of the motors on the arm: what the virtual environment gave
+  double pushes = 0.0;    ///< work of push()
+  double hand = 0.0;      ///< put into the hand's spring by moving its rest
+  double viscous = 0.0;   ///< lost in the dampers of arm and hand
+  double friction = 0.0;  ///< lost to friction
+
+  bool operator==(const ArmEnergy&) const = default;
+};
+
+class SimulatedArm {
+ public:
+  static constexpr std::size_t kMostPending = 512;  ///< commands under way: 50 ms at 10 kHz
+  static constexpr double kLongestGap = 0.1;        ///< [s] after a longer pause the arm has stood meanwhile
+
+  /// At rest at `position` [m], where the hand holds it. @pre profile.valid().
+  SimulatedArm(const DeviceProfile& profile, const HandImpedance& hand, double time, const Vec3& position);
+
+  /// The force [N] of the motors from time + actuators' delay on. `time` does not fall. @rt Safe.
+  void command(double time, const Vec3& force) noexcept;
+  /// No force from the motors from this instant on, whatever is under way. @rt Safe.
+  void stop() noexcept;
+  /// Where the hand wants to be from now on [m].
+  void set_rest(const Vec3& rest) noexcept;
+  /// A constant force on the arm from now on [N].
+  void push(const Vec3& force) noexcept { push_ = force; }
+  /// Moves the arm to what the sensors show at `time`. @rt Safe.
+  void advance(double time) noexcept;
+
+  /// The instant that the arm is at [s]: that of the last advance() less the sensors' delay.
+  [[nodiscard]] double time() const noexcept { return time_; }
+  /// What the encoders show [m].
+  [[nodiscard]] Vec3 encoders() const noexcept;
+  [[nodiscard]] Vec3 position() const noexcept;                              ///< the true one [m]
+  [[nodiscard]] Vec3 velocity() const noexcept;                              ///< [m/s]
+  [[nodiscard]] const Vec3& motor_force() const noexcept { return motor_; }  ///< in force [N]
+  [[nodiscard]] const DeviceProfile& profile() const noexcept { return profile_; }
+
+  [[nodiscard]] const ArmEnergy& energy() const noexcept { return energy_; }
+  [[nodiscard]] double kinetic() const noexcept;  ///< of arm and hand [J]
+  [[nodiscard]] double stored() const noexcept;   ///< in the hand's spring [J]
+
+ private:
+  struct Pending {
+    double time = 0.0;
+    Vec3 force{0.0};
+  };
+
+  void move(double dt) noexcept;
+
+  DeviceProfile profile_;
+  AxisLoad load_;
+  double time_;
+  std::array<AxisState, 3> axes_{};
+  Vec3 rest_, motor_{0.0}, push_{0.0};
+  std::array<Pending, kMostPending> pending_{};
+  std::size_t first_pending_ = 0;
+  std::size_t pending_count_ = 0;
+  ArmEnergy energy_;
+};
+
+}  // namespace palpate
