@@ -1,10 +1,10 @@
 #include "common/app/window/user_settings.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <toml++/toml.h>
 
@@ -118,9 +118,11 @@ void apply_look(const Look& look, SceneView& view) noexcept {
 
 void remember(std::vector<InputFiles>& recent, const InputFiles& input) {
   if (input.files.empty()) return;
-  recent.erase(std::remove(recent.begin(), recent.end(), input), recent.end());
-  recent.insert(recent.begin(), input);
-  if (recent.size() > UserSettings::kMostRecent) recent.resize(UserSettings::kMostRecent);
+  std::vector<InputFiles> now{input};
+  for (InputFiles& old : recent) {
+    if (now.size() < UserSettings::kMostRecent && !(old == input)) now.push_back(std::move(old));
+  }
+  recent = std::move(now);
 }
 
 std::optional<UserFiles> user_files(const std::string& program) {
