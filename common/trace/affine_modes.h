@@ -10,7 +10,9 @@
 /// rounding of another, however stiff (Davies and Higham 2003 on Schur-Parlett methods). The first exit is
 /// that of first_zero.h.
 ///
-/// Computed in `long double` from the vertices: beside a rate of 1e12 a double leaves a slow one no digits.
+/// Computed from the vertices in `R`, long double or double. Rounding of a double moves the line by some
+/// 2^-53 of the cell for each unit of rate() times time, so that beside a rate of 1e12 a slow one has no
+/// digits left: doubles do for a short while only, see certain().
 #pragma once
 
 #include <array>
@@ -23,15 +25,18 @@
 
 namespace palpate {
 
+template <class R>
 class AffineModes {
  public:
-  using Real = ExponentialNodes::Real;
-  using Complex = ExponentialNodes::Complex;
-  using Four = ExponentialForm::Four;
+  using Nodes = ExponentialNodes<R>;
+  using Form = ExponentialForm<R>;
+  using Real = R;
+  using Complex = typename Nodes::Complex;
+  using Four = typename Form::Four;
 
   struct Exit {
     int face = -1;  ///< -1: never
-    Real time = 0.0L;
+    Real time = 0;
   };
 
   /// Solves the cell from `b`. `ignore`: a face that the line is not to leave by, or -1.
@@ -39,6 +44,9 @@ class AffineModes {
   AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b, int ignore);
 
   [[nodiscard]] const Exit& exit() const noexcept { return exit_; }
+  /// Whether exit() and rest() can be relied upon: of doubles only where the line leaves or rests before
+  /// 2^18 / rate().
+  [[nodiscard]] bool certain() const noexcept { return certain_; }
   /// Barycentric coordinates at time `t` >= 0.
   [[nodiscard]] Four at(Real t) const;
   /// Their rates of change then, to full relative precision however stiff the cell is.
@@ -54,16 +62,17 @@ class AffineModes {
   void make_rates(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign);
   void make_schur();
   [[nodiscard]] Four rates_of(const Four& z) const;  ///< B z
-  [[nodiscard]] ExponentialForm make_rate_form(const Four& w) const;
+  [[nodiscard]] Form make_rate_form(const Four& w) const;
   void find_rest(const Four& slope, Real horizon);
 
   std::array<Four, 4> matrix_{};  ///< B, rows first
   std::array<std::array<Complex, 3>, 3> q_{}, t_{};
-  ExponentialNodes nodes_;  ///< 0 and the eigenvalues, in the order of T
-  int annihilated_ = 1;     ///< the node that the chain of first_zero.h takes out
-  Real rate_ = 0.0L;
-  ExponentialForm position_, rate_form_;
+  Nodes nodes_;          ///< 0 and the eigenvalues, in the order of T
+  int annihilated_ = 1;  ///< the node that the chain of first_zero.h takes out
+  Real rate_ = 0;
+  Form position_, rate_form_;
   Exit exit_;
+  bool certain_ = true;
   std::optional<Four> rest_;
 };
 

@@ -38,8 +38,8 @@ bool ExactWalk::start(const Vec3& seed) {
   pieces_in_cell_ = 0;
   standing_ = 0;
   ignored_face_ = -1;
-  modes_.reset();
-  robust_pieces_ = 0;
+  leave_robust();
+  robust_pieces_ = long_cells_ = 0;
   has_piece_ = false;
   b_ = Pack4{std::max(found.b[0], 0.0), std::max(found.b[1], 0.0), std::max(found.b[2], 0.0),
              std::max(found.b[3], 0.0)};
@@ -69,7 +69,8 @@ std::optional<End> ExactWalk::advance() {
       w_ = rate(cell_, b_);
     }
     if (!finite_) return End::kBadData;
-    if (modes_) return robust_piece();
+    if (robust_.modes) return robust_piece(robust_);
+    if (long_.modes) return robust_piece(long_);
     switch (fast_piece()) {
       case PieceOutcome::kPiece:
         return std::nullopt;
@@ -99,7 +100,7 @@ std::optional<End> ExactWalk::cross_standing(int face) {
   TetPoint ahead;
   const double distance = kAhead * cell_.size;
   if (!mesh_->mesh().locate(x + distance * direction_, cell_index_, ahead)) return cross(face);
-  modes_.reset();
+  leave_robust();
   ignored_face_ = -1;
   pieces_in_cell_ = 0;
   settle(ahead.cell, x);
@@ -122,7 +123,7 @@ PieceOutcome ExactWalk::fast_piece() {
   const PieceOutcome outcome = kernel_.advance(cell_, mesh_->view(), piece_);
   exit_face_ = piece_.face;
   if (outcome == PieceOutcome::kPiece) {
-    piece_robust_ = false;
+    piece_path_ = Path::kFast;
     close_piece(Pack4::load(piece_.b_end), Pack4::load(piece_.w_end), piece_.time, piece_.arc,
                 kRoundingPerCell * kUlp * cell_.size * (1.0 + piece_.theta));
   }
@@ -143,7 +144,7 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   turn_cosine_ = glm::dot(before, direction_);
 
   // (1) of error_transport.h by two terms; on the robust path the modes carry it.
-  if (!piece_robust_) {
+  if (piece_path_ == Path::kFast) {
     const Vec3& e = error_.vector();
     const Pack4 first = time * apply(cell_, along(cell_, Pack4{e, 0.0}));
     Pack4 change = velocity(cell_, first);
@@ -168,7 +169,7 @@ std::optional<End> ExactWalk::cross(int face) {
   const CellIndex from = cell_index_;
   const CellIndex next = neighbors(from)[static_cast<std::size_t>(face)];
   if (next == kNoCell) return End::kLeftDomain;
-  modes_.reset();
+  leave_robust();
   ignored_face_ = -1;
   pieces_in_cell_ = 0;
   loaded_ = false;
@@ -219,8 +220,8 @@ LinePoint ExactWalk::at(double theta) const {
   LinePoint point = begin_;
   const double h = theta * piece_.time;
   Pack4 b, speeds;
-  if (piece_robust_) {
-    const RobustFlow flow = robust_flow(piece_mode_start_, h, piece_mode_start_ + h);
+  if (piece_path_ != Path::kFast) {
+    const RobustFlow flow = robust_flow_to(h);
     b = flow.b;
     speeds = flow.speed;
   } else {

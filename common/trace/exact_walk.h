@@ -24,8 +24,9 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] bool start(const Vec3& seed) override;
   [[nodiscard]] std::optional<End> advance() override;
   [[nodiscard]] LinePoint at(double theta) const override;
-  /// Pieces that took the robust path, for reports.
+  /// Pieces that took the robust path, and cells that took it in long double, for reports.
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
+  [[nodiscard]] std::int64_t long_cells() const noexcept { return long_cells_; }
 
  private:
   static constexpr double kUlp = std::numeric_limits<double>::epsilon();
@@ -38,6 +39,16 @@ class ExactWalk final : public LineWalk {
   static constexpr int kMaxStandingSteps =
       256;  ///< crossings without progress: more than cells meet at a point
 
+  enum class Path : std::uint8_t { kFast, kRobust, kLong };
+
+  /// A cell solved by its modes.
+  template <class Real>
+  struct Robust {
+    std::optional<AffineModes<Real>> modes;
+    Real time = 0;         ///< since the modes began
+    Real step = 0;         ///< of the last piece
+    Real piece_start = 0;  ///< its beginning
+  };
   struct RobustFlow {
     Pack4 b, w;
     std::array<Pack4, 4> velocity;  ///< at the inner nodes of the rule for the arc length, and at the end
@@ -49,15 +60,24 @@ class ExactWalk final : public LineWalk {
     return mesh_->mesh().neighbors()[static_cast<std::size_t>(cell)];
   }
   [[nodiscard]] PieceOutcome fast_piece();
-  [[nodiscard]] std::optional<End> robust_piece();
+  template <class Real>
+  [[nodiscard]] std::optional<End> robust_piece(Robust<Real>& robust);
   /// From `start` to `stop` = start + h, times of the modes.
-  [[nodiscard]] RobustFlow robust_flow(AffineModes::Real start, AffineModes::Real h,
-                                       AffineModes::Real stop) const;
+  template <class Real>
+  [[nodiscard]] RobustFlow robust_flow(const AffineModes<Real>& modes, Real start, Real h, Real stop) const;
+  [[nodiscard]] RobustFlow robust_flow_to(double h) const;  ///< from the beginning of the last piece
   [[nodiscard]] std::optional<End> cross(int face);
   [[nodiscard]] std::optional<End> cross_standing(int face);
   void settle(CellIndex cell, const Vec3& x);
   void close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error);
   void enter_robust();
+  template <class Real>
+  void solve(Robust<Real>& robust);
+  /// The next cell, or the same one from another point, begins on the fast path.
+  void leave_robust() {
+    robust_.modes.reset();
+    long_.modes.reset();
+  }
 
   const ExactMesh* mesh_;
   const ExactKernel& kernel_;
@@ -75,15 +95,14 @@ class ExactWalk final : public LineWalk {
   int standing_ = 0;
   int ignored_face_ = -1;
 
-  std::optional<AffineModes> modes_;
-  AffineModes::Real mode_time_ = 0.0L, mode_step_ = 0.0L;
+  Robust<double> robust_;     ///< tried first
+  Robust<long double> long_;  ///< where doubles are not certain
 
   ExactPiece piece_;  ///< the last one; of a robust one only the time
-  AffineModes::Real piece_mode_start_ = 0.0L;
-  bool piece_robust_ = false;
+  Path piece_path_ = Path::kFast;
 
   ErrorTransport error_;
-  std::int64_t robust_pieces_ = 0;
+  std::int64_t robust_pieces_ = 0, long_cells_ = 0;
 };
 
 }  // namespace palpate

@@ -1,6 +1,8 @@
 // The robust path of the walk: cells whose exit the fast one cannot certify, solved by affine_modes.h.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "common/trace/exact_walk.h"
 
@@ -8,35 +10,50 @@ namespace palpate {
 namespace {
 
 // Cost of the robust path, in fast pieces.
-constexpr int kRobustCellWork = 160, kRobustPieceWork = 16;
+template <class Real>
+constexpr int kCellWork = std::is_same_v<Real, double> ? 24 : 160;
+template <class Real>
+constexpr int kPieceWork = std::is_same_v<Real, double> ? 4 : 16;
 
-Pack4 to_pack(const AffineModes::Four& b) {
+template <class Real>
+Pack4 to_pack(const std::array<Real, 4>& b) {
   return {static_cast<double>(b[0]), static_cast<double>(b[1]), static_cast<double>(b[2]),
           static_cast<double>(b[3])};
 }
 
 }  // namespace
 
+/// Doubles first: they answer ten times sooner, and for all but the stiffest cells.
 void ExactWalk::enter_robust() {
-  work_ += kRobustCellWork;
-  AffineModes::Four b{};
-  AffineModes::Real sum = 0.0L;
-  for (int i = 0; i < 4; ++i) sum += b[static_cast<std::size_t>(i)] = b_[i];
-  for (AffineModes::Real& value : b) value /= sum;
-  modes_.emplace(mesh_->vertices(), mesh_->mesh().cells()[static_cast<std::size_t>(cell_index_)], sign_, b,
-                 ignored_face_);
-  mode_time_ = 0.0L;
-  mode_step_ = 0.25L / modes_->rate();
+  solve(robust_);
+  if (robust_.modes->certain()) return;
+  robust_.modes.reset();
+  solve(long_);
+  ++long_cells_;
 }
 
-ExactWalk::RobustFlow ExactWalk::robust_flow(AffineModes::Real start, AffineModes::Real h,
-                                             AffineModes::Real stop) const {
+template <class Real>
+void ExactWalk::solve(Robust<Real>& robust) {
+  work_ += kCellWork<Real>;
+  std::array<Real, 4> b{};
+  Real sum = 0;
+  for (int i = 0; i < 4; ++i) sum += b[static_cast<std::size_t>(i)] = b_[i];
+  for (Real& value : b) value /= sum;
+  robust.modes.emplace(mesh_->vertices(), mesh_->mesh().cells()[static_cast<std::size_t>(cell_index_)], sign_,
+                       b, ignored_face_);
+  robust.time = 0;
+  robust.step = Real(0.25) / robust.modes->rate();
+}
+
+template <class Real>
+ExactWalk::RobustFlow ExactWalk::robust_flow(const AffineModes<Real>& modes, Real start, Real h,
+                                             Real stop) const {
   RobustFlow flow;
-  flow.b = to_pack(modes_->at(stop));
-  flow.w = to_pack(modes_->rate_at(stop));
+  flow.b = to_pack(modes.at(stop));
+  flow.w = to_pack(modes.rate_at(stop));
   Pack4 squared;
   for (int m = 0; m < 4; ++m) {
-    const Pack4 w = m == 3 ? flow.w : to_pack(modes_->rate_at(start + kArcNodes[m] * h));
+    const Pack4 w = m == 3 ? flow.w : to_pack(modes.rate_at(start + kArcNodes[m] * h));
     const Pack4 v = velocity(cell_, w);
     flow.velocity[static_cast<std::size_t>(m)] = v;
     squared.set(m, dot3(v, v));
@@ -45,19 +62,27 @@ ExactWalk::RobustFlow ExactWalk::robust_flow(AffineModes::Real start, AffineMode
   return flow;
 }
 
-std::optional<End> ExactWalk::robust_piece() {
-  using Real = AffineModes::Real;
+ExactWalk::RobustFlow ExactWalk::robust_flow_to(double h) const {
+  if (piece_path_ == Path::kRobust) {
+    return robust_flow(*robust_.modes, robust_.piece_start, h, robust_.piece_start + h);
+  }
+  return robust_flow<long double>(*long_.modes, long_.piece_start, h, long_.piece_start + h);
+}
+
+template <class Real>
+std::optional<End> ExactWalk::robust_piece(Robust<Real>& robust) {
   ++robust_pieces_;
-  work_ += kRobustPieceWork;
-  const AffineModes::Exit exit = modes_->exit();
+  work_ += kPieceWork<Real>;
+  const AffineModes<Real>& modes = *robust.modes;
+  const typename AffineModes<Real>::Exit exit = modes.exit();
   const bool leaves = exit.face >= 0;
-  if (leaves && !(exit.time > mode_time_)) {
+  if (leaves && !(exit.time > robust.time)) {
     // Sent on at once. Where two cells send the line back and forth it slides along their common face: the
     // second time it stays, and leaves by another face.
     if (exit.face == entry_ && standing_ > 1) {
       ++standing_;
       ignored_face_ = entry_;
-      modes_.reset();
+      leave_robust();
       enter_robust();
       return std::nullopt;
     }
@@ -69,17 +94,17 @@ std::optional<End> ExactWalk::robust_piece() {
   // Rest within reach: the line is drawn to the distance asked for and ends.
   const Vec3 x0 = end_.position;
   std::optional<Vec3> rest;
-  if (modes_->rest()) rest = position(cell_, to_pack(*modes_->rest())).xyz();
+  if (modes.rest()) rest = position(cell_, to_pack(*modes.rest())).xyz();
   if (rest && glm::distance(*rest, x0) <= rest_distance_) return End::kStagnation;
 
   constexpr int kMaxTries = 200;
   constexpr double kMaxTurn = 0.9;  // cosine of 26 degrees
-  const Real remaining = leaves ? exit.time - mode_time_ : HUGE_VALL;
-  Real h = std::min(2.0L * mode_step_, remaining);
-  for (int attempt = 0; attempt < kMaxTries; ++attempt, h *= 0.5L) {
+  const Real remaining = leaves ? exit.time - robust.time : std::numeric_limits<Real>::infinity();
+  Real h = std::min(2 * robust.step, remaining);
+  for (int attempt = 0; attempt < kMaxTries; ++attempt, h *= Real(0.5)) {
     const bool last = leaves && h >= remaining;
-    const Real stop = last ? exit.time : mode_time_ + h;
-    const RobustFlow flow = robust_flow(mode_time_, h, stop);
+    const Real stop = last ? exit.time : robust.time + h;
+    const RobustFlow flow = robust_flow(modes, robust.time, h, stop);
     Vec3 before = direction_;
     double turn = 1.0;
     for (int m = 0; m < 4; ++m) {
@@ -97,31 +122,37 @@ std::optional<End> ExactWalk::robust_piece() {
     if (arc.length <= kUlp * kUlp * cell_.size && !last) return End::kStagnation;
 
     piece_.time = static_cast<double>(h);
-    piece_mode_start_ = mode_time_;
-    piece_robust_ = true;
+    robust.piece_start = robust.time;
+    piece_path_ = std::is_same_v<Real, double> ? Path::kRobust : Path::kLong;
     // The error is carried by the modes themselves.
     const Vec3& e = error_.vector();
-    AffineModes::Four d{};
+    std::array<Real, 4> d{};
     for (std::size_t i = 0; i < 3; ++i) {
       d[i] = glm::dot(barycentric_gradient(cell_, static_cast<int>(i)), e);
       d[3] -= d[i];
     }
-    const Pack4 carried = to_pack(modes_->carried(d, h));
+    const Pack4 carried = to_pack(modes.carried(d, h));
     error_.set(velocity(cell_, carried).xyz());
     Pack4 b = flow.b;
     if (last) {
       b.set(exit.face, 0.0);
       exit_face_ = exit.face;
     }
-    mode_time_ = stop;
-    mode_step_ = h;
+    robust.time = stop;
+    robust.step = h;
     const int entry = entry_;
-    close_piece(b, flow.w, static_cast<double>(h), arc.length, kRoundingPerCell * kUlp * cell_.size);
+    // Rounding of a double for each unit of rate times time, see affine_modes.h.
+    const double roundings = std::is_same_v<Real, double> ? 1.0 + static_cast<double>(modes.rate() * h) : 1.0;
+    close_piece(b, flow.w, static_cast<double>(h), arc.length,
+                kRoundingPerCell * kUlp * cell_.size * roundings);
     if (!last) entry_ = entry;
     if (rest && glm::distance(*rest, end_.position) <= rest_distance_) return End::kStagnation;
     return std::nullopt;
   }
   return End::kStagnation;
 }
+
+template std::optional<End> ExactWalk::robust_piece(Robust<double>& robust);
+template std::optional<End> ExactWalk::robust_piece(Robust<long double>& robust);
 
 }  // namespace palpate

@@ -1,13 +1,29 @@
 #include "common/trace/exponential_form.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 namespace palpate {
+namespace {
 
+constexpr std::size_t kTerms = 24;
+
+/// 1 / k.
+template <class Real>
+constexpr auto kInverses = [] {
+  std::array<Real, kTerms + 4> inverse{};
+  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = Real(1) / static_cast<Real>(k);
+  return inverse;
+}();
+
+}  // namespace
+
+template <class R>
 template <class Number>
-Number DividedDifferences::node(int k) const {
+Number DividedDifferences<R>::node(int k) const {
   if constexpr (std::is_same_v<Number, Real>) {
     return nodes_.nu[static_cast<std::size_t>(k)].real();
   } else {
@@ -15,8 +31,9 @@ Number DividedDifferences::node(int k) const {
   }
 }
 
+template <class R>
 template <class Number>
-Number DividedDifferences::get(unsigned set) {
+Number DividedDifferences<R>::get(unsigned set) {
   if ((known_ & (1u << set)) == 0u) {
     values_[set] = compute<Number>(set);
     known_ |= 1u << set;
@@ -28,8 +45,9 @@ Number DividedDifferences::get(unsigned set) {
   }
 }
 
+template <class R>
 template <class Number>
-Number DividedDifferences::compute(unsigned set) {
+Number DividedDifferences<R>::compute(unsigned set) {
   std::array<int, 4> index{};
   int count = 0;
   for (int k = 0; k < 4; ++k) {
@@ -39,7 +57,7 @@ Number DividedDifferences::compute(unsigned set) {
 
   // The recurrence over the two nodes farthest apart, unless all are so close that it would cancel.
   int p = index[0], q = index[1];
-  Real farthest = -1.0L;
+  Real farthest = -1;
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       const int a = index[static_cast<std::size_t>(i)], b = index[static_cast<std::size_t>(j)];
@@ -51,7 +69,7 @@ Number DividedDifferences::compute(unsigned set) {
       }
     }
   }
-  if (farthest * t_ > 1.0L) {
+  if (farthest * t_ > 1) {
     return (get<Number>(set & ~(1u << p)) - get<Number>(set & ~(1u << q))) /
            (node<Number>(q) - node<Number>(p));
   }
@@ -60,24 +78,32 @@ Number DividedDifferences::compute(unsigned set) {
 
 /// exp(m t) t^n sum_k h_k((nu - m) t) / (k + n)!, n = count - 1, with the complete homogeneous symmetric
 /// polynomials h_k and the mean m.
+template <class R>
 template <class Number>
-Number DividedDifferences::series(const std::array<int, 4>& index, int count) const {
+Number DividedDifferences<R>::series(const std::array<int, 4>& index, int count) const {
+  constexpr const auto& kInverse = kInverses<Real>;
+  constexpr Real kNegligible = std::numeric_limits<Real>::epsilon() / 16;
   Number mean{};
   for (int i = 0; i < count; ++i) mean += node<Number>(index[static_cast<std::size_t>(i)]);
   mean /= static_cast<Real>(count);
   std::array<Number, 4> shift{}, h{};
-  for (int i = 0; i < count; ++i) {
-    shift[static_cast<std::size_t>(i)] = (node<Number>(index[static_cast<std::size_t>(i)]) - mean) * t_;
-    h[static_cast<std::size_t>(i)] = Number(1.0L);
+  Real widest = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    shift[i] = (node<Number>(index[i]) - mean) * t_;
+    h[i] = Number(1);
+    widest = std::max(widest, std::abs(shift[i]));
   }
-  Real factor = 1.0L;  // t^n / (k + n)!
-  for (int i = 1; i < count; ++i) factor *= t_ / static_cast<Real>(i);
+  Real factor = 1;  // t^n / (k + n)!
+  for (int i = 1; i < count; ++i) factor *= t_ * kInverse[static_cast<std::size_t>(i)];
   Number sum = Number(factor);
-  // |shift| <= 1: the terms fall like 1 / k!. A vanishing one ends nothing, since h_k of symmetric nodes is
-  // zero for every other k, or two in three.
-  constexpr int kTerms = 24;
-  for (int k = 1; k < kTerms; ++k) {
-    factor /= static_cast<Real>(k + count - 1);
+  // |h_k| <= (k + n)! / (k! n!) widest^k, so the k-th term is at most widest^k / k! of the first; widest is
+  // at most 1. A vanishing term ends nothing, since h_k of symmetric nodes is zero for every other k, or two
+  // in three.
+  Real bound = 1;
+  for (std::size_t k = 1; k < kTerms; ++k) {
+    bound *= widest * kInverse[k];
+    if (bound < kNegligible) break;
+    factor *= kInverse[k + static_cast<std::size_t>(count) - 1];
     Number below{};
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -89,12 +115,14 @@ Number DividedDifferences::series(const std::array<int, 4>& index, int count) co
   return std::exp(mean * t_) * sum;
 }
 
-void ExponentialForm::add(unsigned set, const std::array<Complex, 4>& c) {
+template <class R>
+void ExponentialForm<R>::add(unsigned set, const std::array<Complex, 4>& c) {
   for (std::size_t i = 0; i < 4; ++i) coefficient_[set][i] += c[i];
   used_ |= 1u << set;
 }
 
-ExponentialForm ExponentialForm::annihilated(const ExponentialNodes& nodes, int node) const {
+template <class R>
+ExponentialForm<R> ExponentialForm<R>::annihilated(const Nodes& nodes, int node) const {
   ExponentialForm out;
   const unsigned bit = 1u << node;
   for (unsigned set = 1u; set < 16u; ++set) {
@@ -113,37 +141,42 @@ ExponentialForm ExponentialForm::annihilated(const ExponentialNodes& nodes, int 
   return out;
 }
 
-ExponentialForm::Four ExponentialForm::value(const ExponentialNodes& nodes, Real t) const {
-  DividedDifferences e(nodes, t);
+template <class R>
+typename ExponentialForm<R>::Four ExponentialForm<R>::value(const Nodes& nodes, Real t) const {
+  DividedDifferences<R> e(nodes, t);
   Four sum{};
   for (unsigned set = 1u; set < 16u; ++set) {
     if ((used_ & (1u << set)) == 0u) continue;
     const std::array<Complex, 4>& c = coefficient_[set];
     if (nodes.complex) {
-      const Complex factor = e.get<Complex>(set);
+      const Complex factor = e.template get<Complex>(set);
       for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor.real() - c[i].imag() * factor.imag();
     } else {
-      const Real factor = e.get<Real>(set);
+      const Real factor = e.template get<Real>(set);
       for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor;
     }
   }
   return sum;
 }
 
-ExponentialForm::Real ExponentialForm::value(const ExponentialNodes& nodes, Real t, std::size_t face) const {
-  DividedDifferences e(nodes, t);
-  Real sum = 0.0L;
+template <class R>
+R ExponentialForm<R>::value(const Nodes& nodes, Real t, std::size_t face) const {
+  DividedDifferences<R> e(nodes, t);
+  Real sum = 0;
   for (unsigned set = 1u; set < 16u; ++set) {
     if ((used_ & (1u << set)) == 0u) continue;
     const Complex c = coefficient_[set][face];
     if (nodes.complex) {
-      const Complex factor = e.get<Complex>(set);
+      const Complex factor = e.template get<Complex>(set);
       sum += c.real() * factor.real() - c.imag() * factor.imag();
     } else {
-      sum += c.real() * e.get<Real>(set);
+      sum += c.real() * e.template get<Real>(set);
     }
   }
   return sum;
 }
+
+template class ExponentialForm<double>;
+template class ExponentialForm<long double>;
 
 }  // namespace palpate

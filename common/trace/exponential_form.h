@@ -8,6 +8,8 @@
 ///
 ///   (D - nu_a) E[S] = E[S without a]                            if a is in S,
 ///                   = (nu_s - nu_a) E[S] + E[S without s]         for any s in S                       (2)
+///
+/// `R` is double or long double.
 #pragma once
 
 #include <array>
@@ -16,21 +18,24 @@
 namespace palpate {
 
 /// Four nodes, real or with one complex pair.
+template <class R>
 struct ExponentialNodes {
-  using Real = long double;
-  using Complex = std::complex<long double>;
+  using Real = R;
+  using Complex = std::complex<R>;
 
   std::array<Complex, 4> nu{};
   bool complex = false;  ///< if not, all imaginary parts are zero
 };
 
 /// Divided differences at one time, computed when asked for.
+template <class R>
 class DividedDifferences {
  public:
-  using Real = ExponentialNodes::Real;
-  using Complex = ExponentialNodes::Complex;
+  using Nodes = ExponentialNodes<R>;
+  using Real = R;
+  using Complex = typename Nodes::Complex;
 
-  DividedDifferences(const ExponentialNodes& nodes, Real t) : nodes_(nodes), t_(t) {}
+  DividedDifferences(const Nodes& nodes, Real t) : nodes_(nodes), t_(t) {}
 
   /// E[S], S given by its bits. `Number` is Real where the nodes are real, else Complex.
   template <class Number>
@@ -44,17 +49,19 @@ class DividedDifferences {
   template <class Number>
   [[nodiscard]] Number series(const std::array<int, 4>& index, int count) const;
 
-  const ExponentialNodes& nodes_;
+  const Nodes& nodes_;
   Real t_;
   unsigned known_ = 0u;
   std::array<Complex, 16> values_{};
 };
 
 /// Four functions (1), one a face, over the same nodes.
+template <class R>
 class ExponentialForm {
  public:
-  using Real = ExponentialNodes::Real;
-  using Complex = ExponentialNodes::Complex;
+  using Nodes = ExponentialNodes<R>;
+  using Real = R;
+  using Complex = typename Nodes::Complex;
   using Four = std::array<Real, 4>;
 
   [[nodiscard]] std::array<Complex, 4>& operator[](unsigned set) { return coefficient_[set]; }
@@ -63,11 +70,11 @@ class ExponentialForm {
   void add(unsigned set, const std::array<Complex, 4>& c);
 
   /// (D - nu_node) f, by (2).
-  [[nodiscard]] ExponentialForm annihilated(const ExponentialNodes& nodes, int node) const;
+  [[nodiscard]] ExponentialForm annihilated(const Nodes& nodes, int node) const;
 
-  [[nodiscard]] Four value(const ExponentialNodes& nodes, Real t) const;
+  [[nodiscard]] Four value(const Nodes& nodes, Real t) const;
   /// Of one face.
-  [[nodiscard]] Real value(const ExponentialNodes& nodes, Real t, std::size_t face) const;
+  [[nodiscard]] Real value(const Nodes& nodes, Real t, std::size_t face) const;
 
  private:
   std::array<std::array<Complex, 4>, 16> coefficient_{};

@@ -8,47 +8,47 @@
 namespace palpate {
 namespace {
 
-using Real = ExponentialNodes::Real;
-
+template <class Real>
 constexpr Real kEpsilon = std::numeric_limits<Real>::epsilon();
+template <class Real>
 constexpr Real kPi = std::numbers::pi_v<Real>;
 
 /// Root of F in [a, b] with F(a) and F(b) of different sign: halving of the exponent while the bracket spans
 /// several, then the Illinois rule.
-template <class Function>
+template <class Function, class Real>
 Real bracketed(const Function& f, Real a, Real b, Real fa, Real fb) {
-  constexpr Real kSmallestPart = 0x1p-110L;
+  constexpr Real kSmallestPart = Real(0x1p-110);
   constexpr int kMaxEvaluations = 200;
   int kept = 0, slow = 0;
   Real checkpoint = b - a;
-  for (int n = 0; n < kMaxEvaluations && fb != 0.0L; ++n) {
-    if (b - a <= 2.0L * kEpsilon * b) break;
+  for (int n = 0; n < kMaxEvaluations && fb != 0; ++n) {
+    if (b - a <= 2 * kEpsilon<Real> * b) break;
     Real x;
-    const bool wide = b > 16.0L * a;
+    const bool wide = b > 16 * a;
     if (wide) {
       x = std::sqrt(std::max(a, kSmallestPart * b)) * std::sqrt(b);
       if (a < kSmallestPart * b && n > 12) break;
     } else {
       x = a + (b - a) * (fa / (fa - fb));
       if (++slow > 3) {
-        if (b - a > 0.5L * checkpoint) x = 0.5L * (a + b);
+        if (b - a > Real(0.5) * checkpoint) x = Real(0.5) * (a + b);
         checkpoint = b - a;
         slow = 0;
       }
-      const Real margin = kEpsilon * b;
+      const Real margin = kEpsilon<Real> * b;
       x = std::clamp(x, a + margin, b - margin);
     }
     if (!(x > a && x < b)) break;
     const Real fx = f(x);
-    if (fx != 0.0L && std::signbit(fx) == std::signbit(fa)) {
+    if (fx != 0 && std::signbit(fx) == std::signbit(fa)) {
       a = x;
       fa = fx;
-      if (kept == 1 && !wide) fb *= 0.5L;
+      if (kept == 1 && !wide) fb *= Real(0.5);
       kept = 1;
     } else {
       b = x;
       fb = fx;
-      if (kept == -1 && !wide) fa *= 0.5L;
+      if (kept == -1 && !wide) fa *= Real(0.5);
       kept = -1;
     }
   }
@@ -57,16 +57,16 @@ Real bracketed(const Function& f, Real a, Real b, Real fa, Real fb) {
 
 /// Zeros of F on [knots.front(), knots.back()], F being monotone up to a positive factor between knots. A
 /// zero at the first knot is not counted.
-template <class Function>
-void zeros_between(const Function& f, const FirstZero::Instants& knots, Real first_value, bool only_first,
-                   FirstZero::Instants& zeros) {
+template <class Function, class Instants, class Real>
+void zeros_between(const Function& f, const Instants& knots, Real first_value, bool only_first,
+                   Instants& zeros) {
   Real value = first_value;
   for (std::size_t k = 1; k < knots.size(); ++k) {
     const Real next = f(knots[k]);
-    if (value != 0.0L && next != 0.0L && std::signbit(value) != std::signbit(next)) {
+    if (value != 0 && next != 0 && std::signbit(value) != std::signbit(next)) {
       zeros.push_back(bracketed(f, knots[k - 1], knots[k], value, next));
       if (only_first) return;
-    } else if (next == 0.0L) {
+    } else if (next == 0) {
       zeros.push_back(knots[k]);
       if (only_first) return;
     }
@@ -75,19 +75,21 @@ void zeros_between(const Function& f, const FirstZero::Instants& knots, Real fir
 }
 
 /// E[a, b].
+template <class Real>
 Real difference(Real a, Real b, Real t) {
   const Real x = (b - a) * t;
-  constexpr Real kSmall = 1e-12L;
-  return std::exp(a * t) * t * (std::abs(x) > kSmall ? std::expm1(x) / x : 1.0L + 0.5L * x);
+  constexpr Real kSmall = Real(1e-12);
+  return std::exp(a * t) * t * (std::abs(x) > kSmall ? std::expm1(x) / x : 1 + Real(0.5) * x);
 }
 
 /// E[a, b, c], sorted.
+template <class Real>
 Real difference(const std::array<Real, 3>& m, Real t) {
   const Real gap = m[2] - m[0];
-  if (gap * t > 1.0L) return (difference(m[1], m[2], t) - difference(m[0], m[1], t)) / gap;
-  const Real mean = (m[0] + m[1] + m[2]) / 3.0L;
+  if (gap * t > 1) return (difference(m[1], m[2], t) - difference(m[0], m[1], t)) / gap;
+  const Real mean = (m[0] + m[1] + m[2]) / 3;
   const Real a = (m[0] - mean) * t, b = (m[1] - mean) * t, d = (m[2] - mean) * t;
-  Real h0 = 1.0L, h1 = 1.0L, h2 = 1.0L, factor = 0.5L, sum = 0.5L;
+  Real h0 = 1, h1 = 1, h2 = 1, factor = Real(0.5), sum = Real(0.5);
   for (int k = 1; k < 24; ++k) {
     h0 *= a;
     h1 = h0 + b * h1;
@@ -99,18 +101,20 @@ Real difference(const std::array<Real, 3>& m, Real t) {
 }
 
 /// Zero of first E[a] + second E[a, b], gap = b - a: t phi_1(gap t) = -first / second. Absent where none.
+template <class Real>
 std::optional<Real> zero_of_two(Real first, Real second, Real gap) {
   const Real r = -first / second;
-  if (!(r > 0.0L) || !std::isfinite(r)) return std::nullopt;
-  if (gap == 0.0L) return r;
-  if (!(gap * r > -1.0L)) return std::nullopt;
+  if (!(r > 0) || !std::isfinite(r)) return std::nullopt;
+  if (gap == 0) return r;
+  if (!(gap * r > -1)) return std::nullopt;
   return std::log1p(gap * r) / gap;
 }
 
 }  // namespace
 
-FirstZero::FirstZero(const ExponentialNodes& nodes, const ExponentialForm& position,
-                     const ExponentialForm& rate, const ExponentialForm& last, int annihilated, int face)
+template <class R>
+FirstZero<R>::FirstZero(const Nodes& nodes, const Form& position, const Form& rate, const Form& last,
+                        int annihilated, int face)
     : nodes_(nodes),
       position_(position),
       rate_(rate),
@@ -123,12 +127,14 @@ FirstZero::FirstZero(const ExponentialNodes& nodes, const ExponentialForm& posit
   }
 }
 
-std::optional<Real> FirstZero::find(Real from, Real until) const {
+template <class R>
+std::optional<R> FirstZero<R>::find(Real from, Real until) const {
   return nodes_.complex ? find_complex(from, until) : find_real(from, until);
 }
 
 /// Scans f, the zeros of the end of the chain being given.
-std::optional<Real> FirstZero::scan(Real from, Real until, const Instants& last_zeros) const {
+template <class R>
+std::optional<R> FirstZero<R>::scan(Real from, Real until, const Instants& last_zeros) const {
   Instants knots;
   knots.push_back(from);
   for (const Real t : last_zeros) {
@@ -147,26 +153,28 @@ std::optional<Real> FirstZero::scan(Real from, Real until, const Instants& last_
   const auto f = [this](Real t) { return value(t); };
   const Real start = f(from);
   // On the face (or outside by rounding): f is monotone up to the first knot, so its sign there tells.
-  if (start <= 0.0L && f(outer[1]) < 0.0L) return from;
+  if (start <= 0 && f(outer[1]) < 0) return from;
   Instants found;
-  zeros_between(f, outer, std::max(start, 0.0L), true, found);
+  zeros_between(f, outer, std::max(start, Real(0)), true, found);
   if (found.empty()) return std::nullopt;
   return found.front();
 }
 
 /// More knots do no harm, and they are needed before a rate that decays has sunk to zero in the exponent of a
 /// number: where each difference of two nodes has made one mode outweigh the other.
-void FirstZero::add_outweighing(Instants& knots) const {
-  constexpr Real kOutweighed = 60.0L;
+template <class R>
+void FirstZero<R>::add_outweighing(Instants& knots) const {
+  constexpr Real kOutweighed = 60;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Real distance = std::abs(nodes_.nu[i].real() - nodes_.nu[j].real());
-      if (distance > 0.0L) knots.push_back(kOutweighed / distance);
+      if (distance > 0) knots.push_back(kOutweighed / distance);
     }
   }
 }
 
-std::optional<Real> FirstZero::find_real(Real from, Real until) const {
+template <class R>
+std::optional<R> FirstZero<R>::find_real(Real from, Real until) const {
   // last = A E[a] + B E[b] + C E[a, b] = (A + B) E[a] + (C + B (b - a)) E[a, b].
   const auto a = static_cast<std::size_t>(others_[0]), b = static_cast<std::size_t>(others_[1]);
   const Real gap = nodes_.nu[b].real() - nodes_.nu[a].real();
@@ -179,29 +187,30 @@ std::optional<Real> FirstZero::find_real(Real from, Real until) const {
   return scan(from, until, knots);
 }
 
-std::optional<Real> FirstZero::find_complex(Real from, Real until) const {
+template <class R>
+std::optional<R> FirstZero<R>::find_complex(Real from, Real until) const {
   auto a = static_cast<std::size_t>(others_[0]), b = static_cast<std::size_t>(others_[1]);
-  if (nodes_.nu[a].imag() < 0.0L) std::swap(a, b);
+  if (nodes_.nu[a].imag() < 0) std::swap(a, b);
   const Complex lambda = nodes_.nu[a];
   const Real beta = lambda.imag(), gamma = nodes_.nu[static_cast<std::size_t>(annihilated_)].real();
   // last = A E[a] + B E[b] + C E[a, b] with b = conj(a): the real part of kappa exp(lambda t).
   const Complex c = last_[(1u << a) | (1u << b)][face_];
   const Complex kappa =
-      last_[1u << a][face_] + std::conj(last_[1u << b][face_]) + c.real() / Complex(0.0L, beta);
-  const Real phase = 0.5L * kPi - std::arg(kappa);
+      last_[1u << a][face_] + std::conj(last_[1u << b][face_]) + c.real() / Complex(0, beta);
+  const Real phase = Real(0.5) * kPi<Real> - std::arg(kappa);
 
   // f = r + Re(K exp(lambda t)), r over the nodes 0 and gamma; r - |K| exp(alpha t) bounds it from below.
   const Envelope envelope = make_envelope(kappa / (lambda * (lambda - gamma)), lambda, gamma);
 
   constexpr int kMaxRounds = 24;
   constexpr std::size_t kMaxKnots = 8;
-  constexpr Real kWindow = 4.0L * kPi;  // two turns
+  constexpr Real kWindow = 4 * kPi<Real>;  // two turns
   Real t = from;
   for (int round = 0; round < kMaxRounds && t < until; ++round) {
     const Real end = std::min(until, t + kWindow / beta);
     Instants knots;
-    for (Real k = std::ceil((beta * t - phase) / kPi); knots.size() < kMaxKnots; k += 1.0L) {
-      const Real zero = (phase + k * kPi) / beta;
+    for (Real k = std::ceil((beta * t - phase) / kPi<Real>); knots.size() < kMaxKnots; k += 1) {
+      const Real zero = (phase + k * kPi<Real>) / beta;
       if (!(zero < end)) break;
       knots.push_back(zero);
     }
@@ -209,7 +218,7 @@ std::optional<Real> FirstZero::find_complex(Real from, Real until) const {
     std::sort(knots.begin(), knots.end());
     if (const std::optional<Real> found = scan(t, end, knots)) return found;
     t = end;
-    if (t < until && envelope.usable && envelope.value(t) > 0.0L) {
+    if (t < until && envelope.usable && envelope.value(t) > 0) {
       const std::optional<Real> crossing = envelope.first_zero(t, until);
       if (!crossing) return std::nullopt;
       t = std::max(t, *crossing);
@@ -218,12 +227,14 @@ std::optional<Real> FirstZero::find_complex(Real from, Real until) const {
   return std::nullopt;
 }
 
-Real FirstZero::Envelope::value(Real t) const {
+template <class R>
+R FirstZero<R>::Envelope::value(Real t) const {
   return c[0] * std::exp(m[0] * t) + c[1] * difference(m[0], m[1], t) + c[2] * difference(m, t);
 }
 
 /// First zero after `from`, where the envelope is positive.
-std::optional<Real> FirstZero::Envelope::first_zero(Real from, Real until) const {
+template <class R>
+std::optional<R> FirstZero<R>::Envelope::first_zero(Real from, Real until) const {
   Instants knots;
   knots.push_back(from);
   const std::optional<Real> turn = zero_of_two(c[1], c[2], m[2] - m[1]);
@@ -236,21 +247,25 @@ std::optional<Real> FirstZero::Envelope::first_zero(Real from, Real until) const
   return zeros.front();
 }
 
-FirstZero::Envelope FirstZero::make_envelope(const Complex& amplitude, const Complex& lambda,
-                                             Real gamma) const {
+template <class R>
+typename FirstZero<R>::Envelope FirstZero<R>::make_envelope(const Complex& amplitude, const Complex& lambda,
+                                                            Real gamma) const {
   Envelope envelope;
   const Real size = std::abs(amplitude), alpha = lambda.real();
   if (!std::isfinite(size)) return envelope;
   // Value, slope and curvature of l at 0, and from them Newton's form over the sorted nodes.
-  const Real r = value(0.0L) - amplitude.real();
-  const Real slope = rate_.value(nodes_, 0.0L, face_) - (amplitude * lambda).real();
+  const Real r = value(0) - amplitude.real();
+  const Real slope = rate_.value(nodes_, 0, face_) - (amplitude * lambda).real();
   const Real l0 = r - size, l1 = slope - size * alpha, l2 = gamma * slope - size * alpha * alpha;
-  envelope.m = {0.0L, gamma, alpha};
+  envelope.m = {0, gamma, alpha};
   std::sort(envelope.m.begin(), envelope.m.end());
   const Real m0 = envelope.m[0], m1 = envelope.m[1];
   envelope.c = {l0, l1 - m0 * l0, l2 - (m0 + m1) * l1 + m0 * m1 * l0};
   envelope.usable = std::isfinite(envelope.c[2]);
   return envelope;
 }
+
+template class FirstZero<double>;
+template class FirstZero<long double>;
 
 }  // namespace palpate

@@ -16,19 +16,22 @@
 
 namespace palpate {
 
-/// Finds zeros of one face's coordinate.
+/// Finds zeros of one face's coordinate. `R` is double or long double.
+template <class R>
 class FirstZero {
  public:
-  using Real = ExponentialNodes::Real;
-  using Complex = ExponentialNodes::Complex;
+  using Nodes = ExponentialNodes<R>;
+  using Form = ExponentialForm<R>;
+  using Real = R;
+  using Complex = typename Nodes::Complex;
   /// Times: at most the zeros in two turns of a complex pair, one for each pair of nodes, and both ends; the
   /// zeros between so many of them.
   using Instants = InlineVector<Real, 20>;
 
   /// @param position f, with node 0 (of value 0) in every set.  @param rate f'.
   /// @param last (D - nu) f' with `annihilated` the index of nu: the real node beside a complex pair, or any.
-  FirstZero(const ExponentialNodes& nodes, const ExponentialForm& position, const ExponentialForm& rate,
-            const ExponentialForm& last, int annihilated, int face);
+  FirstZero(const Nodes& nodes, const Form& position, const Form& rate, const Form& last, int annihilated,
+            int face);
 
   [[nodiscard]] Real value(Real t) const { return position_.value(nodes_, t, face_); }
 
@@ -51,10 +54,10 @@ class FirstZero {
   [[nodiscard]] std::optional<Real> find_complex(Real from, Real until) const;
   [[nodiscard]] Envelope make_envelope(const Complex& amplitude, const Complex& lambda, Real gamma) const;
 
-  const ExponentialNodes& nodes_;
-  const ExponentialForm& position_;
-  const ExponentialForm& rate_;
-  const ExponentialForm& last_;
+  const Nodes& nodes_;
+  const Form& position_;
+  const Form& rate_;
+  const Form& last_;
   std::array<int, 2> others_{};  ///< nodes of `last`
   int annihilated_;
   std::size_t face_;
