@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "common/haptics/constraint/drag_settings.h"
+#include "common/haptics/constraint/grid_axis_settings.h"
+#include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
 
@@ -18,13 +20,15 @@ struct ChainSettings {
   StreamlineSettings streamline;
   TickSettings ticks;
   DragSettings drag;
+  ShapeSettings shape;
+  GridAxisSettings grid_axis;
 
   bool operator==(const ChainSettings&) const = default;
 
   /// Whether every value can be used: finite, none below its least, kappa at most one.
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && streamline.valid() && ticks.valid() &&
-           drag.valid();
+           drag.valid() && shape.valid() && grid_axis.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -34,6 +38,8 @@ struct ChainSettings {
     StreamlineSettings::each(self.streamline, visit);
     TickSettings::each(self.ticks, visit);
     DragSettings::each(self.drag, visit);
+    ShapeSettings::each(self.shape, visit);
+    GridAxisSettings::each(self.grid_axis, visit);
   }
 };
 

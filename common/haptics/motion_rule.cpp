@@ -44,7 +44,9 @@ Vec3 drag_jointly(const Vec3& dx, const Vec3& tau) noexcept {
     return sum - 1.0;
   };
   const Vec3 at_rest = left_at(0.0);
-  if (excess(0.0) <= 0.0) return dx - at_rest;
+  // What an earlier drag left on the ellipsoid, to rounding, lies in it: a second one moves nothing.
+  constexpr double kRounding = 0x1p-40;
+  if (excess(0.0) <= kRounding) return dx - at_rest;
   // excess(m) < 0 at m = |dx tau| summed: bisection on a bracket that halves each time, so its bound is
   // fixed; Newton's steps, taken where they stay inside, make it short.
   double low = 0.0, high = 0.0;
