@@ -79,6 +79,15 @@ class Pen {
     list_.AddText(font, font->FontSize, {x, y}, color, words.c_str());
   }
 
+  // Words on a plate in the colour of the background, for places where anything may lie behind them.
+  void label(float x, float y, const std::string& words) const {
+    const ImVec2 size = size_of(words);
+    const float margin = 0.3F * text_height_;
+    list_.AddRectFilled({x - margin, y - 0.5F * margin}, {x + size.x + margin, y + size.y + 0.5F * margin},
+                        paper(190), margin);
+    text(x, y, words, ink());
+  }
+
   ImDrawList& list() const { return list_; }
 
  private:
@@ -292,7 +301,7 @@ void draw_probe_words(const Pen& pen, const SceneView& view, int width, int heig
   if (const auto at = place_of(view, 0.5 * (probe.probe + probe.proxy), width, height)) {
     std::array<char, 32> text{};
     (void)std::snprintf(text.data(), text.size(), "%.2f N", probe.force);
-    pen.text(at->x + 1.2F * em, at->y + 0.4F * em, text.data(), pen.ink());
+    pen.label(at->x + 1.2F * em, at->y + 0.4F * em, text.data());
   }
 }
 
