@@ -5,6 +5,7 @@
 #include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/constraint/tick_marks.h"
+#include "common/haptics/force_field/force_field.h"
 
 namespace palpate {
 namespace {
@@ -23,12 +24,30 @@ HapticChain make_streamline(const HapticScene& scene) {
   return made;
 }
 
-HapticChain make_isotropic(const HapticScene& scene) {
+/// A chain of `link` alone.
+HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
   std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(std::make_unique<IsotropicDrag>());
+  links.push_back(std::move(link));
   HapticChain made;
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
+}
+
+HapticChain make_isotropic(const HapticScene& scene) {
+  return single(std::make_unique<IsotropicDrag>(), scene);
+}
+HapticChain make_direct(const HapticScene& scene) {
+  return single(std::make_unique<DirectDisplay>(scene.field, scene.workspace), scene);
+}
+HapticChain make_transverse(const HapticScene& scene) {
+  return single(std::make_unique<TransverseDamping>(scene.field, scene.workspace), scene);
+}
+HapticChain make_vortex(const HapticScene& scene) {
+  return single(std::make_unique<VortexPull>(scene.field, scene.workspace), scene);
+}
+HapticChain make_density(const HapticScene& scene) {
+  const auto scalar = scene.scalar ? scene.scalar : make_speed_field(scene.field);
+  return single(std::make_unique<DensityDrag>(scalar, scene.workspace), scene);
 }
 
 }  // namespace
@@ -36,7 +55,12 @@ HapticChain make_isotropic(const HapticScene& scene) {
 std::vector<HapticMode> flow_modes() {
   return {{"streamline", "held by the streamline, which gives when pushed and pops over to the next",
            make_streamline},
-          {"isotropic", "the same drag in all directions, to steady the hand", make_isotropic}};
+          {"isotropic", "the same drag in all directions, to steady the hand", make_isotropic},
+          {"direct", "carried along by the flow, the harder the faster it is", make_direct},
+          {"transverse", "dragged when moving across the flow, free along it", make_transverse},
+          {"vortex", "pulled to the cores of vortices", make_vortex},
+          {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
+           make_density}};
 }
 
 }  // namespace palpate

@@ -12,6 +12,7 @@
 #include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
+#include "common/haptics/force_field/force_field_settings.h"
 
 namespace palpate {
 
@@ -22,13 +23,15 @@ struct ChainSettings {
   DragSettings drag;
   ShapeSettings shape;
   GridAxisSettings grid_axis;
+  ForceFieldSettings force_field;
 
   bool operator==(const ChainSettings&) const = default;
 
   /// Whether every value can be used: finite, none below its least, kappa at most one.
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && streamline.valid() && ticks.valid() &&
-           drag.valid() && shape.valid() && grid_axis.valid();
+           drag.valid() && shape.valid() && grid_axis.valid() &&
+           force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -40,6 +43,7 @@ struct ChainSettings {
     DragSettings::each(self.drag, visit);
     ShapeSettings::each(self.shape, visit);
     GridAxisSettings::each(self.grid_axis, visit);
+    ForceFieldSettings::each(self.force_field, visit);
   }
 };
 

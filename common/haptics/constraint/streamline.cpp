@@ -5,22 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "common/haptics/frame_along.h"
 #include "common/trace/line_time.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
-
-/// Orthonormal frame whose first axis is the unit vector `t`.
-Mat3 frame_along(const Vec3& t) noexcept {
-  const Vec3 size = glm::abs(t);
-  const Vec3 other = size.x <= size.y && size.x <= size.z ? Vec3{1.0, 0.0, 0.0}
-                     : size.y <= size.z                   ? Vec3{0.0, 1.0, 0.0}
-                                                          : Vec3{0.0, 0.0, 1.0};
-  const Vec3 second = glm::normalize(glm::cross(t, other));
-  return {t, second, glm::cross(t, second)};
-}
 
 /// Ends that are no property of the data: the line goes on there if it is begun anew.
 bool can_go_on(End end) noexcept {

@@ -1,0 +1,144 @@
+#include "common/field/vorticity_field.h"
+
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/field/derived.h"
+#include "common/field/grid/box_grid.h"
+#include "common/field/grid/tet_mesh.h"
+
+namespace palpate {
+namespace {
+
+/// Sums at points, and their weights.
+class PointMeans {
+ public:
+  explicit PointMeans(std::size_t points) : sums_(points, Vec3{0.0}), weights_(points, 0.0) {}
+
+  void add(std::size_t point, const Vec3& value, double weight) {
+    sums_[point] += weight * value;
+    weights_[point] += weight;
+  }
+
+  /// NaN where nothing was added.
+  [[nodiscard]] PointVectors take() && {
+    auto means = std::make_shared<std::vector<double>>();
+    means->reserve(3 * sums_.size());
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const Vec3 mean = sums_[i] / weights_[i];
+      means->insert(means->end(), {mean.x, mean.y, mean.z});
+    }
+    PointVectors values;
+    values.values = std::span<const double>(*means);
+    values.owner = std::move(means);
+    return values;
+  }
+
+ private:
+  std::vector<Vec3> sums_;
+  std::vector<double> weights_;
+};
+
+Vec3 vector_at(const PointVectors& values, std::size_t point) noexcept {
+  return std::visit(
+      [&](const auto& numbers) {
+        const auto at = numbers.subspan(3 * point, 3);
+        return values.scale *
+               Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+      },
+      values.values);
+}
+
+}  // namespace
+
+VorticityField::VorticityField(std::shared_ptr<const VectorField> field) : field_(std::move(field)) {
+  if (field_->box_grid() != nullptr) recover_on_boxes();
+  if (field_->tet_mesh() != nullptr) recover_on_tetrahedra();
+}
+
+void VorticityField::recover_on_boxes() {
+  const BoxGrid& grid = *field_->box_grid();
+  const Index3 n = grid.points();
+  PointMeans means(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+                   static_cast<std::size_t>(n.z));
+  Index3 index;
+  for (index.z = 0; index.z + 1 < n.z; ++index.z) {
+    for (index.y = 0; index.y + 1 < n.y; ++index.y) {
+      for (index.x = 0; index.x + 1 < n.x; ++index.x) {
+        BoxCell cell;
+        grid.load(index, field_->values(), cell);
+        if (cell.bad_data) continue;
+        for (int corner = 0; corner < 8; ++corner) {
+          const Index3 at = index + Index3{corner & 1, (corner >> 1) & 1, corner >> 2};
+          const Vec3 x{grid.coordinate(0, at.x), grid.coordinate(1, at.y), grid.coordinate(2, at.z)};
+          const auto point = (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(n.y) +
+                              static_cast<std::size_t>(at.y)) *
+                                 static_cast<std::size_t>(n.x) +
+                             static_cast<std::size_t>(at.x);
+          means.add(point, vorticity(cell.jacobian(x)), 1.0);
+        }
+      }
+    }
+  }
+  values_ = std::move(means).take();
+}
+
+void VorticityField::recover_on_tetrahedra() {
+  const TetMesh& mesh = *field_->tet_mesh();
+  PointMeans means(mesh.points().size());
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    const auto cell = static_cast<CellIndex>(c);
+    if (mesh.zero_volume(cell)) continue;
+    const TetMesh::Tet& vertices = mesh.cells()[c];
+    const Mat3 gradients = mesh.barycentric_gradients(cell);
+    const Vec3 v0 = vector_at(field_->values(), vertices[0]);
+    // curl (b v) = grad b x v for a constant v.
+    Vec3 curl{0.0};
+    for (int i = 0; i < 3; ++i) {
+      const auto vertex = vertices[static_cast<std::size_t>(i) + 1];
+      curl += glm::cross(gradients[i], vector_at(field_->values(), vertex) - v0);
+    }
+    if (!is_finite(curl)) continue;
+    const double volume = 1.0 / glm::determinant(gradients);  // six times it; the weights' unit is free
+    for (const std::uint32_t vertex : vertices) means.add(vertex, curl, volume);
+  }
+  values_ = std::move(means).take();
+}
+
+VectorSample VorticityField::sample(const Vec3& x_data, CellHint& hint) const noexcept {
+  VectorSample out;
+  const LocalFrame& frame = field_->frame();
+  const Vec3 x = frame.local_from_data(x_data);
+  Vec3 local{0.0};
+  if (const TetMesh* mesh = field_->tet_mesh()) {
+    TetPoint at;
+    const bool usable = hint.cell >= 0 && hint.cell < static_cast<std::int64_t>(mesh->cells().size());
+    if (!mesh->locate(x, usable ? static_cast<CellIndex>(hint.cell) : kNoCell, at)) return out;
+    hint.cell = at.cell;
+    const TetMesh::Tet& vertices = mesh->cells()[static_cast<std::size_t>(at.cell)];
+    for (int i = 0; i < 4; ++i) local += at.b[i] * vector_at(values_, vertices[static_cast<std::size_t>(i)]);
+  } else if (const BoxGrid* grid = field_->box_grid()) {
+    Index3 index;
+    if (!grid->locate(x, index)) return out;
+    BoxCell cell;
+    grid->load(index, values_, cell);
+    local = cell.bad_data ? Vec3{std::numeric_limits<double>::quiet_NaN()} : cell.velocity(x);
+  } else {
+    Mat3 m;
+    out.status = field_->jacobian(x_data, hint, m);
+    if (out.status == SampleStatus::kOk) out.value = vorticity(m);
+    return out;
+  }
+  if (!is_finite(local)) {
+    out.status = SampleStatus::kBadData;
+    return out;
+  }
+  out.status = SampleStatus::kOk;
+  out.value = (frame.rotated ? frame.rotation * local : local) *
+              power_of_two(frame.speed_exponent - frame.length_exponent);
+  return out;
+}
+
+}  // namespace palpate
