@@ -38,7 +38,7 @@ std::shared_ptr<const SceneInfo> describe(const Input& input, const VectorField&
     for (const auto& path : input.spec().files) info->files.files.push_back(std::filesystem::absolute(path));
     if (input.spec().solution) info->files.solution = std::filesystem::absolute(*input.spec().solution);
     info->facts.push_back(file->format);
-    for (const VectorChoice& choice : input.choices()) info->fields.push_back(choice.label);
+    info->fields = input.fields();
     info->times = file->times;
   } else {
     info->fields.push_back(field.name());
@@ -92,7 +92,7 @@ FlowModel::Scene FlowModel::load(const Options& options, Progress& progress) {
   Input input = Input::open(input_spec(options.input), &progress);
   auto field = input.load_field(options.common.threads, &progress);
   auto info = describe(input, *field);
-  std::string label = input.file() ? input.choice().label : field->name();
+  std::string label = input.field_label();
   const std::size_t time_step = input.time().step;
   return {std::move(input), std::move(field), std::move(info), std::move(label), time_step};
 }
@@ -193,7 +193,7 @@ SceneState FlowModel::update(const SceneSettings& settings, Progress& progress) 
 
 std::vector<MeasuredCost> FlowModel::costs() const {
   if (!scene_) return {};
-  std::vector<MeasuredCost> costs = measured_costs(scene_->input, *scene_->field);
+  std::vector<MeasuredCost> costs = measured_costs(scene_->input, scene_->field->tet_mesh());
   costs.push_back({.what = "lines", .milliseconds = 1e3 * scene_->shown.seconds_trace});
   return costs;
 }

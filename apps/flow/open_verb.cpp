@@ -96,7 +96,7 @@ ProbeSessionOptions touch_of(const Options& options, const VerbContext& context)
 
 ExitCode run_open(const Options& given, const VerbContext& context) {
   Options options = given;
-  if (list_examples(options, context.console)) return ExitCode::kDone;
+  if (list_examples(options, context)) return ExitCode::kDone;
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples().front().name;
   const TraceOptions trace = trace_options(options, "both");

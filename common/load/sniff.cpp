@@ -177,7 +177,7 @@ Sniffed sniff(const FileHead& head) {
   }
   return {{},
           "not recognised (it starts with \"" + printable(text) + "\")",
-          "voxels without a header need --raw-size and --raw-type"};
+          "voxels without a header are opened with grid's --raw-size and --raw-type"};
 }
 
 HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::size_t tail_bytes) {

@@ -7,9 +7,15 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/field/analytic/volume_examples.h"
+#include "common/load/volume_block.h"
+#include "common/scene/raw_file.h"
 
 namespace palpate {
 namespace {
+
+/// What the one field of a formula is called.
+constexpr const char* kFormulaField = "velocity";
 
 std::string title_of(const InputSpec& spec) {
   if (!spec.example.empty()) return "example " + spec.example;
@@ -46,6 +52,10 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
   return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
 }
 
+std::vector<ExampleInfo> examples_of(FieldKind kind) {
+  return kind == FieldKind::kScalar ? volume_examples() : examples();
+}
+
 Input Input::open(const InputSpec& spec, Progress* progress) {
   if (spec.files.empty() && spec.example.empty()) {
     throw usage_error("no input: give a file, or --example NAME (--example list shows them)");
@@ -57,25 +67,63 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   Input input;
   input.spec_ = spec;
   input.title_ = title_of(spec);
-  if (!spec.example.empty()) {
-    (void)example(spec.example);  // throws for an unknown name
-    if (!spec.field.empty() && spec.field != "velocity") {
-      throw usage_error("--field " + spec.field + ": a built-in example has one field, velocity");
-    }
-    input.time_ = choose_time({}, spec.time);
+  if (spec.example.empty()) {
+    input.open_files(progress);
   } else {
-    input.source_ = Source::open({spec.files, spec.solution}, {}, progress);
-    input.arrays_ = input.source_->arrays();
-    const auto& blocks = input.source_->info().blocks;
-    if (!blocks.empty()) input.not_volume_ = blocks.front().not_volume;
-    if (input.not_volume_.empty()) input.choices_ = vector_choices(input.arrays_);
-    input.time_ = choose_time(input.times(), spec.time);
+    input.open_example();
+  }
+  input.time_ = choose_time(input.times(), spec.time);
+  if (input.spec_.kind == FieldKind::kScalar) {
+    for (const ScalarChoice& choice : scalar_choices(input.arrays_))
+      input.fields_.push_back(label_of(choice, input.arrays_));
+  } else if (input.file() && input.not_volume_.empty()) {
+    for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
   input.seconds_open_ = watch.seconds();
   return input;
 }
 
-const FileInfo* Input::file() const noexcept { return source_ ? &source_->info() : nullptr; }
+void Input::open_files(Progress* progress) {
+  LoadRequest request{.files = spec_.files, .solution = spec_.solution};
+  request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
+  source_ = Source::open(request, {}, progress);
+  arrays_ = source_->arrays();
+  const auto& blocks = source_->info().blocks;
+  if (!blocks.empty()) not_volume_ = blocks.front().not_volume;
+}
+
+void Input::open_example() {
+  if (spec_.kind == FieldKind::kVector) {
+    (void)example(spec_.example);  // throws for an unknown name
+    if (!spec_.field.empty() && spec_.field != kFormulaField)
+      throw usage_error("--field " + spec_.field + ": a built-in example has one field, " + kFormulaField);
+    return;
+  }
+  made_ = volume_example(spec_.example);
+  const DataArray& array = made_->arrays.front();
+  arrays_ = {{array.name, array.association, array.components, array.type, array.tuples}};
+  made_info_ = FileInfo{.format = "made on the fly"};
+  made_info_->blocks.push_back(describe_image(std::get<UniformTopology>(made_->topology), arrays_.front()));
+}
+
+std::string Input::file_name() const { return source_ ? spec_.files.front().string() : title_; }
+
+void Input::check_volume() const {
+  if (not_volume_.empty()) return;
+  throw input_error({file_name(), "", not_volume_, "cells of a volume", "'info' says what it holds"});
+}
+
+const FileInfo* Input::file() const noexcept {
+  if (source_) return &source_->info();
+  return made_info_ ? &*made_info_ : nullptr;
+}
+
+std::vector<std::string> Input::notes() const {
+  std::vector<std::string> notes;
+  if (!raw_note_.empty()) notes.push_back(raw_note_);
+  if (const FileInfo* info = file()) notes.insert(notes.end(), info->notes.begin(), info->notes.end());
+  return notes;
+}
 
 const std::vector<double>& Input::times() const noexcept {
   static const std::vector<double> kNone;
@@ -83,21 +131,33 @@ const std::vector<double>& Input::times() const noexcept {
 }
 
 VectorChoice Input::choice() const {
-  if (!not_volume_.empty()) {
-    throw input_error({spec_.files.front().string(), "", not_volume_, "cells of a volume to trace lines in",
-                       "'info' says what it holds"});
-  }
-  return choose_vector(arrays_, spec_.field, spec_.files.front().string());
+  check_volume();
+  return choose_vector(arrays_, spec_.field, file_name());
+}
+
+ScalarChoice Input::scalar_choice() const { return choose_scalar(arrays_, spec_.field, file_name()); }
+
+std::string Input::field_label() const {
+  if (!file()) return kFormulaField;
+  return spec_.kind == FieldKind::kScalar ? label_of(scalar_choice(), arrays_) : choice().label;
+}
+
+std::vector<std::string> Input::field_arrays() const {
+  if (!file()) return {};
+  if (spec_.kind == FieldKind::kScalar) return {scalar_choice().array};
+  return choice().arrays;
 }
 
 std::string Input::choice_sentence() const {
-  if (!source_) return title_ + ": field velocity, a formula";
-  const VectorChoice chosen = choice();
-  std::string text = title_ + ": field " + chosen.label;
-  text += chosen.association == Association::kCell ? " (cell values brought to the points)" : "";
+  if (!file()) return title_ + ": field " + kFormulaField + ", a formula";
+  const std::string chosen = field_label();
+  std::string text = title_ + ": field " + chosen;
+  const Association on =
+      spec_.kind == FieldKind::kScalar ? scalar_choice().association : choice().association;
+  text += on == Association::kCell ? " (cell values brought to the points)" : "";
   std::string others;
-  for (const VectorChoice& other : choices_) {
-    if (other.label != chosen.label) others += (others.empty() ? "" : ", ") + other.label;
+  for (const std::string& other : fields_) {
+    if (other != chosen) others += (others.empty() ? "" : ", ") + other;
   }
   if (!others.empty()) text += "; others: " + others + " (--field)";
   if (times().size() > 1) {
@@ -108,13 +168,14 @@ std::string Input::choice_sentence() const {
 }
 
 std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress* progress) {
+  if (made_) return {*made_};
   return source_->read(names, time_.step, progress);
 }
 
 std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* progress) {
   Stopwatch watch;
   seconds_read_ = 0.0;
-  if (!source_) {
+  if (!file()) {
     auto field = make_vector_field(example(spec_.example));
     seconds_field_ = watch.seconds();
     return field;
@@ -125,7 +186,21 @@ std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* prog
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("preparing the field", 0);
-  auto field = make_vector_field(blocks, chosen, spec_.files.front().string(), threads);
+  auto field = make_vector_field(blocks, chosen, file_name(), threads);
+  seconds_field_ = watch.seconds();
+  return field;
+}
+
+std::shared_ptr<const ScalarField> Input::load_scalar(int threads, Progress* progress) {
+  Stopwatch watch;
+  check_volume();
+  const ScalarChoice chosen = scalar_choice();
+  if (progress) progress->begin("reading " + title_, 0);
+  const std::vector<DataSet> blocks = read({chosen.array}, progress);
+  seconds_read_ = watch.seconds();
+  watch.restart();
+  if (progress) progress->begin("preparing the field", 0);
+  auto field = make_scalar_field(blocks, chosen, file_name(), threads);
   seconds_field_ = watch.seconds();
   return field;
 }

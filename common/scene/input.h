@@ -12,10 +12,18 @@
 
 #include "common/base/progress.h"
 #include "common/field/analytic/examples.h"
+#include "common/field/scalar_choice.h"
+#include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
 
 namespace palpate {
+
+/// What an explorer takes from its input.
+enum class FieldKind : std::uint8_t { kVector, kScalar };
+
+/// The built-in data sets of a kind; the first is the one shown by default.
+[[nodiscard]] std::vector<ExampleInfo> examples_of(FieldKind kind);
 
 /// What the user named.
 struct InputSpec {
@@ -24,6 +32,8 @@ struct InputSpec {
   std::string example;                            ///< in place of files
   std::string field;                              ///< empty: the likeliest one
   std::string time = "first";                     ///< first, last or a time
+  FieldKind kind = FieldKind::kVector;
+  RawWords raw;  ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
 };
 
 /// A time step and whether it is the very one that was asked for.
@@ -46,13 +56,15 @@ class Input {
   /// "carotid.vtk", "example abc"
   [[nodiscard]] const std::string& title() const noexcept { return title_; }
   [[nodiscard]] const InputSpec& spec() const noexcept { return spec_; }
-  /// What the loader says; null for an example.
+  /// What the loader says, or would say of a built-in volume; null for a formula.
   [[nodiscard]] const FileInfo* file() const noexcept;
   [[nodiscard]] const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
-  /// Why no line can be traced in the file (it has no volume), or empty.
+  /// What the loader has to say, and where the layout of voxels without a header was taken from.
+  [[nodiscard]] std::vector<std::string> notes() const;
+  /// Why there is no volume in the file, or empty.
   [[nodiscard]] const std::string& not_volume() const noexcept { return not_volume_; }
-  /// Every vector field that can be made, the default first; none for an example or without a volume.
-  [[nodiscard]] const std::vector<VectorChoice>& choices() const noexcept { return choices_; }
+  /// Names of all fields of spec().kind that can be made, the default first; none without a volume.
+  [[nodiscard]] const std::vector<std::string>& fields() const noexcept { return fields_; }
   [[nodiscard]] const std::vector<double>& times() const noexcept;
   [[nodiscard]] const TimeChoice& time() const noexcept { return time_; }
   /// Moves to another time step. @pre step < times().size().
@@ -61,32 +73,49 @@ class Input {
   /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
   void set_field(std::string name) { spec_.field = std::move(name); }
 
-  /// The recipe of the field that spec().field means. @pre file().
+  /// The recipe of the vector field that spec().field means. @pre file().
   /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field or no volume.
   [[nodiscard]] VectorChoice choice() const;
+  /// The same for a scalar field.
+  [[nodiscard]] ScalarChoice scalar_choice() const;
+  /// What spec().field means, of either kind: "velocity". @throws as choice().
+  [[nodiscard]] std::string field_label() const;
+  /// The arrays that the field is made of; none for a formula. @throws as choice().
+  [[nodiscard]] std::vector<std::string> field_arrays() const;
 
   /// One sentence that names the field and the time step, and what else there was to choose from.
   [[nodiscard]] std::string choice_sentence() const;
 
-  /// Reads the arrays of the field and makes it.
+  /// Reads the arrays of the vector field and makes it.
   /// @throws Error, Cancelled.
   [[nodiscard]] std::shared_ptr<const VectorField> load_field(int threads, Progress* progress = nullptr);
+  /// The same for the scalar field. @pre file().
+  [[nodiscard]] std::shared_ptr<const ScalarField> load_scalar(int threads, Progress* progress = nullptr);
   /// Reads topology and arrays by name at the chosen time step. @pre file().
   [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names,
                                           Progress* progress = nullptr);
 
   [[nodiscard]] double seconds_open() const noexcept { return seconds_open_; }
-  [[nodiscard]] double seconds_read() const noexcept { return seconds_read_; }  ///< of the last load_field()
-  [[nodiscard]] double seconds_field() const noexcept {
-    return seconds_field_;
-  }  ///< of the last load_field()
+  /// @name Of the last field that was loaded
+  /// @{
+  [[nodiscard]] double seconds_read() const noexcept { return seconds_read_; }
+  [[nodiscard]] double seconds_field() const noexcept { return seconds_field_; }
+  /// @}
 
  private:
+  void open_example();
+  void open_files(Progress* progress);
+  [[nodiscard]] std::string file_name() const;
+  void check_volume() const;
+
   InputSpec spec_;
   std::string title_;
+  std::string raw_note_;
   std::optional<Source> source_;
+  std::optional<DataSet> made_;  ///< a built-in volume
+  std::optional<FileInfo> made_info_;
   std::vector<ArrayInfo> arrays_;
-  std::vector<VectorChoice> choices_;
+  std::vector<std::string> fields_;
   std::string not_volume_;
   TimeChoice time_;
   double seconds_open_ = 0.0;

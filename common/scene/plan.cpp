@@ -55,8 +55,9 @@ bool is_box(const FileInfo& file) {
 }
 
 void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
+  const bool scalar = input.spec().kind == FieldKind::kScalar;
   std::vector<std::string> wanted;
-  if (use.field && !input.choices().empty()) wanted = input.choice().arrays;
+  if (use.field && !input.fields().empty()) wanted = input.field_arrays();
   for (const ArrayInfo& array : input.arrays()) {
     const std::uint64_t bytes = static_cast<std::uint64_t>(array.tuples) *
                                 static_cast<std::uint64_t>(array.components) * byte_size(array.type);
@@ -64,7 +65,8 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
     const bool colors = array.name == use.color_array;
     const std::string what = kArray + array.name;
     if (in_field) {
-      plan.push_back(used(what, "the vector field", bytes, array_milliseconds(bytes)));
+      plan.push_back(
+          used(what, scalar ? "the scalar field" : "the vector field", bytes, array_milliseconds(bytes)));
     } else if (colors) {
       plan.push_back(used(what, "colours the lines", bytes, array_milliseconds(bytes)));
     } else if (use.all_arrays) {
@@ -77,7 +79,11 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
 
 void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Needs& plan) {
   // It is at work already: what it took is known.
-  plan.push_back(used(kHelper + file.loader, "reads " + file.format, 0, 1e3 * input.seconds_open()));
+  if (file.loader.empty()) {
+    plan.push_back(used("voxels of " + input.title(), "made on the fly", 0, 1e3 * input.seconds_open()));
+  } else {
+    plan.push_back(used(kHelper + file.loader, "reads " + file.format, 0, 1e3 * input.seconds_open()));
+  }
   std::set<std::string> others;
   for (int f = 0; f < kFormatCount; ++f) others.emplace(helper_of(static_cast<Format>(f)));
   others.erase(file.loader);
@@ -160,10 +166,9 @@ std::string plan_text(const Needs& plan) {
   return text;
 }
 
-std::vector<MeasuredCost> measured_costs(const Input& input, const VectorField& field) {
+std::vector<MeasuredCost> measured_costs(const Input& input, const TetMesh* mesh) {
   std::uint64_t bytes = 0;
-  if (const TetMesh* mesh = field.tet_mesh())
-    bytes = mesh->points().size() * sizeof(Vec3) + mesh->cells().size() * kBytesPerTet;
+  if (mesh != nullptr) bytes = mesh->points().size() * sizeof(Vec3) + mesh->cells().size() * kBytesPerTet;
   return {{.what = "opening", .milliseconds = 1e3 * input.seconds_open()},
           {.what = "arrays", .milliseconds = 1e3 * input.seconds_read()},
           {.what = "field", .milliseconds = 1e3 * input.seconds_field(), .bytes = bytes}};

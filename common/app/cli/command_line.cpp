@@ -77,10 +77,11 @@ std::string joined(const std::vector<std::string>& parts) {
 /// The options of one verb, bound to `options`.
 class VerbParser {
  public:
-  VerbParser(CLI::App& app, const Verb& verb, Options& options) : app_(app), options_(options) {
+  VerbParser(CLI::App& app, const Explorer& explorer, const Verb& verb, Options& options)
+      : app_(app), options_(options) {
     app_.footer(examples_text(verb.examples));
     add_common();
-    if (verb.groups.input) add_input();
+    if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.view) add_view();
     if (verb.groups.touch) add_touch();
@@ -152,7 +153,7 @@ class VerbParser {
     scene("--seed", common.seed, "start of the random numbers (random:n seeds)", "N", group);
   }
 
-  void add_input() {
+  void add_input(FieldKind kind) {
     const char* group = "Input";
     InputOptions& input = options_.input;
     app_.add_option("FILE", input.files, "data file; several are joined as blocks or taken as a time series")
@@ -162,14 +163,31 @@ class VerbParser {
         ->group(group);
     scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME",
           group);
-    scene("--field", input.field, "the vector field; without it the likeliest one is taken and named", "NAME",
-          group);
+    scene("--field", input.field,
+          std::string(kind == FieldKind::kScalar ? "the scalar field" : "the vector field") +
+              "; without it the likeliest one is taken and named",
+          "NAME", group);
+    if (kind == FieldKind::kScalar) add_raw();
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);
     app_.add_option("--session", options_.session,
                     "take files and options from a saved session; typed options win")
         ->type_name("FILE.toml")
         ->group(group);
+  }
+
+  void add_raw() {
+    const char* group = "Voxels without a header";
+    RawWords& raw = options_.input.raw;
+    scene("--raw-size", raw.size, "voxels along each axis, the fastest first", "NXxNYxNZ", group);
+    scene("--raw-type", raw.type, "uint8, int8, uint16, int16, uint32, int32, float32, float64, …", "TYPE",
+          group);
+    scene("--raw-endian", raw.endian, "order of the bytes of a number; default little", "little|big", group);
+    scene("--raw-spacing", raw.spacing, "steps between voxels in data units; default 1,1,1", "DX,DY,DZ",
+          group);
+    scene("--raw-origin", raw.origin, "place of the first voxel in data units; default 0,0,0", "X,Y,Z",
+          group);
+    scene("--raw-skip", raw.skip, "bytes before the first voxel; default 0", "BYTES", group);
   }
 
   void add_tracing() {
@@ -333,7 +351,7 @@ ParsedCommand parse_once(
     CLI::App* sub = app.add_subcommand(verb.name, verb.summary)->group("Verbs");
     sub->set_help_flag("--help,-h", "print this help");
     sub->set_version_flag("--version", version_text(explorer.name));
-    parsers[sub] = std::make_unique<VerbParser>(*sub, verb, parsed.options);
+    parsers[sub] = std::make_unique<VerbParser>(*sub, explorer, verb, parsed.options);
   }
 
   try {

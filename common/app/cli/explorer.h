@@ -11,6 +11,7 @@
 #include "common/app/cli/options.h"
 #include "common/base/error.h"
 #include "common/base/progress.h"
+#include "common/scene/input.h"
 
 namespace palpate {
 
@@ -57,6 +58,7 @@ struct Verb {
 struct Explorer {
   std::string name;
   std::string summary;
+  FieldKind kind = FieldKind::kVector;  ///< of the field that its verbs work on
   std::vector<UsageExample> examples;
   std::vector<Verb> verbs;
   /// The verb that `<app> FILE` and `<app>` alone stand for.

@@ -137,19 +137,22 @@ std::string info_json(const InfoSummary& summary) {
     for (const ArraySummary& array : summary.arrays) arrays.push_back(array_json(array));
     json["arrays"] = std::move(arrays);
     json["not_volume"] = input.not_volume().empty() ? Json(nullptr) : Json(input.not_volume());
-    Json fields = Json::array();
-    for (const VectorChoice& choice : input.choices()) fields.push_back(choice.label);
-    json["fields"] = std::move(fields);
+    json["fields"] = input.fields();
     json["times"] = file->times;
     json["orientation"] = summary.orientation;
     json["units"] = file->units.empty() ? Json(nullptr) : Json(file->units);
+    json["space"] = file->anatomical ? Json("RAS") : Json(nullptr);
   } else {
     json["format"] = "formula";
     json["fields"] = {"velocity"};
     json["times"] = Json::array();
   }
   json["field"] = summary.field.empty() ? Json(nullptr) : Json(summary.field);
-  json["max_speed"] = summary.max_speed;
+  if (input.spec().kind == FieldKind::kVector) {
+    json["max_speed"] = summary.max_speed;
+  } else if (summary.field_range) {
+    json["range"] = {summary.field_range->lower, summary.field_range->upper};
+  }
   json["bounds"] = box_json(summary.bounds);
   json["diagonal"] = summary.bounds.diagonal();
   json["memory_bytes"] = summary.memory_bytes;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/load/raw_layout.h"
+
 namespace palpate {
 
 /// Taken by every verb.
@@ -28,6 +30,7 @@ struct InputOptions {
   std::string example;
   std::string field;
   std::string time = "first";
+  RawWords raw;  ///< --raw-size and its like
 };
 
 /// Where lines start and how they are traced.

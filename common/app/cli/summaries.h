@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,9 +50,10 @@ struct ArraySummary {
 struct InfoSummary {
   const Input* input = nullptr;
   std::vector<ArraySummary> arrays;
-  std::vector<std::string> orientation;  ///< a sentence a block
-  std::string field;                     ///< empty: no vector field can be made
-  double max_speed = 0.0;
+  std::vector<std::string> orientation;       ///< a sentence a block
+  std::string field;                          ///< empty: none can be made
+  double max_speed = 0.0;                     ///< of a vector field
+  std::optional<ComponentRange> field_range;  ///< of a scalar field with finite values
   Box bounds;
   std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;

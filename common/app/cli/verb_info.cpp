@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
@@ -12,7 +13,9 @@ namespace palpate {
 namespace {
 
 std::string position_text(const Vec3& x) {
-  return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";
+  // No "-0" for what is turned around.
+  return "(" + short_number(x.x + 0.0) + ", " + short_number(x.y + 0.0) + ", " + short_number(x.z + 0.0) +
+         ")";
 }
 
 /// Ranges of all components over fixed pieces of an array: minima, maxima and counts do not depend on how the
@@ -54,10 +57,26 @@ void include_array(const DataArray& array, int threads, ArraySummary& summary) {
   }
 }
 
-std::string orientation_of(const DataSet& block) {
+/// Where a step of an image leads in RAS+ coordinates: "R" to the right, "L" to the left, "A" to the front, …
+char letter_of(const Vec3& step) {
+  constexpr std::string_view kUp = "RAS";
+  constexpr std::string_view kDown = "LPI";
+  int most = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(step[axis]) > std::abs(step[most])) most = axis;
+  }
+  return (step[most] < 0.0 ? kDown : kUp)[static_cast<std::size_t>(most)];
+}
+
+std::string orientation_of(const DataSet& block, bool anatomical) {
   const auto* uniform = std::get_if<UniformTopology>(&block.topology);
   if (!uniform) return "coordinates as stored";
   const Mat3& a = uniform->axes;
+  if (anatomical) {
+    return std::string("RAS+ mm; voxel axes run to ") + letter_of(a[0]) + ", " + letter_of(a[1]) + ", " +
+           letter_of(a[2]) + "; steps " + position_text(a[0]) + ", " + position_text(a[1]) + ", " +
+           position_text(a[2]);
+  }
   const bool aligned =
       a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
   if (aligned) return "axes i, j, k along x, y, z; steps " + position_text({a[0].x, a[1].y, a[2].z});
@@ -75,7 +94,7 @@ void read_all(Input& input, const Options& options, const VerbContext& context, 
   const std::vector<DataSet> blocks = input.read(names, &context.progress);
   for (const DataSet& block : blocks) {
     context.progress.check();
-    const std::string orientation = orientation_of(block);
+    const std::string orientation = orientation_of(block, input.file()->anatomical);
     if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) ==
         summary.orientation.end()) {
       summary.orientation.push_back(orientation);
@@ -129,6 +148,7 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
 
 std::string summary_text(const InfoSummary& summary) {
   const Input& input = *summary.input;
+  const bool scalar = input.spec().kind == FieldKind::kScalar;
   std::string text =
       input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
   if (!input.file()) {
@@ -136,14 +156,21 @@ std::string summary_text(const InfoSummary& summary) {
             position_text(summary.bounds.upper) + "\n";
   }
   if (!input.not_volume().empty()) {
-    text += "  field      no volume cells: nothing to trace\n";
+    text += scalar ? "  field      no volume cells: nothing to feel\n"
+                   : "  field      no volume cells: nothing to trace\n";
   } else if (summary.field.empty()) {
-    text += "  field      no vector field can be made from these arrays\n";
+    text += std::string("  field      no ") + (scalar ? "scalar" : "vector") +
+            " field can be made from these arrays\n";
   } else {
-    text += "  field      " + summary.field + ", speed up to " + short_number(summary.max_speed);
+    text += "  field      " + summary.field;
+    if (!scalar) text += ", speed up to " + short_number(summary.max_speed);
+    if (summary.field_range) {
+      text +=
+          ", " + short_number(summary.field_range->lower) + " … " + short_number(summary.field_range->upper);
+    }
     std::string others;
-    for (const VectorChoice& choice : input.choices()) {
-      if (choice.label != summary.field) others += (others.empty() ? "" : ", ") + choice.label;
+    for (const std::string& other : input.fields()) {
+      if (other != summary.field) others += (others.empty() ? "" : ", ") + other;
     }
     text += (others.empty() ? "" : "; others: " + others + " (--field)") + "\n";
   }
@@ -152,14 +179,23 @@ std::string summary_text(const InfoSummary& summary) {
   return text;
 }
 
+/// Adds what is to be said of the field.
+template <typename Field>
+void add_field(const Input& input, const Field& field, bool explain, InfoSummary& summary) {
+  summary.field = input.field_label();
+  summary.bounds = field.bounds();
+  summary.notes.insert(summary.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
+  if (explain) summary.measured = measured_costs(input, field.tet_mesh());
+}
+
 ExitCode run_info(const Options& options, const VerbContext& context) {
-  if (list_examples(options, context.console)) return ExitCode::kDone;
-  Input input = Input::open(input_spec(options.input), &context.progress);
+  if (list_examples(options, context)) return ExitCode::kDone;
+  Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
   InfoSummary summary;
   summary.input = &input;
-  const bool has_field = !input.file() || !input.choices().empty();
-  if (!options.input.field.empty() && input.file() && input.not_volume().empty())
-    (void)input.choice();  // an unknown --field is refused first
+  const bool has_field = !input.file() || (!input.fields().empty() && input.not_volume().empty());
+  if (!options.input.field.empty() && input.not_volume().empty())
+    (void)input.field_label();  // an unknown --field is refused first
   if (options.common.explain) {
     const bool field = has_field;
     const int threads = resolve_threads(options.common.threads);
@@ -179,20 +215,22 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
       context.console.print(plan.verb + ", " + plan_text(plan.plan) + "\n");
   }
   if (const FileInfo* file = input.file()) {
-    summary.notes = file->notes;
+    summary.notes = input.notes();
     for (const BlockInfo& block : file->blocks) {
       summary.bounds.include(block.bounds.lower);
       summary.bounds.include(block.bounds.upper);
     }
     read_all(input, options, context, summary);
   }
-  if (has_field) {
+  if (has_field && context.explorer.kind == FieldKind::kScalar) {
+    const auto field = input.load_scalar(options.common.threads, &context.progress);
+    add_field(input, *field, options.common.explain, summary);
+    if (field->lowest() <= field->highest())
+      summary.field_range = ComponentRange{field->lowest(), field->highest()};
+  } else if (has_field) {
     const auto field = input.load_field(options.common.threads, &context.progress);
-    summary.field = field->name();
+    add_field(input, *field, options.common.explain, summary);
     summary.max_speed = field->max_speed();
-    summary.bounds = field->bounds();
-    summary.notes.insert(summary.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
-    if (options.common.explain) summary.measured = measured_costs(input, *field);
   }
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   context.console.print(summary_text(summary));

@@ -11,9 +11,9 @@
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/chain_description.h"
 #include "common/base/clock.h"
+#include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
-#include "common/base/output_file.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
@@ -199,7 +199,7 @@ void check_request(const Options& options) {
 
 ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options, const VerbContext& context) {
   Console& console = context.console;
-  if (list_examples(options, console)) return ExitCode::kDone;
+  if (list_examples(options, context)) return ExitCode::kDone;
   const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
   check_request(options);
   ProbeSummary summary;
@@ -239,8 +239,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   if (recording) {
-    const NamedField open{field,
-                          field_key(input.file() ? input.choice().label : field->name(), input.time().step)};
+    const NamedField open{field, field_key(input.field_label(), input.time().step)};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
@@ -278,7 +277,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     context.interrupt.keep(options.out);
   }
   console.print(summary_text(summary));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, *field)));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, field->tet_mesh())));
   console.print_json(probe_json(summary));
   return summary.replay_differs ? ExitCode::kWorkFailed : ExitCode::kDone;
 }

@@ -10,10 +10,10 @@
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/probe_picture.h"
+#include "common/base/output_file.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
-#include "common/base/output_file.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/scene/plan.h"
@@ -89,7 +89,7 @@ void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticM
 ExitCode run_render(const std::vector<HapticMode>& modes, const Options& options,
                     const VerbContext& context) {
   Console& console = context.console;
-  if (list_examples(options, console)) return ExitCode::kDone;
+  if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   const PictureSize size = parse_size(options.size);
   const SeedSpec spec = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
@@ -149,7 +149,7 @@ ExitCode run_render(const std::vector<HapticMode>& modes, const Options& options
     summary.image_error_kind = "root mean square of full scale, against 9 samples a pixel";
   }
   if (options.common.explain) {
-    summary.measured = measured_costs(input, *field);
+    summary.measured = measured_costs(input, field->tet_mesh());
     summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * summary.seconds_trace});
     summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
   }

@@ -68,7 +68,7 @@ std::string results_text(const Report& report, const std::filesystem::path& out)
 
 ExitCode run_report(const Options& options, const VerbContext& context) {
   Console& console = context.console;
-  if (list_examples(options, console)) return ExitCode::kDone;
+  if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("report needs a folder to make: try --out report");
   const Effort effort = effort_from_name(options.effort);
   const SeedSpec spec =
@@ -135,7 +135,7 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   const auto failed = std::count_if(report.stability.begin(), report.stability.end(),
                                     [](const StabilityCase& c) { return !c.row.holds; });
   console.print(results_text(report, options.out));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, *field)));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, field->tet_mesh())));
   console.print_json(report_summary_json(options.out.string(), report.sweep.rows.size(),
                                          static_cast<std::size_t>(failed), report.seconds));
   return ExitCode::kDone;

@@ -20,21 +20,21 @@ StopRule stop_plane(const std::string& text) {
 
 }  // namespace
 
-InputSpec input_spec(const InputOptions& options) {
-  return {options.files, options.solution, options.example, options.field, options.time};
+InputSpec input_spec(const InputOptions& options, FieldKind kind) {
+  return {options.files, options.solution, options.example, options.field, options.time, kind, options.raw};
 }
 
-bool list_examples(const Options& options, Console& console) {
+bool list_examples(const Options& options, const VerbContext& context) {
   if (options.input.example != "list") return false;
-  const std::vector<ExampleInfo> list = examples();
+  const std::vector<ExampleInfo> list = examples_of(context.explorer.kind);
   std::size_t widest = 0;
   for (const ExampleInfo& entry : list) widest = std::max(widest, entry.name.size());
   std::string text;
   for (const ExampleInfo& entry : list) {
     text += entry.name + std::string(widest + 2 - entry.name.size(), ' ') + entry.summary + "\n";
   }
-  console.print(text);
-  console.print_json(examples_json(list));
+  context.console.print(text);
+  context.console.print_json(examples_json(list));
   return true;
 }
 
@@ -45,10 +45,8 @@ Input open_input(const Options& options, const VerbContext& context) {
     }
   }
   context.progress.begin("opening", 0);
-  Input input = Input::open(input_spec(options.input), &context.progress);
-  for (const std::string& note : input.file() ? input.file()->notes : std::vector<std::string>{}) {
-    context.console.note(input.title() + ": " + note);
-  }
+  Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
+  for (const std::string& note : input.notes()) context.console.note(input.title() + ": " + note);
   return input;
 }
 

@@ -104,7 +104,7 @@ std::string summary_text(const TraceSummary& summary) {
 
 ExitCode run_trace(const Options& options, const VerbContext& context) {
   Console& console = context.console;
-  if (list_examples(options, console)) return ExitCode::kDone;
+  if (list_examples(options, context)) return ExitCode::kDone;
 
   // Everything that can be refused is refused before any work is done.
   if (options.tracing.seeds.empty()) {
@@ -160,7 +160,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   }
   console.print(summary_text(summary));
   if (options.common.explain) {
-    summary.measured = measured_costs(input, *field);
+    summary.measured = measured_costs(input, field->tet_mesh());
     summary.measured.push_back(
         {.what = "lines",
          .milliseconds = 1e3 * (summary.result.seconds_prepare + summary.result.seconds_trace)});

@@ -22,10 +22,10 @@ namespace palpate {
 /// @name What the verbs share
 /// @{
 
-[[nodiscard]] InputSpec input_spec(const InputOptions& options);
+[[nodiscard]] InputSpec input_spec(const InputOptions& options, FieldKind kind = FieldKind::kVector);
 
-/// Handles `--example list`: prints the examples and returns true.
-[[nodiscard]] bool list_examples(const Options& options, Console& console);
+/// Handles `--example list`: prints the explorer's examples and returns true.
+[[nodiscard]] bool list_examples(const Options& options, const VerbContext& context);
 
 /// Opens the input and says on stderr which field and time step are taken.
 [[nodiscard]] Input open_input(const Options& options, const VerbContext& context);

@@ -1,0 +1,159 @@
+#include "common/field/analytic/volume_examples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/field/analytic/scalar_examples.h"
+
+namespace palpate {
+namespace {
+
+template <typename T>
+constexpr ScalarType kTypeOf = ScalarType::kFloat32;
+template <>
+constexpr ScalarType kTypeOf<std::uint8_t> = ScalarType::kUint8;
+template <>
+constexpr ScalarType kTypeOf<std::uint16_t> = ScalarType::kUint16;
+
+/// A cube of n^3 points over `bounds`; value_at(x, index of the point).
+template <typename T>
+DataSet cube(int n, const Box& bounds, const std::function<T(const Vec3&, std::uint64_t)>& value_at) {
+  UniformTopology topology;
+  topology.points = Index3{n};
+  topology.origin = bounds.lower;
+  for (int axis = 0; axis < 3; ++axis) {
+    topology.axes[axis] = Vec3{0.0};
+    topology.axes[axis][axis] = bounds.size()[axis] / (n - 1);
+  }
+  const auto values = std::make_shared<std::vector<T>>();
+  values->reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i)
+        values->push_back(value_at(topology.origin + topology.axes * Vec3{i, j, k}, values->size()));
+    }
+  }
+  DataArray array;
+  array.name = kVolumeArray;
+  array.type = kTypeOf<T>;
+  array.tuples = values->size();
+  array.bytes = std::as_bytes(std::span(std::as_const(*values)));
+  array.owner = values;
+  DataSet block;
+  block.topology = topology;
+  block.arrays.push_back(std::move(array));
+  return block;
+}
+
+constexpr Box kUnitCube{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}};
+
+/// `part` of full scale as an integer.
+template <typename T>
+T quantised(double part) {
+  constexpr auto kMost = static_cast<double>(static_cast<T>(~T{0}));
+  return static_cast<T>(std::lround(std::clamp(part, 0.0, 1.0) * kMost));
+}
+
+/// On 41 points an axis, as Marschner and Lobb had it.
+DataSet marschner_lobb() {
+  constexpr int kPoints = 41;
+  const auto formula = marschner_lobb_scalar();
+  return cube<float>(kPoints, formula->bounds(), [&formula](const Vec3& x, std::uint64_t) {
+    return static_cast<float>(formula->value(x));
+  });
+}
+
+/// Shells with the value A_i around the origin, Gaussian across: s = sum_i A_i exp(-((|x| - R_i) / w)^2).
+DataSet shells() {
+  constexpr int kPoints = 96;
+  constexpr double kWidth = 0.05;  // w
+  struct Shell {
+    double radius, value;
+  };
+  constexpr std::array<Shell, 4> kShells{{{0.2, 1.0}, {0.42, 0.75}, {0.64, 0.5}, {0.86, 0.25}}};
+  return cube<std::uint8_t>(kPoints, kUnitCube, [&](const Vec3& x, std::uint64_t) {
+    double sum = 0.0;
+    for (const Shell& shell : kShells) {
+      const double away = (glm::length(x) - shell.radius) / kWidth;
+      sum += shell.value * std::exp(-away * away);
+    }
+    return quantised<std::uint8_t>(sum);
+  });
+}
+
+/// A number in [0, 1) that looks random, from the index of a point (Steele, Lea and Flood 2014, SplitMix64).
+double noise(std::uint64_t index) {
+  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+  return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
+}
+
+/// Three overlapping Gaussian blobs under white noise of a tenth of full scale.
+DataSet blob() {
+  constexpr int kPoints = 64;
+  constexpr double kNoise = 0.1;
+  struct Part {
+    Vec3 center;
+    double radius, value;
+  };
+  const std::array<Part, 3> parts{
+      {{{0.0, 0.0, 0.0}, 0.45, 0.6}, {{0.4, 0.2, 0.1}, 0.25, 0.35}, {{-0.3, 0.35, -0.25}, 0.2, 0.4}}};
+  return cube<std::uint16_t>(kPoints, kUnitCube, [&](const Vec3& x, std::uint64_t index) {
+    double sum = kNoise * noise(index);
+    for (const Part& part : parts) {
+      const Vec3 away = (x - part.center) / part.radius;
+      sum += part.value * std::exp(-glm::dot(away, away));
+    }
+    return quantised<std::uint16_t>(sum);
+  });
+}
+
+/// Nothing but one voxel in the middle.
+DataSet voxel() {
+  constexpr int kPoints = 33;
+  constexpr std::uint64_t kMiddle = std::uint64_t{kPoints} * kPoints * kPoints / 2;
+  return cube<std::uint8_t>(kPoints, kUnitCube, [](const Vec3&, std::uint64_t index) {
+    return static_cast<std::uint8_t>(index == kMiddle ? 255 : 0);
+  });
+}
+
+struct Example {
+  const char* name;
+  const char* summary;
+  DataSet (*make)();
+};
+constexpr std::array<Example, 4> kExamples{
+    {{"shells", "four nested shells of falling value (96^3, 8 bits)", shells},
+     {"marschner-lobb",
+      "Marschner-Lobb signal (Marschner and Lobb 1994): rings at the limit of its grid (41^3, float)",
+      marschner_lobb},
+     {"blob", "three joined blobs under white noise (64^3, 16 bits)", blob},
+     {"voxel", "an empty volume with one voxel in the middle (33^3, 8 bits)", voxel}}};
+
+}  // namespace
+
+std::vector<ExampleInfo> volume_examples() {
+  std::vector<ExampleInfo> list;
+  list.reserve(kExamples.size());
+  for (const Example& example : kExamples) list.push_back({example.name, example.summary});
+  return list;
+}
+
+DataSet volume_example(std::string_view name) {
+  std::string known;
+  for (const Example& example : kExamples) {
+    if (name == example.name) return example.make();
+    known += (known.empty() ? "" : ", ") + std::string(example.name);
+  }
+  throw usage_error("no example '" + std::string(name) + "'; the known ones are: " + known);
+}
+
+}  // namespace palpate
