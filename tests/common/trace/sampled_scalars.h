@@ -1,0 +1,44 @@
+/// Scalar formulas on grids, for tests.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "common/field/analytic/analytic_field.h"
+#include "common/field/analytic/sampled.h"
+#include "common/field/scalar_field.h"
+
+namespace palpate::test {
+
+/// Lets what samples vector formulas sample a scalar: as the first component.
+class AsVectors final : public AnalyticField {
+ public:
+  explicit AsVectors(std::shared_ptr<const AnalyticScalar> scalar) : scalar_(std::move(scalar)) {}
+  [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept override { return {scalar_->value(x), 1.0, 0.0}; }
+  [[nodiscard]] Mat3 jacobian(const Vec3&) const noexcept override { return Mat3{0.0}; }
+  [[nodiscard]] Box bounds() const noexcept override { return scalar_->bounds(); }
+  [[nodiscard]] std::string name() const override { return scalar_->name(); }
+  [[nodiscard]] std::string description() const override { return scalar_->description(); }
+
+ private:
+  std::shared_ptr<const AnalyticScalar> scalar_;
+};
+
+inline std::shared_ptr<const ScalarField> first_component(const DataSet& block) {
+  return make_scalar_field({block}, {kSampledName, Association::kPoint, 0}, "test");
+}
+inline std::shared_ptr<const ScalarField> on_uniform(const std::shared_ptr<const AnalyticScalar>& scalar,
+                                                     const Index3& points) {
+  return first_component(sample_uniform(AsVectors(scalar), points, SampledType::kFloat64));
+}
+inline std::shared_ptr<const ScalarField> on_rectilinear(const std::shared_ptr<const AnalyticScalar>& scalar,
+                                                         const Index3& points) {
+  return first_component(sample_rectilinear(AsVectors(scalar), points, 4.0, SampledType::kFloat64));
+}
+inline std::shared_ptr<const ScalarField> on_tets(const std::shared_ptr<const AnalyticScalar>& scalar,
+                                                  const Index3& points, double jitter = 0.2) {
+  return first_component(sample_tetrahedra(AsVectors(scalar), points, jitter, 1, SampledType::kFloat64));
+}
+
+}  // namespace palpate::test
