@@ -49,9 +49,13 @@ class ChainForce {
   explicit ChainForce(ChainForceForm form) noexcept : form_(form) {}
 
   /// @param stretched p_i - p_(i-1) [m]  @param stiffness k [N/m]
-  void add(const LinkUpdate& link, const Vec3& stretched, double stiffness) noexcept;
+  /// @param damper [N] on p_(i-1), beside the spring
+  void add(const LinkUpdate& link, const Vec3& stretched, double stiffness,
+           const Vec3& damper = Vec3{0.0}) noexcept;
 
   [[nodiscard]] const Vec3& force() const noexcept { return force_; }  ///< F of the links so far [N]
+  /// The part of F that comes of extra_i: meant to drive the hand, and not to hold it [N].
+  [[nodiscard]] const Vec3& active() const noexcept { return active_; }
 
  private:
   [[nodiscard]] Vec3 carried_back(const Vec3& pull) const noexcept;
@@ -59,6 +63,7 @@ class ChainForce {
   ChainForceForm form_;
   Mat3 lever_{1.0};  ///< L of the next link
   Vec3 force_{0.0};
+  Vec3 active_{0.0};
 };
 
 }  // namespace palpate

@@ -13,11 +13,14 @@
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
 #include "common/haptics/force_field/force_field_settings.h"
+#include "common/haptics/passivity_settings.h"
 
 namespace palpate {
 
 struct ChainSettings {
   double stiffness = 200.0;  ///< k of the coupling [N/m]
+  double damping = 0.0;      ///< b of the coupling, where links hold the hand back [N s/m]
+  PassivitySettings passivity;
   StreamlineSettings streamline;
   TickSettings ticks;
   DragSettings drag;
@@ -29,15 +32,17 @@ struct ChainSettings {
 
   /// Whether every value can be used: finite, none below its least, kappa at most one.
   [[nodiscard]] bool valid() const noexcept {
-    return std::isfinite(stiffness) && stiffness >= 0.0 && streamline.valid() && ticks.valid() &&
-           drag.valid() && shape.valid() && grid_axis.valid() &&
-           force_field.valid();
+    return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
+           passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
+           grid_axis.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
   template <typename Self, typename Visit>
   static void each(Self& self, Visit&& visit) {
     visit("stiffness", self.stiffness);
+    visit("damping", self.damping);
+    PassivitySettings::each(self.passivity, visit);
     StreamlineSettings::each(self.streamline, visit);
     TickSettings::each(self.ticks, visit);
     DragSettings::each(self.drag, visit);

@@ -7,6 +7,14 @@
 #include "common/base/check.h"
 
 namespace palpate {
+namespace {
+
+/// @param velocity of a link's probe  @param held_back what of it the proxy does not do  @param b [N s/m]
+Vec3 coupling_damper(const Vec3& velocity, const Vec3& held_back, double b) noexcept {
+  return b > 0.0 && glm::dot(velocity, held_back) > 0.0 ? -b * held_back : Vec3{0.0};
+}
+
+}  // namespace
 
 std::string_view name_of(HoldState state) noexcept {
   constexpr std::array<std::string_view, 6> kNames{"free",     "held",    "fell_back",
@@ -32,11 +40,14 @@ void ProxyChain::reset() noexcept {
 ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
   ChainForce springs(form_);
-  Vec3 damper{0.0}, pulled = probe;
+  Vec3 damper{0.0}, pulled = probe, pulled_velocity = velocity;
   for (const auto& link : links_) {
     LinkUpdate update;
     link->update(pulled, budget_, update);
-    springs.add(update, update.proxy - pulled, settings_.stiffness);
+    const Vec3 passed_on = update.jacobian * pulled_velocity;
+    springs.add(update, update.proxy - pulled, settings_.stiffness,
+                coupling_damper(pulled_velocity, pulled_velocity - passed_on, settings_.damping));
+    pulled_velocity = passed_on;
     if (update.damping != Vec3{0.0}) damper -= update.frame * (update.damping * (velocity * update.frame));
     result.proxies[static_cast<std::size_t>(result.links++)] = update.proxy;
     result.state = std::max(result.state, update.state);
@@ -47,6 +58,7 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
     pulled = update.proxy;
   }
   result.force = springs.force() + damper;
+  result.active = springs.active();
   return result;
 }
 

@@ -7,6 +7,13 @@
 /// hand instead, along the axes of a link that asks for it:
 ///
 ///   F -= sum_i B_i xdot,   B_i = sum_a b_a e_a e_a^T,   b_a >= 0, so that F . xdot <= 0
+///
+/// and with the damping b of the coupling, at p_(i-1) beside the spring and added up as springs are, on what
+/// link i holds back of the motion:
+///
+///   -b (1 - J_i) u_i,   u_i = J_(i-1) ... J_1 xdot
+///
+/// left out where it would push (u_i . (1 - J_i) u_i < 0: a proxy that outruns its probe).
 #pragma once
 
 #include <array>
@@ -24,6 +31,7 @@ struct ChainStep {
   static constexpr int kMaxLinks = 4;
 
   Vec3 force{0.0};                        ///< [N] before the safety stage
+  Vec3 active{0.0};                       ///< [N] part of it that is meant to drive the hand
   std::array<Vec3, kMaxLinks> proxies{};  ///< [m], in the order of the chain
   int links = 0;
   HoldState state = HoldState::kFree;

@@ -15,9 +15,11 @@ const Vec3& VelocityEstimate::update(double time, const Vec3& position) noexcept
   newest_ = (newest_ + 1) % kWindow;
   samples_[newest_] = {time, position};
   count_ = std::min(count_ + 1, kWindow);
+  velocity_ = Vec3{0.0};
+  window_ = 0;
   for (std::size_t n = 1; n < count_; ++n) {
     const Vec3 slope = (position - sample(n).position) / (time - sample(n).time);
-    if (!fits(slope, n)) break;
+    if (!is_finite(slope) || !fits(slope, n)) break;
     velocity_ = slope;
     window_ = n;
   }

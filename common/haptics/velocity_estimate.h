@@ -10,6 +10,7 @@
 /// A slow hand is averaged over a long window, which a step of an encoder hardly shows in; a quick turn of it
 /// shortens the window at once. A plain difference of an encoder of 27 um at 1 kHz jumps by 27 mm/s a count.
 /// Here the distance from the line is Euclidean, all three axes have one window, and times need not be even.
+/// The velocity of a jump too far for a number is zero.
 #pragma once
 
 #include <array>

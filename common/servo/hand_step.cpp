@@ -18,6 +18,7 @@ bool is_finite(const ChainStep& step) noexcept {
 std::unique_ptr<ProxyChain> HandStepper::exchange_chain(std::unique_ptr<ProxyChain> chain) noexcept {
   chain_.swap(chain);
   last_ = {};
+  passivity_.reset();
   starting_ = true;
   return chain;
 }
@@ -59,16 +60,17 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
     request.speed = speed_to(input.sample);
     request.position = input.sample.position;
     request.buttons = input.sample.buttons;
-    estimate_velocity(input.sample);
+    const Vec3& velocity = velocity_.update(input.sample.time, input.sample.position);
     last_sample_ = input.sample;
     last_sample_time_ = input.sample.time;
-    const ChainStep now = chain_ ? chain_->step(input.sample.position, velocity_) : ChainStep{};
+    const ChainStep now = chain_ ? chain_->step(input.sample.position, velocity) : ChainStep{};
     if (!is_finite(now)) {
       chain_->reset();
+      passivity_.reset();
       request.cut = ForceCut::kNotFinite;
     } else {
       last_ = now;
-      request.force = now.force;
+      request.force = controlled(now, input.sample.position, dt);
       if (now.state == HoldState::kFault) {
         request.cut = ForceCut::kChain;
       } else if (now.jumped) {
@@ -82,10 +84,14 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
 
   HandStep out{.number = next_++, .time = input.time, .present = input.present};
   out.force = safety_.apply(request);
+  const double asked = glm::length(request.force);
+  const double let_through = asked > 0.0 ? std::min(glm::length(out.force) / asked, 1.0) : 0.0;
+  passivity_.sent(out.force, let_through * last_.active);
   out.cut = safety_.cut();
   out.probe = last_sample_.position;
   out.buttons = last_sample_.buttons;
   out.chain = last_;
+  out.passivity_damping = passivity_.damping();
   out.state = is_fault(out.cut) ? HoldState::kFault : last_.state;
   return out;
 }
@@ -108,19 +114,27 @@ double HandStepper::speed_to(const DeviceSample& sample) const noexcept {
   return glm::length((sample.position - last_sample_.position) / dt);
 }
 
-void HandStepper::estimate_velocity(const DeviceSample& sample) noexcept {
-  constexpr double kSmoothing = 0.005;  // [s] time constant: 32 Hz
-  const double dt = sample.time - last_sample_time_;
-  if (!(dt > 0.0)) return;
-  const Vec3 difference = (sample.position - last_sample_.position) / dt;
-  velocity_ += (difference - velocity_) * (dt / (dt + kSmoothing));
-  if (!is_finite(velocity_)) velocity_ = Vec3{0.0};
+Vec3 HandStepper::controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept {
+  if (!chain_) return step.force;
+  const ChainSettings& settings = chain_->settings();
+  if (step.links < settings.passivity.from_links) return step.force;
+  // What the springs can hold at most: no axis is stiffer than k.
+  double stored = 0.0;
+  Vec3 pulled = probe;
+  for (int i = 0; i < step.links; ++i) {
+    const Vec3 stretch = step.proxies[static_cast<std::size_t>(i)] - pulled;
+    stored += 0.5 * settings.stiffness * glm::dot(stretch, stretch);
+    pulled += stretch;
+  }
+  const double passed = dt > 0.0 ? dt : 0.0;  // NaN on the first step
+  return passivity_.control(probe, passed, step.force, stored, settings.passivity);
 }
 
 void HandStepper::let_go() noexcept {
   if (std::isnan(last_sample_time_)) return;
   last_sample_time_ = kNever;
-  velocity_ = Vec3{0.0};
+  velocity_.reset();
+  passivity_.reset();
   last_ = {};
   starting_ = true;
   if (chain_) chain_->reset();

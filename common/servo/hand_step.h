@@ -1,7 +1,7 @@
 /// One servo step, without a thread, a clock or a device: what the hand does goes in, what it feels comes
 /// out.
 ///
-///   sanity of the sample -> ProxyChain::step -> SafetyStage
+///   sanity of the sample -> ProxyChain::step -> PassivityController -> SafetyStage
 ///
 /// The live loop, `probe` and a replay all step with this, so the same inputs give the same bits in all
 /// three. Workspace frame, SI units.
@@ -12,7 +12,9 @@
 #include <memory>
 
 #include "common/device/device.h"
+#include "common/haptics/passivity.h"
 #include "common/haptics/proxy_chain.h"
+#include "common/haptics/velocity_estimate.h"
 #include "common/servo/safety_stage.h"
 
 namespace palpate {
@@ -31,8 +33,9 @@ struct HandStep {
   bool present = false;
   Vec3 probe{0.0};            ///< [m] the last finite one
   std::uint32_t buttons = 0;  ///< of the last sample that made sense
-  ChainStep chain;  ///< proxies, residual, force before the safety stage; on a fault those of the step before
-  Vec3 force{0.0};  ///< [N] after the safety stage
+  ChainStep chain;  ///< proxies, residual, force before controller and safety stage; on a fault the last ones
+  double passivity_damping = 0.0;      ///< of the passivity controller [N s/m]; 0: it had nothing to do
+  Vec3 force{0.0};                     ///< [N] after the safety stage
   HoldState state = HoldState::kFree;  ///< the chain's, or kFault
   ForceCut cut = ForceCut::kNone;      ///< why the force is zero, if it was made so
 };
@@ -68,13 +71,14 @@ class HandStepper {
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kPositionNoise = 3e-5;  ///< [m] a step of a common device's encoders
 
   /// What keeps the sample from being used, or kNone. @param dt [s] NaN for the first step.
   [[nodiscard]] ForceCut judge(const HandInput& input, double dt) const noexcept;
   /// The speed of the hand since the last sample that was used [m/s].
   [[nodiscard]] double speed_to(const DeviceSample& sample) const noexcept;
-  /// Takes the sample into velocity_.
-  void estimate_velocity(const DeviceSample& sample) noexcept;
+  /// The force of the chain with the controller's damping, where that is in use. @param dt as in judge().
+  [[nodiscard]] Vec3 controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept;
   void let_go() noexcept;
 
   std::unique_ptr<ProxyChain> chain_;
@@ -82,8 +86,9 @@ class HandStepper {
   ChainStep last_;                    ///< what the chain said last
   DeviceSample last_sample_;          ///< the last one that was used
   double last_sample_time_ = kNever;  ///< [s] NaN while there is none to measure a speed from
-  Vec3 velocity_{0.0};                ///< of the hand [m/s], for what damps it
-  double last_time_ = kNever;         ///< [s] the last finite time of a step
+  VelocityEstimate velocity_{kPositionNoise};
+  PassivityController passivity_;
+  double last_time_ = kNever;  ///< [s] the last finite time of a step
   std::uint64_t next_ = 0;
   bool starting_ = true;  ///< the next step starts from zero force
   bool paused_ = false;

@@ -85,6 +85,8 @@ TEST(VelocityEstimate, IgnoresTimeThatDoesNotRiseAndForgets) {
   const Vec3 v = estimate.update(1.001, Vec3{0.001});
   EXPECT_EQ(estimate.update(1.001, Vec3{9.0}), v);
   EXPECT_EQ(estimate.update(0.5, Vec3{9.0}), v);
+  EXPECT_EQ(estimate.update(1.002, Vec3{1e300}), Vec3(1e300) / (1.002 - 1.001)) << "still a number";
+  EXPECT_EQ(estimate.update(1.003, Vec3{-1e308}), Vec3(0.0)) << "no number any more";
   estimate.reset();
   EXPECT_EQ(estimate.velocity(), Vec3(0.0));
   EXPECT_EQ(estimate.update(2.0, Vec3{5.0}), Vec3(0.0));
