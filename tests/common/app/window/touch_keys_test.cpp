@@ -100,6 +100,20 @@ TEST_F(TouchWindowTest, LinesAreKeptTakenBackAndSaved) {
   EXPECT_EQ(undone.view.probe->kept->size(), 1U);
 }
 
+TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {
+  grab();
+  lead_to(60.0, 20.0);
+  key('G');
+  key('K');
+  const WindowResult kept = run();
+  EXPECT_NE(kept.message.find("kept line 1"), std::string::npos) << kept.message;
+  key('K');
+  const WindowResult again = run();
+  EXPECT_NE(again.message.find("kept already"), std::string::npos) << again.message;
+  ASSERT_TRUE(again.view.probe->kept);
+  EXPECT_EQ(again.view.probe->kept->size(), 1U);
+}
+
 TEST_F(TouchWindowTest, ThereMustBeALineToKeepAndOneToSave) {
   key('K');
   EXPECT_NE(run().message.find("no line is followed"), std::string::npos);
