@@ -126,6 +126,7 @@ std::string report_page(const Report& report) {
       "Every line carries its own estimate of its error. Below the dotted line it states more than it has; "
       "the column 'within stated' counts the lines that do.");
   out += constraint_section(report.constraint);
+  for (const ReportSection& section : report.sections) out += section_html(section);
   out += "<h2>Stability</h2>\n" + stability_table(report.stability);
   out +=
       "<h2>Files</h2>\n<p><a href=\"report.json\">report.json</a>, <a "

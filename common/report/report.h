@@ -7,6 +7,7 @@
 
 #include "common/report/constraint_sweep.h"
 #include "common/report/machine.h"
+#include "common/report/section.h"
 #include "common/report/stability.h"
 #include "common/report/sweep.h"
 
@@ -19,6 +20,7 @@ struct Report {
   std::vector<std::string> scene;  ///< sentences: what was opened, field, grid, notes
   Sweep sweep;
   ConstraintSweep constraint;
+  std::vector<ReportSection> sections;  ///< further ones, in the order of the page
   std::vector<StabilityCase> stability;
   double seconds = 0.0;  ///< that making the report took
 };

@@ -6,9 +6,10 @@
 
 #include <unistd.h>
 
+#include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/text.h"
 #include "common/base/output_file.h"
+#include "common/base/text.h"
 #include "common/report/report.h"
 
 namespace palpate {
@@ -16,9 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kFiles{
-    "index.html",       "report.json",    "work_precision.csv",   "work_precision.svg",     "stability.csv",
-    "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg"};
+constexpr auto kFiles = std::to_array<std::string_view>(
+    {"index.html", "report.json", "work_precision.csv", "work_precision.svg", "stability.csv",
+     "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg",
+     // of sections
+     "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
+     "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -141,6 +145,12 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     write_file(temporary / "constraint.csv", constraint_csv(report));
     write_file(temporary / "constraint_force.svg", constraint_force_plot(report));
     write_file(temporary / "constraint_distance.svg", constraint_distance_plot(report));
+    for (const ReportSection& section : report.sections) {
+      for (const ReportPlot& plot : section.plots) {
+        PALPATE_CHECK(std::find(kFiles.begin(), kFiles.end(), plot.file) != kFiles.end());
+        write_file(temporary / plot.file, plot.svg);
+      }
+    }
   } catch (const Error&) {
     fs::remove_all(temporary, error);
     throw;

@@ -26,6 +26,9 @@ std::string report_json(const Report& report) {
   Json rows = Json::array();
   std::vector<WorkPrecision> measured = work_precision_rows(report.sweep);
   for (WorkPrecision& row : work_precision_rows(report.constraint)) measured.push_back(std::move(row));
+  for (const ReportSection& section : report.sections) {
+    measured.insert(measured.end(), section.work_precision.begin(), section.work_precision.end());
+  }
   for (const WorkPrecision& row : measured) {
     rows.push_back({{"subject", row.subject},
                     {"method", row.method},

@@ -24,7 +24,11 @@ Report sample_report() {
                                     .budget = {.iterations = 4, .cells = 8},
                                     .force_error = {.max = 0.25},
                                     .us_p99 = 3.0});
-  report.stability.push_back({{"NaN hole", 1.0, 0.0, false}, "points", "what was done"});
+  StabilityCase hole;
+  hole.row = {"NaN hole", 1.0, 0.0, false};
+  hole.unit = "points";
+  hole.meaning = "what was done";
+  report.stability.push_back(hole);
   return report;
 }
 
@@ -70,6 +74,26 @@ TEST(ReportFolder, TellsOfTheConstraintBesideTheIntegrators) {
   Report without = sample_report();
   without.constraint.rows.clear();
   EXPECT_EQ(report_page(without).find("constraint_force.svg"), std::string::npos);
+}
+
+TEST(ReportFolder, HoldsSectionsWithTheirPlotsAndNumbers) {
+  Report report = sample_report();
+  report.sections.push_back({.title = "Chains & loops",
+                             .paragraphs = {"what was done"},
+                             .plots = {{"chain_work.svg", "a plot", "<svg/>"}},
+                             .columns = {"case", "work"},
+                             .table = {{"line < plane", "12"}},
+                             .work_precision = {{"loops", "sum", "plane", 0.5, "energy", 1e-6}}});
+  const TempFolder folder;
+  write_report(report, folder.path("r"), false);
+  EXPECT_GT(std::filesystem::file_size(folder.path("r") / "chain_work.svg"), 0U);
+  EXPECT_NO_THROW(write_report(report, folder.path("r"), true)) << "it knows its own files again";
+  const std::string page = report_page(report);
+  for (const char* text : {"<h2>Chains &amp; loops</h2>", "<img src=\"chain_work.svg\" alt=\"a plot\">",
+                           "<p>what was done</p>", "<th>work</th>", "<td>line &lt; plane</td><td>12</td>"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+  EXPECT_NE(report_json(report).find("\"subject\": \"loops\""), std::string::npos);
 }
 
 TEST(ReportFolder, ShowsFailuresAndEscapesNames) {

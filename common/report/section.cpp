@@ -1,0 +1,25 @@
+#include "common/report/section.h"
+
+#include "common/report/html.h"
+
+namespace palpate {
+
+std::string section_html(const ReportSection& section) {
+  std::string out = "<h2>" + escaped(section.title) + "</h2>\n";
+  for (const ReportPlot& plot : section.plots) {
+    out += "<img src=\"" + escaped(plot.file) + "\" alt=\"" + escaped(plot.alt) + "\">\n";
+  }
+  for (const std::string& text : section.paragraphs) out += paragraph(text);
+  if (section.table.empty()) return out;
+  out += "<table><tr>";
+  for (const std::string& heading : section.columns) out += "<th>" + escaped(heading) + "</th>";
+  out += "</tr>\n";
+  for (const auto& row : section.table) {
+    out += "<tr>";
+    for (const std::string& text : row) out += cell(text);
+    out += "</tr>\n";
+  }
+  return out + "</table>\n";
+}
+
+}  // namespace palpate
