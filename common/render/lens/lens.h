@@ -63,7 +63,7 @@ inline constexpr std::size_t kMostHalfSpaces = 32;  ///< of one lens
 struct Lens {
   ConvexShape shape;
   std::optional<ColorTransfer> transfer;  ///< absent: that of the context
-  double samples_per_voxel = 2.0;         ///< > 0
+  double samples_per_voxel = 4.0;         ///< > 0
   bool shading = true;
   bool cut = false;  ///< cut away: nothing is drawn inside
 

@@ -16,7 +16,7 @@ struct VolumeView {
   /// Length along which matter has the opacity of the transfer function [data units]; 0: a 512th of the
   /// diagonal, whatever the number of voxels.
   double opacity_length = 0.0;
-  double samples_per_voxel = 2.0;  ///< > 0, along the ray, outside lenses
+  double samples_per_voxel = 4.0;  ///< > 0, along the ray, outside lenses
   bool shading = true;             ///< Phong, with gradients of the values as normals
   std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
 

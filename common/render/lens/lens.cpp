@@ -1,0 +1,110 @@
+#include "common/render/lens/lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/base/check.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+ConvexShape::HalfSpace half_space(const Vec3& point, const Vec3& outward) {
+  const Vec3 n = glm::normalize(outward);
+  return {n, glm::dot(n, point)};
+}
+
+}  // namespace
+
+bool ConvexShape::contains(const Vec3& x) const noexcept {
+  if (quadric) {
+    const Vec3 u = quadric->unit_from_data * (x - quadric->center);
+    if (!(glm::dot(u, u) <= 1.0)) return false;
+  }
+  return std::all_of(half_spaces.begin(), half_spaces.end(),
+                     [&](const HalfSpace& h) { return glm::dot(h.outward, x) <= h.offset; });
+}
+
+LineInterval clip_line(const ConvexShape& shape, const Vec3& origin, const Vec3& direction) noexcept {
+  LineInterval inside{-kInfinity, kInfinity};
+  constexpr LineInterval kNone{0.0, 0.0};
+  if (shape.quadric) {
+    // |p + t v|^2 = 1
+    const Vec3 p = shape.quadric->unit_from_data * (origin - shape.quadric->center);
+    const Vec3 v = shape.quadric->unit_from_data * direction;
+    const double a = glm::dot(v, v), b = glm::dot(p, v), c = glm::dot(p, p) - 1.0;
+    if (a > 0.0) {
+      const double discriminant = b * b - a * c;
+      if (!(discriminant > 0.0)) return kNone;
+      const double root = std::sqrt(discriminant);
+      inside = {(-b - root) / a, (-b + root) / a};
+    } else if (!(c <= 0.0)) {
+      return kNone;
+    }
+  }
+  for (const ConvexShape::HalfSpace& h : shape.half_spaces) {
+    const double speed = glm::dot(h.outward, direction);
+    const double room = h.offset - glm::dot(h.outward, origin);
+    if (speed > 0.0) {
+      inside.last = std::min(inside.last, room / speed);
+    } else if (speed < 0.0) {
+      inside.first = std::max(inside.first, room / speed);
+    } else if (!(room >= 0.0)) {
+      return kNone;
+    }
+  }
+  return inside.first < inside.last ? inside : kNone;
+}
+
+ConvexShape make_sphere(const Vec3& center, double radius) {
+  PALPATE_CHECK(is_finite(center) && std::isfinite(radius) && radius >= 0.0);
+  ConvexShape shape;
+  // A sphere without size holds no line: a half-space that nothing lies in.
+  if (radius == 0.0) {
+    shape.half_spaces.push_back({Vec3(0.0, 0.0, 1.0), -kInfinity});
+  } else {
+    shape.quadric = ConvexShape::Quadric{Mat3(1.0 / radius), center};
+  }
+  return shape;
+}
+
+ConvexShape make_box(const Vec3& center, const Mat3& axes) {
+  ConvexShape shape;
+  for (int c = 0; c < 3; ++c) {
+    shape.half_spaces.push_back(half_space(center + axes[c], axes[c]));
+    shape.half_spaces.push_back(half_space(center - axes[c], -axes[c]));
+  }
+  return shape;
+}
+
+ConvexShape make_cylinder(const Vec3& from, const Vec3& to, double radius) {
+  PALPATE_CHECK(std::isfinite(radius) && radius >= 0.0);
+  if (radius == 0.0) return make_sphere(from, 0.0);
+  ConvexShape shape;
+  const Vec3 axis = glm::normalize(to - from);
+  // I - axis axis^T takes the part across the axis.
+  const Mat3 across = Mat3(1.0) - glm::outerProduct(axis, axis);
+  shape.quadric = ConvexShape::Quadric{across / radius, from};
+  shape.half_spaces = {half_space(to, axis), half_space(from, -axis)};
+  return shape;
+}
+
+ConvexShape make_half_space(const Vec3& point, const Vec3& outward) {
+  ConvexShape shape;
+  shape.half_spaces.push_back(half_space(point, outward));
+  return shape;
+}
+
+ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces) {
+  PALPATE_CHECK(faces.size() <= kMostHalfSpaces);
+  ConvexShape shape;
+  for (const ConvexShape::HalfSpace& face : faces) {
+    const double length = glm::length(face.outward);
+    shape.half_spaces.push_back({face.outward / length, face.offset / length});
+  }
+  return shape;
+}
+
+}  // namespace palpate

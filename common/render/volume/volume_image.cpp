@@ -1,0 +1,192 @@
+#include "common/render/volume/volume_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/field/data_set_check.h"
+#include "common/math/power_of_two.h"
+
+namespace palpate {
+namespace {
+
+template <typename T>
+T read_as(std::span<const std::byte> bytes, std::size_t index) noexcept {
+  T value;
+  std::memcpy(&value, bytes.data() + index * sizeof(T), sizeof(T));
+  return value;
+}
+
+Error problem(const std::string& file, const std::string& array, const std::string& found,
+              const std::string& expected) {
+  return input_error({file, "array " + array, found, expected, ""});
+}
+
+// Columns that are no directions of their own make no volume, however long they are.
+bool spans_space(const Mat3& axes) {
+  Mat3 unit{0.0};
+  for (int c = 0; c < 3; ++c) {
+    const double most = std::max({std::abs(axes[c].x), std::abs(axes[c].y), std::abs(axes[c].z)});
+    if (!is_finite(axes[c]) || most == 0.0) return false;
+    unit[c] = glm::normalize(axes[c] * power_of_two(-binary_exponent(most)));
+  }
+  constexpr double kFlattest = 1e-6;
+  return std::abs(glm::determinant(unit)) > kFlattest;
+}
+
+// Numbers of this magnitude and their reciprocals keep clear of the ends of single precision.
+constexpr int kLargestExponent = 60;
+
+void find_range(VolumeImage& image) {
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  const std::size_t count = image.point_count();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double v = image.number(i);
+    if (!std::isfinite(v)) continue;
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
+  }
+  if (lowest > highest) return;
+  image.lowest = image.offset + image.scale * lowest;
+  image.highest = image.offset + image.scale * highest;
+}
+
+template <typename T>
+void own(VolumeImage& image, std::vector<T> numbers, ScalarType type) {
+  auto storage = std::make_shared<const std::vector<T>>(std::move(numbers));
+  image.bytes = std::as_bytes(std::span<const T>(*storage));
+  image.owner = std::move(storage);
+  image.type = type;
+}
+
+// Signed numbers as unsigned ones, in the same order.
+template <typename Signed, typename Unsigned>
+void shift_signed(VolumeImage& image, const DataArray& array, ScalarType type) {
+  constexpr int kLowest = std::numeric_limits<Signed>::min();
+  std::vector<Unsigned> numbers(array.tuples);
+  for (std::size_t i = 0; i < array.tuples; ++i) {
+    numbers[i] = static_cast<Unsigned>(int{read_as<Signed>(array.bytes, i)} - kLowest);
+  }
+  own(image, std::move(numbers), type);
+  image.offset = kLowest;
+}
+
+void convert_to_floats(VolumeImage& image, const DataSet& block, const DataArray& array, int component) {
+  const bool blanked = !block.visible.empty();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < array.tuples; ++i) {
+    const double v = std::abs(array.at(i, component));
+    if (std::isfinite(v)) largest = std::max(largest, v);
+  }
+  const int exponent = binary_exponent(largest);
+  const bool in_reach = std::abs(exponent) <= kLargestExponent;
+  const double to_number = in_reach ? 1.0 : power_of_two(-exponent);
+  std::vector<float> numbers(array.tuples);
+  for (std::size_t i = 0; i < array.tuples; ++i) {
+    const double v = array.at(i, component);
+    const bool shown = std::isfinite(v) && !(blanked && block.visible[i] == 0);
+    numbers[i] = shown ? static_cast<float>(v * to_number) : std::numeric_limits<float>::quiet_NaN();
+  }
+  own(image, std::move(numbers), ScalarType::kFloat32);
+  image.scale = in_reach ? 1.0 : power_of_two(exponent);
+}
+
+// Whether the numbers can be given to the GPU as they are.
+bool fits(const DataSet& block, const DataArray& array) {
+  if (array.components != 1 || !block.visible.empty()) return false;
+  if (array.type == ScalarType::kUint8 || array.type == ScalarType::kUint16) return true;
+  if (array.type != ScalarType::kFloat32) return false;
+  const float largest = std::ldexp(1.0F, kLargestExponent), least = std::ldexp(1.0F, -kLargestExponent);
+  float most = 0.0F;
+  for (std::size_t i = 0; i < array.tuples; ++i) {
+    const float v = std::abs(read_as<float>(array.bytes, i));
+    if (std::isinf(v)) return false;
+    if (v > most) most = v;
+  }
+  return most == 0.0F || (most >= least && most <= largest);
+}
+
+}  // namespace
+
+double VolumeImage::number(std::size_t index) const noexcept {
+  switch (type) {
+    case ScalarType::kUint8:
+      return static_cast<double>(read_as<std::uint8_t>(bytes, index));
+    case ScalarType::kUint16:
+      return static_cast<double>(read_as<std::uint16_t>(bytes, index));
+    default:
+      return static_cast<double>(read_as<float>(bytes, index));
+  }
+}
+
+std::size_t VolumeImage::point_count() const noexcept {
+  return static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
+         static_cast<std::size_t>(points.z);
+}
+
+Vec3 VolumeImage::lower() const noexcept {
+  return {points.x > 1 ? 0.0 : -0.5, points.y > 1 ? 0.0 : -0.5, points.z > 1 ? 0.0 : -0.5};
+}
+
+Vec3 VolumeImage::upper() const noexcept {
+  return {points.x > 1 ? points.x - 1 : 0.5, points.y > 1 ? points.y - 1 : 0.5,
+          points.z > 1 ? points.z - 1 : 0.5};
+}
+
+Box VolumeImage::bounds() const noexcept {
+  Box box;
+  const Vec3 a = lower(), b = upper();
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vec3 g{(i & 1U) != 0 ? b.x : a.x, (i & 2U) != 0 ? b.y : a.y, (i & 4U) != 0 ? b.z : a.z};
+    box.include(origin + axes * g);
+  }
+  return box;
+}
+
+std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block, const std::string& array,
+                                                     const std::string& file, int component) {
+  const auto* grid = std::get_if<UniformTopology>(&block.topology);
+  if (grid == nullptr) {
+    throw input_error(
+        {file, block.name, "is not a uniform grid", "a volume of evenly spaced voxels", "resample it first"});
+  }
+  check_block(block, 0, 1, file);
+  const DataArray* values = block.find(array, Association::kPoint);
+  if (values == nullptr) throw problem(file, array, "is not there", "an array of point values");
+  if (component < 0 || component >= values->components) {
+    throw usage_error("array " + array + " has no component " + std::to_string(component) +
+                      "; the last one is " + std::to_string(values->components - 1));
+  }
+  if (!is_finite(grid->origin) || !spans_space(grid->axes)) {
+    throw problem(file, array, "has a grid without volume", "three spacings that are not zero");
+  }
+  auto image = std::make_shared<VolumeImage>();
+  image->points = grid->points;
+  image->origin = grid->origin;
+  image->axes = grid->axes;
+  if (values->tuples != image->point_count() || values->tuples == 0) {
+    throw problem(file, array, "has " + std::to_string(values->tuples) + " values",
+                  std::to_string(image->point_count()) + ", one a voxel");
+  }
+  if (fits(block, *values)) {
+    image->type = values->type;
+    image->bytes = values->bytes;
+    image->owner = values->owner;
+  } else if (values->components == 1 && block.visible.empty() && values->type == ScalarType::kInt8) {
+    shift_signed<std::int8_t, std::uint8_t>(*image, *values, ScalarType::kUint8);
+  } else if (values->components == 1 && block.visible.empty() && values->type == ScalarType::kInt16) {
+    shift_signed<std::int16_t, std::uint16_t>(*image, *values, ScalarType::kUint16);
+  } else {
+    convert_to_floats(*image, block, *values, component);
+  }
+  find_range(*image);
+  return image;
+}
+
+}  // namespace palpate

@@ -1,0 +1,232 @@
+#include "common/render/volume/volume_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include "common/base/check.h"
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/render/gl/object.h"
+#include "common/render/gl/program.h"
+#include "common/render/volume/brick_map.h"
+#include "common/render/volume/preintegration.h"
+#include "common/render/volume/volume_block.h"
+
+namespace palpate {
+namespace {
+
+// Bindings and locations of shaders/volume/.
+enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3 };
+enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
+constexpr GLint kHasOpaqueDepth = 0;
+
+enum class Variant : std::uint8_t { kPlain, kShaded, kLenses };
+constexpr std::array<const char*, 3> kFragments{"volume/volume.frag", "volume/shaded.frag",
+                                                "volume/lenses.frag"};
+
+Variant variant_of(const VolumeView& view) {
+  if (!view.lenses.empty()) return Variant::kLenses;
+  return view.shading ? Variant::kShaded : Variant::kPlain;
+}
+
+GlTexture make_texture(GLenum target) {
+  GLuint name = 0;
+  glCreateTextures(target, 1, &name);
+  return GlTexture(name);
+}
+
+void set_sampling(const GlTexture& texture, GLint filter, GLint border = GL_CLAMP_TO_EDGE) {
+  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
+  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    glTextureParameteri(texture.name(), wrap, border);
+  }
+}
+
+struct VoxelFormat {
+  GLenum internal, type;
+};
+
+VoxelFormat format_of(ScalarType type) {
+  switch (type) {
+    case ScalarType::kUint8:
+      return {GL_R8, GL_UNSIGNED_BYTE};
+    case ScalarType::kUint16:
+      return {GL_R16, GL_UNSIGNED_SHORT};
+    default:
+      return {GL_R32F, GL_FLOAT};
+  }
+}
+
+GlTexture upload_voxels(const VolumeImage& image) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+  const Index3 n = image.points;
+  if (std::max({n.x, n.y, n.z}) > largest) {
+    throw usage_error("a volume of " + std::to_string(n.x) + "x" + std::to_string(n.y) + "x" +
+                      std::to_string(n.z) + " voxels does not fit the driver's textures; each side is 1 to " +
+                      std::to_string(largest));
+  }
+  GlTexture texture = make_texture(GL_TEXTURE_3D);
+  const VoxelFormat format = format_of(image.type);
+  glTextureStorage3D(texture.name(), 1, format.internal, n.x, n.y, n.z);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RED, format.type, image.bytes.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  // One voxel beyond the border, as far as gradients reach, mirroring is the same as clamping. It keeps a
+  // software rasteriser (llvmpipe) from interpolating 8-bit voxels in 8 bits, which is up to 6/255 off.
+  set_sampling(texture, GL_LINEAR, GL_MIRROR_CLAMP_TO_EDGE);
+  return texture;
+}
+
+// The transfer functions of a view: that of the context, then those of lenses that have one.
+std::vector<const ColorTransfer*> transfers_of(const VolumeView& view) {
+  std::vector<const ColorTransfer*> transfers{&view.transfer};
+  for (const Lens& lens : view.lenses) {
+    if (lens.transfer) transfers.push_back(&*lens.transfer);
+  }
+  return transfers;
+}
+
+// All that the tables depend on.
+struct TableKey {
+  std::vector<ColorTransfer> transfers;
+  NumberRange range;
+  double longest = 0.0;  // in units of the opacity length
+  int entries = 0, lengths = 0;
+
+  bool operator==(const TableKey& other) const {
+    return transfers == other.transfers && range.lower == other.range.lower &&
+           range.upper == other.range.upper && longest == other.longest && entries == other.entries &&
+           lengths == other.lengths;
+  }
+};
+
+template <typename BlockType>
+GlBuffer make_block_buffer(const BlockType& block) {
+  return make_buffer(std::span<const BlockType>(&block, 1));
+}
+
+}  // namespace
+
+struct VolumePass::State {
+  std::array<GlProgram, kFragments.size()> programs;
+  GlVertexArray no_vertices = make_vertex_array();
+  GlTexture voxels, tables, empty_bricks;
+  GlBuffer volume_block, lens_block;
+  Cost cost;
+
+  std::shared_ptr<const VolumeImage> image;
+  BrickRanges ranges;
+  TableKey key;
+  std::vector<std::uint16_t> table;  // kept: it is large and asked for again while a function is dragged
+  Variant variant = Variant::kPlain;
+
+  void update_image(const VolumeView& view) {
+    if (image == view.image) return;
+    voxels = upload_voxels(*view.image);
+    ranges = brick_ranges(*view.image);
+    image = view.image;
+    key = {};
+    cost.voxel_bytes = image->bytes.size();
+  }
+
+  void update_tables(const VolumeView& view) {
+    const std::vector<const ColorTransfer*> transfers = transfers_of(view);
+    TableKey wanted;
+    for (const ColorTransfer* transfer : transfers) wanted.transfers.push_back(*transfer);
+    wanted.range = table_range(view);
+    wanted.longest = step_lengths(view).longest / opacity_length_of(view);
+    wanted.entries = view.table_entries;
+    wanted.lengths = view.table_lengths;
+    if (wanted == key) return;
+
+    const Stopwatch clock;
+    const auto entries = static_cast<std::size_t>(wanted.entries);
+    const auto lengths = static_cast<std::size_t>(wanted.lengths);
+    const int layers = wanted.lengths * static_cast<int>(transfers.size());
+    tables = make_texture(GL_TEXTURE_2D_ARRAY);
+    glTextureStorage3D(tables.name(), 1, GL_RGBA16, wanted.entries, wanted.entries, layers);
+    set_sampling(tables, GL_LINEAR);
+    const Index3 b = ranges.bricks;
+    empty_bricks = make_texture(GL_TEXTURE_3D);
+    glTextureStorage3D(empty_bricks.name(), 1, GL_R8UI, b.x, b.y, b.z * static_cast<int>(transfers.size()));
+    set_sampling(empty_bricks, GL_NEAREST);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+
+    table.resize(4 * entries * entries * lengths);
+    for (std::size_t i = 0; i < transfers.size(); ++i) {
+      const std::vector<OpticalEntry> optical =
+          optical_entries(*transfers[i], image->offset + image->scale * wanted.range.lower,
+                          image->offset + image->scale * wanted.range.upper, entries, wanted.longest);
+      preintegrate(optical, lengths, 0, table);
+      glTextureSubImage3D(tables.name(), 0, 0, 0, static_cast<GLint>(i) * wanted.lengths, wanted.entries,
+                          wanted.entries, wanted.lengths, GL_RGBA, GL_UNSIGNED_SHORT, table.data());
+      const std::vector<std::uint8_t> distances =
+          empty_distances(ranges, optical, wanted.range.lower, wanted.range.upper);
+      glTextureSubImage3D(empty_bricks.name(), 0, 0, 0, static_cast<GLint>(i) * b.z, b.x, b.y, b.z,
+                          GL_RED_INTEGER, GL_UNSIGNED_BYTE, distances.data());
+      if (i > 0) continue;
+      const auto empty = std::count_if(distances.begin(), distances.end(), [](auto d) { return d > 0; });
+      cost.empty_share = static_cast<double>(empty) / static_cast<double>(distances.size());
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    cost.table_bytes = table.size() * sizeof(std::uint16_t) * transfers.size();
+    cost.brick_bytes = ranges.ranges.size() * transfers.size();
+    cost.table_ms = 1e3 * clock.seconds();
+    key = std::move(wanted);
+  }
+
+  void update_program(const VolumeView& view) {
+    variant = variant_of(view);
+    GlProgram& program = programs[static_cast<std::size_t>(variant)];
+    if (program) return;
+    program = compile_program("volume/volume.vert", kFragments[static_cast<std::size_t>(variant)]);
+    ++cost.programs;
+  }
+};
+
+VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
+VolumePass::~VolumePass() = default;
+
+void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
+  PALPATE_CHECK(view.image != nullptr);
+  PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
+  State& s = *state_;
+  s.update_image(view);
+  s.update_tables(view);
+  s.update_program(view);
+  s.volume_block = make_block_buffer(make_volume_block(view, frame, s.ranges.bricks));
+  if (s.variant == Variant::kLenses) s.lens_block = make_block_buffer(make_lens_block(view, frame));
+}
+
+void VolumePass::draw(std::uint32_t opaque_depth) {
+  State& s = *state_;
+  PALPATE_CHECK(s.image != nullptr);
+  glUseProgram(s.programs[static_cast<std::size_t>(s.variant)].name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, s.volume_block.name());
+  if (s.variant == Variant::kLenses) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, s.lens_block.name());
+  glBindTextureUnit(kVoxels, s.voxels.name());
+  glBindTextureUnit(kTables, s.tables.name());
+  glBindTextureUnit(kEmptyBricks, s.empty_bricks.name());
+  glBindTextureUnit(kOpaqueDepth, opaque_depth);
+  glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
+
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBindVertexArray(s.no_vertices.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
+}
+
+const VolumePass::Cost& VolumePass::cost() const noexcept { return state_->cost; }
+
+}  // namespace palpate

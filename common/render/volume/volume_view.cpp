@@ -1,0 +1,18 @@
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+bool same_picture(const VolumeView& a, const VolumeView& b) {
+  return a.image == b.image && a.transfer == b.transfer && a.opacity_length == b.opacity_length &&
+         a.samples_per_voxel == b.samples_per_voxel && a.shading == b.shading && a.lenses == b.lenses &&
+         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
+         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque;
+}
+
+double opacity_length_of(const VolumeView& view) noexcept {
+  constexpr double kPartOfDiagonal = 1.0 / 512.0;
+  if (view.opacity_length > 0.0 || view.image == nullptr) return view.opacity_length;
+  return kPartOfDiagonal * view.image->bounds().diagonal();
+}
+
+}  // namespace palpate

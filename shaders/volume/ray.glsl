@@ -1,0 +1,43 @@
+// The ray of a pixel and where it meets the volume. Needs include/frame.glsl and volume/volume_block.glsl.
+struct Ray {
+  vec3 origin;     // N: the eye, or in an orthographic view a point of the plane through it
+  vec3 direction;  // N, unit
+  vec3 start;      // g at t = 0
+  vec3 speed;      // g a unit of t
+  float first;     // t between which the ray is to be cast; first > last: nowhere
+  float last;
+};
+
+// The t at which the opaque thing drawn at this pixel lies: depth z of the buffer gives the clip coordinate
+// Z = 2 z - 1 = (z0 + t z1) / (w0 + t w1), with clip coordinates (z0, w0) of the origin and (z1, w1) of the
+// direction.
+float opaque_distance(Ray ray, float none) {
+  float z = texelFetch(opaque_depth, ivec2(gl_FragCoord.xy), 0).x;
+  if (z >= 1.0) return none;
+  vec4 from = frame.clip_from_scene * vec4(ray.origin, 1.0);
+  vec4 along = frame.clip_from_scene * vec4(ray.direction, 0.0);
+  float clip = 2.0 * z - 1.0;
+  return (from.z - clip * from.w) / (clip * along.w - along.z);
+}
+
+Ray pixel_ray() {
+  vec2 at = (gl_FragCoord.xy - 0.5 * frame.size.xy) * frame.size.z;
+  vec3 across = at.x * frame.right.xyz + at.y * frame.up.xyz;
+  bool perspective = frame.eye.w > 0.5;
+  Ray ray;
+  ray.origin = perspective ? frame.eye.xyz : frame.eye.xyz + across;
+  ray.direction = perspective ? normalize(across - frame.size.w * frame.back.xyz) : -frame.back.xyz;
+  ray.start = (volume.grid_from_scene * vec4(ray.origin, 1.0)).xyz;
+  ray.speed = mat3(volume.grid_from_scene) * ray.direction;
+
+  // Slabs of the box; along an axis that the ray does not follow at all, division gives the infinities that
+  // are wanted, but for 0 / 0.
+  vec3 speed = mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
+  vec3 a = (volume.lower.xyz - ray.start) / speed, b = (volume.upper.xyz - ray.start) / speed;
+  vec3 near = min(a, b), far = max(a, b);
+  ray.first = max(near.x, max(near.y, near.z));
+  ray.last = min(far.x, min(far.y, far.z));
+  if (perspective) ray.first = max(ray.first, 0.0);
+  if (has_opaque_depth) ray.last = min(ray.last, opaque_distance(ray, ray.last));
+  return ray;
+}

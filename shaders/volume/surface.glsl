@@ -1,0 +1,28 @@
+// Light in a volume. Where values change, they change across a surface with the unit gradient as its normal N,
+// which has no side: with unit vectors L to the light and V to the eye (Phong 1975)
+//   diffuse |L.N|     specular max(R.V, 0)^kGloss, R = 2 (L.N) N - L
+// The gradient is that of central differences, one voxel to either side. With s its size in table coordinates a
+// voxel, the share s^2 / (s^2 + kFaint^2) of the light is that of the surface; the rest shines as it is, so that
+// noise has no surface.
+// Needs include/frame.glsl, include/shade.glsl, volume/volume_block.glsl and volume/ray.glsl.
+float value_at(vec3 g);
+
+vec3 shaded(vec4 seen, Ray ray, float t) {
+  const float kAmbient = 0.35, kDiffuse = 0.70, kSpecular = 0.25, kGloss = 24.0, kFaint = 0.005;
+  vec3 g = ray.start + t * ray.speed;
+  vec2 step = vec2(1.0, 0.0);
+  vec3 slope = 0.5 * vec3(value_at(g + step.xyy) - value_at(g - step.xyy),
+                          value_at(g + step.yxy) - value_at(g - step.yxy),
+                          value_at(g + step.yyx) - value_at(g - step.yyx));
+  vec3 normal = slope * mat3(volume.grid_from_scene);  // gradient in N: transposed product
+  float size = length(normal);
+  float square = dot(slope, slope);
+  if (!(size > 0.0)) return seen.rgb;  // even, or NaN
+  normal /= size;
+  vec3 light = light_direction();
+  float ln = dot(light, normal);
+  float shine = max(dot(2.0 * ln * normal - light, -ray.direction), 0.0);
+  float share = square / (square + kFaint * kFaint);
+  vec3 lit = seen.rgb * (kAmbient + kDiffuse * abs(ln)) + seen.a * (kSpecular * pow(shine, kGloss));
+  return min(mix(seen.rgb, lit, share), vec3(seen.a));
+}

@@ -1,0 +1,169 @@
+#include "tests/support/reference_ray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "common/base/parallel.h"
+#include "common/math/power_of_two.h"
+#include "common/render/volume/volume_block.h"
+
+namespace palpate::test {
+namespace {
+
+// The light of shaders/include/shade.glsl and shaders/volume/surface.glsl.
+constexpr double kAmbient = 0.35, kDiffuse = 0.70, kSpecular = 0.25, kGloss = 24.0, kFaint = 0.005;
+
+}  // namespace
+
+ReferenceRay::ReferenceRay(const VolumeView& view, const Camera& camera, int width, int height,
+                           double samples)
+    : view_(view), camera_(camera), height_(height), width_(width), samples_(samples) {
+  const VolumeImage& image = *view.image;
+  numbers_.resize(image.point_count());
+  for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = image.number(i);
+  const double unit = power_of_two(binary_exponent(image.bounds().diagonal()));
+  grid_from_data_ = glm::inverse(image.axes / unit) / unit;
+  const NumberRange range = table_range(view);
+  place_scale_ = (view.table_entries - 1.0) / view.table_entries / (range.upper - range.lower);
+}
+
+double ReferenceRay::number_at(const Vec3& g) const {
+  const Index3 n = view_.image->points;
+  const Vec3 bounded = glm::clamp(g, Vec3(0.0), Vec3(n - 1));
+  const Index3 cell = glm::min(Index3(glm::floor(bounded)), glm::max(n - 2, Index3(0)));
+  const Vec3 u = bounded - Vec3(cell);
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Index3 bit{corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+    const Index3 p = glm::min(cell + bit, n - 1);
+    double weight = 1.0;
+    for (int a = 0; a < 3; ++a) weight *= bit[a] != 0 ? u[a] : 1.0 - u[a];
+    sum += weight * numbers_[static_cast<std::size_t>(p.x) +
+                             static_cast<std::size_t>(n.x) *
+                                 (static_cast<std::size_t>(p.y) +
+                                  static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z))];
+  }
+  return sum;
+}
+
+Vec3 ReferenceRay::lit(const Vec3& g, const Vec3& color, const Vec3& direction) const {
+  Vec3 slope{0.0};
+  for (int a = 0; a < 3; ++a) {
+    Vec3 side{0.0};
+    side[a] = 1.0;
+    slope[a] = 0.5 * place_scale_ * (number_at(g + side) - number_at(g - side));
+  }
+  Vec3 normal = slope * grid_from_data_;
+  const double size = glm::length(normal);
+  if (!(size > 0.0)) return color;
+  normal /= size;
+  const Vec3 light = glm::normalize(camera_.axes[2] + 0.55 * camera_.axes[1] - 0.45 * camera_.axes[0]);
+  const double ln = glm::dot(light, normal);
+  const double shine = std::max(glm::dot(2.0 * ln * normal - light, -direction), 0.0);
+  const double square = glm::dot(slope, slope);
+  const double share = square / (square + kFaint * kFaint);
+  const Vec3 shone = color * (kAmbient + kDiffuse * std::abs(ln)) + kSpecular * std::pow(shine, kGloss);
+  return glm::min(color + share * (shone - color), Vec3(1.0));
+}
+
+Rgba ReferenceRay::cast(double x, double y) const {
+  const double pixel = camera_.view_height / height_;
+  const Vec3 across =
+      (x - 0.5 * width_) * pixel * camera_.axes[0] + (y - 0.5 * height_) * pixel * camera_.axes[1];
+  const bool perspective = camera_.projection == Projection::kPerspective;
+  const Vec3 origin = perspective ? eye(camera_) : eye(camera_) + across;
+  const Vec3 direction =
+      perspective ? glm::normalize(across - distance(camera_) * camera_.axes[2]) : -camera_.axes[2];
+
+  const VolumeImage& image = *view_.image;
+  const Vec3 g0 = grid_from_data_ * (origin - image.origin), speed = grid_from_data_ * direction;
+  double first = perspective ? 0.0 : -HUGE_VAL, last = HUGE_VAL;
+  for (int a = 0; a < 3; ++a) {
+    if (speed[a] == 0.0) {
+      if (g0[a] < image.lower()[a] || g0[a] > image.upper()[a]) return {};
+      continue;
+    }
+    const double p = (image.lower()[a] - g0[a]) / speed[a], q = (image.upper()[a] - g0[a]) / speed[a];
+    first = std::max(first, std::min(p, q));
+    last = std::min(last, std::max(p, q));
+  }
+  if (!(first < last)) return {};
+
+  std::vector<double> borders{first, last};
+  for (const Lens& lens : view_.lenses) {
+    const LineInterval inside = clip_line(lens.shape, origin, direction);
+    for (const double t : {inside.first, inside.last}) {
+      if (inside.first < inside.last && t > first && t < last) borders.push_back(t);
+    }
+  }
+  std::sort(borders.begin(), borders.end());
+
+  const double opacity_length = opacity_length_of(view_);
+  double depth = 0.0;
+  Vec3 sum{0.0};
+  for (std::size_t part = 0; part + 1 < borders.size(); ++part) {
+    const double length = borders[part + 1] - borders[part];
+    const Vec3 middle = origin + (borders[part] + 0.5 * length) * direction;
+    const auto owner = std::find_if(view_.lenses.begin(), view_.lenses.end(),
+                                    [&](const Lens& lens) { return lens.shape.contains(middle); });
+    const bool focus = owner != view_.lenses.end();
+    if (focus && owner->cut) continue;
+    const ColorTransfer& transfer = focus && owner->transfer ? *owner->transfer : view_.transfer;
+    const bool shading = focus ? owner->shading : view_.shading;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length * glm::length(speed) * samples_)));
+    const double h = length / steps;
+    for (int i = 0; i < steps; ++i) {
+      const Vec3 g = g0 + (borders[part] + (i + 0.5) * h) * speed;
+      const double value = image.offset + image.scale * number_at(g);
+      const ColorSample sample = transfer.at(value);
+      const double thickness = optical_depth(sample.opacity) * h / opacity_length;
+      if (thickness <= 0.0) continue;
+      Vec3 color(sample.color);
+      if (shading) color = lit(g, color, direction);
+      sum += std::exp(-depth) * (1.0 - std::exp(-thickness)) * color;
+      depth += thickness;
+    }
+  }
+  return {sum.x, sum.y, sum.z, 1.0 - std::exp(-depth)};
+}
+
+Comparison compare(const FloatImage& image, const ReferenceRay& reference, double bound) {
+  Comparison result;
+  std::mutex mutex;
+  const auto off = [](const Rgba& a, const Rgba& b) {
+    double most = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double d = std::abs(a[c] - b[c]);
+      if (!(d <= most)) most = d;
+    }
+    return most;
+  };
+  parallel_for(static_cast<std::size_t>(image.height), 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t row = first; row < last; ++row) {
+      const int y = static_cast<int>(row);
+      for (int x = 0; x < image.width; ++x) {
+        const Rgba expected = reference.cast(x + 0.5, y + 0.5);
+        const double here = off(image.at(x, y), expected);
+        constexpr double kShift = 1e-3;
+        bool exempt = false;
+        if (!(here <= bound)) {
+          for (const auto& [dx, dy] :
+               {std::pair{kShift, 0.0}, {-kShift, 0.0}, {0.0, kShift}, {0.0, -kShift}}) {
+            exempt = exempt || off(reference.cast(x + 0.5 + dx, y + 0.5 + dy), expected) > bound;
+          }
+        }
+        const std::lock_guard lock(mutex);
+        if (exempt) {
+          ++result.exempt;
+          continue;
+        }
+        result.worst = std::max(result.worst, here);
+        if (!(here <= bound)) ++result.beyond_bound;
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace palpate::test

@@ -1,0 +1,51 @@
+/// Volume rendering by brute force, to hold the shaders against: double precision, thousands of samples a
+/// ray, no table, no lattice, no bricks.
+///
+/// Symbols.  x(t) point of the ray, t in data units; s(x) trilinear value, tau and c of it from the transfer
+/// function itself; T(t) share of light that gets to the eye:
+///
+///   C = int tau c T dt      T = exp(-int tau dt)      A = 1 - T
+///
+/// by the midpoint rule on each part of the ray between borders of the volume and of lenses.
+#pragma once
+
+#include <vector>
+
+#include "common/render/camera.h"
+#include "common/render/volume/volume_view.h"
+#include "tests/support/volume_picture.h"
+
+namespace palpate::test {
+
+class ReferenceRay {
+ public:
+  /// @param samples a voxel along the ray, whatever its spacing in that direction.
+  ReferenceRay(const VolumeView& view, const Camera& camera, int width, int height, double samples);
+
+  /// Through the point `x`, `y` of the picture, in pixels from its lower left corner.
+  [[nodiscard]] Rgba cast(double x, double y) const;
+
+ private:
+  // Trilinear between points; beyond them the outermost ones hold.
+  [[nodiscard]] double number_at(const Vec3& g) const;
+  [[nodiscard]] Vec3 lit(const Vec3& g, const Vec3& color, const Vec3& direction) const;
+
+  const VolumeView& view_;
+  Camera camera_;
+  double height_, width_;
+  double samples_;
+  std::vector<double> numbers_;
+  Mat3 grid_from_data_;
+  double place_scale_;  // table coordinates a number
+};
+
+/// What became of a comparison.
+struct Comparison {
+  double worst = 0.0;    ///< of the pixels that count
+  int exempt = 0;        ///< whose reference changes more than `bound` under a shift of 1/1000 pixel
+  int beyond_bound = 0;  ///< of the pixels that count
+};
+/// Compares every pixel of `image` with its reference.
+[[nodiscard]] Comparison compare(const FloatImage& image, const ReferenceRay& reference, double bound);
+
+}  // namespace palpate::test
