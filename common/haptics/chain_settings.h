@@ -9,6 +9,7 @@
 
 #include "common/haptics/constraint/drag_settings.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
+#include "common/haptics/constraint/isosurface_settings.h"
 #include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
@@ -26,6 +27,7 @@ struct ChainSettings {
   DragSettings drag;
   ShapeSettings shape;
   GridAxisSettings grid_axis;
+  IsosurfaceSettings isosurface;
   ForceFieldSettings force_field;
 
   bool operator==(const ChainSettings&) const = default;
@@ -34,7 +36,7 @@ struct ChainSettings {
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && force_field.valid();
+           grid_axis.valid() && isosurface.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -48,6 +50,7 @@ struct ChainSettings {
     DragSettings::each(self.drag, visit);
     ShapeSettings::each(self.shape, visit);
     GridAxisSettings::each(self.grid_axis, visit);
+    IsosurfaceSettings::each(self.isosurface, visit);
     ForceFieldSettings::each(self.force_field, visit);
   }
 };

@@ -20,6 +20,35 @@ bool read_value(std::string_view text, double& value) noexcept {
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
+/// "0.5,1.25", or nothing.
+std::string value_text(const Isovalues& values) {
+  std::string text;
+  for (int i = 0; i < values.count; ++i) {
+    (text += i > 0 ? "," : "") += exact_number(values.value[static_cast<std::size_t>(i)]);
+  }
+  return text;
+}
+
+bool read_value(std::string_view text, Isovalues& values) {
+  values = {};
+  if (text.empty()) return true;
+  for (const std::string_view word : split(text, ',')) {
+    if (values.count == Isovalues::kMax) return false;
+    if (!read_value(word, values.value[static_cast<std::size_t>(values.count++)])) return false;
+  }
+  return true;
+}
+
+std::string value_text(IsosurfaceHold hold) { return std::string(name_of(hold)); }
+
+bool read_value(std::string_view text, IsosurfaceHold& hold) noexcept {
+  for (int i = 0; i < kIsosurfaceHoldCount; ++i) {
+    hold = static_cast<IsosurfaceHold>(i);
+    if (text == name_of(hold)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string settings_text(const ChainSettings& settings) {
