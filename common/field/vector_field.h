@@ -12,6 +12,7 @@
 
 #include "common/field/data_set.h"
 #include "common/field/local_frame.h"
+#include "common/field/once_made.h"
 #include "common/field/sample.h"
 #include "common/field/vector_choice.h"
 #include "common/math/vec.h"
@@ -64,6 +65,8 @@ class VectorField {
   [[nodiscard]] const PointVectors& values() const noexcept { return values_; }
   /// The grid with its way back to the data, on which further fields can be made; null for a formula.
   [[nodiscard]] const std::shared_ptr<const FieldGrid>& grid() const noexcept { return grid_; }
+  /// What tracing makes of the field (trace/exact_mesh.h), once however often it is traced.
+  [[nodiscard]] const OnceMade& prepared() const noexcept { return prepared_; }
   /// Indices of the blocks of the data set that the grid is made of.
   [[nodiscard]] const std::vector<std::size_t>& blocks() const noexcept { return blocks_; }
 
@@ -79,6 +82,7 @@ class VectorField {
   std::shared_ptr<const AnalyticField> analytic_;
   PointVectors values_;
   std::shared_ptr<const FieldGrid> grid_;
+  OnceMade prepared_;
   std::vector<std::size_t> blocks_;
 };
 

@@ -8,6 +8,10 @@
 
 namespace palpate {
 
+const ExactMesh& ExactMesh::of(const VectorField& field, int threads) {
+  return field.prepared().get<ExactMesh>([&] { return std::make_shared<const ExactMesh>(field, threads); });
+}
+
 ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_mesh()) {
   const std::span<const Vec3> points = mesh_->points();
   vertices_ = std::make_unique_for_overwrite<PackedVertex[]>(points.size());

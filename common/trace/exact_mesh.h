@@ -11,6 +11,9 @@ namespace palpate {
 /// Points and vectors of a mesh packed for the walk, frame L: 64 bytes a point.
 class ExactMesh {
  public:
+  /// That of a field: packed at the first call, and kept as long as the field lives.
+  /// @pre field.tet_mesh() is not null.
+  [[nodiscard]] static const ExactMesh& of(const VectorField& field, int threads);
   /// @pre field.tet_mesh() is not null and outlives this.
   ExactMesh(const VectorField& field, int threads);
 

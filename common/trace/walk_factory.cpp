@@ -24,7 +24,7 @@ double default_fixed_step(const VectorField& field) {
 WalkFactory::WalkFactory(const VectorField& field, Integrator integrator, const WalkSettings& settings,
                          int threads)
     : field_(field), integrator_(integrator), settings_(settings) {
-  if (field.tet_mesh() != nullptr) mesh_ = std::make_unique<const ExactMesh>(field, threads);
+  if (field.tet_mesh() != nullptr) mesh_ = &ExactMesh::of(field, threads);
   // A fixed step comes no nearer to a point of rest than its own length.
   if (integrator == Integrator::kEuler || integrator == Integrator::kRk4) {
     settings_.rest_distance = std::max(settings_.rest_distance, settings_.fixed_step);

@@ -22,7 +22,7 @@ class WalkFactory {
   const VectorField& field_;
   Integrator integrator_;
   WalkSettings settings_;
-  std::unique_ptr<const ExactMesh> mesh_;
+  const ExactMesh* mesh_ = nullptr;  ///< of the field
 };
 
 /// Half a mean cell (a cube of the domain's volume over its number of cells); 1/200 of the diagonal for a

@@ -1,6 +1,7 @@
 // The fast path of the exact cell: its series against the matrix exponential, and one kind of processor
 // against the other.
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "common/base/parallel.h"
 #include "common/field/analytic/examples.h"
 #include "common/field/analytic/sampled.h"
 #include "common/trace/exact_walk.h"
@@ -85,6 +87,18 @@ TEST(ExactCell, PositionsAreTheIntegralOfTheRates) {
     const Pack4 found = flow(cell, course, h, pair_count(0.5)).b;
     EXPECT_LE(max_abs(found - expected), 1e-10 * h * max_abs(course.w));
   }
+}
+
+TEST(ExactMesh, IsPackedOnceAFieldWhoeverAsks) {
+  const auto field = test::on_tetrahedra(Mat3{1.0}, Vec3{0.0}, 4, 0.2, 1);
+  const auto other = test::on_tetrahedra(Mat3{2.0}, Vec3{0.0}, 4, 0.2, 1);
+  std::array<const ExactMesh*, 8> found{};
+  parallel_for(found.size(), 2, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) found[i] = &ExactMesh::of(*field, 1);
+  });
+  for (const ExactMesh* mesh : found) EXPECT_EQ(mesh, found[0]);
+  EXPECT_EQ(&found[0]->mesh(), field->tet_mesh());
+  EXPECT_NE(&ExactMesh::of(*other, 1), found[0]);
 }
 
 TEST(ExactKernel, EveryKindOfProcessorGivesTheSameBits) {
