@@ -33,7 +33,7 @@ class VolumePass {
   /// Draws over the framebuffer that is bound, behind none of what it holds but in front of it as far as the
   /// depths say: with associated colours, without writing depth. Needs the frame's uniform block bound to 0.
   /// @param opaque_depth a texture with the depths of opaque things, one sample for each pixel of the frame
-  /// block, or 0 where there are none (RenderTarget::depth_texture).
+  /// block, or 0 where there are none (RenderTarget::copy_depth).
   /// @pre update().
   void draw(std::uint32_t opaque_depth);
 

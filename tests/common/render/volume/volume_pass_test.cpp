@@ -145,8 +145,8 @@ TEST(VolumePass, EndsAtOpaqueThingsRightToThePixel) {
     }
     VolumePicture picture(32, 32);
     const FloatImage image = picture.draw(view, camera, depths);
-    EXPECT_NEAR(image.at(15, 16)[3], 1.0 - std::exp(-2.0 * 0.7), 2e-3);
-    EXPECT_NEAR(image.at(16, 16)[3], 1.0 - std::exp(-1.2 * 0.7), 2e-3);
+    EXPECT_NEAR(image.at(15, 16)[3], 1.0 - std::exp(-2.0 * 0.7), 3e-4);
+    EXPECT_NEAR(image.at(16, 16)[3], 1.0 - std::exp(-1.2 * 0.7), 3e-4);
   }
 }
 
