@@ -15,6 +15,7 @@
 
 #include "common/base/ring.h"
 #include "common/servo/recording.h"
+#include "common/servo/recording_text.h"
 
 namespace palpate {
 
@@ -43,6 +44,7 @@ class Recorder {
   void step(const HandInput& input, const HandStep& step) noexcept {
     (void)ring_.push(StepEntry{input, step});
   }
+  void overrun(const Overrun& overrun) noexcept { (void)ring_.push(overrun); }
 
   // Window thread.
 
@@ -63,7 +65,11 @@ class Recorder {
     HandInput input;
     HandStep step;
   };
-  using Entry = std::variant<RecordedChange, StepEntry>;
+  using Entry = std::variant<RecordedChange, StepEntry, Overrun>;
+  struct WindowEvent {
+    std::uint64_t step, frame;
+    std::string text;
+  };
   struct CloseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
@@ -71,22 +77,22 @@ class Recorder {
   void write_loop(const std::stop_token& stop);
   void drain();
   void write(const RecordedChange& change);
-  void write(const StepEntry& entry);
+  void write(const StepEntry& entry) { text_.step(entry.input, entry.step); }
+  void write(const Overrun& overrun) { text_.overrun(overrun); }
   void flush() noexcept;
   [[noreturn]] void refuse(int error) const;
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, CloseFile> file_;
-  std::string text_;  ///< not written yet
+  RecordingText text_;  ///< not written yet
   Ring<Entry> ring_;
-  StepHash hash_;
   std::uint64_t lost_written_ = 0;
   std::atomic<bool> failed_{false};
   std::atomic<int> error_{0};
 
   std::mutex mutex_;                       ///< of the two below
   std::vector<std::string> descriptions_;  ///< of chains
-  std::string events_;                     ///< lines of the window that wait to be written
+  std::vector<WindowEvent> events_;        ///< that wait to be written
   std::condition_variable_any wake_;
   std::jthread thread_;  // last: it uses all of the above
 };

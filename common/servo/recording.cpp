@@ -4,6 +4,8 @@
 #include <bit>
 #include <charconv>
 #include <optional>
+#include <tuple>
+#include <type_traits>
 
 #include "common/base/error.h"
 #include "common/base/line_reader.h"
@@ -79,7 +81,12 @@ void read_header_line(std::string_view kind, Words& words, RecordingHeader& head
     std::string key(words.word("a key and its value"));
     header.values.emplace_back(std::move(key), words.rest());
   } else if (kind == "limits") {
-    for (double* field : limits_fields(header.limits)) *field = words.number<double>("five numbers");
+    const auto read = [&words](auto& value) {
+      using Value = std::remove_cvref_t<decltype(value)>;
+      value = static_cast<Value>(
+          words.number<std::conditional_t<std::is_same_v<Value, bool>, int, Value>>("eighteen numbers"));
+    };
+    std::apply([&](auto*... field) { (read(*field), ...); }, limits_fields(header.limits));
     words.finish();
     if (!header.limits.valid()) words.refuse("limits that no device can have", "positive numbers");
   } else {
@@ -112,6 +119,14 @@ class BodyReader {
       if (mark.steps <= covered)
         words.refuse("a hash of " + std::to_string(mark.steps) + " steps", "more than before");
       recording_.hashes.push_back(mark);
+    } else if (kind == "fault") {
+      read_fault(words);
+    } else if (kind == "overrun") {
+      Overrun overrun{.step = words.number<std::uint64_t>(kStep)};
+      overrun.skipped = words.number<std::uint64_t>("a count of deadlines");
+      overrun.late = words.number<std::int64_t>("a time in nanoseconds");
+      overrun.used = words.number<std::int64_t>("a time in nanoseconds");
+      recording_.overruns.push_back(overrun);
     } else if (kind == "lost") {
       recording_.lost = words.number<std::uint64_t>("a count");
     } else if (kind == "end") {
@@ -119,7 +134,7 @@ class BodyReader {
       recording_.ended = true;
     } else {
       words.refuse("'" + std::string(kind.substr(0, 40)) + "' is not known here",
-                   "s, n, chain, settings, switch, event, hash, lost or end");
+                   "s, n, chain, settings, switch, fault, overrun, event, hash, lost or end");
     }
     words.finish();
   }
@@ -128,7 +143,7 @@ class BodyReader {
   static constexpr const char* kStep = "the number of a step";
 
   void read_step(bool present, Words& words) {
-    RecordedStep step{.number = words.number<std::uint64_t>(kStep)};
+    RecordedStep step{.number = words.number<std::uint64_t>(kStep), .input = {}};
     if (step.number < next_) {
       words.refuse("step " + std::to_string(step.number), "one from " + std::to_string(next_) + " on");
     }
@@ -142,6 +157,18 @@ class BodyReader {
     }
     next_ = step.number + 1;
     recording_.steps.push_back(step);
+  }
+
+  void read_fault(Words& words) {
+    RecordedFault fault{.step = words.number<std::uint64_t>(kStep)};
+    const std::string_view name = words.word("the name of a fault");
+    int cut = 0;
+    while (cut < kForceCutCount && name_of(static_cast<ForceCut>(cut)) != name) ++cut;
+    if (cut == kForceCutCount || !is_fault(static_cast<ForceCut>(cut))) {
+      words.refuse("'" + std::string(name.substr(0, 40)) + "' is no fault", "such as too_fast or not_finite");
+    }
+    fault.cut = static_cast<ForceCut>(cut);
+    recording_.faults.push_back(fault);
   }
 
   void read_change(std::string_view kind, Words& words) {

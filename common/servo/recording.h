@@ -8,26 +8,28 @@
 ///   build GCC 12.2.0, Release
 ///   input BYTES SHA256 FILE
 ///   set KEY VALUE                             anything the program wants to know again
-///   limits CAP SLEW GATE STALE RAMP           DeviceLimits
+///   limits CAP SLEW GATE STALE RAMP …         DeviceLimits, in the order of limits_fields()
 ///   begin
 ///   chain STEP DESCRIPTION                    before the step: another chain, in words of the program
 ///   settings STEP NAME=VALUE …                before the step: ChainSettings (haptics/settings_text.h)
 ///   switch STEP NAME                          before the step: HandSwitch
 ///   s STEP TIME SAMPLE_TIME X Y Z BUTTONS     a step with a sample
 ///   n STEP TIME                               a step without a hand
+///   fault STEP NAME                           a ForceCut that is a fault began at that step
+///   overrun STEP SKIPPED LATE USED            the tick of that step overran (Overrun)
 ///   event STEP FRAME TEXT                     input of the window, seen when that step was next
 ///   hash STEPS HASH                           of proxies and forces of the first STEPS steps (StepHash)
 ///   lost COUNT                                the disk could not keep up: so many entries so far are missing
 ///   end STEPS
 ///
-/// What comes before a step stands before its line; `event` lines may stand anywhere. Steps rise. A file
-/// without `end` was cut off, and is good up to there.
+/// What comes before a step stands before its line; `event` and `overrun` lines may stand anywhere. Steps
+/// rise. A file without `end` was cut off, and is good up to there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -82,6 +84,23 @@ struct RecordedEvent {
   std::string text;
 };
 
+/// A tick that ended after deadlines of later ones had passed.
+struct Overrun {
+  std::uint64_t step = 0;
+  std::uint64_t skipped = 0;  ///< deadlines that had passed
+  std::int64_t late = 0;      ///< [ns] after its deadline it had woken
+  std::int64_t used = 0;      ///< [ns] of processor time
+
+  bool operator==(const Overrun&) const = default;
+};
+
+struct RecordedFault {
+  std::uint64_t step = 0;  ///< at which it began
+  ForceCut cut = ForceCut::kNone;
+
+  bool operator==(const RecordedFault&) const = default;
+};
+
 struct HashMark {
   std::uint64_t steps = 0;  ///< how many it covers
   std::uint64_t hash = 0;
@@ -94,6 +113,8 @@ struct Recording {
   std::vector<RecordedChange> changes;
   std::vector<RecordedEvent> events;  ///< by step
   std::vector<HashMark> hashes;
+  std::vector<RecordedFault> faults;
+  std::vector<Overrun> overruns;
   std::uint64_t lost = 0;  ///< entries that were not written: the run cannot be repeated exactly
   bool ended = false;      ///< false for a file that was cut off
 };
@@ -124,7 +145,11 @@ class StepHash {
 /// The fields of DeviceLimits in the order of the file: reader and writer share them.
 template <typename Limits>
 auto limits_fields(Limits& l) noexcept {
-  return std::array{&l.force_cap, &l.slew_cap, &l.velocity_gate, &l.stale_after, &l.start_ramp};
+  return std::tuple{&l.force_cap,       &l.slew_cap,      &l.velocity_gate,  &l.stale_after,
+                    &l.start_ramp,      &l.fade_time,     &l.continuous_cap, &l.heating_time,
+                    &l.reach_lower.x,   &l.reach_lower.y, &l.reach_lower.z,  &l.reach_upper.x,
+                    &l.reach_upper.y,   &l.reach_upper.z, &l.edge_margin,    &l.edge_stiffness,
+                    &l.enabling_button, &l.latch_faults};
 }
 
 }  // namespace palpate

@@ -18,12 +18,13 @@ Vec3 SafetyStage::apply(const ForceRequest& request) noexcept {
 
 ForceCut SafetyStage::reason_to_cut(const ForceRequest& request) const noexcept {
   if (latch_ != ForceCut::kNone) return latch_;
+  if (is_fault(request.cut)) return request.cut;
+  // Each written so that NaN fails it. A hand that is too fast latches whatever else keeps the force at zero.
+  if (!(request.speed <= limits_.velocity_gate)) return ForceCut::kTooFast;
   if (request.cut != ForceCut::kNone) return request.cut;
-  // Each written so that NaN fails it.
   if (!(request.dt > 0.0)) return ForceCut::kTime;
   if (!(request.age <= limits_.stale_after)) return ForceCut::kStale;
   if (!is_finite(request.force)) return ForceCut::kNotFinite;
-  if (!(request.speed <= limits_.velocity_gate)) return ForceCut::kTooFast;
   if (!within_reach(limits_, request.position)) return ForceCut::kOutOfReach;
   if (!is_enabled(limits_, request.buttons, request.age)) return ForceCut::kReleased;
   return ForceCut::kNone;

@@ -16,10 +16,11 @@ constexpr int kMostReplayedATick = 16;  // a replay that fell behind catches up 
 }  // namespace
 
 ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const std::string& description,
-                     const ServoOptions& options, Recorder* recorder)
+                     const ServoOptions& options, Recorder* recorder, FaultRecorder* faults)
     : path_(options.path_capacity),
       device_(&device),
       recorder_(recorder),
+      faults_(faults),
       stepper_(nullptr, device.limits()) {
   PALPATE_CHECK(device.limits().valid());
   // The first chain too comes in by hand-over, so that it is recorded as any other.
@@ -65,6 +66,7 @@ void ServoLoop::swap_chain(std::unique_ptr<ProxyChain> chain, const std::string&
   auto next = std::make_unique<Handover>();
   next->chain = std::move(chain);
   if (recorder_ != nullptr) next->recorded = recorder_->describe_chain(description);
+  if (faults_ != nullptr) next->kept = faults_->describe_chain(description);
   delete incoming_.exchange(next.release(), std::memory_order_acq_rel);
 }
 
@@ -83,9 +85,10 @@ void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
     sleep_until_ns(due);
     const std::int64_t woken = monotonic_ns();
     if (watchdog_) watchdog_->beat(woken);
-    now_.late = 2 * (woken - due) > period_;
+    const std::int64_t late = woken - due;
+    now_.late = 2 * late > period_;
     statistics.late += now_.late ? 1 : 0;
-    statistics.lateness.add(woken - due);
+    statistics.lateness.add(late);
     ++statistics.ticks;
 
     const std::int64_t used = thread_cpu_ns();
@@ -94,7 +97,8 @@ void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
     } else {
       tick(1e-9 * static_cast<double>(woken));
     }
-    statistics.update.add(thread_cpu_ns() - used);
+    const std::int64_t update = thread_cpu_ns() - used;
+    statistics.update.add(update);
     state_.write(now_);
 
     due += period_;
@@ -102,6 +106,10 @@ void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
       const std::int64_t passed = behind / period_ + 1;
       statistics.skipped += static_cast<std::uint64_t>(passed);
       due += passed * period_;
+      overran({.step = now_.hand.number,
+               .skipped = static_cast<std::uint64_t>(passed),
+               .late = late,
+               .used = update});
     }
   }
   if (device_ != nullptr) device_->command(Vec3{0.0});
@@ -114,6 +122,7 @@ void ServoLoop::tick(double now) noexcept {
   const HandStep step = stepper_.step(input);
   device_->command(step.force);
   if (recorder_ != nullptr) recorder_->step(input, step);
+  if (faults_ != nullptr) faults_->step(input, step);
   now_.armed = stepper_.armed();
   now_.paused = stepper_.paused();
   publish(step);
@@ -138,6 +147,7 @@ void ServoLoop::publish(const HandStep& step) noexcept {
 void ServoLoop::take_changes() noexcept {
   if (const std::uint64_t stalls = watchdog_->stalls(); stalls != stalls_seen_) {
     now_.statistics.stalls = stalls_seen_ = stalls;
+    if (faults_ != nullptr) faults_->stalled();
     apply(HandSwitch::kRestart);
   }
   take_chain();
@@ -161,7 +171,9 @@ void ServoLoop::take_changes() noexcept {
 void ServoLoop::take_chain() noexcept {
   Handover* next = incoming_.exchange(nullptr, std::memory_order_acq_rel);
   if (next == nullptr) return;
-  record(ChainChange{next->recorded});
+  const std::uint64_t number = stepper_.next_number();
+  if (recorder_ != nullptr) recorder_->change(number, ChainChange{next->recorded});
+  if (faults_ != nullptr) faults_->change(number, ChainChange{next->kept});
   if (next->chain) record(next->chain->settings());
   next->chain = stepper_.exchange_chain(std::move(next->chain));
   const bool kept = retired_.push(next);
@@ -176,6 +188,12 @@ void ServoLoop::apply(HandSwitch change) noexcept {
 
 void ServoLoop::record(const Change& change) noexcept {
   if (recorder_ != nullptr) recorder_->change(stepper_.next_number(), change);
+  if (faults_ != nullptr) faults_->change(stepper_.next_number(), change);
+}
+
+void ServoLoop::overran(const Overrun& overrun) noexcept {
+  ++now_.statistics.overruns;
+  if (recorder_ != nullptr) recorder_->overrun(overrun);
 }
 
 }  // namespace palpate

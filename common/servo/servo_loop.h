@@ -20,6 +20,7 @@
 #include "common/base/ring.h"
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
+#include "common/servo/fault_recorder.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/real_time.h"
 #include "common/servo/recorder.h"
@@ -40,11 +41,12 @@ struct ServoOptions {
 
 struct ServoStatistics {
   std::uint64_t ticks = 0;
-  std::uint64_t late = 0;     ///< woken more than half a period after the deadline
-  std::uint64_t skipped = 0;  ///< deadlines that passed while a tick was still at work or asleep
-  std::uint64_t stalls = 0;   ///< times that the watchdog had to stop the device
-  TimeHistogram lateness;     ///< from deadline to wake-up
-  TimeHistogram update;       ///< processor time of a tick: device, changes, step, command
+  std::uint64_t late = 0;      ///< woken more than half a period after the deadline
+  std::uint64_t skipped = 0;   ///< deadlines that passed while a tick was still at work or asleep
+  std::uint64_t overruns = 0;  ///< ticks after which deadlines had passed
+  std::uint64_t stalls = 0;    ///< times that the watchdog had to stop the device
+  TimeHistogram lateness;      ///< from deadline to wake-up
+  TimeHistogram update;        ///< processor time of a tick: device, changes, step, command
 };
 
 /// What the servo publishes each tick.
@@ -62,11 +64,11 @@ struct ServoState {
 
 class ServoLoop {
  public:
-  /// Starts with `chain` (null: nothing holds the hand). `device` and `recorder` (may be null) outlive the
+  /// Starts with `chain` (null: nothing holds the hand). `device` and the recorders (may be null) outlive the
   /// loop.
   /// @param description of the chain, for the recording. @throws Error (usage) for a rate out of bounds.
   ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const std::string& description,
-            const ServoOptions& options = {}, Recorder* recorder = nullptr);
+            const ServoOptions& options = {}, Recorder* recorder = nullptr, FaultRecorder* faults = nullptr);
   /// Plays a recording at its own pace, no device on it; changes asked for below are ignored. `replay`
   /// outlives it.
   explicit ServoLoop(ReplaySource& replay, const ServoOptions& options = {});
@@ -109,7 +111,8 @@ class ServoLoop {
   /// one.
   struct Handover {
     std::unique_ptr<ProxyChain> chain;
-    std::uint32_t recorded = 0;
+    std::uint32_t recorded = 0;  ///< number of its description in the recorder
+    std::uint32_t kept = 0;      ///< and in the fault recorder
   };
 
   void start(const ServoOptions& options);
@@ -119,6 +122,7 @@ class ServoLoop {
   void take_changes() noexcept;
   void take_chain() noexcept;
   void record(const Change& change) noexcept;
+  void overran(const Overrun& overrun) noexcept;
   void apply(HandSwitch change) noexcept;
   void publish(const HandStep& step) noexcept;
 
@@ -136,6 +140,7 @@ class ServoLoop {
   Device* device_ = nullptr;
   ReplaySource* replay_ = nullptr;
   Recorder* recorder_ = nullptr;
+  FaultRecorder* faults_ = nullptr;
   std::int64_t period_ = 0;  ///< [ns]
   std::optional<Watchdog> watchdog_;
 

@@ -29,7 +29,19 @@ RecordingHeader header() {
           .build = "GCC 12.2.0, Release",
           .inputs = {{"data/my heart.vtk", 2681486, std::string(64, 'a')}},
           .values = {{"mode", "streamline"}, {"seeds", "grid:8,8,8 of\nall"}, {"empty", ""}},
-          .limits = {.force_cap = 3.3, .slew_cap = 150.1, .velocity_gate = HUGE_VAL, .stale_after = 0.05}};
+          .limits = {.force_cap = 3.3,
+                     .slew_cap = 150.1,
+                     .velocity_gate = HUGE_VAL,
+                     .stale_after = 0.05,
+                     .start_ramp = 0.01,
+                     .fade_time = 0.03,
+                     .continuous_cap = 2.2,
+                     .heating_time = 3.0,
+                     .reach_lower = {-1.1, -HUGE_VAL, -3.0},
+                     .reach_upper = {1.5, 2.5, HUGE_VAL},
+                     .edge_margin = 0.007,
+                     .edge_stiffness = 310.0,
+                     .enabling_button = 0}};
 }
 
 std::unique_ptr<ProxyChain> chain_from(const std::string& description) {
@@ -167,6 +179,24 @@ TEST_F(RecordingTest, KeepsEveryBitOfANumber) {
   }
 }
 
+TEST_F(RecordingTest, TellsWhenFaultsBeganAndTicksOverran) {
+  const auto made = record_run(file_, 300);
+  std::vector<RecordedFault> faults;
+  ForceCut before = ForceCut::kNone;
+  for (const HandStep& step : made) {
+    if (is_fault(step.cut) && step.cut != before) faults.push_back({step.number, step.cut});
+    before = step.cut;
+  }
+  EXPECT_GT(faults.size(), 4U);
+  EXPECT_EQ(read_recording(file_).faults, faults);
+  const std::vector<Overrun> overruns{{7, 3, 2'000'000, 15'000}, {9, 1, 0, 1'100'000}};
+  {
+    Recorder recorder(file_, header(), true);
+    for (const Overrun& overrun : overruns) recorder.overrun(overrun);
+  }
+  EXPECT_EQ(read_recording(file_).overruns, overruns);
+}
+
 TEST_F(RecordingTest, FindsTheBlockOfAChangedSample) {
   record_run(file_, 1000);
   Recording recording = read_recording(file_);
@@ -221,7 +251,7 @@ TEST_F(RecordingTest, NamesTheLineOfAnythingElse) {
   EXPECT_EQ(of("palpate-recording 2\n"), "line 1: is of another format; expected format 1 of this version");
   EXPECT_EQ(of("palpate-recording 1\nprogram flow\n"),
             "ends within its header; expected a recording made with --record");
-  EXPECT_EQ(of("palpate-recording 1\nlimits 1 1 -1 1 1\n"),
+  EXPECT_EQ(of("palpate-recording 1\nlimits 1 1 -1 1 1 0 1 1 0 0 0 1 1 1 0 0 -1 0\n"),
             "line 2: limits that no device can have; expected positive numbers");
   EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2\n"), "line 3: ends too early; expected a coordinate");
   EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2 3 0 7\n"), "line 3: goes on with '7'; expected the end of the line");
@@ -234,6 +264,10 @@ TEST_F(RecordingTest, NamesTheLineOfAnythingElse) {
   EXPECT_EQ(of(head + "switch 0 on\n").substr(0, 25), "line 3: 'on' is no switch");
   EXPECT_EQ(of(head + "settings 0 stiffness=200\n").substr(0, 32), "line 3: settings that no chain c");
   EXPECT_EQ(of(head + "hash 256 0\nhash 256 0\n").substr(0, 9), "line 4: a");
+  EXPECT_EQ(of(head + "fault 0 jump\n").substr(0, 27), "line 3: 'jump' is no fault;");
+  EXPECT_EQ(of(head + "overrun 0 1 2\n"), "line 3: ends too early; expected a time in nanoseconds");
+  EXPECT_EQ(of("palpate-recording 1\nlimits 1 1 1 1 1\n"),
+            "line 2: ends too early; expected eighteen numbers");
   EXPECT_EQ(of(head + "end 0\nend 0\n"), "line 4: a line after the end; expected nothing");
   EXPECT_EQ(of(head + "dance\n").substr(0, 24), "line 3: 'dance' is not k");
   EXPECT_NE(of(head + std::string(1U << 17U, 'x') + "\n").find("longer than"), std::string::npos);

@@ -173,6 +173,9 @@ TEST(SafetyStage, LatchesTheSwitchAndTheVelocityGateUntilArmed) {
   stage.switch_off();
   EXPECT_EQ(stage.apply({.force = {1, 0, 0}, .dt = 0.001}), Vec3(0.0));
   EXPECT_EQ(stage.cut(), ForceCut::kSwitchedOff);
+  stage.arm();
+  (void)stage.apply({.force = {1, 0, 0}, .dt = 0.001, .speed = 2.0, .cut = ForceCut::kJump});
+  EXPECT_EQ(stage.cut(), ForceCut::kTooFast) << "whatever else happens in that step";
   EXPECT_EQ(
       settled({.velocity_gate = kInf}, {1, 0, 0}).apply({.force = {1, 0, 0}, .dt = 0.001, .speed = kInf}),
       Vec3(1, 0, 0))
