@@ -67,6 +67,8 @@ bool RenderTarget::resize(int width, int height, double resolution) {
   still_.reset();
   still_color_.reset();
   still_depth_.reset();
+  depth_copy_.reset();
+  depth_framebuffer_.reset();
   return true;
 }
 
@@ -93,6 +95,25 @@ void RenderTarget::copy_still_to_scene() {
   };
   copy(still_color_, scene_color_);
   copy(still_depth_, scene_depth_);
+}
+
+std::uint32_t RenderTarget::copy_depth() {
+  if (!depth_copy_) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    depth_copy_ = GlTexture(name);
+    glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, scene_width_, scene_height_);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glCreateFramebuffers(1, &name);
+    depth_framebuffer_ = GlFramebuffer(name);
+    glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth_copy_.name(), 0);
+    glNamedFramebufferDrawBuffer(name, GL_NONE);
+  }
+  // Of the samples of a pixel the driver takes one.
+  glBlitNamedFramebuffer(scene_.name(), depth_framebuffer_.name(), 0, 0, scene_width_, scene_height_, 0, 0,
+                         scene_width_, scene_height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  return depth_copy_.name();
 }
 
 void RenderTarget::resolve() {

@@ -1,6 +1,8 @@
 /// Where a picture is drawn: a multisampled framebuffer, and the plain one that it is resolved to.
 #pragma once
 
+#include <cstdint>
+
 #include "common/render/gl/object.h"
 #include "common/render/scene_view.h"
 
@@ -20,7 +22,10 @@ class RenderTarget {
   void bind_scene();  ///< draw into the multisampled framebuffer, with depth
   /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
   void bind_still();
-  void copy_still_to_scene();        ///< colours and depths, sample by sample
+  void copy_still_to_scene();  ///< colours and depths, sample by sample
+  /// The depths of the scene as they are now, one sample a pixel, for passes that look up what lies in front
+  /// of them. @return the name of a texture that stays valid until the size changes.
+  [[nodiscard]] std::uint32_t copy_depth();
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
   [[nodiscard]] Image read() const;  ///< of the plain one
@@ -38,6 +43,8 @@ class RenderTarget {
   GlRenderbuffer still_color_, still_depth_;
   GlFramebuffer scene_, resolved_, still_;
   GlFramebuffer averaged_;  // between the two where their sizes differ
+  GlTexture depth_copy_;
+  GlFramebuffer depth_framebuffer_;
 };
 
 }  // namespace palpate
