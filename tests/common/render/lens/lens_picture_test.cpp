@@ -1,0 +1,179 @@
+// Pictures of volumes with lenses, against the brute-force integrator and against pictures without.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/render/lens/lens.h"
+#include "tests/common/render/volume/sample_volumes.h"
+#include "tests/support/reference_ray.h"
+#include "tests/support/volume_picture.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr int kSize = 80;
+constexpr double kSamples = 40.0;  // a voxel, of a reference ray
+constexpr double kBound = 2.0 / 255.0;
+
+// What is faint outside is seen inside, and the other way round.
+ColorTransfer focus_colors() {
+  return ColorTransfer({{0.2, {0.9F, 0.9F, 0.2F}, 0.05},
+                        {0.5, {0.2F, 0.9F, 0.9F}, 0.0},
+                        {0.7, {0.6F, 0.2F, 0.9F}, 0.02},
+                        {1.0, {1.0F, 0.5F, 0.5F}, 0.2}});
+}
+
+struct NamedLens {
+  std::string name;
+  Lens lens;
+};
+
+// One of each shape about the middle of [-1, 1]^3.
+std::vector<NamedLens> lenses() {
+  const std::array<ConvexShape::HalfSpace, 4> faces{
+      {{{-2.0, 0.0, 0.0}, 0.8}, {{0.0, -1.0, 0.0}, 0.5}, {{0.0, 0.0, -3.0}, 1.5}, {{1.0, 1.0, 1.0}, 0.6}}};
+  const Mat3 turned(Vec3(0.4, 0.3, 0.0), Vec3(-0.3, 0.4, 0.0), Vec3(0.0, 0.0, 0.6));
+  std::vector<NamedLens> all{{"sphere", {make_sphere({0.1, -0.2, 0.2}, 0.6)}},
+                             {"box", {make_box({0.1, 0.0, -0.1}, turned)}},
+                             {"cylinder", {make_cylinder({-0.6, 0.1, -0.3}, {0.5, 0.0, 0.5}, 0.35)}},
+                             {"half-space", {make_half_space({0.1, 0.0, 0.0}, {1.0, 2.0, -0.5})}},
+                             {"polyhedron", {make_polyhedron(faces)}}};
+  for (NamedLens& one : all) {
+    one.lens.transfer = focus_colors();
+    one.lens.shading = false;
+    one.lens.samples_per_voxel = 6.0;
+  }
+  return all;
+}
+
+VolumeView plain_view() { return sampled_view(blobs, ScalarType::kFloat32, 29); }
+
+Camera camera_of(const VolumeView& view, const CameraAngles& angles = {},
+                 Projection projection = Projection::kPerspective) {
+  return make_camera(view.image->bounds(), angles, 1.0, projection);
+}
+
+void expect_agreement(VolumePicture& picture, const VolumeView& view, const Camera& camera,
+                      const std::string& what) {
+  const Comparison result =
+      compare(picture.draw(view, camera), ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
+  EXPECT_LE(result.worst, kBound) << what << ": " << result.beyond_bound << " pixels";
+  EXPECT_LE(result.exempt, kSize * kSize / 500) << what;
+}
+
+TEST(LensPicture, AgreesWithTheReferenceForEveryShape) {
+  VolumePicture picture(kSize, kSize);
+  for (const auto& [name, lens] : lenses()) {
+    VolumeView view = plain_view();
+    view.lenses = {lens};
+    const Camera camera = camera_of(view);
+    EXPECT_GT(worst_difference(picture.draw(view, camera), picture.draw(plain_view(), camera)), 0.1) << name;
+    expect_agreement(picture, view, camera, name);
+    view.lenses[0].cut = true;
+    expect_agreement(picture, view, camera, name + ", cut away");
+    view.lenses[0].cut = false;
+    // Along the axes, where rays graze the faces of the box, the axis of nothing and the border of the
+    // volume.
+    expect_agreement(picture, view,
+                     camera_of(view, {.azimuth = 0.0, .elevation = 0.0}, Projection::kOrthographic),
+                     name + ", along an axis");
+  }
+}
+
+TEST(LensPicture, AgreesWithTheReferenceUnderLight) {
+  VolumeView view = plain_view();
+  view.shading = true;
+  view.lenses = {lenses()[0].lens, lenses()[2].lens};
+  view.lenses[1].shading = true;
+  VolumePicture picture(kSize, kSize);
+  expect_agreement(picture, view, camera_of(view), "one of two shaded");
+}
+
+TEST(LensPicture, AgreesWithTheReferenceFromInsideALens) {
+  VolumePicture picture(kSize, kSize);
+  for (const auto& [name, lens] : lenses()) {
+    VolumeView view = plain_view();
+    view.lenses = {lens};
+    Camera camera = camera_of(view);
+    camera.focal_point = Vec3(0.05, 0.05, 0.0);
+    camera.view_height = 0.1;
+    ASSERT_TRUE(lens.shape.contains(eye(camera)) || name == "half-space") << name;
+    expect_agreement(picture, view, camera, name);
+  }
+}
+
+TEST(LensPicture, OfLensesThatOverlapShowsTheFirst) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  Lens first{make_sphere({0.2, 0.0, 0.0}, 0.5)}, second{make_box({-0.1, 0.0, 0.1}, Mat3(0.5))};
+  Lens third{make_cylinder({0.0, -0.9, 0.0}, {0.0, 0.9, 0.0}, 0.2)};
+  first.transfer = focus_colors();
+  first.shading = second.shading = third.shading = false;
+  second.cut = true;
+  third.transfer = ColorTransfer({{0.0, {1.0F, 0.0F, 0.0F}, 0.01}});
+  for (const std::vector<Lens>& order :
+       {std::vector<Lens>{first, second, third}, {third, second, first}, {second, first, third}}) {
+    view.lenses = order;
+    expect_agreement(picture, view, camera_of(view), "three lenses");
+  }
+}
+
+// The inside of each lens is drawn as its outside is: the ray is split, and nothing is to be seen of it.
+TEST(LensPicture, SplitsRaysWithoutATrace) {
+  VolumePicture picture(kSize, kSize);
+  for (const bool shading : {false, true}) {
+    VolumeView view = plain_view();
+    view.shading = shading;
+    const Camera camera = camera_of(view);
+    const FloatImage whole = picture.draw(view, camera);
+    for (const auto& [name, lens] : lenses()) {
+      Lens same{lens.shape};
+      same.shading = shading;
+      view.lenses = {same};
+      EXPECT_LE(worst_difference(picture.draw(view, camera), whole), 1.0 / 255.0) << name << " " << shading;
+    }
+  }
+}
+
+TEST(LensPicture, OfLensesWithoutMatterIsThatWithoutLens) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  const Camera camera = camera_of(view);
+  const FloatImage whole = picture.draw(view, camera);
+  Lens nothing{make_sphere(Vec3(0.0), 0.0)}, outside{make_sphere({5.0, 0.0, 0.0}, 2.0)};
+  nothing.cut = outside.cut = true;
+  view.lenses = {nothing, outside};
+  EXPECT_EQ(worst_difference(picture.draw(view, camera), whole), 0.0);
+}
+
+TEST(LensPicture, OfALensLargerThanTheVolumeIsAllFocus) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  const Camera camera = camera_of(view);
+  view.transfer = focus_colors();
+  const FloatImage whole = picture.draw(view, camera);
+  VolumeView through = plain_view();
+  through.lenses = {Lens{make_sphere(Vec3(0.0), 4.0)}};
+  through.lenses[0].transfer = focus_colors();
+  through.lenses[0].shading = false;
+  // Its table spreads over the values of both functions: other entries, and as near to the truth.
+  EXPECT_LE(worst_difference(picture.draw(through, camera), whole), kBound);
+}
+
+TEST(LensPicture, HoldsAsManyLensesAsThereMayBe) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  for (std::size_t i = 0; i < kMostLenses; ++i) {
+    Lens lens{make_sphere(Vec3(-0.8 + 0.22 * static_cast<double>(i), 0.1, 0.0), 0.2)};
+    lens.transfer = ColorTransfer({{0.0, Vec3f(static_cast<float>(i) / kMostLenses, 0.5F, 0.2F), 0.03}});
+    lens.shading = false;
+    view.lenses.push_back(lens);
+  }
+  expect_agreement(picture, view, camera_of(view), "eight lenses");
+}
+
+}  // namespace
+}  // namespace palpate::test
