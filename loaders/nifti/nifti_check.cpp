@@ -134,6 +134,7 @@ NiftiClaims check_nifti(const std::string& file) {
   const bool gzip = is_gzip(head.bytes);
   if (gzip) head.bytes = gzip_head(head.bytes, kNiftiHeaderBytes);
   NiftiClaims claims = read_nifti_claims(head.bytes);
+  claims.packed = gzip;
   if (!claims.problem.empty()) {
     throw input_error({file, "header", claims.problem, "NIfTI-1 or NIfTI-2", "the file may be damaged"});
   }

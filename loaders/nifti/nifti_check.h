@@ -23,6 +23,7 @@ struct NiftiClaims {
   int datatype = 0;                    ///< DT_ code of nifti1.h
   std::uint64_t bytes_per_voxel = 0;
   std::uint64_t offset = 0;  ///< of the first voxel in its file
+  bool packed = false;       ///< the header's file is a gzip file; set by check_nifti()
   std::string problem;       ///< what is wrong, or empty
 };
 

@@ -92,10 +92,10 @@ class NiftiLoader : public Loader {
     file_ = request.files.front().string();
     const NiftiClaims claims = check_nifti(file_);
     nifti_set_debug_level(0);
-    if (nifti_validfilename(file_.c_str()) == 0) {
-      throw input_error({file_, "", "is NIfTI by content, not by name",
-                         "a name ending in .nii, .nii.gz or .hdr", "rename it"});
-    }
+    // niftilib goes by the name.
+    if (claims.packed && nifti_is_gzfile(file_.c_str()) == 0)
+      throw input_error(
+          {file_, "", "is packed by gzip, but not named so", "a name ending in .nii.gz", "rename it"});
     image_.reset(nifti_image_read(file_.c_str(), 0));
     if (!image_)
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});

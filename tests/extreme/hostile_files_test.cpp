@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/load/load.h"
 #include "tests/loaders/case_fixtures.h"
+#include "tests/loaders/nifti_fixture.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -108,6 +109,17 @@ std::string nrrd() {
   return "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 3 3\nendian: little\nencoding: raw\n\n" + floats(27);
 }
 
+std::string nifti() {
+  const test::NiftiHeader header{.size = {3, 3, 3}, .datatype = 16};
+  return header.version1() + std::string(4, '\0') + floats(27);
+}
+
+std::string meta_image() {
+  return "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 3 3 3\nElementType = MET_FLOAT\n"
+         "ElementDataFile = LOCAL\n" +
+         floats(27);
+}
+
 std::string plot3d_grid() {
   std::string file;
   for (int axis = 0; axis < 3; ++axis) file += std::string("\3\0\0\0", 4);
@@ -127,6 +139,8 @@ std::vector<Sample> samples() {
           {"mesh.vtu", xml_mesh(), 1, ""},
           {"image.vti", xml_image_raw(), 1, ""},
           {"a.nrrd", nrrd(), 0, ""},
+          {"a.nii", nifti(), 0, ""},
+          {"a.mha", meta_image(), 0, ""},
           {"a.xyz", plot3d_grid(), 0, ""}};
 }
 
@@ -212,6 +226,27 @@ TEST(HostileFiles, ClaimedSizesOfTwoToTheFortyAreRefused) {
   refuse(".nrrd", replaced(nrrd(), "sizes: 3 3 3", "sizes: 4294967296 4294967296 4294967296"));
   refuse(".nrrd", replaced(replaced(nrrd(), "sizes: 3 3 3", "sizes: 1048576 1048576 3"), "encoding: raw",
                            "encoding: gzip"));
+  std::string image = nifti();
+  test::put_at(image, 42, std::int16_t{32767});
+  test::put_at(image, 44, std::int16_t{32767});
+  refuse(".nii", image);
+  image = nifti();
+  test::put_at(image, 108, 1e30F);
+  refuse(".nii", image);
+  const test::NiftiHeader second{.size = {3, 3, 3}, .datatype = 16};
+  image = second.version2() + std::string(4, '\0') + floats(27);
+  test::put_at(image, 24, std::int64_t{1} << 40);
+  refuse(".nii", image);
+  test::put_at(image, 24, std::int64_t{3});
+  test::put_at(image, 168, std::int64_t{1} << 62);
+  refuse(".nii", image);
+  refuse(".mha", replaced(meta_image(), "DimSize = 3 3 3", "DimSize = " + huge + " 3 3"));
+  refuse(".mha", replaced(meta_image(), "DimSize = 3 3 3", "DimSize = 1048576 1048576 3"));
+  refuse(".mha",
+         replaced(meta_image(), "ElementDataFile", "ElementNumberOfChannels = 4000\nElementDataFile"));
+  refuse(".mha", replaced(meta_image(), "NDims = 3", "NDims = 100"));
+  refuse(".mha", replaced(meta_image(), "ElementDataFile",
+                          "CompressedData = True\nCompressedDataSize = " + huge + "\nElementDataFile"));
   refuse(".xyz", std::string("\0\0\x10\0\0\0\x10\0\0\0\x10\0", 12) + floats(81));
 }
 

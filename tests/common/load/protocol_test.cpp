@@ -23,10 +23,31 @@ TEST(Protocol, RequestsComeBackWithAnyBytesInTheirNames) {
   EXPECT_EQ(decoded.format, Format::kExodus);
   EXPECT_EQ(decoded.request.files, open.request.files);
   EXPECT_EQ(decoded.request.solution, open.request.solution);
+  EXPECT_FALSE(decoded.request.raw);
   const ReadMessage read{{"u", "\xfc"}, 7};
   const auto again = std::get<ReadMessage>(decode_request(encode(read)));
   EXPECT_EQ(again.arrays, read.arrays);
   EXPECT_EQ(again.time_step, 7U);
+}
+
+TEST(Protocol, TheLayoutOfVoxelsWithoutAHeaderComesBack) {
+  OpenMessage open;
+  open.format = Format::kRaw;
+  open.request.files = {"a.raw"};
+  open.request.raw = RawLayout{.size = Index3(3, 4, 5),
+                               .type = ScalarType::kUint16,
+                               .big_endian = true,
+                               .spacing = {0.1, 0.2, 1e300},
+                               .origin = {-1.0, 0.0, 1e-300},
+                               .skip = 1024};
+  const auto decoded = std::get<OpenMessage>(decode_request(encode(open)));
+  ASSERT_TRUE(decoded.request.raw);
+  EXPECT_EQ(decoded.request.raw->size, open.request.raw->size);
+  EXPECT_EQ(decoded.request.raw->type, open.request.raw->type);
+  EXPECT_EQ(decoded.request.raw->big_endian, open.request.raw->big_endian);
+  EXPECT_EQ(decoded.request.raw->spacing, open.request.raw->spacing);
+  EXPECT_EQ(decoded.request.raw->origin, open.request.raw->origin);
+  EXPECT_EQ(decoded.request.raw->skip, open.request.raw->skip);
 }
 
 TEST(Protocol, FailuresComeBackAsErrors) {
@@ -46,6 +67,7 @@ TEST(Protocol, InfoComesBackAsItWas) {
   info.times = {0.1, 1e300};
   info.notes = {"n\xe9"};
   info.units = "coordinates in \xb5m";
+  info.anatomical = true;
   BlockInfo block;
   block.name = "b";
   block.grid = "curvilinear";
@@ -61,6 +83,7 @@ TEST(Protocol, InfoComesBackAsItWas) {
   EXPECT_EQ(decoded.times, info.times);
   EXPECT_EQ(decoded.notes, info.notes);
   EXPECT_EQ(decoded.units, info.units);
+  EXPECT_EQ(decoded.anatomical, info.anatomical);
   ASSERT_EQ(decoded.blocks.size(), 2U);
   EXPECT_EQ(decoded.blocks[0].bounds.lower, block.bounds.lower);
   EXPECT_EQ(decoded.blocks[0].bounds.upper, block.bounds.upper);

@@ -29,6 +29,10 @@ TEST(Sniff, FormatsAreFoundByContentWhateverTheEnding) {
       {"{\n \"file-series-version\" : \"1.0\"", Format::kParaviewSeries},
       {netcdf_with("num_nodes"), Format::kExodus},
       {"# comment\nFORMAT\ntype:  ensight gold\nGEOMETRY\nmodel: a.geo\n", Format::kEnsight},
+      {std::string(344, '\0') + std::string("n+1\0", 4), Format::kNifti},
+      {std::string(344, '\0') + std::string("ni1\0", 4), Format::kNifti},
+      {std::string("\x1c\2\0\0n+2\0\r\n\x1a\n", 12), Format::kNifti},
+      {"ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_CHAR\n", Format::kMetaImage},
       {"FoamFile\n{\n object controlDict;\n}\n", Format::kOpenFoam}};
   for (const auto& [content, format] : known) {
     for (const char* ending : {".dat", ".vtk", ".nrrd", ""})
@@ -63,6 +67,26 @@ TEST(Sniff, OthersAreDescribed) {
     const Sniffed result = sniffed(content);
     EXPECT_FALSE(result.format) << content;
     EXPECT_NE(result.found.find(word), std::string::npos) << result.found;
+  }
+}
+
+// gzip, made with Python: "NRRD0004\n" and 344 zeros with NIfTI's mark.
+TEST(FindFormat, LooksIntoGzipFilesForNiftiAndNamesWhatElseTheyHold) {
+  const test::TempFolder folder;
+  const std::string nrrd(
+      "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\xf3\x0b\x0a\x72\x31\x30\x30\x30\xe1\x02"
+      "\x00\x3a\x37\x47\xe9\x09\x00\x00\x00",
+      29);
+  const std::string nifti(
+      "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\x63\x60\x18\x05\xb4\x00\x79\xda\x86\x0c"
+      "\x00\x42\x5b\x99\xc1\x5c\x01\x00\x00",
+      29);
+  EXPECT_EQ(find_format(folder.write("a.nii.gz", nifti)), Format::kNifti);
+  try {
+    (void)find_format(folder.write("a.nrrd.gz", nrrd));
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("a gzip file of NRRD"), std::string::npos) << error.what();
   }
 }
 

@@ -1,0 +1,129 @@
+// MetaImage files, written by hand and by VTK, read through the helper program.
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkMetaImageWriter.h>
+#include <vtkNew.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+const std::string kHead =
+    "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDimSize = 2 3 4\n"
+    "ElementType = MET_SHORT\n";
+
+std::string counting(std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes += {static_cast<char>(i), '\0'};
+  return bytes;
+}
+
+DataSet read_block(Source& source) {
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+  return source.read(names).at(0);
+}
+
+void expect_counting(const DataSet& block, const std::string& what) {
+  EXPECT_EQ(std::get<UniformTopology>(block.topology).points, Index3(2, 3, 4)) << what;
+  ASSERT_EQ(block.arrays.size(), 1U) << what;
+  for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(block.arrays[0].at(p), static_cast<double>(p)) << what;
+}
+
+TEST(MetaImage, TogetherApartAndInTheOtherByteOrder) {
+  const test::TempFolder folder;
+  folder.write("values.raw", "skip" + counting(24));
+  std::string turned;
+  for (std::size_t i = 0; i < 24; ++i) turned += {'\0', static_cast<char>(i)};
+  std::string big = kHead;
+  big.replace(big.find("MSB = False"), 11, "MSB = True");
+  const std::vector<std::filesystem::path> files{
+      folder.write("a.mha", kHead + "ElementDataFile = LOCAL\n" + counting(24)),
+      folder.write("a.mhd", kHead + "HeaderSize = 4\nElementDataFile = values.raw\n"),
+      folder.write("big.mha", big + "ElementDataFile = LOCAL\n" + turned)};
+  for (const auto& file : files) {
+    Source source = Source::open({{file}, {}});
+    EXPECT_EQ(source.info().loader, "palpate-load-meta");
+    expect_counting(read_block(source), file);
+  }
+}
+
+TEST(MetaImage, LpsOfAPatientIsTurnedIntoRas) {
+  const test::TempFolder folder;
+  const std::string place =
+      "TransformMatrix = 0 1 0 1 0 0 0 0 1\nOffset = 10 20 30\nElementSpacing = 2 3 4\n";
+  const auto open = [&](const std::string& more) {
+    return Source::open(
+        {{folder.write("a.mha", kHead + place + more + "ElementDataFile = LOCAL\n" + counting(24))}, {}});
+  };
+  Source patient = open("AnatomicalOrientation = RAI\n");
+  EXPECT_TRUE(patient.info().anatomical);
+  const auto ras = std::get<UniformTopology>(read_block(patient).topology);
+  EXPECT_EQ(ras.origin, Vec3(-10, -20, 30));
+  EXPECT_EQ(ras.axes, Mat3(Vec3(0, -2, 0), Vec3(-3, 0, 0), Vec3(0, 0, 4)));
+
+  // Without a word on the patient nothing is guessed.
+  Source other = open("");
+  EXPECT_FALSE(other.info().anatomical);
+  const auto plain = std::get<UniformTopology>(read_block(other).topology);
+  EXPECT_EQ(plain.origin, Vec3(10, 20, 30));
+  EXPECT_EQ(plain.axes, Mat3(Vec3(0, 2, 0), Vec3(3, 0, 0), Vec3(0, 0, 4)));
+}
+
+class WrittenByVtk : public ::testing::TestWithParam<bool> {};
+
+TEST_P(WrittenByVtk, ComesBack) {
+  const test::TempFolder folder;
+  const vtkNew<vtkImageData> image;
+  image->SetDimensions(2, 3, 4);
+  image->SetSpacing(0.5, 1.0, 2.0);
+  image->SetOrigin(-1.0, 2.0, 3.0);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  auto* voxels = static_cast<float*>(image->GetScalarPointer());
+  for (int i = 0; i < 24; ++i) voxels[i] = static_cast<float>(i);
+  const vtkNew<vtkMetaImageWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(folder.path("a.mha").c_str());
+  writer->SetCompression(GetParam());
+  writer->Write();
+  Source source = Source::open({{folder.path("a.mha")}, {}});
+  const DataSet block = read_block(source);
+  expect_counting(block, "VTK");
+  const auto& topology = std::get<UniformTopology>(block.topology);
+  EXPECT_EQ(topology.axes, Mat3(Vec3(0.5, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 2)));
+  EXPECT_EQ(topology.origin, Vec3(-1, 2, 3));
+}
+
+INSTANTIATE_TEST_SUITE_P(MetaImage, WrittenByVtk, ::testing::Bool());
+
+TEST(MetaImage, WhatCannotBeReadIsNamed) {
+  const test::TempFolder folder;
+  const auto line = [&](const std::string& content) -> std::string {
+    try {
+      Source source = Source::open({{folder.write("a.mhd", content)}, {}});
+      (void)read_block(source);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(line(kHead + "ElementDataFile = LIST\na.raw\n").find("list of files"), std::string::npos);
+  EXPECT_NE(line(kHead + "ElementDataFile = lost.raw\n").find("lost.raw"), std::string::npos);
+  std::string axes = kHead;
+  axes.replace(axes.find("NDims = 3"), 9, "NDims = 9");
+  EXPECT_NE(line(axes + "ElementDataFile = LOCAL\n" + counting(24)).find("9 axes"), std::string::npos);
+  const std::string packed = "CompressedData = True\nElementDataFile = LOCAL\nxxxxxxxxxxxx";
+  EXPECT_NE(line(kHead + packed).find("can be unpacked"), std::string::npos);
+  EXPECT_NE(
+      line(kHead + "ElementSpacing = 0 1 1\nElementDataFile = LOCAL\n" + counting(24)).find("span no volume"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,253 @@
+// NIfTI files written by hand, read through the helper program; the real ones are held against VTK's reader.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNIFTIImageReader.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <zlib.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/loaders/nifti_fixture.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+using test::NiftiHeader;
+
+/// The file's one block with all its arrays.
+DataSet read_block(Source& source, std::size_t step = 0) {
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+  return source.read(names, step).at(0);
+}
+
+std::string gzip(const std::string& content) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string packed(content.size() + 1000, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+template <typename T>
+std::string counting(std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) test::put(bytes, static_cast<T>(i));
+  return bytes;
+}
+
+TEST(Nifti, VersionsPackingsAndPairsGiveTheSameVoxels) {
+  const test::TempFolder folder;
+  const std::string voxels = counting<std::int16_t>(24);
+  const NiftiHeader header{.size = {2, 3, 4}, .datatype = 4};
+  const std::string one = header.version1() + std::string(4, '\0') + voxels;
+  NiftiHeader apart = header;
+  apart.pair = true;
+  folder.write("pair.img", voxels);
+  const std::vector<std::filesystem::path> files{
+      folder.write("one.nii", one), folder.write("packed.nii.gz", gzip(one)),
+      folder.write("two.nii", header.version2() + std::string(4, '\0') + voxels),
+      folder.write("pair.hdr", apart.version1())};
+  for (const auto& file : files) {
+    Source source = Source::open({{file}, {}});
+    EXPECT_EQ(source.info().loader, "palpate-load-nifti");
+    const DataSet block = read_block(source);
+    EXPECT_EQ(std::get<UniformTopology>(block.topology).points, Index3(2, 3, 4)) << file;
+    ASSERT_EQ(block.arrays.size(), 1U);
+    EXPECT_EQ(block.arrays[0].type, ScalarType::kInt16);
+    for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(block.arrays[0].at(p), static_cast<double>(p)) << file;
+  }
+}
+
+TEST(Nifti, PackedFilesMustBeNamedSo) {
+  const test::TempFolder folder;
+  const NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};
+  const std::string content = header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8);
+  try {
+    (void)Source::open({{folder.write("packed.nii", gzip(content))}, {}});
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find(".nii.gz"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Nifti, BigEndianFilesAreTurned) {
+  const test::TempFolder folder;
+  const NiftiHeader header{.size = {2, 2, 2}, .datatype = 16};
+  std::string content = header.version1() + std::string(4, '\0') + counting<float>(8);
+  test::swap_nifti1(content, 4);
+  Source source = Source::open({{folder.write("a.nii", content)}, {}});
+  const DataSet block = read_block(source);
+  for (std::size_t p = 0; p < 8; ++p) EXPECT_EQ(block.arrays.at(0).at(p), static_cast<double>(p));
+}
+
+TEST(Nifti, TheSformPlacesVoxelsInRasMillimetres) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 3, 4}, .datatype = 2};
+  header.sform_code = 1;
+  header.srow = {-2, 0, 0, 10, 0, 0, 3, -20, 0, 4, 0, 30};
+  header.xyz_units = 2;
+  const auto place = [&](const char* name) {
+    Source source = Source::open(
+        {{folder.write(name, header.version1() + std::string(4, '\0') + counting<std::uint8_t>(24))}, {}});
+    EXPECT_TRUE(source.info().anatomical);
+    EXPECT_EQ(source.info().units, "coordinates in mm");
+    return std::get<UniformTopology>(read_block(source).topology);
+  };
+  const UniformTopology mm = place("mm.nii");
+  EXPECT_EQ(mm.axes, Mat3(Vec3(-2, 0, 0), Vec3(0, 0, 4), Vec3(0, 3, 0)));
+  EXPECT_EQ(mm.origin, Vec3(10, -20, 30));
+  header.xyz_units = 3;  // micrometres
+  const UniformTopology um = place("um.nii");
+  EXPECT_LT(glm::distance(um.origin, 1e-3 * mm.origin), 1e-15);
+  EXPECT_LT(glm::distance(um.axes[0], 1e-3 * mm.axes[0]), 1e-15);
+}
+
+// A quaternion of half a turn about z: i to the left, j to the back.
+TEST(Nifti, TheQformServesWhereThereIsNoSform) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};
+  header.qform_code = 1;
+  header.quatern = {0, 0, 1};
+  header.qoffset = {1, 2, 3};
+  header.pixdim = {2, 3, 4};
+  Source source = Source::open(
+      {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+  const auto topology = std::get<UniformTopology>(read_block(source).topology);
+  EXPECT_LT(glm::distance(topology.axes[0], Vec3(-2, 0, 0)), 1e-12);
+  EXPECT_LT(glm::distance(topology.axes[1], Vec3(0, -3, 0)), 1e-12);
+  EXPECT_LT(glm::distance(topology.axes[2], Vec3(0, 0, 4)), 1e-12);
+  EXPECT_EQ(topology.origin, Vec3(1, 2, 3));
+}
+
+TEST(Nifti, WithoutEitherNoOrientationIsClaimed) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};
+  header.pixdim = {2, 3, 4};
+  Source source = Source::open(
+      {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+  EXPECT_FALSE(source.info().anatomical);
+  EXPECT_EQ(std::get<UniformTopology>(read_block(source).topology).axes,
+            Mat3(Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 4)));
+}
+
+TEST(Nifti, SlopeAndInterceptAreApplied) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2}, .datatype = 4};
+  header.slope = 0.5F;
+  header.intercept = -1.0F;
+  Source source = Source::open(
+      {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::int16_t>(8))}, {}});
+  const DataSet block = read_block(source);
+  EXPECT_EQ(block.arrays.at(0).type, ScalarType::kFloat32);
+  for (std::size_t p = 0; p < 8; ++p) EXPECT_EQ(block.arrays[0].at(p), 0.5 * static_cast<double>(p) - 1.0);
+}
+
+TEST(Nifti, NanStaysNan) {
+  const test::TempFolder folder;
+  const NiftiHeader header{.size = {2, 2, 2}, .datatype = 16};
+  std::string voxels;
+  for (int p = 0; p < 8; ++p) test::put(voxels, p == 3 ? std::numeric_limits<float>::quiet_NaN() : 1.0F);
+  Source source =
+      Source::open({{folder.write("a.nii", header.version1() + std::string(4, '\0') + voxels)}, {}});
+  const DataSet block = read_block(source);
+  EXPECT_TRUE(std::isnan(block.arrays.at(0).at(3)));
+  EXPECT_EQ(block.arrays[0].at(4), 1.0);
+}
+
+TEST(Nifti, TheFourthAxisIsTimeAndTheFifthHoldsComponents) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2, 3}, .datatype = 2};
+  header.pixdim = {1, 1, 1, 0.5};
+  Source series = Source::open(
+      {{folder.write("t.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(24))}, {}});
+  EXPECT_EQ(series.info().times, (std::vector<double>{0.0, 0.5, 1.0}));
+  EXPECT_EQ(read_block(series, 2).arrays.at(0).at(5), 21.0);
+
+  header.size = {2, 2, 2, 2, 3};
+  Source vectors = Source::open(
+      {{folder.write("v.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(48))}, {}});
+  const DataSet block = read_block(vectors, 1);
+  ASSERT_EQ(block.arrays.at(0).components, 3);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(block.arrays[0].at(6, c), 6.0 + 8.0 * (1 + 2 * c));
+
+  header.size = {2, 2, 2, 3};
+  header.intent = 1007;  // a vector along the fourth axis
+  Source fourth = Source::open(
+      {{folder.write("f.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(24))}, {}});
+  EXPECT_TRUE(fourth.info().times.empty());
+  EXPECT_EQ(read_block(fourth).arrays.at(0).at(1, 2), 17.0);
+}
+
+TEST(Nifti, WhatCannotBeReadIsNamed) {
+  const test::TempFolder folder;
+  const auto line = [&](const NiftiHeader& header, const std::string& name) -> std::string {
+    try {
+      (void)Source::open(
+          {{folder.write(name, header.version1() + std::string(4, '\0') + counting<double>(64))}, {}});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(line({.size = {2, 2, 2}, .datatype = 32}, "complex.nii").find("COMPLEX"), std::string::npos);
+  EXPECT_NE(line({.size = {2, 2, 2}, .datatype = 99}, "unknown.nii").find("type 99"), std::string::npos);
+  EXPECT_NE(line({.size = {2, -2, 2}, .datatype = 2}, "negative.nii").find("-2 voxels"), std::string::npos);
+  EXPECT_EQ(line({.size = {2, 2, 2}, .datatype = 2}, "any.name"), "accepted");
+  EXPECT_NE(line({.size = {2, 2, 2, 1, 1, 2}, .datatype = 2}, "six.nii").find("five axes"),
+            std::string::npos);
+  NiftiHeader flat{.size = {2, 2, 2}, .datatype = 2};
+  flat.sform_code = 1;
+  flat.srow = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
+  EXPECT_NE(line(flat, "flat.nii").find("span no volume"), std::string::npos);
+}
+
+/// Voxels and transform as VTK reads them.
+void expect_as_vtk(const std::filesystem::path& file) {
+  const vtkNew<vtkNIFTIImageReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  Source source = Source::open({{file}, {}});
+  const DataSet block = read_block(source);
+  const auto& topology = std::get<UniformTopology>(block.topology);
+  const DataArray& values = block.arrays.at(0);
+  ASSERT_EQ(static_cast<vtkIdType>(values.tuples), image->GetNumberOfPoints());
+  vtkDataArray* expected = image->GetPointData()->GetScalars();
+  for (std::size_t p = 0; p < values.tuples; ++p)
+    ASSERT_EQ(values.at(p), expected->GetComponent(static_cast<vtkIdType>(p), 0)) << p;
+  const double* spacing = image->GetSpacing();
+  vtkMatrix4x4* sform = reader->GetSFormMatrix();
+  ASSERT_NE(sform, nullptr);
+  for (int row = 0; row < 3; ++row) {
+    EXPECT_NEAR(topology.origin[row], sform->GetElement(row, 3), 1e-4);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(topology.axes[axis][row], sform->GetElement(row, axis) * spacing[axis], 1e-4);
+  }
+}
+
+TEST(Nifti, RealImagesAreWhatVtkReads) {
+  PALPATE_NEED_DATA(head, "grid/head-mr/avg152T1_RL_nifti.nii.gz");
+  expect_as_vtk(head);
+}
+
+}  // namespace
+}  // namespace palpate
