@@ -7,6 +7,7 @@
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/report/constraint_studies.h"
 #include "common/report/haptic_stability.h"
 #include "common/report/report.h"
 #include "common/scene/plan.h"
@@ -127,6 +128,7 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   for (StabilityCase& c : run_haptic_stability(field, report.constraint, stability, &context.progress)) {
     report.stability.push_back(std::move(c));
   }
+  add_constraint_studies(report, effort, &context.progress);
   report.seconds = watch.seconds();
 
   context.interrupt.unfinished(unfinished_report_folder(options.out));
