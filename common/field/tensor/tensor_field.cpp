@@ -1,0 +1,235 @@
+#include "common/field/tensor/tensor_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/field/data_set_check.h"
+#include "common/field/field_grid.h"
+#include "common/field/tensor/tensor_function.h"
+#include "common/math/symmetric3.h"
+
+namespace palpate {
+namespace {
+
+using Six = std::array<double, 6>;
+
+Mat3 matrix_of(const Six& d) noexcept {
+  return {Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
+}
+
+Six six_of(const Mat3& m) noexcept { return {m[0][0], m[1][0], m[2][0], m[1][1], m[2][1], m[2][2]}; }
+
+/// Where xx, xy, xz, yy, yz and zz stand in a tuple.
+std::array<int, 6> places(TensorOrder order) noexcept {
+  switch (order) {
+    case TensorOrder::kMask:
+      return {1, 2, 3, 4, 5, 6};
+    case TensorOrder::kDiagonal:
+      return {0, 3, 4, 1, 5, 2};
+    case TensorOrder::kLower:
+      return {0, 1, 3, 2, 4, 5};
+    default:
+      return {0, 1, 2, 3, 4, 5};
+  }
+}
+
+/// The tensor of a tuple in the axes of measurement; NaN where a mask says that there is none.
+Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
+  Six d{};
+  if (order == TensorOrder::kFull) {
+    const auto at = [&](int row, int column) { return array.at(tuple, 3 * row + column); };
+    const auto mean = [&](int row, int column) { return 0.5 * at(row, column) + 0.5 * at(column, row); };
+    return {at(0, 0), mean(0, 1), mean(0, 2), at(1, 1), mean(1, 2), at(2, 2)};
+  }
+  if (order == TensorOrder::kMask && !(array.at(tuple, 0) >= 0.5)) {
+    d.fill(std::numeric_limits<double>::quiet_NaN());
+    return d;
+  }
+  const auto from = places(order);
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = array.at(tuple, from[i]);
+  return d;
+}
+
+bool orthonormal(const Mat3& m) noexcept {
+  constexpr double kEnough = 1e-4;  // frames are written with few digits
+  const Mat3 product = glm::transpose(m) * m;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      if (!(std::abs(product[c][r] - (c == r ? 1.0 : 0.0)) <= kEnough)) return false;
+    }
+  }
+  return true;
+}
+
+/// Adds weight times the tensor.
+void add(Six& sum, double weight, const Six& tensor) noexcept {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * tensor[i];
+}
+
+}  // namespace
+
+int component_count(TensorOrder order) noexcept {
+  switch (order) {
+    case TensorOrder::kFull:
+      return 9;
+    case TensorOrder::kMask:
+      return 7;
+    default:
+      return 6;
+  }
+}
+
+const Box& TensorField::bounds() const noexcept { return grid_->bounds; }
+const LocalFrame& TensorField::frame() const noexcept { return grid_->frame; }
+
+TensorField::Six TensorField::stored(std::size_t point) const noexcept {
+  Six d{};
+  std::visit(
+      [&](const auto& values) {
+        for (std::size_t i = 0; i < d.size(); ++i) d[i] = static_cast<double>(values[6 * point + i]);
+      },
+      values_);
+  return d;
+}
+
+TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexcept {
+  const Vec3 x = frame().local_from_data(x_data);
+  Six mean{};
+  if (const BoxGrid* const box = grid_->box.get()) {
+    Index3 cell;
+    if (!box->locate(x, cell)) return {};
+    const Index3 n = box->points();
+    std::array<std::array<double, 2>, 3> weight{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double lower = box->coordinate(axis, cell[axis]), upper = box->coordinate(axis, cell[axis] + 1);
+      const double u = (x[axis] - lower) / (upper - lower);
+      weight[static_cast<std::size_t>(axis)] = {1.0 - u, u};
+    }
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const unsigned i = corner & 1U, j = (corner >> 1U) & 1U, k = corner >> 2U;
+      const auto point = static_cast<std::size_t>(cell.x) + i +
+                         static_cast<std::size_t>(n.x) *
+                             (static_cast<std::size_t>(cell.y) + j +
+                              static_cast<std::size_t>(n.y) * (static_cast<std::size_t>(cell.z) + k));
+      add(mean, weight[0][i] * weight[1][j] * weight[2][k], stored(point));
+    }
+  } else {
+    const TetMesh& mesh = *grid_->tets;
+    const auto start = hint.cell >= 0 && hint.cell <= INT32_MAX ? static_cast<CellIndex>(hint.cell) : kNoCell;
+    TetPoint at;
+    if (!mesh.locate(x, start, at)) return {};
+    hint.cell = at.cell;
+    const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(at.cell)];
+    for (int i = 0; i < 4; ++i) add(mean, at.b[i], stored(tet[static_cast<std::size_t>(i)]));
+  }
+  // A corner without a tensor is NaN in all of its numbers.
+  if (!std::all_of(mean.begin(), mean.end(), [](double d) { return std::isfinite(d); })) {
+    return {.status = SampleStatus::kBadData};
+  }
+  Mat3 value = matrix_of(mean);
+  if (interpolation_ == TensorInterpolation::kLogEuclidean) value = symmetric_exp(value);
+  return {.value = value, .status = SampleStatus::kOk};
+}
+
+/// Puts a TensorField together.
+class TensorFieldBuilder {
+ public:
+  static std::shared_ptr<const TensorField> make(const DataSet& image, const DataArray& array,
+                                                 const TensorChoice& choice, const std::string& file,
+                                                 int threads) {
+    auto field = std::make_shared<TensorField>();
+    field->name_ = choice.array;
+    field->grid_ = make_field_grid(std::span(&image, 1), file, threads);
+    field->notes_ = field->grid_->notes;
+    field->interpolation_ = choice.interpolation;
+
+    const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
+    const bool use_double = logarithms || array.type != ScalarType::kFloat32;
+    const Mat3& axes = choice.measurement_frame;
+    const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
+      const Six measured = read_tuple(*block.find(choice.array, Association::kPoint), tuple, choice.order);
+      const Six turned =
+          axes == Mat3{1.0} ? measured : six_of(axes * matrix_of(measured) * glm::transpose(axes));
+      std::copy(turned.begin(), turned.end(), out);
+    };
+    GatheredValues gathered =
+        gather_values(*field->grid_, std::span(&image, 1), Association::kPoint, 6, use_double, read, threads);
+    if (use_double) {
+      field->values_ = std::move(gathered.doubles);
+    } else {
+      field->values_ = std::move(gathered.floats);
+    }
+    survey(*field);
+    if (logarithms) take_logarithms(*field);
+    return field;
+  }
+
+ private:
+  /// Counts tensors that are not there or not positive.
+  static void survey(TensorField& field) {
+    const std::size_t points = field.grid_->point_count();
+    for (std::size_t point = 0; point < points; ++point) {
+      const Six d = field.stored(point);
+      const bool finite = std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); });
+      if (!finite) {
+        ++field.notes_.bad_values;
+        continue;
+      }
+      field.largest_trace_ = std::max(field.largest_trace_, d[0] + d[3] + d[5]);
+      if (symmetric_eigenvalues(matrix_of(d))[2] < 0.0) ++field.negative_tensors_;
+    }
+    if (field.notes_.bad_values > 0) {
+      field.notes_.lines.push_back(std::to_string(field.notes_.bad_values) +
+                                   " points without a tensor (masked, or not finite)");
+    }
+    if (field.negative_tensors_ > 0) {
+      field.notes_.lines.push_back(std::to_string(field.negative_tensors_) +
+                                   " tensors with an eigenvalue below zero: measures take it as zero");
+    }
+  }
+
+  static void take_logarithms(TensorField& field) {
+    auto& values = std::get<std::vector<double>>(field.values_);
+    const double floor = kFloor * field.largest_trace_;
+    for (std::size_t point = 0; point < values.size() / 6; ++point) {
+      const Six d = field.stored(point);
+      Six log = d;  // NaN stays NaN
+      if (!std::isnan(d[0])) {
+        // Where no tensor is above zero there is no scale, and no logarithm.
+        if (floor > 0.0) {
+          log = six_of(symmetric_log(matrix_of(d), floor));
+        } else {
+          log.fill(std::numeric_limits<double>::quiet_NaN());
+        }
+      }
+      std::copy(log.begin(), log.end(), values.begin() + static_cast<std::ptrdiff_t>(6 * point));
+    }
+  }
+
+  static constexpr double kFloor = 1e-6;  ///< traces
+};
+
+std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const TensorChoice& choice,
+                                                     const std::string& file, int threads) {
+  const auto refuse = [&](const std::string& found, const std::string& expected) {
+    throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
+  };
+  check_block(image, 0, 1, file);
+  const DataArray* const array = image.find(choice.array, Association::kPoint);
+  if (array == nullptr) refuse("no point array '" + choice.array + "'", "an array of tensors");
+  const int components = component_count(choice.order);
+  if (array->components != components) {
+    refuse("array '" + choice.array + "' with " + std::to_string(array->components) + " components",
+           std::to_string(components) + " components");
+  }
+  if (!orthonormal(choice.measurement_frame)) {
+    throw usage_error("a measurement frame whose axes are not orthonormal");
+  }
+  return TensorFieldBuilder::make(image, *array, choice, file, threads);
+}
+
+}  // namespace palpate

@@ -1,0 +1,89 @@
+/// A field of symmetric tensors: a grid and six numbers at each of its points; immutable and shared.
+///
+/// Tensors are read in the axes of their measurement and kept in those of the data frame X, in the data's
+/// units; what is sampled is in X as well. Boxes interpolate trilinearly, tetrahedra (sheared images are
+/// split into them) linearly: the components, or the logarithm (Arsigny et al. 2006), which keeps every
+/// eigenvalue above zero and determinants between those of the points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/sample.h"
+#include "common/field/vector_field.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// What the numbers of a tuple are, in order.
+enum class TensorOrder : std::uint8_t {
+  kRows,      ///< xx xy xz yy yz zz: FSL's dtifit, NRRD's 3D-symmetric-matrix
+  kMask,      ///< a mask, then as kRows: NRRD's 3D-masked-symmetric-matrix; below 0.5 there is no tensor
+  kDiagonal,  ///< xx yy zz xy xz yz: MRtrix
+  kLower,     ///< xx xy yy xz yz zz: NIfTI's symmetric-matrix intent
+  kFull       ///< all nine; the symmetric part is taken
+};
+/// Numbers a tuple has.
+[[nodiscard]] int component_count(TensorOrder order) noexcept;
+
+enum class TensorInterpolation : std::uint8_t { kComponents, kLogEuclidean };
+
+struct TensorChoice {
+  std::string array;  ///< of points
+  TensorOrder order = TensorOrder::kRows;
+  /// Columns: the axes of measurement in X, orthonormal (NRRD's `measurement frame`, turned to X).
+  Mat3 measurement_frame{1.0};
+  TensorInterpolation interpolation = TensorInterpolation::kComponents;
+};
+
+/// A tensor sample; `value` is zero unless `status` is kOk, and never to be used then.
+struct TensorSample {
+  Mat3 value{0.0};  ///< symmetric
+  SampleStatus status = SampleStatus::kOutside;
+};
+
+class TensorField {
+ public:
+  /// Samples at `x` in data coordinates. @rt Safe.
+  [[nodiscard]] TensorSample sample(const Vec3& x_data, CellHint& hint) const noexcept;
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] const std::shared_ptr<const FieldGrid>& grid() const noexcept { return grid_; }
+  [[nodiscard]] const Box& bounds() const noexcept;  ///< data coordinates
+  [[nodiscard]] const LocalFrame& frame() const noexcept;
+  [[nodiscard]] const FieldNotes& notes() const noexcept { return notes_; }
+  /// The largest trace of a tensor of the field, a scale for thresholds; 0 where none is above zero.
+  [[nodiscard]] double largest_trace() const noexcept { return largest_trace_; }
+  /// Points whose tensor has an eigenvalue below zero: measures take it as zero.
+  [[nodiscard]] std::size_t negative_tensors() const noexcept { return negative_tensors_; }
+
+ private:
+  friend class TensorFieldBuilder;
+  using Six = std::array<double, 6>;  ///< as TensorOrder::kRows
+
+  [[nodiscard]] Six stored(std::size_t point) const noexcept;
+
+  std::string name_;
+  std::shared_ptr<const FieldGrid> grid_;
+  FieldNotes notes_;
+  TensorInterpolation interpolation_ = TensorInterpolation::kComponents;
+  /// kRows, in X; of logarithms, where these are interpolated. NaN where there is no tensor.
+  std::variant<std::vector<float>, std::vector<double>> values_;
+  double largest_trace_ = 0.0;
+  std::size_t negative_tensors_ = 0;
+};
+
+/// Makes the field from an image. With logarithms, eigenvalues below 1e-6 of largest_trace() are lifted to
+/// that: fitted tensors have zero and negative ones.
+/// @throws Error (bad input) with `file` where the array is missing or has another number of components, or
+/// the topology is hostile or flat; (usage) where the measurement frame is not orthonormal.
+[[nodiscard]] std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image,
+                                                                   const TensorChoice& choice,
+                                                                   const std::string& file, int threads = 0);
+
+}  // namespace palpate

@@ -1,0 +1,14 @@
+/// Functions of a symmetric tensor, through its eigenvalues.
+#pragma once
+
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// The logarithm. Eigenvalues below `floor` are lifted to it. @pre floor > 0. @rt Safe.
+[[nodiscard]] Mat3 symmetric_log(const Mat3& tensor, double floor) noexcept;
+
+/// The exponential. @rt Safe.
+[[nodiscard]] Mat3 symmetric_exp(const Mat3& tensor) noexcept;
+
+}  // namespace palpate
