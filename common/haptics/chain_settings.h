@@ -10,6 +10,7 @@
 #include "common/haptics/constraint/drag_settings.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/isosurface_settings.h"
+#include "common/haptics/constraint/linear_settings.h"
 #include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
@@ -28,6 +29,7 @@ struct ChainSettings {
   ShapeSettings shape;
   GridAxisSettings grid_axis;
   IsosurfaceSettings isosurface;
+  LinearSettings linear;
   ForceFieldSettings force_field;
 
   bool operator==(const ChainSettings&) const = default;
@@ -36,7 +38,7 @@ struct ChainSettings {
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && isosurface.valid() && force_field.valid();
+           grid_axis.valid() && isosurface.valid() && linear.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -51,6 +53,7 @@ struct ChainSettings {
     ShapeSettings::each(self.shape, visit);
     GridAxisSettings::each(self.grid_axis, visit);
     IsosurfaceSettings::each(self.isosurface, visit);
+    LinearSettings::each(self.linear, visit);
     ForceFieldSettings::each(self.force_field, visit);
   }
 };

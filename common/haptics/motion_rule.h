@@ -23,4 +23,18 @@ namespace palpate {
 /// axis by axis would hold the probe in a box, whose hold depends on how an arbitrary frame is turned.
 [[nodiscard]] Vec3 drag_jointly(const Vec3& dx, const Vec3& tau) noexcept;
 
+/// d dp / d dx of drag_jointly(), symmetric: with what is left r_a = dx_a tau_a^2 / (tau_a^2 + m),
+///
+///   J_ab = delta_ab m / (tau_a^2 + m) + v_a v_b / S
+///   v_a = r_a / (tau_a^2 + m),   S = sum_a (r_a / tau_a)^2 / (tau_a^2 + m)
+///
+/// 0 along axes on which the proxy stays, 1 along free ones. With equal thresholds it is
+/// 1 - (tau / |dx|) (1 - n n^T), n the direction of dx.
+[[nodiscard]] Mat3 drag_jacobian(const Vec3& dx, const Vec3& tau) noexcept;
+
+/// Snap-drag along several axes at once: stays while the probe is within the ellipsoid of drag_jointly(),
+/// then jumps towards it by whole teeth, to within the ellipsoid. On one axis this is snap_drag(); infinite
+/// tau fixes an axis, tau = 0 lets it go freely.
+[[nodiscard]] Vec3 snap_jointly(const Vec3& dx, const Vec3& tau) noexcept;
+
 }  // namespace palpate

@@ -39,6 +39,20 @@ bool read_value(std::string_view text, Isovalues& values) {
   return true;
 }
 
+std::string value_text(const HapticTransferFunction& function) { return function.text(); }
+
+bool read_value(std::string_view text, HapticTransferFunction& function) {
+  return !HapticTransferFunction::read(text, function);
+}
+
+std::string value_text(AxisRule rule) { return std::string(name_of(rule)); }
+
+bool read_value(std::string_view text, AxisRule& rule) noexcept {
+  const auto found = axis_rule_of(text);
+  if (found) rule = *found;
+  return found.has_value();
+}
+
 std::string value_text(IsosurfaceHold hold) { return std::string(name_of(hold)); }
 
 bool read_value(std::string_view text, IsosurfaceHold& hold) noexcept {

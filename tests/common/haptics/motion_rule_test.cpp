@@ -106,6 +106,62 @@ TEST(JointDrag, MovesTheLeastDistance) {
   }
 }
 
+// Central differences of the motion itself, inside, outside, and with free and fixed axes among them.
+TEST(JointDrag, KnowsItsJacobian) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-1.0, 1.0);
+  constexpr double kAside = 1e-6;
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 dx{normal(random), normal(random), normal(random)};
+    Vec3 tau{0.0};
+    for (int a = 0; a < 3; ++a) {
+      const int kind = static_cast<int>(random() % 6);
+      tau[a] = kind == 0 ? 0.0 : kind == 1 ? HUGE_VAL : std::pow(10.0, exponent(random));
+    }
+    double level = 0.0;
+    for (int a = 0; a < 3; ++a) level += tau[a] > 0.0 ? dx[a] * dx[a] / (tau[a] * tau[a]) : 0.0;
+    if (std::abs(level - 1.0) < 1e-3) continue;  // the corner between both
+    const Mat3 jacobian = drag_jacobian(dx, tau);
+    for (int a = 0; a < 3; ++a) {
+      Vec3 aside{0.0};
+      aside[a] = kAside;
+      const Vec3 slope = (drag_jointly(dx + aside, tau) - drag_jointly(dx - aside, tau)) / (2.0 * kAside);
+      EXPECT_LE(glm::distance(jacobian[a], slope), 1e-7) << tau.x << ' ' << tau.y << ' ' << tau.z;
+    }
+  }
+  EXPECT_EQ(drag_jacobian(Vec3{0.0}, {0.0, 1.0, HUGE_VAL})[0], Vec3(1.0, 0.0, 0.0))
+      << "at rest a free axis is free";
+}
+
+TEST(JointDrag, MovesNothingASecondTime) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-3.0, 1.0);
+  for (int n = 0; n < 10'000; ++n) {
+    const Vec3 dx{normal(random), normal(random), normal(random)};
+    const Vec3 tau{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
+                   std::pow(10.0, exponent(random))};
+    const Vec3 left = dx - drag_jointly(dx, tau);
+    EXPECT_EQ(drag_jointly(left, tau), Vec3{0.0});
+    const Vec3 snapped = dx - snap_jointly(dx, tau);
+    EXPECT_EQ(snap_jointly(snapped, tau), Vec3{0.0});
+    EXPECT_LE(glm::length(snapped / tau), 1.0 + 1e-12);
+  }
+}
+
+// On one axis the rule of eq. 6.8; on several by whole teeth towards the probe, whatever the frame.
+TEST(JointSnap, GoesByWholeTeethTowardsTheProbe) {
+  EXPECT_EQ(snap_jointly({2.5, 0.0, 0.0}, Vec3{1.0}), Vec3(snap_drag(2.5, 1.0), 0.0, 0.0));
+  EXPECT_EQ(snap_jointly({0.6, 0.6, 0.5}, Vec3{1.0}), Vec3{0.0});
+  EXPECT_EQ(snap_jointly({9.0, 2.5, 3.0}, {HUGE_VAL, 1.0, 0.0}), Vec3(0.0, 2.0, 3.0)) << "fixed, snap, free";
+  const Vec3 dx{3.0, -4.0, 12.0};  // 13 long
+  const Vec3 moved = snap_jointly(dx, Vec3{2.0});
+  EXPECT_NEAR(glm::length(moved), 12.0, 1e-12) << "six teeth of the six and a half";
+  EXPECT_NEAR(glm::length(glm::cross(moved, dx)), 0.0, 1e-12);
+  EXPECT_EQ(snap_jointly(Vec3{1e300}, Vec3{1e-300}), Vec3{1e300}) << "beyond counting";
+}
+
 TEST(JointDrag, KeepsItsBitsUnderPowersOfTwo) {
   const Vec3 dx{1.3, -0.7, 0.11}, tau{0.3, 0.02, 0.7};
   const Vec3 moved = drag_jointly(dx, tau);

@@ -47,7 +47,7 @@ TEST(SettingsText, NamesEveryValueOnce) {
 
 TEST(SettingsText, RefusesWhatMakesNoSense) {
   EXPECT_EQ(problem_of(""), "it lacks stiffness=");
-  EXPECT_EQ(problem_of("stiffness=200"), "it lacks streamline.release=");
+  EXPECT_EQ(problem_of("stiffness=200"), "it lacks damping=");
   EXPECT_EQ(problem_of(settings_text(kOdd) + " stiffness=1"),
             "'stiffness=1' is not known here, or stands there twice");
   EXPECT_EQ(problem_of(settings_text(kOdd) + " mass=1"), "'mass=1' is not known here, or stands there twice");
