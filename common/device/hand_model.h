@@ -23,7 +23,7 @@ struct HandImpedance {
   bool operator==(const HandImpedance&) const = default;
 };
 
-inline constexpr HandImpedance kNoHand{};  ///< the arm is free
+inline constexpr HandImpedance kUnheld{};  ///< the arm is free
 inline constexpr HandImpedance kRelaxedHand{.mass = 0.05, .damping = 2.0, .stiffness = 80.0};
 inline constexpr HandImpedance kFirmHand{.mass = 0.15, .damping = 8.0, .stiffness = 500.0};
 

@@ -8,7 +8,7 @@ namespace palpate {
 struct PassivitySettings {
   double from_links = 2.0;    ///< chains of that many links and more are controlled; a large number: none
   double max_damping = 20.0;  ///< largest alpha [N s/m]; safe while it stays below m / T of the device
-  double dead_speed = 0.001;  ///< [m/s] a slower hand is not damped: there alpha would be that of noise
+  double dead_speed = 1e-4;   ///< [m/s] a slower hand is not damped: there alpha would be that of noise
 
   bool operator==(const PassivitySettings&) const = default;
 

@@ -22,7 +22,8 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg",
      // of sections
      "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
-     "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg"});
+     "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
+     "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {

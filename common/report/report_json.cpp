@@ -23,11 +23,18 @@ Json comparison(const LineComparison& c) {
 }  // namespace
 
 std::string report_json(const Report& report) {
-  Json rows = Json::array();
+  Json rows = Json::array(), measurements = Json::array();
   std::vector<WorkPrecision> measured = work_precision_rows(report.sweep);
   for (WorkPrecision& row : work_precision_rows(report.constraint)) measured.push_back(std::move(row));
   for (const ReportSection& section : report.sections) {
     measured.insert(measured.end(), section.work_precision.begin(), section.work_precision.end());
+    for (const Measurement& m : section.measurements) {
+      measurements.push_back({{"subject", m.subject},
+                              {"method", m.method},
+                              {"parameter", m.parameter},
+                              {"quantity", m.quantity},
+                              {"value", number(m.value)}});
+    }
   }
   for (const WorkPrecision& row : measured) {
     rows.push_back({{"subject", row.subject},
@@ -67,6 +74,7 @@ std::string report_json(const Report& report) {
                   {"lines_ending_inside", report.sweep.lines_inside},
                   {"max_length", report.sweep.max_length},
                   {"work_precision", rows},
+                  {"measurements", measurements},
                   {"stability", cases},
                   {"seconds", report.seconds}};
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -14,6 +14,15 @@ struct ReportPlot {
   std::string svg;
 };
 
+/// A number that is neither error nor time, for report.json.
+struct Measurement {
+  std::string subject;    ///< "virtual wall, delay"
+  std::string method;     ///< "firm hand"
+  std::string parameter;  ///< "2 ms"
+  std::string quantity;   ///< with its unit: "largest stable stiffness [N/m]"
+  double value = 0.0;
+};
+
 struct ReportSection {
   std::string title;
   std::vector<std::string> paragraphs;
@@ -21,6 +30,7 @@ struct ReportSection {
   std::vector<std::string> columns;             ///< headings; the first column holds text
   std::vector<std::vector<std::string>> table;  ///< rows of as many cells
   std::vector<WorkPrecision> work_precision;    ///< for report.json
+  std::vector<Measurement> measurements;        ///< likewise
 };
 
 /// As it stands on the page.

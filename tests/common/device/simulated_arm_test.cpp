@@ -15,7 +15,7 @@ constexpr double kTick = 0.001;  // [s]
 constexpr DeviceProfile kMass{.name = "mass", .mass = 0.1, .peak_force = 10.0};
 
 TEST(SimulatedArm, HoldsACommandFromTheNextInstantToTheNextCommand) {
-  SimulatedArm arm(kMass, kNoHand, 3.0, {0.01, 0.02, 0.03});
+  SimulatedArm arm(kMass, kUnheld, 3.0, {0.01, 0.02, 0.03});
   EXPECT_EQ(arm.position(), Vec3(0.01, 0.02, 0.03));
   arm.command(3.0, {0.5, 0.0, -1.0});
   arm.advance(3.0 + kTick);
@@ -34,7 +34,7 @@ TEST(SimulatedArm, DelaysByTheSumOfSensorsAndActuators) {
     DeviceProfile profile = kMass;
     profile.sensor_delay = sensor;
     profile.actuator_delay = actuator;
-    SimulatedArm arm(profile, kNoHand, 0.0, Vec3{0.0});
+    SimulatedArm arm(profile, kUnheld, 0.0, Vec3{0.0});
     for (int n = 0; n < 20; ++n) {
       const double t = kTick * n;
       arm.advance(t);
@@ -48,7 +48,7 @@ TEST(SimulatedArm, DelaysByTheSumOfSensorsAndActuators) {
 }
 
 TEST(SimulatedArm, ShortensForcesToItsPeakAndKeepsTheirDirection) {
-  SimulatedArm arm(kMass, kNoHand, 0.0, Vec3{0.0});
+  SimulatedArm arm(kMass, kUnheld, 0.0, Vec3{0.0});
   arm.command(0.0, {30.0, 0.0, -40.0});
   arm.advance(kTick);
   EXPECT_NEAR(arm.motor_force().x, 6.0, 1e-14);
@@ -61,7 +61,7 @@ TEST(SimulatedArm, ShortensForcesToItsPeakAndKeepsTheirDirection) {
 TEST(SimulatedArm, StopsWhatIsUnderWayToo) {
   DeviceProfile profile = kMass;
   profile.actuator_delay = 0.003;
-  SimulatedArm arm(profile, kNoHand, 0.0, Vec3{0.0});
+  SimulatedArm arm(profile, kUnheld, 0.0, Vec3{0.0});
   arm.command(0.0, Vec3{1.0});
   arm.advance(kTick);
   arm.stop();
@@ -72,7 +72,7 @@ TEST(SimulatedArm, StopsWhatIsUnderWayToo) {
 TEST(SimulatedArm, ShowsPositionsInStepsOfItsEncoders) {
   DeviceProfile profile = kMass;
   profile.encoder_step = 1e-4;
-  const SimulatedArm arm(profile, kNoHand, 0.0, {1.49e-4, 1.51e-4, -1.51e-4});
+  const SimulatedArm arm(profile, kUnheld, 0.0, {1.49e-4, 1.51e-4, -1.51e-4});
   EXPECT_NEAR(arm.encoders().x, 1e-4, 1e-18);
   EXPECT_NEAR(arm.encoders().y, 2e-4, 1e-18);
   EXPECT_NEAR(arm.encoders().z, -2e-4, 1e-18);
@@ -82,7 +82,7 @@ TEST(SimulatedArm, ShowsPositionsInStepsOfItsEncoders) {
 // A hand that pulls itself along, motors that work for and against it, friction and delays: nothing is lost.
 TEST(SimulatedArm, KeepsItsEnergyBalanced) {
   for (const DeviceProfile& profile : device_profiles()) {
-    for (const HandImpedance& hand : {kNoHand, kRelaxedHand, kFirmHand}) {
+    for (const HandImpedance& hand : {kUnheld, kRelaxedHand, kFirmHand}) {
       std::mt19937 random{11};
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
       SimulatedArm arm(profile, hand, 0.0, Vec3{0.0});
@@ -107,7 +107,7 @@ TEST(SimulatedArm, KeepsItsEnergyBalanced) {
 }
 
 TEST(SimulatedArm, StandsThroughAPauseOfItsReader) {
-  SimulatedArm arm(kMass, kNoHand, 0.0, Vec3{0.0});
+  SimulatedArm arm(kMass, kUnheld, 0.0, Vec3{0.0});
   arm.command(0.0, {1.0, 0.0, 0.0});
   arm.advance(1000.0);
   EXPECT_EQ(arm.time(), 1000.0);
