@@ -40,12 +40,18 @@ struct SurfaceLevels {
   int count = 0;
 };
 
-/// Work that may be done, counted in cells visited and Newton steps.
+/// Work that may be done, counted in cells visited and steps tried; the first cell of a search is free.
 struct SearchWork {
   int limit = 0;
   int used = 0;
 
   [[nodiscard]] bool spent() const noexcept { return used >= limit; }
+  /// Counts one more. False where nothing is left.
+  [[nodiscard]] bool take() noexcept {
+    if (spent()) return false;
+    ++used;
+    return true;
+  }
 };
 
 /// A place on a path through the field, and on which side of each level it is.

@@ -121,7 +121,6 @@ SurfaceFit BoxIsosurfaceSearch::settle(const Vec3& x, SurfacePoint& point, Searc
 
 int BoxIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const SurfaceLevels& levels,
                                  SearchWork& work) const noexcept {
-  ++work.used;
   Index3 index;
   if (!grid_.locate(path.at, index)) {
     path.at = to;
@@ -179,8 +178,7 @@ int BoxIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const Surfac
       path.side.fill(0);
       return -1;
     }
-    ++work.used;
-    if (work.spent()) return -1;
+    if (!work.take()) return -1;
   }
 }
 
@@ -201,7 +199,7 @@ int FormulaIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const Su
       std::clamp(static_cast<int>(std::ceil(glm::length(d) * kSamples / scale_.diagonal)), 1, 1 << 16);
   double before = inside(box, from) ? formula_.value(from) : NAN;
   for (int n = 1; n <= samples; ++n) {
-    ++work.used;
+    if (n > 1 && !work.take()) return -1;
     const double start = static_cast<double>(n - 1) / samples, end = static_cast<double>(n) / samples;
     const Vec3 next = n == samples ? to : from + end * d;
     const double here = inside(box, next) ? formula_.value(next) : NAN;
@@ -230,7 +228,6 @@ int FormulaIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const Su
     }
     path.at = next;
     before = here;
-    if (work.spent()) return -1;
   }
   return -1;
 }

@@ -24,6 +24,7 @@ struct Cell {
   bool crossed = false;
   std::array<Vec3, 4> normal;  ///< gradients of the barycentric coordinates
   Vec3 gradient{0.0};
+  int alone = -1;  ///< a vertex that the level parts from all others: its opposite face holds no side
 
   [[nodiscard]] Vec4 barycentric(const Vec3& p) const noexcept {
     const Vec3 d = p - x[0];
@@ -62,6 +63,9 @@ Cell load(const TetMesh& mesh, const PointScalars& values, std::int64_t index, d
   int above = 0;
   for (int i = 0; i < 4; ++i) above += out.f[i] >= 0.0 ? 1 : 0;
   out.crossed = above != 0 && above != 4;
+  for (int i = 0; i < 4; ++i) {
+    if (above == (out.f[i] >= 0.0 ? 1 : 3)) out.alone = i;
+  }
   return out;
 }
 
@@ -125,14 +129,16 @@ Closest closest_in(const Cell& cell, const Vec3& x) noexcept {
       p -= cell.gradient * (glm::dot(cell.barycentric(p), cell.f) / slope2);
     }
     b = cell.barycentric(p);
-    if (b[0] >= 0.0 && b[1] >= 0.0 && b[2] >= 0.0 && b[3] >= 0.0) {
+    bool in = true;
+    for (int i = 0; i < 4; ++i) in = in && (b[i] >= 0.0 || i == cell.alone);
+    if (in) {
       const Vec3 away = x - p;
       return {p, b, Place::kInside, Vec3{0.0}, glm::dot(away, away)};
     }
   }
   // The closest point lies on a side that the projection is beyond; where rounding hides it, on any.
   for (int face = 0; face < 4; ++face) {
-    if (b[face] < 0.0) closest_on_face(cell, face, x, out);
+    if (b[face] < 0.0 && face != cell.alone) closest_on_face(cell, face, x, out);
   }
   if (out.square == HUGE_VAL) {
     for (int face = 0; face < 4; ++face) closest_on_face(cell, face, x, out);
@@ -181,7 +187,6 @@ SurfaceFit TetIsosurfaceSearch::settle(const Vec3& x, SurfacePoint& point, Searc
     here.b = cell.barycentric(point.position);
     here.place = Place::kCorner;
   }
-  ++work.used;
   for (;;) {
     const Vec3 d = x - here.point;
     fit.toward = glm::dot(cell.gradient, d);
@@ -197,12 +202,15 @@ SurfaceFit TetIsosurfaceSearch::settle(const Vec3& x, SurfacePoint& point, Searc
     std::int64_t best_index = -1;
     Around around;
     around.add(point.cell);
-    bool bad = false;
+    bool bad = false, spent = false;
     for (int k = 0; k < around.count; ++k) {
       const std::int64_t index = around.cell[static_cast<std::size_t>(k)];
       const auto& behind = mesh_.neighbors()[static_cast<std::size_t>(index)];
+      if (k > 0 && !work.take()) {
+        spent = true;
+        break;
+      }
       const Cell each = k == 0 ? cell : load(mesh_, field_->values(), index, point.level);
-      if (k > 0) ++work.used;
       if (each.flat) {  // what lies behind is as good as beside
         for (const CellIndex other : behind) around.add(other);
         continue;
@@ -232,17 +240,15 @@ SurfaceFit TetIsosurfaceSearch::settle(const Vec3& x, SurfacePoint& point, Searc
         best_index = index;
       }
     }
-    if (best_index < 0) {
-      if (bad || !cell.crossed) fit.end = bad ? SurfaceEnd::kBadData : SurfaceEnd::kFlat;
-      break;
+    if (best_index >= 0) {
+      point.cell = best_index;
+      cell = best_cell;
+      here = best;
+    } else if (!spent && (bad || !cell.crossed)) {
+      fit.end = bad ? SurfaceEnd::kBadData : SurfaceEnd::kFlat;
     }
-    point.cell = best_index;
-    cell = best_cell;
-    here = best;
-    if (work.spent()) {
-      fit.end = SurfaceEnd::kBudget;
-      break;
-    }
+    if (spent) fit.end = SurfaceEnd::kBudget;
+    if (best_index < 0 || spent) break;
   }
   point.position = here.point;
   fit.gradient = cell.gradient;
@@ -287,7 +293,11 @@ int TetIsosurfaceSearch::jump(SurfacePath& path, const Vec3& to, const SurfaceLe
     SurfacePath near = before;
     Vec3 far = to;
     constexpr int kHalvings = 48;
-    for (int n = 0; n < kHalvings; ++n, ++work.used) {
+    for (int n = 0; n < kHalvings; ++n) {
+      if (!work.take()) {
+        path = before;
+        return -1;
+      }
       SurfacePath middle{.at = 0.5 * (near.at + far), .cell = path.cell};
       if (!begin(middle, levels)) return -1;  // outside: nobody knows where
       if (middle.side[i] == before.side[i]) {
@@ -304,7 +314,6 @@ int TetIsosurfaceSearch::jump(SurfacePath& path, const Vec3& to, const SurfaceLe
 
 int TetIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const SurfaceLevels& levels,
                                  SearchWork& work) const noexcept {
-  ++work.used;
   if (!begin(path, levels)) return jump(path, to, levels, work);
   int entry = -1;
   for (;;) {
@@ -370,8 +379,7 @@ int TetIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const Surfac
       if (behind[static_cast<std::size_t>(i)] == path.cell) entry = i;
     }
     path.cell = next;
-    ++work.used;
-    if (work.spent()) return -1;
+    if (!work.take()) return -1;
   }
 }
 

@@ -44,7 +44,6 @@ class SurfaceDescent {
   /// Moves `position` to the local minimum of the distance from `x`.
   [[nodiscard]] SurfaceFit settle(const Vec3& x, Vec3& position) noexcept {
     SurfaceFit fit;
-    ++work_.used;
     Way way = look(position, x);
     if (way.found && std::abs(way.patch.value(position) - level_) > scale_.value) {
       // The point was made by somebody else: first of all on to the surface.
@@ -62,14 +61,12 @@ class SurfaceDescent {
       const Vec3 d = x - position;
       const bool level = way.size() <= still(d);
       if (level && !(way.least_curvature() < 0.0)) break;
-      if (work_.spent()) {
-        fit.end = SurfaceEnd::kBudget;
-        break;
-      }
       if (!(level ? step_off(way, x, position) : step_down(way, x, position))) {
         // A way down that no step can take, by more than rounding: the surface has a singular point here.
         constexpr double kRounding = 0x1p-20;
-        if (way.size() > kRounding * glm::length(d)) fit.end = SurfaceEnd::kFlat;
+        if (way.size() > kRounding * glm::length(d)) {
+          fit.end = work_.spent() ? SurfaceEnd::kBudget : SurfaceEnd::kFlat;
+        }
         break;
       }
     }
@@ -263,8 +260,7 @@ class SurfaceDescent {
     if (length > boxes_.reach()) move *= boxes_.reach() / length;
     const Vec3 d = x - position;
     const double noise = 4.0 * scale_.distance * (glm::length(d) + scale_.distance);
-    for (int trial = 0; trial < trials && !work_.spent(); ++trial, move *= kQuarter) {
-      ++work_.used;
+    for (int trial = 0; trial < trials && work_.take(); ++trial, move *= kQuarter) {
       Vec3 next;
       if (!travel(way.patch, way.free, position, move, next)) continue;
       const Vec3 moved = next - position;

@@ -57,7 +57,7 @@ void IsosurfaceConstraint::update(const Vec3& probe, const UpdateBudget& budget,
   if (edited_) move_to_edited(work, link);
   // A probe that one surface lets go may be caught by the next in the same step, but not without end.
   constexpr int kMostSurfaces = 2 * Isovalues::kMax;
-  for (int turn = 0; turn < kMostSurfaces; ++turn) {
+  for (int turn = 0; turn == 0 || (turn < kMostSurfaces && work.take()); ++turn) {
     if (!held_ && !roam(x, work, link)) {
       const bool behind = path_.at != x;  // the work did not reach
       const bool known = levels_.count == 0 || path_.side[0] != 0;
