@@ -1,4 +1,4 @@
-#include <cmath>
+#include <array>
 #include <utility>
 
 #include "common/base/text.h"
@@ -29,11 +29,12 @@ struct Column {
   double StiffnessRow::*value;
 };
 constexpr std::array kColumns{
-    Column{"passivity bound", "theoretical bound", &StiffnessRow::bound},
     Column{"unheld", "unheld", &StiffnessRow::unheld},
     Column{"with controller", "unheld, passivity controller", &StiffnessRow::controlled},
     Column{"relaxed hand", "relaxed hand", &StiffnessRow::relaxed},
     Column{"firm hand", "firm hand", &StiffnessRow::firm},
+    // Last, on top of what lies on it.
+    Column{"theoretical bound", "theoretical bound", &StiffnessRow::bound},
 };
 
 ReportPlot plot_of(const StiffnessSweep& sweep, const std::string& file) {

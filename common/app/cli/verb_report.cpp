@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/verbs.h"
@@ -10,6 +12,7 @@
 #include "common/report/constraint_studies.h"
 #include "common/report/haptic_stability.h"
 #include "common/report/report.h"
+#include "common/report/stability_sweep.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
@@ -129,6 +132,9 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
     report.stability.push_back(std::move(c));
   }
   add_constraint_studies(report, effort, &context.progress);
+  WallStability wall = run_wall_stability(options.common.threads, &context.progress);
+  std::move(wall.cases.begin(), wall.cases.end(), std::back_inserter(report.stability));
+  for (ReportSection& section : wall_sections(wall)) report.sections.push_back(std::move(section));
   report.seconds = watch.seconds();
 
   context.interrupt.unfinished(unfinished_report_folder(options.out));
