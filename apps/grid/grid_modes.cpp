@@ -2,23 +2,33 @@
 
 #include <utility>
 
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/isosurface.h"
+#include "common/haptics/force_field/force_field.h"
 
 namespace palpate {
 namespace {
 
-HapticChain make_isotropic(const HapticScene& scene) {
+/// A chain of `link` alone.
+HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
   std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(std::make_unique<IsotropicDrag>());
+  links.push_back(std::move(link));
   HapticChain made;
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }
 
+HapticChain make_isosurface(const HapticScene& scene) {
+  return single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace), scene);
+}
+HapticChain make_density(const HapticScene& scene) {
+  return single(std::make_unique<DensityDrag>(scene.scalar, scene.workspace), scene);
+}
+
 }  // namespace
 
 std::vector<HapticMode> grid_modes() {
-  return {{"isotropic", "the same drag in all directions, to steady the hand", make_isotropic}};
+  return {{"isosurface", "stopped by surfaces of equal value, which give when pushed hard", make_isosurface},
+          {"density", "dragged the more, the higher the value", make_density}};
 }
 
 }  // namespace palpate

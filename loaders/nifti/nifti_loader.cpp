@@ -93,9 +93,13 @@ class NiftiLoader : public Loader {
     const NiftiClaims claims = check_nifti(file_);
     nifti_set_debug_level(0);
     // niftilib goes by the name.
-    if (claims.packed && nifti_is_gzfile(file_.c_str()) == 0)
+    const bool named = nifti_find_file_extension(file_.c_str()) != nullptr &&
+                       claims.packed == (nifti_is_gzfile(file_.c_str()) != 0);
+    if (!named) {
       throw input_error(
-          {file_, "", "is packed by gzip, but not named so", "a name ending in .nii.gz", "rename it"});
+          {file_, "", claims.packed ? "is NIfTI packed by gzip, not named so" : "is NIfTI, not named so",
+           claims.packed ? "a name ending in .nii.gz" : "a name ending in .nii or .hdr", "rename it"});
+    }
     image_.reset(nifti_image_read(file_.c_str(), 0));
     if (!image_)
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});

@@ -211,7 +211,7 @@ TEST(Nifti, WhatCannotBeReadIsNamed) {
   EXPECT_NE(line({.size = {2, 2, 2}, .datatype = 32}, "complex.nii").find("COMPLEX"), std::string::npos);
   EXPECT_NE(line({.size = {2, 2, 2}, .datatype = 99}, "unknown.nii").find("type 99"), std::string::npos);
   EXPECT_NE(line({.size = {2, -2, 2}, .datatype = 2}, "negative.nii").find("-2 voxels"), std::string::npos);
-  EXPECT_EQ(line({.size = {2, 2, 2}, .datatype = 2}, "any.name"), "accepted");
+  EXPECT_NE(line({.size = {2, 2, 2}, .datatype = 2}, "any.name").find(".nii"), std::string::npos);
   EXPECT_NE(line({.size = {2, 2, 2, 1, 1, 2}, .datatype = 2}, "six.nii").find("five axes"),
             std::string::npos);
   NiftiHeader flat{.size = {2, 2, 2}, .datatype = 2};

@@ -17,10 +17,10 @@ constexpr double kMetresPerMillimetre = 1e-3;
 
 }  // namespace
 
-Workspace touch_workspace(const TouchOptions& options, const VectorField& field) {
+Workspace touch_workspace(const TouchOptions& options, double diagonal, const LocalFrame& frame) {
   const double scale =
-      options.workspace_scale > 0.0 ? options.workspace_scale : Workspace::default_scale(field.diagonal());
-  return {scale, field.frame()};
+      options.workspace_scale > 0.0 ? options.workspace_scale : Workspace::default_scale(diagonal);
+  return {scale, frame};
 }
 
 ChainSettings touch_settings(const TouchOptions& options) {
@@ -48,11 +48,11 @@ ChainSettings touch_settings(const TouchOptions& options) {
   return settings;
 }
 
-ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
+ChainSettings touch_settings(const TouchOptions& options, const VectorField* field,
                              const Workspace& workspace) {
   ChainSettings settings = touch_settings(options);
-  if (wants_ticks(options) && settings.ticks.interval == 0.0) {
-    settings.ticks.interval = default_tick_interval(field, workspace);
+  if (field != nullptr && wants_ticks(options) && settings.ticks.interval == 0.0) {
+    settings.ticks.interval = default_tick_interval(*field, workspace);
   }
   return settings;
 }
@@ -81,7 +81,8 @@ std::vector<std::string> changed_since(const RecordingHeader& header, const Opti
       changed.push_back("it was recorded on " + header.inputs[i].file + ", which is not open");
     } else if (i >= header.inputs.size()) {
       changed.push_back(open[i].file.string() + " was not open when it was recorded");
-    } else if (open[i].bytes != header.inputs[i].bytes || open[i].sha256 != header.inputs[i].sha256) {
+    } else if (open[i].bytes != header.inputs[i].bytes ||
+               (!header.inputs[i].sha256.empty() && open[i].sha256 != header.inputs[i].sha256)) {
       changed.push_back(open[i].file.string() + " is not the file that was recorded as " +
                         header.inputs[i].file);
     }

@@ -14,13 +14,16 @@
 
 namespace palpate {
 
-[[nodiscard]] Workspace touch_workspace(const TouchOptions& options, const VectorField& field);
+/// @param diagonal of the data [data units].
+/// @param frame of the field that is felt.
+[[nodiscard]] Workspace touch_workspace(const TouchOptions& options, double diagonal,
+                                        const LocalFrame& frame);
 
 /// The tick interval is 0 where none is given, or 'auto' is.
 /// @throws Error (usage) for values that make no sense.
 [[nodiscard]] ChainSettings touch_settings(const TouchOptions& options);
-/// The same with 'auto' worked out.
-[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options, const VectorField& field,
+/// The same with 'auto' worked out. @param field null for a volume of scalars alone.
+[[nodiscard]] ChainSettings touch_settings(const TouchOptions& options, const VectorField* field,
                                            const Workspace& workspace);
 [[nodiscard]] inline bool wants_ticks(const TouchOptions& options) { return !options.ticks.empty(); }
 

@@ -180,6 +180,34 @@ void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun
   }
 }
 
+/// The field that the hand feels: the explorer's kind says which it is.
+struct FeltInput {
+  std::shared_ptr<const VectorField> field;
+  std::shared_ptr<const ScalarField> scalar;
+  std::string name;
+  double diagonal = 0.0;
+  const TetMesh* mesh = nullptr;
+  std::vector<std::string> notes;
+};
+
+FeltInput load_felt(Input& input, const Options& options, const VerbContext& context) {
+  FeltInput felt;
+  const auto describe = [&felt](const auto& field) {
+    felt.name = field.name();
+    felt.diagonal = field.diagonal();
+    felt.mesh = field.tet_mesh();
+    felt.notes = field.notes().lines;
+  };
+  if (context.explorer.kind == FieldKind::kScalar) {
+    felt.scalar = input.load_scalar(options.common.threads, &context.progress);
+    describe(*felt.scalar);
+  } else {
+    felt.field = input.load_field(options.common.threads, &context.progress);
+    describe(*felt.field);
+  }
+  return felt;
+}
+
 /// What can be refused before any work is done.
 void check_request(const Options& options) {
   if (options.path.empty() && options.replay.empty()) {
@@ -223,23 +251,24 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
     console.print(plan_text(summary.plan));
   }
-  const auto field = input.load_field(options.common.threads, &context.progress);
-  for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
-  const Workspace workspace = touch_workspace(options.touch, *field);
-  summary.settings = touch_settings(options.touch, *field, workspace);
+  const FeltInput felt = load_felt(input, options, context);
+  for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
+  const Workspace workspace =
+      touch_workspace(options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get()));
+  summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
   summary.input = input.title();
-  summary.field = field->name();
+  summary.field = felt.name;
   summary.mode = mode.name;
   summary.output = options.out.string();
   summary.workspace_scale = workspace.scale();
-  summary.diagonal = field->diagonal();
+  summary.diagonal = felt.diagonal;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
 
   std::optional<OutputFile> file;
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   if (recording) {
-    const NamedField open{field, field_key(input.field_label(), input.time().step)};
+    const NamedField open{felt.field, field_key(input.field_label(), input.time().step), felt.scalar};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
@@ -260,7 +289,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     summary.replay = verdict_text(replay.verdict(), replay.recording());
     summary.replay_differs = replay.verdict().differs != 0;
   } else {
-    HapticChain haptics = mode.make({field, workspace, summary.settings, options.common.threads});
+    HapticChain haptics =
+        mode.make({felt.field, workspace, summary.settings, options.common.threads, felt.scalar});
     if (file) run.log_to(*file, haptics.chain->size());
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     follow_path(path, stepper, workspace, run, context.progress);
@@ -277,7 +307,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     context.interrupt.keep(options.out);
   }
   console.print(summary_text(summary));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, field->tet_mesh())));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, felt.mesh)));
   console.print_json(probe_json(summary));
   return summary.replay_differs ? ExitCode::kWorkFailed : ExitCode::kDone;
 }

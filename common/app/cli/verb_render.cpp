@@ -78,8 +78,8 @@ double image_error(const SceneView& view, const Image& image) {
 /// Adds what a hand on that path has felt.
 void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
                 const Options& options, const std::shared_ptr<const VectorField>& field) {
-  const Workspace workspace = touch_workspace(options.touch, *field);
-  const HapticScene scene{field, workspace, touch_settings(options.touch, *field, workspace),
+  const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
+  const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
                           options.common.threads};
   view.probe = probe_after(path, mode.make(scene), scene, touch_limits(options.touch), view.style.color_by);
   view.probe->reference_speed = reference_speed(view);

@@ -16,8 +16,9 @@ namespace palpate {
 
 /// A field with the name that tells it from the others of its input.
 struct NamedField {
-  std::shared_ptr<const VectorField> field;
-  std::string name;  ///< field_key()
+  std::shared_ptr<const VectorField> field;  ///< null for a volume of scalars alone
+  std::string name;                          ///< field_key()
+  std::shared_ptr<const ScalarField> scalar = nullptr;
 };
 
 [[nodiscard]] std::string field_key(const std::string& label, std::size_t time_step);

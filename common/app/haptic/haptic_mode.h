@@ -30,6 +30,12 @@ struct HapticScene {
   std::shared_ptr<const ScalarField> scalar;  ///< what modes of a scalar work on; null where there is none
 };
 
+/// The frame of the fields that are there. @pre One of the two is.
+[[nodiscard]] inline const LocalFrame& frame_of(const VectorField* field,
+                                                const ScalarField* scalar) noexcept {
+  return field != nullptr ? field->frame() : scalar->frame();
+}
+
 struct HapticMode {
   std::string name;     ///< "streamline"
   std::string summary;  ///< what the hand feels, for help and panels
