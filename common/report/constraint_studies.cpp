@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/report/chain_rivals.h"
 #include "common/report/chain_work.h"
 #include "common/report/linear_drift.h"
 
@@ -9,6 +10,7 @@ namespace palpate {
 
 void add_constraint_studies(Report& report, Effort effort, Progress* progress) {
   report.sections.push_back(linear_drift_section(run_linear_drift(progress)));
+  report.sections.push_back(chain_rivals_section(run_chain_rivals(progress)));
   const ChainWork work = run_chain_work(effort, progress);
   report.sections.push_back(chain_work_section(work));
   for (StabilityCase& c : chain_work_cases(work)) report.stability.push_back(std::move(c));
