@@ -27,7 +27,8 @@ void TetDomain::load(CellIndex cell) {
     for (int axis = 0; axis < 3; ++axis) gradient[axis] += g[axis] * dv.xyz();
     face_[static_cast<std::size_t>(j)] = g;
   }
-  for (int axis = 0; axis < 3; ++axis) column_[static_cast<std::size_t>(axis)] = Pack4{gradient[axis], 0.0};
+  for (int axis = 0; axis < 3; ++axis)
+    gradient_.column[static_cast<std::size_t>(axis)] = Pack4{gradient[axis], 0.0};
   face_[3] = -(face_[0] + face_[1] + face_[2]);
   face_offset_ = {0.0, 0.0, 0.0, 1.0};
   size_ = affine.size;

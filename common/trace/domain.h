@@ -1,13 +1,15 @@
 /// Where a line is followed by the general methods: the kernel of one cell and its faces. Frame L.
 ///
-/// A domain holds one loaded cell, whose formula continues smoothly past the faces: velocity(), along() and
-/// jacobian() may be asked anywhere near it. Positions are Pack4 with the time in the last lane, which the
-/// kernels ignore; velocities have 0 there. Faces are affine functions of position, positive inside; where
-/// a face's value counts as zero (`entry`), the cell was entered by it.
+/// A domain holds one loaded cell, whose formula continues smoothly past the faces: velocity() and gradient()
+/// may be asked anywhere near it. Positions are Pack4 with the time in the last lane, which the kernels
+/// ignore; velocities have 0 there. Faces are affine functions of position, positive inside; where a face's
+/// value counts as zero (`entry`), the cell was entered by it. predict() looks for the first crossing within
+/// `reach` along the line.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +30,24 @@ struct Crossing {
   int face = -1;
   double distance = HUGE_VAL;
 };
+
+/// The velocity's derivatives by x, y and z.
+struct FlowGradient {
+  std::array<Pack4, 3> column;
+
+  /// Jacobian times d.
+  [[nodiscard]] Pack4 along(const Pack4& d) const {
+    return (d.lo[0] * column[0] + d.lo[1] * column[1]) + d.hi[0] * column[2];
+  }
+  /// dv_i/dx_j at [j][i].
+  [[nodiscard]] Mat3 matrix() const { return {column[0].xyz(), column[1].xyz(), column[2].xyz()}; }
+};
+
+/// Whether value + rate s + curvature s^2 / 2 stays positive for 0 < s <= reach, by a quick bound.
+[[nodiscard]] inline bool stays_positive(double value, double rate, double curvature, double reach) {
+  const double slope = std::min(0.0, rate + 0.5 * reach * std::min(0.0, curvature));
+  return slope == 0.0 || value + reach * slope > 0.0;
+}
 
 /// Smallest s > 0 with value + rate s + curvature s^2 / 2 = 0; infinite where there is none, and where the
 /// parabola dips below zero by no more than `grazing`: a line that only touches a face would else be handed
@@ -56,16 +76,16 @@ class BoxFaces {
   [[nodiscard]] static constexpr int face_count() { return 6; }
   /// Whether a point lies on the inner side of every face but `reached`, whose own side is not asked.
   [[nodiscard]] bool inside(const Pack4& y, int reached) const {
-    bool in = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      in = in && (y[axis] >= lower_[axis] || reached == 2 * axis);
-      in = in && (y[axis] <= upper_[axis] || reached == 2 * axis + 1);
-    }
-    return in;
+    constexpr unsigned kAxes = 0b111u;
+    const unsigned above = bits(lower_ <= y) & kAxes, below = bits(y <= upper_) & kAxes;
+    if ((above & below) == kAxes) return true;
+    if (reached < 0) return false;
+    const unsigned own = 1u << (reached >> 1);
+    return ((reached & 1) != 0 ? above & (below | own) : (above | own) & below) == kAxes;
   }
 
  protected:
-  Vec3 lower_{0.0}, upper_{0.0};
+  Pack4 lower_, upper_;
 };
 
 /// A uniform or rectilinear grid.
@@ -83,33 +103,39 @@ class BoxDomain : public BoxFaces {
   [[nodiscard]] double size() const { return size_; }
 
   [[nodiscard]] Pack4 velocity(const Pack4& y) const {
-    const Pack4 u = inverse_size_ * (y - corner_);
-    const double ux = u.lo[0], uy = u.lo[1], uz = u.hi[0];
-    return ((c_[0] + ux * c_[1]) + uy * (c_[2] + ux * c_[4])) +
-           uz * ((c_[3] + ux * c_[6]) + uy * (c_[5] + ux * c_[7]));
+    const Pack4 d = y - corner_;
+    const double dx = d.lo[0], dy = d.lo[1], dz = d.hi[0];
+    return ((c_[0] + dx * c_[1]) + dy * (c_[2] + dx * c_[4])) +
+           dz * ((c_[3] + dx * c_[6]) + dy * (c_[5] + dx * c_[7]));
   }
-  /// Jacobian times d.
-  [[nodiscard]] Pack4 along(const Pack4& y, const Pack4& d) const {
-    const Pack4 u = inverse_size_ * (y - corner_);
-    const Pack4 du = inverse_size_ * d;
-    const double ux = u.lo[0], uy = u.lo[1], uz = u.hi[0];
-    return du.lo[0] * ((c_[1] + uy * c_[4]) + uz * (c_[6] + uy * c_[7])) +
-           du.lo[1] * ((c_[2] + ux * c_[4]) + uz * (c_[5] + ux * c_[7])) +
-           du.hi[0] * ((c_[3] + uy * c_[5]) + ux * (c_[6] + uy * c_[7]));
-  }
-  [[nodiscard]] Mat3 jacobian(const Pack4& y) const {
-    return {along(y, {1.0, 0.0, 0.0, 0.0}).xyz(), along(y, {0.0, 1.0, 0.0, 0.0}).xyz(),
-            along(y, {0.0, 0.0, 1.0, 0.0}).xyz()};
+  [[nodiscard]] FlowGradient gradient(const Pack4& y) const {
+    const Pack4 d = y - corner_;
+    const double dx = d.lo[0], dy = d.lo[1], dz = d.hi[0];
+    return {(c_[1] + dy * c_[4]) + dz * (c_[6] + dy * c_[7]),
+            (c_[2] + dx * c_[4]) + dz * (c_[5] + dx * c_[7]),
+            (c_[3] + dy * c_[5]) + dx * (c_[6] + dy * c_[7])};
   }
 
-  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry) const {
+  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
+                                 double reach) const {
+    // The face ahead of each axis; the one behind only where the curve may turn back to it. Most are farther
+    // than the curve goes: |n| s + |curvature| s^2 / 2 at most.
+    const Pack4 zero, speed = abs(n);
+    const Mask4 up = zero < n;
+    const Pack4 turn = (0.5 * reach) * select(up, curvature, zero - curvature);
+    const Pack4 below = y - lower_, above = upper_ - y;
+    constexpr unsigned kAxes = 0b111u;
+    const unsigned upward = bits(up);
+    unsigned ahead = bits(select(up, above, below) <= reach * (speed + max(turn, zero))) & kAxes;
+    unsigned behind = bits(select(up, below, above) <= reach * (zero - turn - speed)) & kAxes;
     Crossing first;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double rate = n[axis], bend = curvature[axis];
-      // The face ahead; the one behind only where the curve may turn back to it.
-      const bool up = rate > 0.0;
-      consider(2 * axis + (up ? 1 : 0), y, rate, bend, entry, first);
-      if (rate * bend < 0.0) consider(2 * axis + (up ? 0 : 1), y, rate, bend, entry, first);
+    for (; ahead != 0u; ahead &= ahead - 1u) {
+      const int axis = std::countr_zero(ahead);
+      consider(2 * axis + static_cast<int>(upward >> axis & 1u), y, n, curvature, entry, first);
+    }
+    for (; behind != 0u; behind &= behind - 1u) {
+      const int axis = std::countr_zero(behind);
+      consider(2 * axis + 1 - static_cast<int>(upward >> axis & 1u), y, n, curvature, entry, first);
     }
     return first;
   }
@@ -132,11 +158,11 @@ class BoxDomain : public BoxFaces {
   }
 
  private:
-  void consider(int face, const Pack4& y, double rate, double bend, int entry, Crossing& first) const {
-    const bool upper = (face & 1) != 0;
+  void consider(int face, const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
+                Crossing& first) const {
     const double value = face == entry ? 0.0 : face_value(face, y);
     const double grazing = kGrazing * (size_ + std::abs(y[face >> 1]));
-    const double s = first_root(value, upper ? -rate : rate, upper ? -bend : bend, grazing);
+    const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), grazing);
     if (s < first.distance) first = {face, s};
   }
 
@@ -145,11 +171,16 @@ class BoxDomain : public BoxFaces {
     grid_->load(index_, *values_, cell);
     bad_ = cell.bad_data;
     corner_ = Pack4{cell.lower, 0.0};
-    inverse_size_ = Pack4{cell.inverse_size, 0.0};
-    for (std::size_t k = 0; k < 8; ++k) c_[k] = Pack4{sign_ * cell.c[k], 0.0};
+    // Of x - lo rather than of u: a product less in each evaluation.
+    const Vec3& inverse = cell.inverse_size;
+    const double xy = inverse.x * inverse.y;
+    const std::array<double, 8> factor{
+        1.0,           inverse.x, inverse.y, inverse.z, xy, inverse.y * inverse.z, inverse.z * inverse.x,
+        xy * inverse.z};
+    for (std::size_t k = 0; k < 8; ++k) c_[k] = Pack4{(sign_ * factor[k]) * cell.c[k], 0.0};
     for (int axis = 0; axis < 3; ++axis) {
-      lower_[axis] = grid_->coordinate(axis, index_[axis]);
-      upper_[axis] = grid_->coordinate(axis, index_[axis] + 1);
+      lower_.set(axis, grid_->coordinate(axis, index_[axis]));
+      upper_.set(axis, grid_->coordinate(axis, index_[axis] + 1));
     }
     size_ = std::max(cell.size.x, std::max(cell.size.y, cell.size.z));
   }
@@ -160,8 +191,8 @@ class BoxDomain : public BoxFaces {
   Index3 index_{0};
   bool bad_ = false;
   double size_ = 1.0;
-  Pack4 corner_, inverse_size_;
-  std::array<Pack4, 8> c_;
+  Pack4 corner_;
+  std::array<Pack4, 8> c_;  ///< coefficients of (1) of box_grid.h, for x - lo
 };
 
 /// A tetrahedral mesh with linear interpolation.
@@ -173,16 +204,8 @@ class TetDomain {
   [[nodiscard]] bool bad() const { return bad_; }
   [[nodiscard]] double size() const { return size_; }
 
-  [[nodiscard]] Pack4 velocity(const Pack4& y) const {
-    const Pack4 d = y - corner_;
-    return origin_ + (d.lo[0] * column_[0] + d.lo[1] * column_[1]) + d.hi[0] * column_[2];
-  }
-  [[nodiscard]] Pack4 along(const Pack4&, const Pack4& d) const {
-    return (d.lo[0] * column_[0] + d.lo[1] * column_[1]) + d.hi[0] * column_[2];
-  }
-  [[nodiscard]] Mat3 jacobian(const Pack4&) const {
-    return {column_[0].xyz(), column_[1].xyz(), column_[2].xyz()};
-  }
+  [[nodiscard]] Pack4 velocity(const Pack4& y) const { return origin_ + gradient_.along(y - corner_); }
+  [[nodiscard]] const FlowGradient& gradient(const Pack4&) const { return gradient_; }
 
   [[nodiscard]] static constexpr int face_count() { return 4; }
   [[nodiscard]] bool inside(const Pack4& y, int reached) const {
@@ -198,11 +221,14 @@ class TetDomain {
   [[nodiscard]] double face_rate(int face, const Pack4& d) const {
     return glm::dot(face_[static_cast<std::size_t>(face)], d.xyz());
   }
-  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry) const {
+  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
+                                 double reach) const {
     Crossing first;
     for (int face = 0; face < 4; ++face) {
       const double value = face == entry ? 0.0 : face_value(face, y);
-      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), kGrazing);
+      const double rate = face_rate(face, n), bend = face_rate(face, curvature);
+      if (stays_positive(value, rate, bend, reach)) continue;
+      const double s = first_root(value, rate, bend, kGrazing);
       if (s < first.distance) first = {face, s};
     }
     return first;
@@ -218,7 +244,7 @@ class TetDomain {
   bool bad_ = false;
   double size_ = 1.0;
   Pack4 corner_, origin_;
-  std::array<Pack4, 3> column_;          ///< of the velocity gradient
+  FlowGradient gradient_;
   std::array<Vec3, 4> face_{};           ///< gradients of the barycentric coordinates
   std::array<double, 4> face_offset_{};  ///< their values at the corner
 };
@@ -228,25 +254,25 @@ class FormulaDomain : public BoxFaces {
  public:
   FormulaDomain(const VectorField& field, double sign) : formula_(field.analytic()), sign_(sign) {
     const Box box = formula_->bounds();
-    lower_ = box.lower;
-    upper_ = box.upper;
+    lower_ = Pack4{box.lower, 0.0};
+    upper_ = Pack4{box.upper, 0.0};
     size_ = box.diagonal();
   }
 
-  [[nodiscard]] bool locate(const Vec3& x) const {
-    return glm::all(glm::greaterThanEqual(x, lower_)) && glm::all(glm::lessThanEqual(x, upper_));
-  }
+  [[nodiscard]] bool locate(const Vec3& x) const { return inside(Pack4{x, 0.0}, -1); }
   [[nodiscard]] static bool bad() { return false; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] Pack4 velocity(const Pack4& y) const { return {sign_ * formula_->velocity(y.xyz()), 0.0}; }
-  [[nodiscard]] Pack4 along(const Pack4& y, const Pack4& d) const {
-    return {sign_ * (formula_->jacobian(y.xyz()) * d.xyz()), 0.0};
+  [[nodiscard]] FlowGradient gradient(const Pack4& y) const {
+    const Mat3 j = sign_ * formula_->jacobian(y.xyz());
+    return {Pack4{j[0], 0.0}, Pack4{j[1], 0.0}, Pack4{j[2], 0.0}};
   }
-  [[nodiscard]] Mat3 jacobian(const Pack4& y) const { return sign_ * formula_->jacobian(y.xyz()); }
-  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry) const {
+  [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
+                                 double reach) const {
     Crossing first;
     for (int face = 0; face < 6; ++face) {
       const double value = face == entry ? 0.0 : face_value(face, y);
+      if (stays_positive(value, face_rate(face, n), face_rate(face, curvature), reach)) continue;
       const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), kGrazing * size_);
       if (s < first.distance) first = {face, s};
     }

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "common/ode/root.h"
 #include "common/ode/step_control.h"
@@ -68,13 +69,14 @@ class FaceWalk final : public LineWalk {
       if (domain_.bad()) return End::kBadData;
       if (!std::isfinite(k_[3])) return End::kStagnation;
       if (fresh_) {
-        bend_ = curvature(y_, k_);
+        bend_ = curvature(domain_.gradient(y_), k_);
         fresh_ = false;
       }
       // The flow slows down towards a zero that lies within the distance asked for.
       if (slowing_ > 0.0 && 1.0 <= slowing_ * k_[3] * settings_.rest_distance) return End::kStagnation;
-      const Crossing crossing = domain_.predict(y_, k_, bend_, entry_);
-      if (crossing.face >= 0 && crossing.distance <= kStanding * domain_.size() && standing_ < kMaxStanding) {
+      const double standing = kStanding * domain_.size();
+      const Crossing crossing = domain_.predict(y_, k_, bend_, entry_, std::max(h_, standing));
+      if (crossing.face >= 0 && crossing.distance <= standing && standing_ < kMaxStanding) {
         ++standing_;
         pending_face_ = crossing.face;
         continue;
@@ -88,7 +90,11 @@ class FaceWalk final : public LineWalk {
     if (theta >= 1.0) return end_;
     LinePoint point = begin_;
     const double arc = theta * (end_.arc - begin_.arc);
-    const Pack4 y = dense_value(piece_start_, method_.dense(), arc / method_.step());
+    if (!dense_known_) {
+      dense_ = method_.dense();
+      dense_known_ = true;
+    }
+    const Pack4 y = dense_value(piece_start_, dense_, arc / method_.step());
     point.position = y.xyz();
     point.time = y[3];
     point.arc += arc;
@@ -119,12 +125,12 @@ class FaceWalk final : public LineWalk {
     Pack4 v = domain_.velocity(y);
     const double square = v.lo[0] * v.lo[0] + v.lo[1] * v.lo[1] + v.hi[0] * v.hi[0];
     v.hi[1] = 1.0;
-    return (1.0 / std::sqrt(square)) * v;
+    return v / Pack4::all(std::sqrt(square));
   }
 
   /// Derivative of slope() along the line; notes how fast the flow slows down.
-  [[nodiscard]] Pack4 curvature(const Pack4& y, const Pack4& k) {
-    const Pack4 change = domain_.along(y, k);
+  [[nodiscard]] Pack4 curvature(const FlowGradient& gradient, const Pack4& k) {
+    const Pack4 change = gradient.along(k);
     const double inverse_speed = k[3];
     const double along = change.lo[0] * k.lo[0] + change.lo[1] * k.lo[1] + change.hi[0] * k.hi[0];
     slowing_ = -along;
@@ -135,7 +141,7 @@ class FaceWalk final : public LineWalk {
 
   /// Jacobian of slope(), rows first, for the stiff method.
   [[nodiscard]] SmallLu<4>::Matrix slope_jacobian(const Pack4& y, const Pack4& k) const {
-    const Mat3 j = domain_.jacobian(y);
+    const Mat3 j = domain_.gradient(y).matrix();
     const Vec3 n = k.xyz();
     const Vec3 along = n * j;  // n^T J
     SmallLu<4>::Matrix m{};
@@ -153,7 +159,7 @@ class FaceWalk final : public LineWalk {
   /// How far rounding of the position and of the interpolation turns the direction: the velocity is a sum of
   /// terms as large as the Jacobian times the coordinates and the cell, which cancel near a zero.
   [[nodiscard]] double slope_rounding() const {
-    const Mat3 j = domain_.jacobian(y_);
+    const Mat3 j = domain_.gradient(y_).matrix();
     const double rate = std::sqrt(glm::dot(j[0], j[0]) + glm::dot(j[1], j[1]) + glm::dot(j[2], j[2]));
     constexpr double kRoundings = 8.0;  // of coordinates and of each term
     return kRoundings * kUlp * rate * (magnitude(y_.xyz()) + domain_.size()) * k_[3];
@@ -232,7 +238,8 @@ class FaceWalk final : public LineWalk {
       Pack4 y_end = y1, k_end = k1;
       double length = h;
       if (face >= 0) {
-        const Pack4 bend1 = curvature(y1, k1);
+        gradient_ = domain_.gradient(y1);
+        const Pack4 bend1 = curvature(gradient_, k1);
         const Pack4 third = (1.0 / h) * (bend1 - bend_);
         const double rate = domain_.face_rate(face, k1);
         const double value = domain_.face_value(face, y1);
@@ -313,10 +320,13 @@ class FaceWalk final : public LineWalk {
   void accept(const Pack4& y_end, const Pack4& k_end, double length, double local, int face) {
     begin_ = end_;
     piece_start_ = y_;
+    dense_known_ = false;
     const Vec3 n = k_end.xyz();
     const double inverse_speed = k_end[3];
+    // Of a piece to a face, that at the end of the step will do.
+    if (face < 0) gradient_ = domain_.gradient(y_end);
     const auto apply = [&](const Vec3& d) {
-      const Vec3 moved = domain_.along(y_end, Pack4{d, 0.0}).xyz();
+      const Vec3 moved = gradient_.along(Pack4{d, 0.0}).xyz();
       return inverse_speed * (moved - glm::dot(n, moved) * n);
     };
     const auto matrix = [&] { return Mat3{apply({1, 0, 0}), apply({0, 1, 0}), apply({0, 0, 1})}; };
@@ -332,7 +342,7 @@ class FaceWalk final : public LineWalk {
     pending_face_ = face;
     entry_ = -1;
     standing_ = 0;
-    if (face < 0) bend_ = curvature(y_, k_);
+    if (face < 0) bend_ = curvature(gradient_, k_);
     turn_cosine_ = glm::dot(direction_, n);
     direction_ = n;
     end_.position = y_.xyz();
@@ -352,8 +362,11 @@ class FaceWalk final : public LineWalk {
   std::conditional_t<Method::kEstimatesKept, ErrorEllipse, ErrorTransport> error_;
   double near_ = 0.05;
   Pack4 y_, k_, bend_, piece_start_;
-  double local_ = 0.0;    ///< error of the last piece alone
-  double slowing_ = 0.0;  ///< -n . J n, positive where the flow slows down
+  mutable decltype(std::declval<const Method&>().dense()) dense_;  ///< of the last piece, once asked for
+  mutable bool dense_known_ = false;
+  FlowGradient gradient_;  ///< at the end of the last step, in its cell
+  double local_ = 0.0;     ///< error of the last piece alone
+  double slowing_ = 0.0;   ///< -n . J n, positive where the flow slows down
   double h_ = 0.0;
   int entry_ = -1;
   int pending_face_ = -1;  ///< reached by the last piece, not yet crossed
