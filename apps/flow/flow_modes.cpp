@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/field/scalar_threshold.h"
+#include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/constraint/tick_marks.h"
@@ -33,6 +35,11 @@ HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
   return made;
 }
 
+/// What is felt of a scalar: the speed unless another one was chosen.
+std::shared_ptr<const ScalarField> scalar_of(const HapticScene& scene) {
+  return scene.scalar ? scene.scalar : make_speed_field(scene.field);
+}
+
 HapticChain make_isotropic(const HapticScene& scene) {
   return single(std::make_unique<IsotropicDrag>(), scene);
 }
@@ -46,8 +53,23 @@ HapticChain make_vortex(const HapticScene& scene) {
   return single(std::make_unique<VortexPull>(scene.field, scene.workspace), scene);
 }
 HapticChain make_density(const HapticScene& scene) {
-  const auto scalar = scene.scalar ? scene.scalar : make_speed_field(scene.field);
-  return single(std::make_unique<DensityDrag>(scalar, scene.workspace), scene);
+  return single(std::make_unique<DensityDrag>(scalar_of(scene), scene.workspace), scene);
+}
+
+/// The isosurface alone, or a streamline whose proxy meets it (Ikits 2006, figure 6.7).
+HapticChain make_isosurface(const HapticScene& scene) {
+  HapticChain made;
+  std::vector<std::unique_ptr<Constraint>> links;
+  if (scene.settings.isosurface.along_streamline) {
+    auto line = std::make_shared<LiveLine>(scene.field, LiveLine::kFollowTolerance, scene.threads);
+    links.push_back(std::make_unique<StreamlineConstraint>(line, scene.workspace));
+    made.followed = std::move(line);
+  }
+  const auto scalar = scalar_of(scene);
+  const Isovalues otherwise{{otsu_threshold(*scalar)}, 1};
+  links.push_back(std::make_unique<IsosurfaceConstraint>(scalar, scene.workspace, otherwise));
+  made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
+  return made;
 }
 
 }  // namespace
@@ -60,7 +82,9 @@ std::vector<HapticMode> flow_modes() {
           {"transverse", "dragged when moving across the flow, free along it", make_transverse},
           {"vortex", "pulled to the cores of vortices", make_vortex},
           {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
-           make_density}};
+           make_density},
+          {"isosurface", "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
+           make_isosurface}};
 }
 
 }  // namespace palpate

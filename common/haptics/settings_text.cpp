@@ -20,6 +20,13 @@ bool read_value(std::string_view text, double& value) noexcept {
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
+std::string value_text(bool value) { return value ? "yes" : "no"; }
+
+bool read_value(std::string_view text, bool& value) noexcept {
+  value = text == "yes";
+  return value || text == "no";
+}
+
 /// "0.5,1.25", or nothing.
 std::string value_text(const Isovalues& values) {
   std::string text;

@@ -9,18 +9,22 @@
 namespace palpate {
 
 IsosurfaceConstraint::IsosurfaceConstraint(std::shared_ptr<const ScalarField> field,
-                                           const Workspace& workspace)
-    : field_(std::move(field)), search_(make_isosurface_search(field_)), workspace_(workspace) {}
+                                           const Workspace& workspace, const Isovalues& otherwise)
+    : field_(std::move(field)),
+      search_(make_isosurface_search(field_)),
+      workspace_(workspace),
+      otherwise_(otherwise) {}
 
 void IsosurfaceConstraint::apply(const ChainSettings& settings) noexcept {
   const IsosurfaceSettings& wanted = settings.isosurface;
   depth_ = wanted.depth / workspace_.local_scale();
   snap_ = wanted.snap_distance / workspace_.local_scale();
   SurfaceLevels levels;
-  levels.count = wanted.isovalues.count;
+  const Isovalues& isovalues = wanted.isovalues.count > 0 ? wanted.isovalues : otherwise_;
+  levels.count = isovalues.count;
   for (int l = 0; l < levels.count; ++l) {
     const auto i = static_cast<std::size_t>(l);
-    levels.value[i] = wanted.isovalues.value[i] * field_->value_scale();
+    levels.value[i] = isovalues.value[i] * field_->value_scale();
   }
   const bool same = levels.count == levels_.count && levels.value == levels_.value;
   if (!same) path_.side.fill(0);

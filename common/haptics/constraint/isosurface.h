@@ -30,8 +30,9 @@ namespace palpate {
 
 class IsosurfaceConstraint final : public Constraint {
  public:
-  /// @param workspace over the frame of `field`.
-  IsosurfaceConstraint(std::shared_ptr<const ScalarField> field, const Workspace& workspace);
+  /// @param workspace over the frame of `field`.  @param otherwise isovalues where the settings have none.
+  IsosurfaceConstraint(std::shared_ptr<const ScalarField> field, const Workspace& workspace,
+                       const Isovalues& otherwise = {});
 
   void apply(const ChainSettings& settings) noexcept override;
   void reset() noexcept override;
@@ -61,6 +62,7 @@ class IsosurfaceConstraint final : public Constraint {
   std::shared_ptr<const ScalarField> field_;
   std::unique_ptr<const IsosurfaceSearch> search_;
   Workspace workspace_;
+  Isovalues otherwise_;
   SurfaceLevels levels_;
   IsosurfaceHold hold_ = IsosurfaceHold::kWall;
   double depth_ = 0.0, snap_ = 0.0;  ///< frame L

@@ -32,10 +32,14 @@ struct Isovalues {
 };
 
 struct IsosurfaceSettings {
-  Isovalues isovalues;
+  Isovalues isovalues;  ///< none: those that the constraint was made with
   IsosurfaceHold hold = IsosurfaceHold::kWall;
   double depth = 0.010;        ///< stretch beyond which the surface lets the probe through [m]
   double snap_distance = 0.0;  ///< a layer holds a probe that comes this near [m], at most `depth`
+
+  /// Where a streamline can be followed, too: that comes first in the chain, and its proxy meets the surface
+  /// (Ikits 2006, figure 6.7). Takes effect when the chain is built.
+  bool along_streamline = false;
 
   bool operator==(const IsosurfaceSettings&) const = default;
 
@@ -55,6 +59,7 @@ struct IsosurfaceSettings {
     visit("isosurface.hold", self.hold);
     visit("isosurface.depth", self.depth);
     visit("isosurface.snap", self.snap_distance);
+    visit("isosurface.along_streamline", self.along_streamline);
   }
 };
 
