@@ -22,7 +22,7 @@ double next_part(double part, const Vec3& before, const Vec3& now, const AxisHol
   const Vec3 change = now - before;
   const double squared = glm::dot(change, change);
   if (before == Vec3{0.0} || !(squared > 0.0)) return 1.0;
-  constexpr double kLeast = 0.25, kMost = 4.0;
+  constexpr double kLeast = 0.25, kMost = 2.0;  // beyond, a motion may lead away from the probe
   return std::clamp(-part * glm::dot(before, change) / squared, kLeast, kMost);
 }
 

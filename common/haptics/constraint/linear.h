@@ -7,11 +7,12 @@
 ///
 /// The reference takes one such step an update. Where axes turn from place to place the proxy then goes on
 /// moving under a hand at rest. Here steps are repeated until the rules at p move it no more, so that p is at
-/// rest for any probe at rest; each brings p nearer to x, by |x - p|^2 - |dp|^2 or less, and relaxation makes
-/// them few. With a budget of one iteration this is the step of the reference. It stays linear: along a line
-/// the proxy follows the tangents, and drifts off the curve by the second order of each step (sec. 6.6 says
-/// so, and streamline.h does better). Where a stretch is longer than the radius at which axes turn there may
-/// be no place at rest near by: the state says so, and a drag rule in place of a fixed axis prevents it.
+/// rest for any probe at rest. None of them leads away from x: rules are projections on to convex sets about
+/// it, and the relaxation that makes steps few goes no more than twice as far. With a budget of one iteration
+/// this is the step of the reference. It stays linear: along a line the proxy follows the tangents, and drifts
+/// off the curve by the second order of each step (sec. 6.6 says so, and streamline.h does better). Where the
+/// stretch is longer than the radius on which axes turn there may be no place at rest near by: the state says
+/// so, and a drag rule in place of a fixed axis prevents it.
 ///
 /// Where it fades. Uncertain axes become alike (make_alike()): what is held across an undefined direction is
 /// let go, what is alike for all axes stays. Where the data ends, or is bad, the last frame stays and the
