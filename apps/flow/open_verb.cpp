@@ -1,13 +1,16 @@
 #include "apps/flow/open_verb.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
+#include "common/app/cli/json_output.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/haptic/servo_rows.h"
 #include "common/app/window/window.h"
 #include "common/base/parallel.h"
 #include "common/base/version.h"
@@ -78,20 +81,37 @@ ProbeSessionOptions touch_of(const Options& options, const VerbContext& context)
       context.console.note(options.replay.string() + ": " + line);
     }
   }
-  if (options.record.empty()) return touch;
+  check_servo_rate(options.rate);
+  touch.servo_rate = options.rate;
   touch.record = options.record;
   touch.overwrite = options.common.force;
   touch.recorded.program = context.explorer.name;
   touch.recorded.version = version();
   touch.recorded.build = build_text();
   const auto add = [&](const std::filesystem::path& file) {
-    const SessionInput input = describe_input(file, false, &context.progress);
-    touch.recorded.inputs.push_back({input.file.string(), input.bytes, input.sha256});
+    // Checksums take as long as reading the whole file: only where a run is recorded on purpose.
+    std::error_code missing;  // which is said when it is opened
+    RecordedFile input{std::filesystem::absolute(file, missing).string(), 0, {}};
+    input.bytes = std::filesystem::file_size(file, missing);
+    if (missing) input.bytes = 0;
+    if (!options.record.empty()) input.sha256 = describe_input(file, false, &context.progress).sha256;
+    touch.recorded.inputs.push_back(std::move(input));
   };
   for (const auto& file : options.input.files) add(file);
   if (options.input.solution) add(*options.input.solution);
   if (!options.input.example.empty()) touch.recorded.values.emplace_back("example", options.input.example);
   return touch;
+}
+
+/// What is said when the window is closed: how the servo did, in a row a line.
+std::string servo_text(const OpenSummary& summary) {
+  std::string text;
+  for (const ServoRow& row : servo_rows(summary.servo)) {
+    constexpr std::size_t kColumn = 13;
+    text += row.name + std::string(kColumn - std::min(kColumn, row.name.size()), ' ') + row.value + '\n';
+  }
+  if (!summary.fault.empty()) text += summary.fault + '\n';
+  return text;
 }
 
 ExitCode run_open(const Options& given, const VerbContext& context) {
@@ -134,7 +154,11 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
     const auto by = static_cast<ColorBy>(i);
     if (name_of(by) == options.view.color) window.view.style.color_by = by;
   }
-  run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
+  const WindowResult result =
+      run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
+  const OpenSummary summary{result.probe.servo, result.probe.fault, result.replay};
+  context.console.print(servo_text(summary));
+  context.console.print_json(open_json(summary));
   if (options.common.explain) context.console.print(measured_text(model.costs()));
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }

@@ -72,7 +72,10 @@ FaultRecorder::FaultRecorder(std::filesystem::path folder, RecordingHeader heade
   thread_ = std::jthread([this](const std::stop_token& stop) { write_loop(stop); });
 }
 
-FaultRecorder::~FaultRecorder() {
+FaultRecorder::~FaultRecorder() { finish(); }
+
+void FaultRecorder::finish() {
+  if (!thread_.joinable()) return;
   thread_.request_stop();
   thread_.join();
   if (to_go_) save(memories_[static_cast<std::size_t>(active_)]);

@@ -38,7 +38,6 @@ class FaultRecorder {
   /// Takes all memory. The folder is made when there is something to put in it.
   /// @param rate of the servo [Hz].
   FaultRecorder(std::filesystem::path folder, RecordingHeader header, double rate);
-  /// Saves a fault whose aftermath was cut short. The servo no longer uses it.
   ~FaultRecorder();
   FaultRecorder(const FaultRecorder&) = delete;
   FaultRecorder& operator=(const FaultRecorder&) = delete;
@@ -54,6 +53,8 @@ class FaultRecorder {
 
   /// See Recorder::describe_chain().
   [[nodiscard]] std::uint32_t describe_chain(std::string_view description);
+  /// Ends the writing, after a fault whose aftermath was cut short. The servo no longer uses it.
+  void finish();
   /// The newest file, once; or why one could not be written.
   [[nodiscard]] std::optional<std::string> news();
   /// Faults that were seen; any thread.

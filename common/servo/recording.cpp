@@ -75,6 +75,7 @@ void read_header_line(std::string_view kind, Words& words, RecordingHeader& head
     RecordedFile input;
     input.bytes = words.number<std::uint64_t>("a size in bytes");
     input.sha256 = words.word("a checksum");
+    if (input.sha256 == "-") input.sha256.clear();
     input.file = words.rest();
     header.inputs.push_back(std::move(input));
   } else if (kind == "set") {

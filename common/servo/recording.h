@@ -6,7 +6,7 @@
 ///   program flow
 ///   version 0.1.0
 ///   build GCC 12.2.0, Release
-///   input BYTES SHA256 FILE
+///   input BYTES SHA256|- FILE
 ///   set KEY VALUE                             anything the program wants to know again
 ///   limits CAP SLEW GATE STALE RAMP …         DeviceLimits, in the order of limits_fields()
 ///   begin
@@ -46,7 +46,7 @@ inline constexpr std::uint64_t kHashBlock = 256;
 struct RecordedFile {
   std::string file;
   std::uint64_t bytes = 0;
-  std::string sha256;  ///< 64 hexadecimal digits
+  std::string sha256;  ///< 64 hexadecimal digits; empty where nobody has read the whole file
 
   bool operator==(const RecordedFile&) const = default;
 };

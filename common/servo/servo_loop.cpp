@@ -45,10 +45,15 @@ ServoLoop::~ServoLoop() {
   delete incoming_.exchange(nullptr);
 }
 
+void check_servo_rate(double rate) {
+  if (rate >= ServoOptions::kLeastRate && rate <= ServoOptions::kMostRate) return;
+  throw usage_error("a servo rate of " + short_number(rate) + " Hz; give one from " +
+                    short_number(ServoOptions::kLeastRate) + " to " + short_number(ServoOptions::kMostRate));
+}
+
 void ServoLoop::start(const ServoOptions& options) {
-  if (!(options.rate >= ServoOptions::kLeastRate && options.rate <= ServoOptions::kMostRate)) {
-    throw usage_error("a servo rate of " + short_number(options.rate) + " Hz; give one from 100 to 10000");
-  }
+  check_servo_rate(options.rate);
+  now_.rate = options.rate;
   period_ = std::llround(1e9 / options.rate);
   if (device_ != nullptr) watchdog_.emplace(*device_);
   thread_ = std::jthread(
@@ -138,6 +143,7 @@ void ServoLoop::play(double now) noexcept {
 }
 
 void ServoLoop::publish(const HandStep& step) noexcept {
+  if (is_fault(step.cut) && step.cut != now_.hand.cut) ++now_.statistics.faults;
   now_.hand = step;
   (void)path_.push(step);
   now_.path_dropped = path_.dropped();

@@ -39,12 +39,16 @@ struct ServoOptions {
   static constexpr double kMostRate = 10'000.0;
 };
 
+/// @throws Error (usage) for a rate out of bounds.
+void check_servo_rate(double rate);
+
 struct ServoStatistics {
   std::uint64_t ticks = 0;
   std::uint64_t late = 0;      ///< woken more than half a period after the deadline
   std::uint64_t skipped = 0;   ///< deadlines that passed while a tick was still at work or asleep
   std::uint64_t overruns = 0;  ///< ticks after which deadlines had passed
   std::uint64_t stalls = 0;    ///< times that the watchdog had to stop the device
+  std::uint64_t faults = 0;    ///< times that a ForceCut that is a fault began
   TimeHistogram lateness;      ///< from deadline to wake-up
   TimeHistogram update;        ///< processor time of a tick: device, changes, step, command
 };
@@ -56,6 +60,7 @@ struct ServoState {
   bool armed = true;
   bool paused = false;
   bool replay_done = false;
+  double rate = 0.0;  ///< [Hz] that is asked for
   ServoStatistics statistics;
   std::uint64_t path_dropped = 0;  ///< steps that nobody drained in time
   RealTimeStatus real_time;

@@ -84,7 +84,7 @@ class VerbParser {
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.view) add_view();
-    if (verb.groups.touch) add_touch();
+    if (verb.groups.touch) add_touch(explorer.kind);
     if (verb.groups.path) add_path();
     if (verb.groups.record) add_record();
     if (verb.groups.replay) add_replay();
@@ -122,6 +122,8 @@ class VerbParser {
     positive(options_.touch.stiffness, "--stiffness");
     positive(options_.touch.release, "--release");
     positive(options_.touch.drag, "--drag");
+    positive(options_.touch.depth, "--depth");
+    positive(options_.touch.snap, "--snap");
     positive(options_.touch.force_cap, "--force-cap");
     positive(options_.touch.slew_cap, "--slew-cap");
     if (options_.tracing.tolerance == 0.0)
@@ -233,7 +235,7 @@ class VerbParser {
           "NAME", group);
   }
 
-  void add_touch() {
+  void add_touch(FieldKind kind) {
     const char* group = "Touch";
     TouchOptions& touch = options_.touch;
     scene("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", group);
@@ -251,8 +253,33 @@ class VerbParser {
         ->check(CLI::Range(0.0, 1.0));
     scene("--speed-force", touch.speed_force,
           "force in N along the line where the flow is fastest; negative: against it", "N", group);
+    add_isosurface(kind);
     scene("--force-cap", touch.force_cap, "largest force in N; default 4", "N", group);
     scene("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", group);
+  }
+
+  void add_isosurface(FieldKind kind) {
+    const char* group = "Touch";
+    TouchOptions& touch = options_.touch;
+    if (kind == FieldKind::kVector) {
+      scene("--scalar", touch.scalar, "what modes of a scalar feel: speed (default), or an array of the file",
+            "NAME", group);
+      scene_options_.push_back(
+          app_.add_flag("--along-streamline", touch.along_streamline,
+                        "isosurface: follow a streamline until it meets the surface, and into it")
+              ->group(group));
+    }
+    scene("--isovalue", touch.isovalues,
+          "isovalues of surfaces that are felt, up to eight; default: the one that parts the values best (Otsu)",
+          "V[,V...]", group);
+    scene("--surface", touch.surface,
+          "what isosurfaces do: stop the probe (wall) or only one that comes from below or above, or hold on to "
+          "it (layer)",
+          "wall|below|above|layer", group);
+    scene("--depth", touch.depth, "stretch in mm at which an isosurface lets the probe through; default 10",
+          "MM", group);
+    scene("--snap", touch.snap, "distance in mm at which a layer catches the probe; default 0: by crossing it",
+          "MM", group);
   }
 
   void add_path() {
@@ -266,6 +293,9 @@ class VerbParser {
             "--device", options_.device,
             "what moves the probe: mouse (default), or replay:FILE.csv, a path with the header t,x,y,z")
         ->type_name("D")
+        ->group("Touch");
+    app_.add_option("--rate", options_.rate, "updates of the hand a second, 100 to 10000; default 1000")
+        ->type_name("HZ")
         ->group("Touch");
     app_.add_option("--record", options_.record, "write all input and every servo step to this file")
         ->type_name("FILE")

@@ -188,6 +188,33 @@ std::string render_json(const RenderSummary& summary) {
   return text_of(json);
 }
 
+std::string open_json(const OpenSummary& summary) {
+  const ServoStatistics& statistics = summary.servo.statistics;
+  const auto spread = [](const TimeHistogram& times) {
+    constexpr double kMicroseconds = 1e-3;
+    const auto us = [&](std::uint64_t ns) { return kMicroseconds * static_cast<double>(ns); };
+    return Json{{"us_p50", us(times.percentile_ns(0.5))},
+                {"us_p99", us(times.percentile_ns(0.99))},
+                {"us_p999", us(times.percentile_ns(0.999))},
+                {"us_max", us(times.max_ns())}};
+  };
+  Json json{{"servo",
+             {{"rate_hz", summary.servo.rate},
+              {"real_time_priority", summary.servo.real_time.real_time_priority},
+              {"memory_locked", summary.servo.real_time.memory_locked},
+              {"ticks", statistics.ticks},
+              {"late", statistics.late},
+              {"overruns", statistics.overruns},
+              {"skipped", statistics.skipped},
+              {"stalls", statistics.stalls},
+              {"faults", statistics.faults},
+              {"lateness", spread(statistics.lateness)},
+              {"update", spread(statistics.update)}}},
+            {"fault", summary.fault},
+            {"replay", summary.replay}};
+  return text_of(json);
+}
+
 std::string probe_json(const ProbeSummary& summary) {
   Json states = Json::object();
   for (int s = 0; s < kHoldStateCount; ++s) {

@@ -52,6 +52,14 @@ struct ViewOptions {
   std::string color;   ///< array that colours the lines; empty: speed
 };
 
+/// How a volume is drawn.
+struct VolumeOptions {
+  std::string transfer;         ///< preset or file; empty: from the histogram of the values
+  double samples = 4.0;         ///< per voxel along a ray
+  bool shading = true;          ///< Phong
+  bool orthographic = false;
+};
+
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
   std::string mode;              ///< empty: the program's first one
@@ -62,6 +70,12 @@ struct TouchOptions {
   std::string ticks;             ///< "auto" or the time between them; empty: none
   double tick_stiffness = 0.25;
   double speed_force = 0.0;  ///< [N]
+  std::string scalar;            ///< of a flow; empty: the speed
+  std::string isovalues;         ///< with commas between; empty: one that parts the values best
+  std::string surface = "wall";  ///< name_of(IsosurfaceHold)
+  double depth = 10.0;           ///< [mm] at which an isosurface lets through
+  double snap = 0.0;             ///< [mm] at which a layer catches
+  bool along_streamline = false;
   double force_cap = 4.0;    ///< [N]
   double slew_cap = 200.0;   ///< [N/s]
 };
@@ -71,10 +85,12 @@ struct Options {
   InputOptions input;
   TracingOptions tracing;
   ViewOptions view;
+  VolumeOptions volume;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded
   std::string device = "mouse";  ///< open: mouse, or replay:FILE.csv
+  double rate = 1000.0;          ///< open: of the servo [Hz]
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size = "1280x960";

@@ -12,6 +12,7 @@
 #include "common/haptics/constraint.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
+#include "common/servo/servo_loop.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -87,6 +88,12 @@ struct ProbeSummary {
   double seconds_probe = 0.0;
   Needs plan;
   std::vector<MeasuredCost> measured;
+};
+
+struct OpenSummary {
+  ServoState servo;    ///< as the window was closed
+  std::string fault;   ///< where the seconds before a fault were saved; empty: there was none
+  std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
 };
 
 struct RenderSummary {

@@ -15,6 +15,37 @@ namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
 
+IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
+  IsosurfaceSettings settings{.depth = kMetresPerMillimetre * options.depth,
+                              .snap_distance = kMetresPerMillimetre * options.snap,
+                              .along_streamline = options.along_streamline};
+  if (!options.isovalues.empty()) {
+    for (const std::string_view word : split(options.isovalues, ',')) {
+      Isovalues& all = settings.isovalues;
+      if (all.count == Isovalues::kMax) throw usage_error("--isovalue: at most eight values are taken");
+      double& value = all.value[static_cast<std::size_t>(all.count++)];
+      const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
+        throw usage_error("--isovalue: numbers with commas between are expected, found '" +
+                          options.isovalues + "'");
+      }
+    }
+  }
+  bool known = false;
+  for (int i = 0; i < kIsosurfaceHoldCount && !known; ++i) {
+    settings.hold = static_cast<IsosurfaceHold>(i);
+    known = options.surface == name_of(settings.hold);
+  }
+  if (!known) {
+    throw usage_error("--surface: wall, below, above or layer is expected, found '" + options.surface + "'");
+  }
+  if (!(settings.depth > 0.0)) throw usage_error("--depth: a number above zero is expected");
+  if (!(settings.snap_distance <= settings.depth)) {
+    throw usage_error("--snap: a distance no larger than --depth is expected");
+  }
+  return settings;
+}
+
 }  // namespace
 
 Workspace touch_workspace(const TouchOptions& options, double diagonal, const LocalFrame& frame) {
@@ -29,6 +60,7 @@ ChainSettings touch_settings(const TouchOptions& options) {
   settings.streamline = {.release_distance = kMetresPerMillimetre * options.release,
                          .speed_force = options.speed_force};
   settings.drag.threshold = kMetresPerMillimetre * options.drag;
+  settings.isosurface = isosurface_settings(options);
   settings.ticks.stiffness = options.tick_stiffness;
   if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();

@@ -1,6 +1,7 @@
 #include "common/app/haptic/probe_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -39,9 +40,12 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
       choice_(options_.choice),
       mouse_(std::make_unique<MouseDevice>(options_.limits)) {
   if (!available()) return;
+  options_.recorded.limits = options_.limits;
   if (!options_.record.empty()) {
-    options_.recorded.limits = options_.limits;
     recorder_ = std::make_unique<Recorder>(options_.record, options_.recorded, options_.overwrite);
+  }
+  if (!options_.fault_folder.empty() && !options_.replay) {
+    faults_ = std::make_unique<FaultRecorder>(options_.fault_folder, options_.recorded, options_.servo_rate);
   }
 }
 
@@ -94,7 +98,7 @@ void ProbeSession::start_replay() {
                                              replay_lines_.push_back(made.followed);
                                              return std::move(made.chain);
                                            });
-  servo_ = std::make_unique<ServoLoop>(*replay_);
+  servo_ = std::make_unique<ServoLoop>(*replay_, ServoOptions{.rate = options_.servo_rate});
 }
 
 /// The device of this session; a path is laid over the first field that is opened.
@@ -119,8 +123,9 @@ void ProbeSession::restart_chain() {
   if (servo_) {
     servo_->swap_chain(std::move(made.chain), description);
   } else {
-    servo_ = std::make_unique<ServoLoop>(device(), std::move(made.chain), description, ServoOptions{},
-                                         recorder_.get());
+    servo_ = std::make_unique<ServoLoop>(device(), std::move(made.chain), description,
+                                         ServoOptions{.rate = options_.servo_rate}, recorder_.get(),
+                                         faults_.get());
   }
 }
 
@@ -183,6 +188,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), 1);
   servo_->collect_retired();
   servo_->read(readout_.servo);
+  if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);
   drain_steps();
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
@@ -337,7 +343,12 @@ std::string ProbeSession::replay_verdict() const {
 }
 
 void ProbeSession::finish() {
+  if (servo_) servo_->read(readout_.servo);
   servo_.reset();
+  if (faults_) {
+    faults_->finish();
+    readout_.fault = faults_->news().value_or(readout_.fault);
+  }
   if (recorder_) recorder_->finish();
 }
 

@@ -44,7 +44,8 @@ struct ProbeSessionOptions {
   std::vector<HapticMode> modes;  ///< empty: no touch at all
   TouchChoice choice;             ///< at the start
   DeviceLimits limits;
-  double workspace_scale = 0.0;  ///< [m] per data unit; 0: the default
+  double workspace_scale = 0.0;             ///< [m] per data unit; 0: the default
+  double servo_rate = ServoOptions{}.rate;  ///< [Hz]
   int threads = 0;
   /// Moves the probe in place of the mouse, from the moment when a field is there; none: the mouse.
   std::vector<PathRow> path;
@@ -52,6 +53,8 @@ struct ProbeSessionOptions {
   std::filesystem::path record;
   bool overwrite = false;
   RecordingHeader recorded;
+  /// Where the seconds before a fault are saved (fault_recorder.h); empty: nowhere. With the same header.
+  std::filesystem::path fault_folder;
   std::optional<Recording> replay;
 };
 
@@ -69,6 +72,7 @@ struct ProbeReadout {
   double force = 0.0;    ///< [N]
   double stretch = 0.0;  ///< [mm]
   ServoState servo;      ///< rates and lateness
+  std::string fault;     ///< where the seconds before the last fault were saved, a sentence; empty: none
 };
 
 class ProbeSession {
@@ -164,9 +168,10 @@ class ProbeSession {
   std::unique_ptr<MouseDevice> mouse_;
   std::unique_ptr<ReplayDevice> path_device_;  ///< in place of the mouse
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<FaultRecorder> faults_;
   std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
   std::unique_ptr<ReplaySource> replay_;
-  std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the three above
+  std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the four above
 };
 
 }  // namespace palpate

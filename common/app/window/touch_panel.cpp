@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "common/app/haptic/servo_rows.h"
 #include "common/app/window/readout_rows.h"
 #include "common/base/text.h"
 #include "common/render/probe_view.h"
@@ -156,18 +157,9 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
 
 void add_servo_rates(const ProbeSession& session, ReadoutRows& rows) {
   if (!session.available()) return;
-  const ServoStatistics& statistics = session.readout().servo.statistics;
-  if (statistics.ticks == 0) return;
-  const auto us = [](std::uint64_t ns) {
-    constexpr double kMicroseconds = 1e-3;
-    return kMicroseconds * static_cast<double>(ns);
-  };
-  rows.add("servo", "%llu ticks", static_cast<unsigned long long>(statistics.ticks));
-  rows.add("late", "%.2f %%, %llu skipped",
-           100.0 * static_cast<double>(statistics.late) / static_cast<double>(statistics.ticks),
-           static_cast<unsigned long long>(statistics.skipped));
-  rows.add("update", "%.1f us, 99 %% below %.1f, at most %.0f", us(statistics.update.percentile_ns(0.5)),
-           us(statistics.update.percentile_ns(0.99)), us(statistics.update.max_ns()));
+  for (const ServoRow& row : servo_rows(session.readout().servo)) {
+    rows.add(row.name.c_str(), "%s", row.value.c_str());
+  }
 }
 
 }  // namespace palpate

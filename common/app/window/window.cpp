@@ -271,6 +271,10 @@ class Window {
     if (actions.touch.keep) run_command(Command::kKeepLine);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
+    if (touch_->readout().fault != told_fault_) {
+      told_fault_ = touch_->readout().fault;
+      say(told_fault_, true);
+    }
     play();
     // A slow job whose answer is no longer wanted makes way for the next.
     if (!(state_.settings == settings_before) && job_->running() && job_kind_ == JobKind::kUpdate &&
@@ -477,6 +481,7 @@ class Window {
   double last_drawn_ = 0.0;  // [s]
   std::vector<double> frame_ms_;
   std::filesystem::path saved_as_;  // the file of lines that this window has written: it may do so again
+  std::string told_fault_;
   std::unique_ptr<ProbeSession> touch_;
   std::unique_ptr<TouchControl> touch_control_;
   JobKind job_kind_ = JobKind::kStart;
@@ -502,6 +507,7 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options,
   options.height = before.height;
   options.recent = before.recent;
   apply_look(before.look, options.view);
+  options.touch.fault_folder = files->recent.parent_path();
   const WindowResult result = run_window(model, options);
   const UserSettings after{
       .width = result.width, .height = result.height, .look = look_of(result.view), .recent = result.recent};

@@ -44,11 +44,13 @@ class SteppedRun {
     stepper_.apply(what);
   }
   /// Goes round the sphere, a little outside of it.
-  void go(int steps) {
+  HandStep go(int steps) {
+    HandStep last;
     for (int i = 0; i < steps; ++i) {
       const double angle = 0.002 * static_cast<double>(stepper_.next_number());
-      step(true, 0.052 * Vec3{std::cos(angle), std::sin(angle), 0.0});
+      last = step(true, 0.052 * Vec3{std::cos(angle), std::sin(angle), 0.0});
     }
+    return last;
   }
   void lift(int steps) {
     for (int i = 0; i < steps; ++i) step(false, Vec3{0.0});
@@ -172,8 +174,7 @@ TEST_F(FaultRecorderTest, ALatchHoldsIntoTheNextMemory) {
     run.go(100);
     ASSERT_TRUE(wait_for([&] { return std::filesystem::exists(file(1)); }));
     run.lift(1);
-    run.go(100);
-    EXPECT_EQ(run.step(true, {0.052, 0.0, 0.0}).cut, ForceCut::kTooFast) << "still latched";
+    EXPECT_EQ(run.go(100).cut, ForceCut::kTooFast) << "still latched";
     run.change(HandSwitch::kArm);
     run.go(100);
     run.step(true, {-0.5, 0.5, 0.5});
