@@ -124,6 +124,7 @@ class VerbParser {
     positive(options_.touch.drag, "--drag");
     positive(options_.touch.depth, "--depth");
     positive(options_.touch.snap, "--snap");
+    positive(options_.touch.field_damping, "--field-damping");
     positive(options_.touch.force_cap, "--force-cap");
     positive(options_.touch.slew_cap, "--slew-cap");
     if (options_.tracing.tolerance == 0.0)
@@ -254,6 +255,11 @@ class VerbParser {
     scene("--speed-force", touch.speed_force,
           "force in N along the line where the flow is fastest; negative: against it", "N", group);
     add_isosurface(kind);
+    scene("--field-force", touch.field_force,
+          "direct: force in N where the flow is fastest; vortex: that of a strong vortex; default 1", "N",
+          group);
+    scene("--field-damping", touch.field_damping,
+          "transverse, density: drag in N s/m, where it is full; default 5", "B", group);
     scene("--force-cap", touch.force_cap, "largest force in N; default 4", "N", group);
     scene("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", group);
   }

@@ -76,6 +76,8 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
+  double field_force = 1.0;      ///< [N] of the force-field modes
+  double field_damping = 5.0;    ///< [N s/m], likewise
   double force_cap = 4.0;    ///< [N]
   double slew_cap = 200.0;   ///< [N/s]
 };

@@ -62,6 +62,8 @@ ChainSettings touch_settings(const TouchOptions& options) {
   settings.drag.threshold = kMetresPerMillimetre * options.drag;
   settings.isosurface = isosurface_settings(options);
   settings.ticks.stiffness = options.tick_stiffness;
+  settings.force_field.strength = options.field_force;
+  settings.force_field.damping = options.field_damping;
   if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();
     const auto parsed = std::from_chars(options.ticks.data(), end, settings.ticks.interval);
@@ -77,6 +79,9 @@ ChainSettings touch_settings(const TouchOptions& options) {
   }
   if (!std::isfinite(settings.streamline.speed_force))
     throw usage_error("--speed-force: a finite force is expected");
+  if (!std::isfinite(settings.force_field.strength)) {
+    throw usage_error("--field-force: a finite force is expected");
+  }
   return settings;
 }
 
@@ -91,9 +96,9 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 10> kRecorded{
+  constexpr std::array<std::string_view, 12> kRecorded{
       "mode",  "workspace-scale", "stiffness",   "release",   "drag",
-      "ticks", "tick-stiffness",  "speed-force", "force-cap", "slew-cap"};
+      "ticks", "tick-stiffness",  "speed-force", "field-force", "field-damping", "force-cap", "slew-cap"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

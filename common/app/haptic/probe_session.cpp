@@ -168,7 +168,9 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
       {"release", exact_number(kMillimetres * settings.streamline.release_distance)},
       {"drag", exact_number(kMillimetres * settings.drag.threshold)},
       {"tick-stiffness", exact_number(settings.ticks.stiffness)},
-      {"speed-force", exact_number(settings.streamline.speed_force)}};
+      {"speed-force", exact_number(settings.streamline.speed_force)},
+      {"field-force", exact_number(settings.force_field.strength)},
+      {"field-damping", exact_number(settings.force_field.damping)}};
   if (choice_.ticks) {
     const double interval = settings.ticks.interval;
     options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");

@@ -35,8 +35,9 @@ void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
   ImGui::EndCombo();
 }
 
-void edit_settings(TouchChoice& choice) {
-  constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0;
+void edit_settings(TouchChoice& choice, std::string_view mode) {
+  constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0,
+                   kHeaviest = 20.0;
   ChainSettings& settings = choice.settings;
   slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
   double release = kMillimetres * settings.streamline.release_distance,
@@ -44,6 +45,12 @@ void edit_settings(TouchChoice& choice) {
   if (slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
     settings.streamline.release_distance = release / kMillimetres;
   if (slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
+  if (mode == "direct" || mode == "vortex") {
+    slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
+  }
+  if (mode == "transverse" || mode == "density") {
+    slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
+  }
   slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
   ImGui::Checkbox("tick marks", &choice.ticks);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
@@ -103,7 +110,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   TouchChoice choice = session.choice();
   choose_mode(choice, session.modes());
-  edit_settings(choice);
+  edit_settings(choice, session.modes()[choice.mode].name);
   choose_looks(choice, half);
   session.choose(choice);
 

@@ -1,0 +1,74 @@
+// Constants that no chain can use are refused, each in one line that names its option.
+
+#include "common/app/cli/touch_options.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/app/cli/command_line.h"
+#include "common/base/error.h"
+
+namespace palpate::test {
+namespace {
+
+ParsedCommand parse(const std::vector<std::string>& arguments) {
+  Explorer explorer{.name = "flow", .summary = "to test"};
+  explorer.verbs.push_back({.name = "probe",
+                            .summary = "s",
+                            .groups = {.touch = true},
+                            .examples = {},
+                            .run = [](const Options&, const VerbContext&) { return ExitCode::kDone; }});
+  return parse_command_line(explorer, arguments);
+}
+
+/// What the user is told; empty where the settings of a chain come of it.
+std::string refusal(const std::string& option, const std::string& value) {
+  try {
+    const ParsedCommand parsed = parse({"probe", "--example", "abc", option, value});
+    EXPECT_TRUE(touch_settings(parsed.options.touch).valid()) << option << ' ' << value;
+    (void)touch_limits(parsed.options.touch);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage) << option << ' ' << value;
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TouchOptions, RefuseWhatNoChainCanUse) {
+  struct Bad {
+    std::string option;
+    std::vector<std::string> values;
+  };
+  for (const auto& [option, values] : {Bad{"--stiffness", {"-1", "nan", "inf"}},
+                                       {"--release", {"-1", "0", "nan", "inf"}},
+                                       {"--drag", {"-1", "nan", "inf"}},
+                                       {"--ticks", {"-1", "nan", "inf", "often"}},
+                                       {"--tick-stiffness", {"-0.5", "1.5", "nan"}},
+                                       {"--speed-force", {"nan", "inf"}},
+                                       {"--field-force", {"nan", "inf"}},
+                                       {"--field-damping", {"-1", "nan", "inf"}},
+                                       {"--force-cap", {"-1", "0", "nan", "inf"}},
+                                       {"--slew-cap", {"-1", "0", "nan", "inf"}},
+                                       {"--workspace-scale", {"-1", "nan", "inf"}}}) {
+    for (const std::string& value : values) {
+      const std::string line = refusal(option, value);
+      EXPECT_NE(line.find(option), std::string::npos) << option << ' ' << value << ": '" << line << "'";
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+  }
+}
+
+TEST(TouchOptions, TakeWhatAChainCanUse) {
+  EXPECT_EQ(refusal("--stiffness", "0"), "");
+  EXPECT_EQ(refusal("--drag", "0"), "");
+  EXPECT_EQ(refusal("--ticks", "auto"), "");
+  EXPECT_EQ(refusal("--tick-stiffness", "1"), "");
+  EXPECT_EQ(refusal("--speed-force", "-0.5"), "");
+  EXPECT_EQ(refusal("--field-force", "-0.5"), "");
+  EXPECT_EQ(refusal("--field-damping", "0"), "");
+}
+
+}  // namespace
+}  // namespace palpate::test
