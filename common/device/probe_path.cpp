@@ -20,4 +20,11 @@ std::vector<PathRow> read_probe_path(const std::string& file) {
   return path;
 }
 
+std::vector<DeviceSample> samples_of(const std::vector<PathRow>& path, double scale) {
+  std::vector<DeviceSample> samples;
+  samples.reserve(path.size());
+  for (const PathRow& row : path) samples.push_back({row.time, row.position * scale, row.buttons});
+  return samples;
+}
+
 }  // namespace palpate

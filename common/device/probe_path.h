@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/device/device.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -20,6 +21,9 @@ struct PathRow {
   Vec3 position{0.0};         ///< data coordinates
   std::uint32_t buttons = 0;  ///< bit 0 where b0 is a number other than zero
 };
+
+/// The rows as samples of a device, in the workspace frame: `scale` metres per data unit.
+[[nodiscard]] std::vector<DeviceSample> samples_of(const std::vector<PathRow>& path, double scale);
 
 /// All rows, in memory in proportion to the size of the file; none for a table that ends with its header.
 /// @throws Error (bad input) naming the file, the line and what was expected.

@@ -103,14 +103,25 @@ void ProbeSession::start_replay() {
 
 /// The device of this session; a path is laid over the first field that is opened.
 Device& ProbeSession::device() {
-  if (options_.path.empty()) return *mouse_;
   const Workspace workspace = this->workspace();
-  std::vector<DeviceSample> samples;
-  for (const PathRow& row : options_.path) {
-    samples.push_back({row.time, workspace.workspace_from_data(row.position), row.buttons});
+  Device* leader = mouse_.get();
+  if (!options_.path.empty()) {
+    path_device_ =
+        std::make_unique<ReplayDevice>(samples_of(options_.path, workspace.scale()), options_.limits);
+    leader = path_device_.get();
   }
-  path_device_ = std::make_unique<ReplayDevice>(samples, options_.limits);
-  return *path_device_;
+  if (!options_.simulated) return *leader;
+  SimulatedDeviceOptions simulated = *options_.simulated;
+  simulated.limits = options_.limits;
+  simulated.wander.reset();
+  if (options_.path.empty()) {
+    constexpr double kPart = 0.3;  // of the sides of the field, to either side of its middle
+    const Box& box = open_.field->bounds();
+    simulated.wander = {workspace.workspace_from_data(box.center()),
+                        kPart * workspace.workspace_from_data(box.size())};
+  }
+  simulated_ = std::make_unique<SimulatedDevice>(simulated, *leader);
+  return *simulated_;
 }
 
 void ProbeSession::restart_chain() {
@@ -307,7 +318,7 @@ void ProbeSession::describe(ProbeView& view) const {
 }
 
 bool ProbeSession::lively() const noexcept {
-  return mouse_->grabbed() || growing_ || (path_device_ && readout_.held) ||
+  return mouse_->grabbed() || growing_ || ((path_device_ || simulated_) && readout_.held) ||
          (replay_ && !readout_.servo.replay_done);
 }
 

@@ -21,6 +21,7 @@
 #include "common/device/mouse_device.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
+#include "common/device/simulated_device.h"
 #include "common/render/camera.h"
 #include "common/render/probe_view.h"
 #include "common/servo/servo_loop.h"
@@ -49,6 +50,9 @@ struct ProbeSessionOptions {
   int threads = 0;
   /// Moves the probe in place of the mouse, from the moment when a field is there; none: the mouse.
   std::vector<PathRow> path;
+  /// A simulated arm and hand that follow mouse or path, and wander about the field while neither leads;
+  /// none: the probe is where mouse or path are. Its limits and path are not looked at.
+  std::optional<SimulatedDeviceOptions> simulated;
   /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
   std::filesystem::path record;
   bool overwrite = false;
@@ -166,7 +170,8 @@ class ProbeSession {
 
   std::unique_ptr<LocalLines> local_;
   std::unique_ptr<MouseDevice> mouse_;
-  std::unique_ptr<ReplayDevice> path_device_;  ///< in place of the mouse
+  std::unique_ptr<ReplayDevice> path_device_;   ///< in place of the mouse
+  std::unique_ptr<SimulatedDevice> simulated_;  ///< led by either
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FaultRecorder> faults_;
   std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
