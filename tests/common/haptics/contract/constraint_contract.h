@@ -7,6 +7,7 @@
 /// and name it in CMakeLists.txt. The promises stand in constraint_contract_test.cpp, a test each.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <ostream>
@@ -30,7 +31,10 @@ struct Placement {
 
   [[nodiscard]] Vec3 point(const Vec3& x) const { return rotation * x + shift; }
   [[nodiscard]] Vec3 direction(const Vec3& d) const { return rotation * d; }
-  [[nodiscard]] Mat3 turned_axes() const;
+  [[nodiscard]] Mat3 turned_axes() const {
+    const double c = std::cos(turn), s = std::sin(turn);
+    return rotation * Mat3{Vec3{c, s, 0.0}, Vec3{-s, c, 0.0}, Vec3{0.0, 0.0, 1.0}};
+  }
 };
 
 /// A constraint under test. Positions in the workspace [m], as placed by Placement{} unless stated.

@@ -12,11 +12,6 @@
 
 namespace palpate::test {
 
-Mat3 Placement::turned_axes() const {
-  const double c = std::cos(turn), s = std::sin(turn);
-  return rotation * Mat3{Vec3{c, s, 0.0}, Vec3{-s, c, 0.0}, Vec3{0.0, 0.0, 1.0}};
-}
-
 namespace {
 
 static_assert(noexcept(std::declval<Constraint&>().update(Vec3{}, UpdateBudget{},
