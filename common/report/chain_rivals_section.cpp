@@ -36,9 +36,9 @@ std::string picture_of(const std::vector<RivalRun>& runs) {
       for (const RivalStep& step : run.steps) streamline.points.push_back(in_plane(step.curve_proxy));
     }
     PictureCurve hand{.name = "hand", .dashed = true};
-    PictureCurve curve{.name = "proxy on the curve", .marks = true};
-    PictureCurve depth{.name = "proxy on the surface", .marks = true};
-    PictureCurve one{.name = "the one proxy", .marks = true};
+    PictureCurve curve{.name = "curve proxy", .marks = true};
+    PictureCurve depth{.name = "surface proxy", .marks = true};
+    PictureCurve one{.name = "one proxy", .marks = true};
     constexpr std::size_t kEvery = 3;
     for (std::size_t n = 0; n < run.steps.size(); n += kEvery) {
       const RivalStep& step = run.steps[n];

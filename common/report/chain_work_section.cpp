@@ -14,8 +14,8 @@ std::string yield_plot(const ChainWork& work) {
   std::vector<PlotSeries> all;
   for (const ChainWorkRow& row : work.rows) {
     if (!(row.angle > 0.0)) continue;
-    const std::string name = std::string(name_of(row.form)) +
-                             (row.chain.find("quarter") == std::string::npos ? "" : ", weak");
+    const std::string name =
+        std::string(name_of(row.form)) + (row.chain.find("quarter") == std::string::npos ? "" : ", weak");
     auto found = std::find_if(all.begin(), all.end(), [&](const PlotSeries& s) { return s.name == name; });
     if (found == all.end()) found = all.insert(found, {name, {}});
     found->points.push_back({row.angle, row.yield});

@@ -103,8 +103,8 @@ std::string svg(const PlanePicture& picture) {
     sample.points = sample.marks ? std::vector{Vec2{4.0, 4.0}, Vec2{12.0, 4.0}, Vec2{20.0, 4.0}}
                                  : std::vector{Vec2{0.0, 4.0}, Vec2{24.0, 4.0}};
     body += drawn(sample, key, color_of(i)) + text_at(x + 30.0, y, sample.name, 12);
-    constexpr double kPerLetter = 6.0;
-    x += 36.0 + kPerLetter * static_cast<double>(sample.name.size());
+    constexpr double kPerLetter = 6.6;
+    x += 44.0 + kPerLetter * static_cast<double>(sample.name.size());
   }
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(total) +
          "\" width=\"" + number(width) + "\" height=\"" + number(total) +
