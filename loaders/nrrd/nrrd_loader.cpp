@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/load/volume_block.h"
 #include "loaders/nrrd/nrrd_check.h"
+#include "loaders/nrrd/nrrd_tuples.h"
 
 namespace palpate {
 namespace {
@@ -83,11 +84,6 @@ std::optional<Vec3> ras_signs(int space) {
     default:
       return std::nullopt;
   }
-}
-
-bool is_vector_kind(int kind) {
-  return kind == nrrdKindVector || kind == nrrdKindCovariantVector || kind == nrrdKindNormal ||
-         kind == nrrdKind3Vector || kind == nrrdKind3Gradient || kind == nrrdKind3Normal;
 }
 
 /// How the axes are used: one for the components, or none, and three for space.
@@ -216,42 +212,42 @@ class NrrdLoader : public Loader {
     }
   }
 
-  /// Name and shape of the values, and whether they are vectors to be turned into RAS.
+  /// Name and shape of the values, and whether they are vectors or tensors to be turned into RAS.
   void describe_values(const Nrrd& nrrd, std::vector<std::string>& notes) {
     array_.association = Association::kPoint;
     stored_type_ = scalar_type(nrrd.type, file_);
     array_.type = stored_type_;
-    array_.components = 1;
+    stored_components_ = array_.components = 1;
     array_.name = "scalars";
     array_.tuples = 1;
     for (const unsigned axis : axes_.space) array_.tuples *= nrrd.axis[axis].size;
     turn_ = Mat3{1.0};
     turned_ = false;
+    kind_ = TupleKind::kNumbers;
     if (!axes_.components) return;
     const NrrdAxisInfo& axis = nrrd.axis[*axes_.components];
     constexpr std::size_t kMaxComponents = 4096;
     if (axis.size > kMaxComponents)
       throw input_error({file_, "", "has " + std::to_string(axis.size) + " values a point", "4096 at most"});
-    array_.components = static_cast<int>(axis.size);
-    array_.name = "components";
-    const bool maybe_vector = is_vector_kind(axis.kind) || axis.kind == nrrdKindUnknown;
+    stored_components_ = array_.components = static_cast<int>(axis.size);
+    kind_ = tuple_kind(axis.kind, axis.size);
+    array_.name = array_name(kind_);
     const bool has_frame = nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]);
-    if (axis.size == 3 && maybe_vector) {
-      array_.name = "vectors";
-      // Component c of a vector lies along column c of the measurement frame, in the header's space.
-      for (int c = 0; c < 3 && has_frame; ++c) {
-        for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
-      }
-      for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
-      turned_ = turn_ != Mat3{1.0};
-      if (turned_) {
-        notes.emplace_back("vectors turned into RAS");
-        const bool small = byte_size(stored_type_) <= 2 || stored_type_ == ScalarType::kFloat32;
-        array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
-      }
-    } else if (has_frame) {
-      notes.emplace_back("values are left in the measurement frame of the file");
+    if (kind_ == TupleKind::kNumbers) {
+      if (has_frame) notes.emplace_back("values are left in the measurement frame of the file");
+      return;
     }
+    // Component c of a vector lies along column c of the measurement frame, in the header's space.
+    for (int c = 0; c < 3 && has_frame; ++c) {
+      for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
+    }
+    for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
+    array_.components = turned_size(kind_);
+    turned_ = turn_ != Mat3{1.0} || array_.components != stored_components_;
+    if (!turned_) return;
+    notes.push_back(array_.name + " turned into RAS");
+    const bool small = byte_size(stored_type_) <= 2 || stored_type_ == ScalarType::kFloat32;
+    array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
   }
 
   DataArray values() const {
@@ -268,7 +264,7 @@ class NrrdLoader : public Loader {
       }
       nrrd = std::move(permuted);
     }
-    const std::size_t count = array_.tuples * static_cast<std::size_t>(array_.components);
+    const std::size_t count = array_.tuples * static_cast<std::size_t>(stored_components_);
     if (nrrdElementNumber(nrrd.get()) != count || scalar_type(nrrd->type, file_) != stored_type_) {
       throw input_error({file_, "", "has changed since it was opened", "", "open it again"});
     }
@@ -276,26 +272,29 @@ class NrrdLoader : public Loader {
     array.name = array_.name;
     array.components = array_.components;
     array.tuples = array_.tuples;
-    if (turned_) return turned_vectors(*nrrd, std::move(array));
+    if (turned_) return turned(*nrrd, std::move(array));
     array.type = array_.type;
     array.bytes = {static_cast<const std::byte*>(nrrd->data), count * byte_size(array_.type)};
     array.owner = std::shared_ptr<Nrrd>(nrrd.release(), nrrdNuke);
     return array;
   }
 
-  /// Vectors in RAS: stored in single precision where the file is no more precise.
-  DataArray turned_vectors(const Nrrd& nrrd, DataArray array) const {
+  /// Vectors and tensors in RAS: stored in single precision where the file is no more precise.
+  DataArray turned(const Nrrd& nrrd, DataArray array) const {
     const auto fill = [&]<typename T>(T, ScalarType type) {
-      const auto turned = std::make_shared<std::vector<T>>(3 * array.tuples);
+      const auto from = static_cast<std::size_t>(stored_components_);
+      const auto to = static_cast<std::size_t>(array.components);
+      const auto values = std::make_shared<std::vector<T>>(to * array.tuples);
       const auto lookup = nrrdDLookup[nrrd.type];
+      std::vector<double> tuple(from), result(to);
       for (std::size_t p = 0; p < array.tuples; ++p) {
-        const Vec3 v = turn_ * Vec3{lookup(nrrd.data, 3 * p), lookup(nrrd.data, 3 * p + 1),
-                                    lookup(nrrd.data, 3 * p + 2)};
-        for (int c = 0; c < 3; ++c) (*turned)[3 * p + static_cast<std::size_t>(c)] = static_cast<T>(v[c]);
+        for (std::size_t c = 0; c < from; ++c) tuple[c] = lookup(nrrd.data, from * p + c);
+        turn_tuple(kind_, turn_, tuple.data(), result.data());
+        for (std::size_t c = 0; c < to; ++c) (*values)[to * p + c] = static_cast<T>(result[c]);
       }
       array.type = type;
-      array.bytes = std::as_bytes(std::span(std::as_const(*turned)));
-      array.owner = turned;
+      array.bytes = std::as_bytes(std::span(std::as_const(*values)));
+      array.owner = values;
       return array;
     };
     return array_.type == ScalarType::kFloat32 ? fill(0.0F, array_.type) : fill(0.0, array_.type);
@@ -307,6 +306,8 @@ class NrrdLoader : public Loader {
   bool anatomical_ = false;
   Mat3 turn_{1.0};
   bool turned_ = false;
+  TupleKind kind_ = TupleKind::kNumbers;
+  int stored_components_ = 1;  ///< in the file
   UniformTopology topology_;
   ArrayInfo array_;
   ScalarType stored_type_ = ScalarType::kFloat32;

@@ -1,4 +1,5 @@
 // Small NRRD files written by hand, read through the helper program.
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -130,6 +131,50 @@ TEST(Nrrd, TheMeasurementFrameTurnsVectors) {
   const auto blocks = read_all(file);
   const DataArray& array = blocks.at(0).arrays.at(0);
   EXPECT_EQ(Vec3(array.at(0, 0), array.at(0, 1), array.at(0, 2)), Vec3(-2.0, 1.0, 3.0));
+}
+
+// A tensor with known axes, written in a measurement frame, comes back in RAS as R D R^T; an LPS file's signs
+// do nothing to xx, yy, zz and xy, and turn xz and yz.
+TEST(Nrrd, TensorsAreTurnedIntoRasAndMaskedOnesAreNone) {
+  const test::TempFolder folder;
+  std::vector<float> values;
+  for (int p = 0; p < 8; ++p) {
+    values.insert(values.end(), {p == 3 ? 0.0F : 1.0F, 1.0F, 0.25F, 0.5F, 2.0F, 0.125F, 3.0F});
+  }
+  const auto read = [&](const std::string& space, const std::string& frame) {
+    const auto file = folder.write(
+        "t.nrrd", "NRRD0005\ntype: float\ndimension: 4\nspace: " + space +
+                      "\nsizes: 7 2 2 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+                      "kinds: 3D-masked-symmetric-matrix space space space\nendian: little\nencoding: raw\n" +
+                      frame + "\n" + raw(values));
+    DataArray array = read_all(file).at(0).arrays.at(0);
+    EXPECT_EQ(array.name, "tensors");
+    EXPECT_EQ(array.components, 6);
+    EXPECT_TRUE(std::isnan(array.at(3, 0)));
+    std::vector<double> first;
+    for (int c = 0; c < 6; ++c) first.push_back(array.at(0, c));
+    return first;
+  };
+  EXPECT_EQ(read("right-anterior-superior", ""), (std::vector<double>{1.0, 0.25, 0.5, 2.0, 0.125, 3.0}));
+  EXPECT_EQ(read("left-posterior-superior", ""), (std::vector<double>{1.0, 0.25, -0.5, 2.0, -0.125, 3.0}));
+  // The frame's first axis lies along y, its second one along -x: xx and yy change places, xy its sign.
+  EXPECT_EQ(read("right-anterior-superior", "measurement frame: (0,1,0) (-1,0,0) (0,0,1)\n"),
+            (std::vector<double>{2.0, -0.25, -0.125, 1.0, 0.5, 3.0}));
+}
+
+TEST(Nrrd, FullMatricesGiveTheirSymmetricPart) {
+  const test::TempFolder folder;
+  std::vector<double> values;
+  for (int p = 0; p < 8; ++p) values.insert(values.end(), {1, 2, 3, 4, 5, 6, 7, 8, 9});
+  const auto file =
+      folder.write("m.nrrd",
+                   "NRRD0005\ntype: double\ndimension: 4\nspace: RAS\nsizes: 9 2 2 2\n"
+                   "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: 3D-matrix space space space\n"
+                   "endian: little\nencoding: raw\n\n" +
+                       raw(values));
+  const DataArray array = read_all(file).at(0).arrays.at(0);
+  const std::vector<double> expected{1, 3, 5, 5, 7, 9};
+  for (int c = 0; c < 6; ++c) EXPECT_EQ(array.at(7, c), expected[static_cast<std::size_t>(c)]);
 }
 
 TEST(Nrrd, ComponentsOnTheLastAxisComeFirst) {

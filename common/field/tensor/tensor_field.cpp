@@ -37,7 +37,7 @@ std::array<int, 6> places(TensorOrder order) noexcept {
   }
 }
 
-/// The tensor of a tuple in the axes of measurement; NaN where a mask says that there is none.
+/// The tensor of a tuple; NaN where a mask says that there is none.
 Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
   Six d{};
   if (order == TensorOrder::kFull) {
@@ -52,17 +52,6 @@ Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
   const auto from = places(order);
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = array.at(tuple, from[i]);
   return d;
-}
-
-bool orthonormal(const Mat3& m) noexcept {
-  constexpr double kEnough = 1e-4;  // frames are written with few digits
-  const Mat3 product = glm::transpose(m) * m;
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      if (!(std::abs(product[c][r] - (c == r ? 1.0 : 0.0)) <= kEnough)) return false;
-    }
-  }
-  return true;
 }
 
 /// Adds weight times the tensor.
@@ -149,12 +138,9 @@ class TensorFieldBuilder {
 
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
     const bool use_double = logarithms || array.type != ScalarType::kFloat32;
-    const Mat3& axes = choice.measurement_frame;
     const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const Six measured = read_tuple(*block.find(choice.array, Association::kPoint), tuple, choice.order);
-      const Six turned =
-          axes == Mat3{1.0} ? measured : six_of(axes * matrix_of(measured) * glm::transpose(axes));
-      std::copy(turned.begin(), turned.end(), out);
+      const Six d = read_tuple(*block.find(choice.array, Association::kPoint), tuple, choice.order);
+      std::copy(d.begin(), d.end(), out);
     };
     GatheredValues gathered =
         gather_values(*field->grid_, std::span(&image, 1), Association::kPoint, 6, use_double, read, threads);
@@ -225,9 +211,6 @@ std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const
   if (array->components != components) {
     refuse("array '" + choice.array + "' with " + std::to_string(array->components) + " components",
            std::to_string(components) + " components");
-  }
-  if (!orthonormal(choice.measurement_frame)) {
-    throw usage_error("a measurement frame whose axes are not orthonormal");
   }
   return TensorFieldBuilder::make(image, *array, choice, file, threads);
 }

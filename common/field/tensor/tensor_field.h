@@ -1,7 +1,7 @@
 /// A field of symmetric tensors: a grid and six numbers at each of its points; immutable and shared.
 ///
-/// Tensors are read in the axes of their measurement and kept in those of the data frame X, in the data's
-/// units; what is sampled is in X as well. Boxes interpolate trilinearly, tetrahedra (sheared images are
+/// Tensors are in the axes of the data frame X, to which loaders turn them from those of their measurement,
+/// and in the data's units. Boxes interpolate trilinearly, tetrahedra (sheared images are
 /// split into them) linearly: the components, or the logarithm (Arsigny et al. 2006), which keeps every
 /// eigenvalue above zero and determinants between those of the points.
 #pragma once
@@ -36,8 +36,6 @@ enum class TensorInterpolation : std::uint8_t { kComponents, kLogEuclidean };
 struct TensorChoice {
   std::string array;  ///< of points
   TensorOrder order = TensorOrder::kRows;
-  /// Columns: the axes of measurement in X, orthonormal (NRRD's `measurement frame`, turned to X).
-  Mat3 measurement_frame{1.0};
   TensorInterpolation interpolation = TensorInterpolation::kComponents;
 };
 
@@ -81,7 +79,7 @@ class TensorField {
 /// Makes the field from an image. With logarithms, eigenvalues below 1e-6 of largest_trace() are lifted to
 /// that: fitted tensors have zero and negative ones.
 /// @throws Error (bad input) with `file` where the array is missing or has another number of components, or
-/// the topology is hostile or flat; (usage) where the measurement frame is not orthonormal.
+/// the topology is hostile or flat.
 [[nodiscard]] std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image,
                                                                    const TensorChoice& choice,
                                                                    const std::string& file, int threads = 0);

@@ -117,26 +117,6 @@ TEST(TensorField, EveryOrderOfTheNumbersMeansTheSame) {
   }
 }
 
-// Measured in axes that are turned against the data: the same tensors as in X.
-TEST(TensorField, MeasurementFrameTurnsTensors) {
-  const UniformTopology topology = plain_topology();
-  const Mat3 axes = quarter_turned(1.1);
-  const auto measured = [&](const Vec3& x) { return glm::transpose(axes) * linear_tensor(x) * axes; };
-  const auto field =
-      make_tensor_field(image_of(topology, measured), {.array = "D", .measurement_frame = axes}, "made");
-  const auto ignored = make_tensor_field(image_of(topology, measured), {.array = "D"}, "made");
-  std::mt19937_64 random(3);
-  CellHint hint;
-  for (int i = 0; i < 50; ++i) {
-    const Vec3 x = point_in(topology, random);
-    EXPECT_LT(largest_difference(field->sample(x, hint).value, linear_tensor(x)), 1e-12);
-    EXPECT_GT(largest_difference(ignored->sample(x, hint).value, linear_tensor(x)), 0.1);
-  }
-  EXPECT_THROW(static_cast<void>(make_tensor_field(image_of(topology, measured),
-                                                   {.array = "D", .measurement_frame = Mat3{2.0}}, "made")),
-               Error);
-}
-
 // Between two tensors with the same axes, each eigenvalue is a geometric mean.
 TEST(TensorField, LogarithmsInterpolateGeometrically) {
   const UniformTopology topology = plain_topology();
