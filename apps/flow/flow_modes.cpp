@@ -83,7 +83,7 @@ std::vector<HapticMode> flow_modes() {
           {"vortex", "pulled to the cores of vortices", make_vortex},
           {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
            make_density},
-          {"isosurface", "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
+          {kIsosurfaceMode, "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
            make_isosurface}};
 }
 

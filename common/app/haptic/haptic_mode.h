@@ -36,6 +36,9 @@ struct HapticScene {
   return field != nullptr ? field->frame() : scalar->frame();
 }
 
+/// The mode that feels settings.isosurface, in every program that has it.
+inline constexpr const char* kIsosurfaceMode = "isosurface";
+
 struct HapticMode {
   std::string name;     ///< "streamline"
   std::string summary;  ///< what the hand feels, for help and panels
