@@ -1,0 +1,102 @@
+#include "common/field/value_histogram.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/base/parallel.h"
+
+namespace palpate {
+
+double ValueHistogram::value_of(std::size_t bin) const noexcept {
+  const double t = (static_cast<double>(bin) + 0.5) / static_cast<double>(counts.size());
+  return (1.0 - t) * lower + t * upper;
+}
+
+ValueHistogram count_values(std::size_t count, const std::function<double(std::size_t)>& value_at,
+                            double lower, double upper, std::size_t bins, int threads) {
+  PALPATE_CHECK(bins >= 1 && std::isfinite(lower) && std::isfinite(upper) && lower <= upper);
+  // Counts of pieces that do not depend on the threads are added up in the end: whole numbers, any order.
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const std::size_t pieces = (count + kPiece - 1) / kPiece;
+  std::vector<std::vector<std::uint64_t>> found(pieces);
+  // Halved before the difference is taken, which could overflow.
+  const double half_width = 0.5 * upper - 0.5 * lower;
+  const double last = static_cast<double>(bins) - 1.0;
+  parallel_for(pieces, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t p = first; p < end; ++p) {
+      found[p].assign(bins, 0);
+      for (std::size_t i = p * kPiece; i < std::min(count, (p + 1) * kPiece); ++i) {
+        const double value = value_at(i);
+        if (!(value >= lower && value <= upper)) continue;
+        const double t = half_width > 0.0 ? (0.5 * value - 0.5 * lower) / half_width : 0.0;
+        ++found[p][static_cast<std::size_t>(std::min(t * static_cast<double>(bins), last))];
+      }
+    }
+  });
+  ValueHistogram histogram{.lower = lower, .upper = upper, .counts = std::vector<std::uint64_t>(bins, 0)};
+  for (const auto& piece : found) {
+    for (std::size_t bin = 0; bin < bins; ++bin) histogram.counts[bin] += piece[bin];
+  }
+  for (const std::uint64_t n : histogram.counts) histogram.total += n;
+  return histogram;
+}
+
+double otsu_threshold(const ValueHistogram& histogram) noexcept {
+  const std::size_t bins = histogram.counts.size();
+  double sum = 0.0;  // of bin numbers: the scale of the values does not matter
+  for (std::size_t bin = 0; bin < bins; ++bin)
+    sum += static_cast<double>(histogram.counts[bin]) * static_cast<double>(bin);
+  const auto total = static_cast<double>(histogram.total);
+  double below = 0.0;
+  double sum_below = 0.0;
+  double best = 0.0;
+  std::size_t first_best = 0;
+  std::size_t last_best = 0;
+  for (std::size_t bin = 0; bin + 1 < bins; ++bin) {
+    below += static_cast<double>(histogram.counts[bin]);
+    sum_below += static_cast<double>(histogram.counts[bin]) * static_cast<double>(bin);
+    if (below == 0.0 || below == total) continue;
+    const double difference = sum_below / below - (sum - sum_below) / (total - below);
+    const double between = below * (total - below) * difference * difference;
+    if (between > best) {
+      best = between;
+      first_best = last_best = bin + 1;
+    } else if (between == best && best > 0.0) {
+      last_best = bin + 1;  // empty bins between two classes part them equally well
+    }
+  }
+  if (best == 0.0) return histogram.lower;
+  const double t = 0.5 * static_cast<double>(first_best + last_best) / static_cast<double>(bins);
+  return (1.0 - t) * histogram.lower + t * histogram.upper;
+}
+
+double mean_below(const ValueHistogram& histogram, double value) noexcept {
+  double count = 0.0;
+  double mean = histogram.lower;
+  for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
+    const auto n = static_cast<double>(histogram.counts[bin]);
+    if (n == 0.0 || histogram.value_of(bin) >= value) continue;
+    count += n;
+    mean += n / count * (histogram.value_of(bin) - mean);
+  }
+  return mean;
+}
+
+double value_below_which(const ValueHistogram& histogram, double part, double from) noexcept {
+  std::uint64_t all = 0;
+  for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
+    if (histogram.value_of(bin) >= from) all += histogram.counts[bin];
+  }
+  if (all == 0) return histogram.upper;
+  const double wanted = part * static_cast<double>(all);
+  std::uint64_t below = 0;
+  for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
+    if (histogram.value_of(bin) < from) continue;
+    below += histogram.counts[bin];
+    if (below > 0 && static_cast<double>(below) >= wanted) return histogram.value_of(bin);
+  }
+  return histogram.upper;
+}
+
+}  // namespace palpate

@@ -1,0 +1,47 @@
+/// How often values occur, and what that says of a volume: where its background ends, and its brightest part.
+///
+/// Symbols.  n_i count of bin i of N, over [lower, upper]; s_i value at the middle of bin i.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace palpate {
+
+struct ValueHistogram {
+  double lower = 0.0;
+  double upper = 0.0;
+  std::vector<std::uint64_t>
+      counts;               ///< n_i, bins of equal width; a value on a border counts for the upper bin
+  std::uint64_t total = 0;  ///< of finite values
+
+  /// s_i. @pre bin < counts.size().
+  [[nodiscard]] double value_of(std::size_t bin) const noexcept;
+};
+
+/// Counts value_at(0) to value_at(count - 1) in `bins` bins over [lower, upper]; values that are not finite
+/// or lie outside are left out. The result does not depend on the number of threads (0: as many as there are
+/// cores). @pre bins >= 1, lower <= upper, both finite; value_at may be called from any thread.
+[[nodiscard]] ValueHistogram count_values(std::size_t count,
+                                          const std::function<double(std::size_t)>& value_at, double lower,
+                                          double upper, std::size_t bins, int threads);
+
+/// Otsu's threshold (Otsu 1979): the border between bins by which the mean values of both classes differ
+/// most,
+///
+///   w_0 w_1 (mu_0 - mu_1)^2   is largest, w the classes' weights and mu their means,
+///
+/// the middle of all borders that are as good: where a background ends that most of a volume consists of.
+/// `lower` where all values lie in one bin.
+[[nodiscard]] double otsu_threshold(const ValueHistogram& histogram) noexcept;
+
+/// The mean of the values below `value`, each taken as that of its bin; `lower` where there are none.
+[[nodiscard]] double mean_below(const ValueHistogram& histogram, double value) noexcept;
+
+/// The lowest bin's value at or below which at least `part` in [0, 1] of the values from `from` on lie;
+/// `upper` where there are none.
+[[nodiscard]] double value_below_which(const ValueHistogram& histogram, double part, double from) noexcept;
+
+}  // namespace palpate

@@ -1,0 +1,68 @@
+#include "common/field/value_histogram.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+ValueHistogram histogram_of(const std::vector<double>& values, double lower, double upper, std::size_t bins,
+                            int threads = 1) {
+  return count_values(
+      values.size(), [&](std::size_t i) { return values[i]; }, lower, upper, bins, threads);
+}
+
+TEST(ValueHistogram, CountsFiniteValuesAndThoseAtTheUpperEndToo) {
+  const ValueHistogram h = histogram_of({0.0, 0.9, 1.0, 2.5, 4.0, NAN, HUGE_VAL, -1.0, 4.1}, 0.0, 4.0, 4);
+  EXPECT_EQ(h.counts, (std::vector<std::uint64_t>{2, 1, 1, 1}));
+  EXPECT_EQ(h.total, 5U);
+  EXPECT_EQ(h.value_of(0), 0.5);
+  EXPECT_EQ(h.value_of(3), 3.5);
+}
+
+TEST(ValueHistogram, TheWholeRangeOfDoublesFits) {
+  const double most = std::numeric_limits<double>::max();
+  const ValueHistogram h = histogram_of({-most, 0.0, most}, -most, most, 2);
+  EXPECT_EQ(h.counts, (std::vector<std::uint64_t>{1, 2}));
+}
+
+TEST(ValueHistogram, DoesNotDependOnTheNumberOfThreads) {
+  std::vector<double> values(3'000'000);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
+  EXPECT_EQ(histogram_of(values, -1.0, 1.0, 100, 1).counts, histogram_of(values, -1.0, 1.0, 100, 3).counts);
+}
+
+// Two heaps of equal width: every border in the empty bins between them parts them equally well.
+TEST(OtsuThreshold, PartsTwoHeapsInTheMiddleOfTheGap) {
+  std::vector<double> values(900, 1.5);
+  values.insert(values.end(), 100, 8.5);
+  EXPECT_EQ(otsu_threshold(histogram_of(values, 0.0, 10.0, 10)), 5.0);
+}
+
+TEST(OtsuThreshold, IsTheLowerEndWhereNothingIsToBeParted) {
+  EXPECT_EQ(otsu_threshold(histogram_of({3.0, 3.0}, 3.0, 3.0, 8)), 3.0);
+  EXPECT_EQ(otsu_threshold(histogram_of({}, 1.0, 2.0, 8)), 1.0);
+}
+
+TEST(MeanBelow, IsThatOfTheBinsBelow) {
+  const ValueHistogram h = histogram_of({0.5, 0.5, 3.5, 9.5}, 0.0, 10.0, 10);
+  EXPECT_EQ(mean_below(h, 9.0), 1.5);
+  EXPECT_EQ(mean_below(h, 0.0), 0.0);
+}
+
+TEST(ValueBelowWhich, CountsFromTheGivenValueOn) {
+  std::vector<double> values(100);
+  std::iota(values.begin(), values.end(), 0.5);  // 0.5, 1.5, …, 99.5
+  const ValueHistogram h = histogram_of(values, 0.0, 100.0, 100);
+  EXPECT_EQ(value_below_which(h, 0.5, 0.0), 49.5);
+  EXPECT_EQ(value_below_which(h, 0.5, 80.0), 89.5);
+  EXPECT_EQ(value_below_which(h, 1.0, 0.0), 99.5);
+  EXPECT_EQ(value_below_which(h, 0.5, 200.0), 100.0);
+}
+
+}  // namespace
+}  // namespace palpate
