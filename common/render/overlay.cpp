@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -118,9 +121,12 @@ void draw_axes(const Pen& pen, const SceneView& view, int height) {
     Vec3 direction;  // right, up, back
   };
   const auto in_view = [&](const Vec3& axis) { return axis * view.camera.axes; };
-  std::array<Axis, 3> axes{{{"x", IM_COL32(226, 88, 82, 255), in_view({1.0, 0.0, 0.0})},
-                            {"y", IM_COL32(96, 186, 92, 255), in_view({0.0, 1.0, 0.0})},
-                            {"z", IM_COL32(86, 140, 240, 255), in_view({0.0, 0.0, 1.0})}}};
+  // In a patient the axes lead to the right, the front and up.
+  const std::array<const char*, 3> names =
+      view.anatomical ? std::array<const char*, 3>{"R", "A", "S"} : std::array<const char*, 3>{"x", "y", "z"};
+  std::array<Axis, 3> axes{{{names[0], IM_COL32(226, 88, 82, 255), in_view({1.0, 0.0, 0.0})},
+                            {names[1], IM_COL32(96, 186, 92, 255), in_view({0.0, 1.0, 0.0})},
+                            {names[2], IM_COL32(86, 140, 240, 255), in_view({0.0, 0.0, 1.0})}}};
   std::stable_sort(axes.begin(), axes.end(),
                    [](const Axis& a, const Axis& b) { return a.direction.z < b.direction.z; });
   const float em = pen.text_height();
@@ -171,13 +177,14 @@ void draw_legend(const Pen& pen, const std::string& label, const std::vector<Leg
 // A scale of colours with its numbers.
 struct ColorScale {
   std::string label;
-  ColorMap map = ColorMap::kSequential;
+  std::span<const Rgb> table;  // from the lower to the upper end
   ValueRange range;
   bool logarithmic = false;
   bool values_below = false, values_above = false;
 };
 
-void draw_color_bar(const Pen& pen, const ColorScale& scale, float right, float middle, float length) {
+// @return the bar's left border.
+float draw_color_bar(const Pen& pen, const ColorScale& scale, float right, float middle, float length) {
   const float em = pen.text_height(), thickness = 0.9F * em;
   const int most = std::clamp(static_cast<int>(length / (2.6F * em)), 2, 9);
   const std::vector<Tick> marks = ticks(scale.range, scale.logarithmic, most);
@@ -186,7 +193,7 @@ void draw_color_bar(const Pen& pen, const ColorScale& scale, float right, float 
 
   const float x1 = right - widest - 0.6F * em, x0 = x1 - thickness;
   const float top = middle - 0.5F * length, bottom = middle + 0.5F * length;
-  const auto& table = color_table(scale.map);
+  const std::span<const Rgb> table = scale.table;
   // One quad between entries, shaded by the rasteriser.
   for (std::size_t i = 0; i + 1 < table.size(); ++i) {
     const auto at = [&](std::size_t k) {
@@ -216,6 +223,7 @@ void draw_color_bar(const Pen& pen, const ColorScale& scale, float right, float 
     pen.text(x1 + 0.45F * em, y - 0.55F * em, tick.text, pen.ink());
   }
   pen.text(right, top - tip - 1.6F * em, scale.label, pen.ink(), 1.0F);
+  return x0;
 }
 
 // A column at the right border, `length` high about `middle`.
@@ -245,7 +253,7 @@ void draw_line_colors(const Pen& pen, const SceneView& view, const ColorLegend& 
     default:
       draw_color_bar(pen,
                      {.label = color_label(view.style, view.units),
-                      .map = color_map_of(view.style),
+                      .table = color_table(color_map_of(view.style)),
                       .range = legend.range,
                       .logarithmic = is_logarithmic(view.style),
                       .values_below = legend.values_below,
@@ -254,11 +262,37 @@ void draw_line_colors(const Pen& pen, const SceneView& view, const ColorLegend& 
   }
 }
 
+// The values of a volume: their colours, and beside them how opaque they are.
+void draw_volume_colors(const Pen& pen, const SceneView& view, float right, float middle, float length) {
+  const VolumeView& volume = *view.volume;
+  const ValueRange range{volume.image->lowest, volume.image->highest};
+  if (!(range.lower < range.upper)) return;
+  constexpr std::size_t kEntries = 128;
+  const std::vector<ColorSample> samples = volume.transfer.table(range.lower, range.upper, kEntries);
+  std::vector<Rgb> colors;
+  for (const ColorSample& sample : samples)
+    colors.push_back({sample.color.r, sample.color.g, sample.color.b});
+  const float left = draw_color_bar(pen, {.label = view.volume_label, .table = colors, .range = range}, right,
+                                    middle, length);
+  const float em = pen.text_height(), base = left - 0.3F * em, widest = 2.0F * em;
+  const auto place = [&](std::size_t i) {
+    const float y = middle + length * (0.5F - static_cast<float>(i) / static_cast<float>(kEntries - 1));
+    return ImVec2(base - widest * static_cast<float>(samples[i].opacity), y);
+  };
+  for (std::size_t i = 0; i + 1 < kEntries; ++i)
+    pen.list().AddLine(place(i), place(i + 1), pen.faint_ink(), std::max(1.0F, em / 12.0F));
+}
+
 bool shows_path(const SceneView& view) { return view.probe && view.probe->path.count > 0; }
 
 void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, int width, int height) {
   const float em = pen.text_height(), h = static_cast<float>(height);
-  const float right = static_cast<float>(width) - 1.2F * em;
+  // Room for the letter of the right border.
+  const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
+  if (view.volume) {
+    draw_volume_colors(pen, view, right, 0.5F * h, 0.46F * h);
+    return;
+  }
   if (!shows_path(view)) {
     if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);
     return;
@@ -267,7 +301,7 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
   if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.31F * h, 0.30F * h);
   draw_color_bar(pen,
                  {.label = "force [N]",
-                  .map = view.probe->style.force_map,
+                  .table = color_table(view.probe->style.force_map),
                   .range = force_range(*view.probe),
                   .values_above = legend.forces_above},
                  right, 0.74F * h, 0.26F * h);
@@ -280,6 +314,31 @@ std::optional<ImVec2> place_of(const SceneView& view, const Vec3& x, int width, 
   if (!(p.z > 0.0) && view.camera.projection == Projection::kPerspective) return std::nullopt;
   if (!(p.x > 0.0 && p.x < width && p.y > 0.0 && p.y < height)) return std::nullopt;
   return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y));
+}
+
+// Where a direction leads in a patient, the strongest letter first: "R", "LA".
+std::string side_of(const Vec3& direction) {
+  constexpr std::string_view kUp = "RAS", kDown = "LPI";
+  constexpr double kLeast = 0.35;  // of a unit direction: some 20 degrees
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return std::abs(direction[a]) > std::abs(direction[b]); });
+  std::string letters;
+  for (const int axis : order) {
+    if (std::abs(direction[axis]) < kLeast) break;
+    letters += (direction[axis] > 0.0 ? kUp : kDown)[static_cast<std::size_t>(axis)];
+  }
+  return letters;
+}
+
+// Letters at the four borders, as in every viewer of medical images.
+void draw_sides(const Pen& pen, const SceneView& view, int width, int height) {
+  const float em = pen.text_height(), w = static_cast<float>(width), h = static_cast<float>(height);
+  const Vec3 right = view.camera.axes[0], up = view.camera.axes[1];
+  pen.text(1.2F * em, 0.5F * h - 0.5F * em, side_of(-right), pen.ink());
+  pen.text(w - 1.2F * em, 0.5F * h - 0.5F * em, side_of(right), pen.ink(), 1.0F);
+  pen.text(0.5F * w, 0.6F * em, side_of(up), pen.ink(), 0.5F);
+  pen.text(0.5F * w, h - 1.8F * em, side_of(-up), pen.ink(), 0.5F);
 }
 
 // Newtons beside the middle of the band, numbers at the first points of kept lines.
@@ -356,6 +415,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   const Pen pen(*ImGui::GetBackgroundDrawList(), text_height, view.background);
   draw_title(pen, view);
   if (view.show_axes) draw_axes(pen, view, height);
+  if (view.anatomical) draw_sides(pen, view, width, height);
   if (view.probe) draw_probe_words(pen, view, width, height);
   if (view.show_color_bar) draw_colors(pen, view, legend, width, height);
   ImGui::Render();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include <epoxy/gl.h>
@@ -18,6 +19,7 @@
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/volume/volume_pass.h"
 
 namespace palpate {
 namespace {
@@ -111,6 +113,7 @@ struct SceneRenderer::State {
   LineProgram line_program;
   LineSet lines, outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
+  std::unique_ptr<VolumePass> volume;
   std::unique_ptr<Overlay> overlay;
   Stopwatch since_draw;
 
@@ -216,6 +219,15 @@ struct SceneRenderer::State {
     if (!is_transparent(view)) draw_lines(view, base, unit);
   }
 
+  // Behind and between opaque things, by their depths.
+  void draw_volume(const SceneView& view) {
+    if (!volume) volume = std::make_unique<VolumePass>();
+    volume->update(*view.volume, frame);
+    const std::uint32_t depth = target.copy_depth();
+    target.bind_scene();
+    volume->draw(depth);
+  }
+
   // With a probe, what stays is drawn once and kept; each picture begins with a copy of it. The path is
   // added to it bit by bit. The order is that of drawing everything, so the picture is the same.
   void draw_with_probe(const SceneView& view, const LineDraw& base, float unit) {
@@ -269,6 +281,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
     s.target.bind_scene();
     s.draw_still_part(view, base, unit);
   }
+  if (view.volume) s.draw_volume(view);
   if (is_transparent(view)) s.draw_lines(view, base, unit);
 
   glDisable(GL_DEPTH_TEST);

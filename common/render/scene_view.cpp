@@ -8,7 +8,9 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.background == b.background && a.show_outline == b.show_outline && a.show_axes == b.show_axes &&
          a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
-         (!a.probe || same_picture(*a.probe, *b.probe));
+         (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
+         (!a.volume || same_picture(*a.volume, *b.volume)) && a.volume_label == b.volume_label &&
+         a.anatomical == b.anatomical;
 }
 
 std::array<int, 4> Image::pixel(int x, int y) const noexcept {

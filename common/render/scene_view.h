@@ -14,6 +14,7 @@
 #include "common/render/camera.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
+#include "common/render/volume/volume_view.h"
 
 namespace palpate {
 
@@ -34,6 +35,9 @@ struct SceneView {
   std::string subtitle;  ///< smaller, below it
   Camera camera;
   std::optional<ProbeView> probe;
+  std::optional<VolumeView> volume;
+  std::string volume_label;  ///< what its values are, for the colour bar
+  bool anatomical = false;   ///< data coordinates are RAS+: letters say where right, front and up are
 };
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.

@@ -172,6 +172,14 @@ std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress
   return source_->read(names, time_.step, progress);
 }
 
+std::vector<DataSet> Input::read_timed(const std::vector<std::string>& names, Progress* progress) {
+  const Stopwatch watch;
+  std::vector<DataSet> blocks = read(names, progress);
+  seconds_read_ = watch.seconds();
+  seconds_field_ = 0.0;
+  return blocks;
+}
+
 std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* progress) {
   Stopwatch watch;
   seconds_read_ = 0.0;

@@ -91,6 +91,8 @@ class Input {
   [[nodiscard]] std::shared_ptr<const VectorField> load_field(int threads, Progress* progress = nullptr);
   /// The same for the scalar field. @pre file().
   [[nodiscard]] std::shared_ptr<const ScalarField> load_scalar(int threads, Progress* progress = nullptr);
+  /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.
+  [[nodiscard]] std::vector<DataSet> read_timed(const std::vector<std::string>& names, Progress* progress);
   /// Reads topology and arrays by name at the chosen time step. @pre file().
   [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names,
                                           Progress* progress = nullptr);

@@ -1,0 +1,19 @@
+/// What a picture of a volume is made from: one uniform block with one number a point.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/scalar_choice.h"
+
+namespace palpate {
+
+/// The uniform block of `blocks` with `choice` as a point array of one component, its only one. Numbers of an
+/// array of one component stay where they are; of cells they stand at the middles of the cells, where they
+/// are voxels; magnitudes are computed, in single precision.
+/// @throws Error (bad input) with `file` where the data is not one uniform block with that array.
+[[nodiscard]] DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& choice,
+                                    const std::string& file);
+
+}  // namespace palpate
