@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/force_field/force_field.h"
 
@@ -18,7 +19,8 @@ HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
 }
 
 HapticChain make_isosurface(const HapticScene& scene) {
-  return single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace), scene);
+  const Isovalues otherwise{{otsu_threshold(*scene.scalar)}, 1};
+  return single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise), scene);
 }
 HapticChain make_density(const HapticScene& scene) {
   return single(std::make_unique<DensityDrag>(scene.scalar, scene.workspace), scene);

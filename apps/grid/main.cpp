@@ -1,4 +1,5 @@
 /// grid: volumes of scalars, seen and felt.
+#include "apps/grid/grid_modes.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -9,12 +10,26 @@ int main(int argc, char** argv) {
       .kind = FieldKind::kScalar,
       .examples = {{"grid info tooth.nhdr", "what the file holds"},
                    {"grid info avg152T1.nii.gz", "orientation included, in RAS+ mm"},
+                   {"grid render tooth.nhdr --out tooth.png", "a picture, with or without a display"},
+                   {"grid probe tooth.nhdr --path path.csv --out log.csv", "feel along a recorded path"},
                    {"grid --example list", "the built-in volumes"}},
       .verbs = {info_verb(
-          {{"grid info tooth.nhdr", "grid, values, orientation, memory"},
-           {"grid info ct.raw --raw-size 512x512x300 --raw-type int16 --raw-spacing 0.5,0.5,1",
-            "voxels without a header"},
-           {"grid info head.nii.gz --explain", "and what each verb would load"}})},
+                    {{"grid info tooth.nhdr", "grid, values, orientation, memory"},
+                     {"grid info ct.raw --raw-size 512x512x300 --raw-type int16 --raw-spacing 0.5,0.5,1",
+                      "voxels without a header"},
+                     {"grid info head.nii.gz --explain", "and what each verb would load"}}),
+                probe_verb(grid_modes(), {{"grid probe tooth.nhdr --path path.csv --out log.csv",
+                                           "stopped by the surface between object and background"},
+                                          {"grid probe --example blob --path path.csv --mode density --json",
+                                           "another mode; the summary as JSON"}}),
+                volume_render_verb(
+                    {{"grid render tooth.nhdr --out tooth.png --size 1920x1080",
+                      "colours and opacities from the histogram"},
+                     {"grid render ct.nii.gz --transfer-function ct --camera 0,0,0,1 --out ct.png",
+                      "Hounsfield units, seen from the back to the front"},
+                     {"grid render --example shells --transfer-function shells.csv --out shells.png",
+                      "with a transfer function of your own"}})},
+
   };
   return run_explorer(grid, argc, argv);
 }

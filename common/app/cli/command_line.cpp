@@ -83,9 +83,10 @@ class VerbParser {
     add_common();
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
-    if (verb.groups.view) add_view();
+    if (verb.groups.view) add_view(explorer.kind);
     if (verb.groups.touch) add_touch(explorer.kind);
     if (verb.groups.path) add_path();
+    if (verb.groups.hand) add_operator();
     if (verb.groups.record) add_record();
     if (verb.groups.replay) add_replay();
     if (verb.groups.out) add_out(verb);
@@ -225,15 +226,33 @@ class VerbParser {
         ->allow_extra_args(false);  // or it would swallow the FILE behind it
   }
 
-  void add_view() {
+  void add_view(FieldKind kind) {
     const char* group = "View";
     scene("--camera", options_.view.camera, "direction of view in degrees, and zoom",
           "azimuth,elevation,roll,zoom", group);
+    if (kind == FieldKind::kScalar) {
+      add_volume();
+      return;
+    }
     scene("--color", options_.view.color,
           "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, q, "
           "lambda2, "
           "divergence, or an array of the file",
           "NAME", group);
+  }
+
+  void add_volume() {
+    const char* group = "View";
+    VolumeOptions& volume = options_.volume;
+    scene("--transfer-function", volume.transfer,
+          "which colour and opacity values have: density, mr, ct, or a file with the header "
+          "value,red,green,blue,opacity; without it one is made from the histogram",
+          "NAME|FILE", group);
+    scene("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", group);
+    scene("--shading", volume.shading, "light surfaces by the gradient of the values: on (default) or off",
+          "on|off", group);
+    scene("--projection", volume.projection, "perspective (default) or orthographic", "NAME", group)
+        ->check(CLI::IsMember({"perspective", "orthographic"}));
   }
 
   void add_touch(FieldKind kind) {
@@ -244,6 +263,12 @@ class VerbParser {
           "metres per data unit; 0, the default: the diagonal of the data is 0.25 m", "M", group);
     scene("--stiffness", touch.stiffness, "of the spring between probe and proxy, in N/m; default 200", "K",
           group);
+    scene("--damping", touch.damping, "of the motion that a constraint holds back, in N s/m; default 0: none",
+          "B", group);
+    scene("--passivity", touch.passivity,
+          "watch the energy that the hand gets back, and damp it: on, off, or auto (default): for chains of "
+          "two links and more",
+          "auto|on|off", group);
     scene("--release", touch.release, "stretch in mm at which a line lets go; default 10", "MM", group);
     scene("--drag", touch.drag, "distance in mm at which an isotropic drag follows; default 4", "MM", group);
     scene("--ticks", touch.ticks,
@@ -276,16 +301,18 @@ class VerbParser {
               ->group(group));
     }
     scene("--isovalue", touch.isovalues,
-          "isovalues of surfaces that are felt, up to eight; default: the one that parts the values best (Otsu)",
+          "isovalues of surfaces that are felt, up to eight; default: the one that parts the values best "
+          "(Otsu)",
           "V[,V...]", group);
     scene("--surface", touch.surface,
-          "what isosurfaces do: stop the probe (wall) or only one that comes from below or above, or hold on to "
+          "what isosurfaces do: stop the probe (wall) or only one that comes from below or above, or hold on "
+          "to "
           "it (layer)",
           "wall|below|above|layer", group);
     scene("--depth", touch.depth, "stretch in mm at which an isosurface lets the probe through; default 10",
           "MM", group);
-    scene("--snap", touch.snap, "distance in mm at which a layer catches the probe; default 0: by crossing it",
-          "MM", group);
+    scene("--snap", touch.snap,
+          "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", group);
   }
 
   void add_path() {
@@ -294,15 +321,28 @@ class VerbParser {
         ->group("Touch");
   }
 
-  void add_record() {
-    app_.add_option(
-            "--device", options_.device,
-            "what moves the probe: mouse (default), or replay:FILE.csv, a path with the header t,x,y,z")
+  void add_operator() {
+    app_.add_option("--device", options_.device,
+                    "simulated[:DEVICE][,hand=relaxed|firm]: an arm and a hand that follow the path")
         ->type_name("D")
         ->group("Touch");
+    add_rate();
+  }
+
+  void add_rate() {
     app_.add_option("--rate", options_.rate, "updates of the hand a second, 100 to 10000; default 1000")
         ->type_name("HZ")
         ->group("Touch");
+  }
+
+  void add_record() {
+    app_.add_option(
+            "--device", options_.device,
+            "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, or "
+            "simulated[:DEVICE][,hand=relaxed|firm], an arm and a hand that follow the mouse or wander")
+        ->type_name("D")
+        ->group("Touch");
+    add_rate();
     app_.add_option("--record", options_.record, "write all input and every servo step to this file")
         ->type_name("FILE")
         ->group("Touch");

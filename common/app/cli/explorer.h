@@ -39,6 +39,7 @@ struct VerbGroups {
   bool view = false;
   bool touch = false;
   bool path = false;    ///< --path
+  bool hand = false;    ///< --device and --rate, for a hand on that path
   bool record = false;  ///< --record
   bool replay = false;  ///< --replay
   bool out = false;

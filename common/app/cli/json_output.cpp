@@ -175,6 +175,7 @@ std::string render_json(const RenderSummary& summary) {
             {"height", summary.height},
             {"lines", summary.lines},
             {"points", summary.points},
+            {"voxels", summary.voxels},
             {"first_frame_ms", summary.first_frame_ms},
             {"frame_ms", summary.frame_ms},
             {"frames_timed", summary.frames_timed},
@@ -245,6 +246,16 @@ std::string probe_json(const ProbeSummary& summary) {
             {"seconds_load", summary.seconds_load},
             {"seconds_probe", summary.seconds_probe},
             {"version", version()}};
+  if (!summary.scalar.empty()) {
+    const IsosurfaceSettings& surface = summary.settings.isosurface;
+    json["scalar"] = summary.scalar;
+    json["isovalues"] = std::vector<double>(surface.isovalues.value.begin(),
+                                            surface.isovalues.value.begin() + surface.isovalues.count);
+    json["surface"] = name_of(surface.hold);
+    json["depth_mm"] = 1e3 * surface.depth;
+    json["snap_mm"] = 1e3 * surface.snap_distance;
+  }
+  if (!summary.device.empty()) json["device"] = summary.device;
   if (!summary.replay.empty()) {
     json["replay"] = summary.replay;
     json["replay_differs"] = summary.replay_differs;

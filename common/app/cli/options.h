@@ -54,32 +54,34 @@ struct ViewOptions {
 
 /// How a volume is drawn.
 struct VolumeOptions {
-  std::string transfer;         ///< preset or file; empty: from the histogram of the values
-  double samples = 4.0;         ///< per voxel along a ray
-  bool shading = true;          ///< Phong
-  bool orthographic = false;
+  std::string transfer;  ///< preset or file; empty: from the histogram of the values
+  double samples = 4.0;  ///< per voxel along a ray
+  bool shading = true;   ///< Phong
+  std::string projection = "perspective";
 };
 
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
-  std::string mode;              ///< empty: the program's first one
-  double workspace_scale = 0.0;  ///< [m] per data unit; 0: the diagonal is 0.25 m
-  double stiffness = 200.0;      ///< [N/m]
-  double release = 10.0;         ///< [mm]
-  double drag = 4.0;             ///< [mm]
-  std::string ticks;             ///< "auto" or the time between them; empty: none
+  std::string mode;                ///< empty: the program's first one
+  double workspace_scale = 0.0;    ///< [m] per data unit; 0: the diagonal is 0.25 m
+  double stiffness = 200.0;        ///< [N/m]
+  double damping = 0.0;            ///< [N s/m] of the coupling
+  std::string passivity = "auto";  ///< auto, on, off
+  double release = 10.0;           ///< [mm]
+  double drag = 4.0;               ///< [mm]
+  std::string ticks;               ///< "auto" or the time between them; empty: none
   double tick_stiffness = 0.25;
-  double speed_force = 0.0;  ///< [N]
+  double speed_force = 0.0;      ///< [N]
   std::string scalar;            ///< of a flow; empty: the speed
   std::string isovalues;         ///< with commas between; empty: one that parts the values best
   std::string surface = "wall";  ///< name_of(IsosurfaceHold)
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  double field_force = 1.0;      ///< [N] of the force-field modes
-  double field_damping = 5.0;    ///< [N s/m], likewise
-  double force_cap = 4.0;    ///< [N]
-  double slew_cap = 200.0;   ///< [N/s]
+  double field_force = 1.0;    ///< [N] of the force-field modes
+  double field_damping = 5.0;  ///< [N s/m], likewise
+  double force_cap = 4.0;      ///< [N]
+  double slew_cap = 200.0;     ///< [N/s]
 };
 
 struct Options {
@@ -91,7 +93,8 @@ struct Options {
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded
-  std::string device = "mouse";  ///< open: mouse, or replay:FILE.csv
+  std::string device =
+      "mouse";  ///< open: mouse, replay:FILE.csv or simulated…; probe: mouse (the path), simulated…
   double rate = 1000.0;          ///< open: of the servo [Hz]
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;

@@ -71,10 +71,12 @@ struct ProbeSummary {
   std::string input;
   std::string field;
   std::string mode;
+  std::string scalar;  ///< of which isosurfaces are felt; empty: of none
   std::string output;  ///< empty: none
   std::size_t steps = 0;
   ChainSettings settings;
   DeviceLimits limits;
+  std::string device;  ///< whose hand it was, "Novint Falcon class in a firm hand"; empty: the path itself
   double workspace_scale = 0.0;  ///< [m] per data unit
   double max_force = 0.0;        ///< [N]
   double max_residual = 0.0;     ///< data units
@@ -104,6 +106,7 @@ struct RenderSummary {
   int height = 0;
   std::size_t lines = 0;
   std::size_t points = 0;
+  std::size_t voxels = 0;  ///< of a volume
   double first_frame_ms = 0.0;
   double frame_ms = 0.0;
   int frames_timed = 0;

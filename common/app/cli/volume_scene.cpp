@@ -1,0 +1,106 @@
+#include "common/app/cli/volume_scene.h"
+
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "common/app/cli/line_view.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/color_transfer_file.h"
+#include "common/field/value_histogram.h"
+#include "common/scene/volume_source.h"
+
+namespace palpate {
+namespace {
+
+/// The twelve edges of what is shown, turned as the image is.
+std::vector<std::vector<Vec3>> image_outline(const VolumeImage& image) {
+  const Vec3 lower = image.lower();
+  const Vec3 upper = image.upper();
+  const auto corner = [&](unsigned c) {
+    const Vec3 g{(c & 1U) != 0 ? upper.x : lower.x, (c & 2U) != 0 ? upper.y : lower.y,
+                 (c & 4U) != 0 ? upper.z : lower.z};
+    return image.origin + image.axes * g;
+  };
+  std::vector<std::vector<Vec3>> edges;
+  for (unsigned c = 0; c < 8; ++c) {
+    for (const unsigned along : {1U, 2U, 4U}) {
+      if ((c & along) == 0) edges.push_back({corner(c), corner(c | along)});
+    }
+  }
+  return edges;
+}
+
+}  // namespace
+
+ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
+  if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
+  constexpr std::size_t kBins = 1024;
+  constexpr double kBrightest = 0.995;
+  const ValueHistogram histogram = count_values(
+      image.point_count(), [&image](std::size_t i) { return image.value(i); }, image.lowest, image.highest,
+      kBins, threads);
+  const double threshold = otsu_threshold(histogram);
+  // From halfway up to the threshold on, so that what lies just above it is not lost.
+  const double lower = 0.5 * mean_below(histogram, threshold) + 0.5 * threshold;
+  const double upper = std::max(lower, value_below_which(histogram, kBrightest, threshold));
+  return make_color_transfer(ColorPreset::kDensity, lower, upper);
+}
+
+ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  if (name.empty()) return default_color_transfer(image, threads);
+  const bool values = image.lowest <= image.highest;
+  const double lower = values ? image.lowest : 0.0;
+  const double upper = values ? image.highest : 0.0;
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored)) return read_color_transfer(name, lower, upper);
+  return make_color_transfer(color_preset_from_name(name), lower, upper);
+}
+
+void check_volume_options(const VolumeOptions& options) {
+  constexpr double kMostSamples = 64.0;
+  if (!(options.samples > 0.0 && options.samples <= kMostSamples))
+    throw usage_error("--samples: a number above 0 and at most 64 is expected");
+  const std::string& name = options.transfer;
+  std::error_code ignored;
+  if (name.empty() || std::filesystem::exists(name, ignored)) return;
+  // A word is a preset; what looks like a path was meant as one.
+  if (name.find_first_of("./") != std::string::npos)
+    throw input_error({name, "", "no such file", "a transfer function", ""});
+  (void)color_preset_from_name(name);
+}
+
+std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
+  const std::string file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
+  const ScalarChoice choice = input.scalar_choice();
+  if (progress) progress->begin("reading " + input.title(), 0);
+  const std::vector<DataSet> blocks = input.read_timed({choice.array}, progress);
+  return make_volume_image(volume_source(blocks, choice, file), choice.array, file);
+}
+
+SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,
+                            const Options& options, double aspect) {
+  SceneView view;
+  view.bounds = image->bounds();
+  view.outline = image_outline(*image);
+  view.title = input.title();
+  const FileInfo* file = input.file();
+  view.anatomical = file != nullptr && file->anatomical;
+  view.volume_label = input.field_label();
+  view.subtitle = view.volume_label + ", " + std::to_string(image->points.x) + " x " +
+                  std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = make_camera(
+      view.bounds, camera_angles(options.view.camera), aspect,
+      options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
+  VolumeView volume;
+  volume.transfer = color_transfer_of(options.volume.transfer, *image, options.common.threads);
+  volume.samples_per_voxel = options.volume.samples;
+  volume.shading = options.volume.shading;
+  volume.image = std::move(image);
+  view.volume = std::move(volume);
+  return view;
+}
+
+}  // namespace palpate

@@ -1,0 +1,34 @@
+/// What the render verb and the window show of a volume: its voxels, transfer function, domain and labels.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/app/cli/options.h"
+#include "common/base/progress.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+
+namespace palpate {
+
+/// A transfer function to begin with, from the values themselves: the preset for densities over those that
+/// Otsu's threshold parts from the background, up to all but the brightest two hundredth of them.
+[[nodiscard]] ColorTransfer default_color_transfer(const VolumeImage& image, int threads);
+
+/// What `--transfer-function` names: a preset, a file, or nothing for default_color_transfer().
+/// @throws Error (usage) for a word that is neither, (bad input) for a file.
+[[nodiscard]] ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads);
+
+/// Checks what can be checked of the options "Volume" before anything is read. @throws Error (usage).
+void check_volume_options(const VolumeOptions& options);
+
+/// Reads the voxels of the field that the input's spec names.
+/// @throws Error, Cancelled.
+[[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress);
+
+/// A scene of `image` seen by the camera that `options` name.
+/// @param aspect width / height of the picture.
+[[nodiscard]] SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,
+                                          const Options& options, double aspect);
+
+}  // namespace palpate
