@@ -4,12 +4,14 @@
 
 #include "common/report/chain_rivals.h"
 #include "common/report/chain_work.h"
+#include "common/report/constraint_budget.h"
 #include "common/report/linear_drift.h"
 #include "common/report/surface_depth.h"
 
 namespace palpate {
 
 void add_constraint_studies(Report& report, Effort effort, Progress* progress) {
+  report.sections.push_back(constraint_budget_section(run_constraint_budget(effort, progress)));
   report.sections.push_back(linear_drift_section(run_linear_drift(progress)));
   report.sections.push_back(surface_depth_section(run_surface_depth(progress)));
   report.sections.push_back(chain_rivals_section(run_chain_rivals(progress)));
