@@ -8,6 +8,7 @@
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/simulated_option.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/servo_rows.h"
@@ -45,7 +46,7 @@ ExitCode headless_tour(Options options, const VerbContext& context) {
   return code;
 }
 
-/// The path of `--device replay:FILE`; none for a mouse.
+/// The path of `--device replay:FILE`; none for others.
 /// @throws Error (usage) for an unknown device; (bad input).
 std::vector<PathRow> device_path(const std::string& device) {
   constexpr std::string_view kReplay = "replay:";
@@ -54,8 +55,8 @@ std::vector<PathRow> device_path(const std::string& device) {
     if (path.empty()) throw usage_error("--device " + device + ": the path has no rows");
     return path;
   }
-  if (device != "mouse") {
-    throw usage_error("unknown device '" + device + "'; known are mouse, replay:FILE.csv");
+  if (device != "mouse" && !simulated_option(device)) {
+    throw usage_error("unknown device '" + device + "'; known are mouse, replay:FILE.csv, simulated");
   }
   return {};
 }
@@ -75,6 +76,14 @@ ProbeSessionOptions touch_of(const Options& options, const VerbContext& context)
   touch.threads = options.common.threads;
   check_replay_options(options);
   touch.path = device_path(options.device);
+  touch.simulated = simulated_option(options.device);
+  if (touch.simulated) {
+    const DeviceProfile& profile = touch.simulated->profile;
+    touch.limits.force_cap = std::min(touch.limits.force_cap, profile.peak_force);
+    context.console.note("simulated: " + title_of(*touch.simulated));
+    const std::string note = stiffness_note(profile, touch.choice.settings, options.rate);
+    if (!note.empty()) context.console.note(note);
+  }
   if (!options.replay.empty()) {
     touch.replay = read_recording(options.replay.string());
     for (const std::string& line : changed_since(touch.replay->header, options, context.progress)) {

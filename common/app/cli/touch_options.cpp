@@ -8,12 +8,21 @@
 
 #include "common/app/haptic/haptic_mode.h"
 #include "common/base/error.h"
+#include "common/haptics/proxy_chain.h"
 #include "common/scene/session.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
+
+/// From how many links on a chain is under the passivity controller.
+double links_to_control(const std::string& passivity) {
+  if (passivity == "auto") return PassivitySettings{}.from_links;
+  if (passivity == "on") return 1.0;
+  if (passivity == "off") return ChainStep::kMaxLinks + 1.0;
+  throw usage_error("--passivity: auto, on or off is expected, found '" + passivity + "'");
+}
 
 IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
   IsosurfaceSettings settings{.depth = kMetresPerMillimetre * options.depth,
@@ -57,6 +66,8 @@ Workspace touch_workspace(const TouchOptions& options, double diagonal, const Lo
 ChainSettings touch_settings(const TouchOptions& options) {
   ChainSettings settings;
   settings.stiffness = options.stiffness;
+  settings.damping = options.damping;
+  settings.passivity.from_links = links_to_control(options.passivity);
   settings.streamline = {.release_distance = kMetresPerMillimetre * options.release,
                          .speed_force = options.speed_force};
   settings.drag.threshold = kMetresPerMillimetre * options.drag;
@@ -70,6 +81,9 @@ ChainSettings touch_settings(const TouchOptions& options) {
     if (parsed.ec != std::errc() || parsed.ptr != end || !(settings.ticks.interval >= 0.0)) {
       throw usage_error("--ticks: 'auto' or a time in data units is expected, found '" + options.ticks + "'");
     }
+  }
+  if (!std::isfinite(settings.damping) || settings.damping < 0.0) {
+    throw usage_error("--damping: a number of zero or more is expected");
   }
   if (!(settings.streamline.release_distance > 0.0))
     throw usage_error("--release: a number above zero is expected");
@@ -97,8 +111,8 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
   constexpr std::array<std::string_view, 12> kRecorded{
-      "mode",  "workspace-scale", "stiffness",   "release",   "drag",
-      "ticks", "tick-stiffness",  "speed-force", "field-force", "field-damping", "force-cap", "slew-cap"};
+      "mode",           "workspace-scale", "stiffness",   "release",       "drag",      "ticks",
+      "tick-stiffness", "speed-force",     "field-force", "field-damping", "force-cap", "slew-cap"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

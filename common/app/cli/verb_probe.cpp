@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "common/app/cli/json_output.h"
+#include "common/app/cli/simulated_option.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
@@ -14,9 +15,11 @@
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
+#include "common/device/replay_device.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
+#include "common/servo/servo_loop.h"
 
 namespace palpate {
 namespace {
@@ -103,6 +106,7 @@ std::string summary_text(const ProbeSummary& summary) {
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
   text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
           short_number(1e3 * summary.settings.streamline.release_distance) + " mm\n";
+  if (!summary.device.empty()) text += "  device     " + summary.device + ", simulated\n";
   if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";
   text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
           short_number(summary.us_p99) + " us, at most " + short_number(summary.us_max) + " us\n";
@@ -165,6 +169,35 @@ void follow_path(const std::vector<PathRow>& path, HandStepper& stepper, const W
   }
 }
 
+/// A simulated hand that wants to be on the path: steps at the servo's rate, in simulated time, until the
+/// path ends.
+void follow_operator(const std::vector<PathRow>& path, const SimulatedDeviceOptions& simulated, double rate,
+                     HandStepper& stepper, const Workspace& workspace, ProbeRun& run, Progress& progress) {
+  constexpr double kLongest = 86'400.0;  // [s]
+  double start = HUGE_VAL, end = -HUGE_VAL;
+  for (const PathRow& row : path) {
+    if (!std::isfinite(row.time)) continue;
+    start = std::min(start, row.time);
+    end = std::max(end, row.time);
+  }
+  if (!(start <= end)) return;
+  if (!(end - start <= kLongest)) throw usage_error("--path: a simulated hand follows it for a day at most");
+  ReplayDevice leader(samples_of(path, workspace.scale()), stepper.limits());
+  SimulatedDevice device(simulated, leader);
+  progress.begin("probing", static_cast<std::size_t>(rate * (end - start)));
+  HandInput hand{.present = true};
+  for (std::size_t n = 0;; ++n) {
+    hand.time = start + static_cast<double>(n) / rate;
+    if (!device.read(hand.time, hand.sample)) return;
+    const PathRow row{hand.time, workspace.data_from_workspace(hand.sample.position), hand.sample.buttons};
+    run.take(row, [&] {
+      const HandStep step = stepper.step(hand);
+      device.command(step.force);
+      return step;
+    });
+  }
+}
+
 /// The steps of a recording, those without a hand left out of the log.
 void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun& run, Progress& progress) {
   const std::vector<RecordedStep>& steps = replay.recording().steps;
@@ -219,6 +252,11 @@ void check_request(const Options& options) {
     throw usage_error("give either --path or --replay, not both");
   }
   check_replay_options(options);
+  check_servo_rate(options.rate);
+  if (!simulated_option(options.device) && options.device != "mouse") {
+    throw usage_error("unknown device '" + options.device +
+                      "'; probe knows simulated, besides the path itself");
+  }
   if (options.out.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
   }
@@ -232,6 +270,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   check_request(options);
   ProbeSummary summary;
   summary.limits = touch_limits(options.touch);
+  std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
+  if (simulated) {
+    summary.device = title_of(*simulated);
+    summary.limits.force_cap = std::min(summary.limits.force_cap, simulated->profile.peak_force);
+    simulated->limits = summary.limits;
+  }
   (void)touch_settings(options.touch);
   std::vector<PathRow> path;
   std::optional<Recording> recording;
@@ -293,7 +337,13 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
         mode.make({felt.field, workspace, summary.settings, options.common.threads, felt.scalar});
     if (file) run.log_to(*file, haptics.chain->size());
     HandStepper stepper(std::move(haptics.chain), summary.limits);
-    follow_path(path, stepper, workspace, run, context.progress);
+    if (simulated) {
+      const std::string note = stiffness_note(simulated->profile, summary.settings, options.rate);
+      if (!note.empty()) console.note(note);
+      follow_operator(path, *simulated, options.rate, stepper, workspace, run, context.progress);
+    } else {
+      follow_path(path, stepper, workspace, run, context.progress);
+    }
   }
   run.finish();
   if (path.empty() && options.replay.empty()) console.note(options.path.string() + ": the path has no rows");
@@ -317,7 +367,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "probe",
           .summary = "follow a recorded path of the probe and log proxies and forces",
-          .groups = {.touch = true, .path = true, .replay = true, .out = true},
+          .groups = {.touch = true, .path = true, .hand = true, .replay = true, .out = true},
           .examples = std::move(examples),
           .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
             return run_probe(modes, options, context);
