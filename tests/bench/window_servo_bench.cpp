@@ -1,12 +1,13 @@
 // A minute of following a streamline in flow's window, beside a bare timer loop in the same process: does the
 // picture make the servo late?
 //
-//   xvfb-run -a window_servo_bench [--runs N] [--seconds N] [--example NAME] [--still]
+//   xvfb-run -a window_servo_bench [--runs N] [--seconds N] [--example NAME] [--device D] [--still]
 //
 // The window is that of `flow`, at 60 frames a second where it can; the mouse holds the probe and goes about
 // slowly in a circle, so that the line is followed, popped over and drawn anew. All loops run at the same
-// rate, on the same clock, with the same priority where it is granted. --still leaves the probe alone: then
-// the picture rests, and the machine is as idle as it gets.
+// rate, on the same clock, with the same priority where it is granted. --device
+// simulated[:NAME][,hand=H] puts an arm and a hand between mouse and probe, as flow does. --still leaves the
+// probe alone: then the picture rests, and the machine is as idle as it gets (a simulated hand wanders).
 //
 // A late tick (woken more than half a period after its deadline) comes from a processor that was taken away
 // for a while, by the system or by a host below it, and it strikes one core at a time, dozens of ticks in a
@@ -27,6 +28,7 @@
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
+#include "common/app/cli/simulated_option.h"
 #include "common/app/window/window.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
@@ -94,14 +96,23 @@ struct LateCounts {
   double servo = 0.0, bare = 0.0;  ///< parts of the ticks
 };
 
-LateCounts run(double seconds, const std::string& example, bool still) {
+struct Setup {
+  double seconds = 60.0;
+  std::string example = "tornado";
+  std::string device = "mouse";
+  bool still = false;
+};
+
+LateCounts run(const Setup& setup) {
+  const double seconds = setup.seconds;
   Options options;
-  options.input.example = example;
+  options.input.example = setup.example;
   FlowModel model(options, "flow");
   WindowOptions window{.program = "flow"};
   window.touch.modes = flow_modes();
   window.frames = static_cast<int>(seconds * kFrameRate);
-  if (!still) window.script = circling(window.frames, 860.0, 400.0);
+  window.touch.simulated = simulated_option(setup.device);
+  if (!setup.still) window.script = circling(window.frames, 860.0, 400.0);
   std::vector<double> gaps;  // between frames [ms]
   auto due = std::chrono::steady_clock::now(), before = due;
   const auto end = due + std::chrono::duration<double>(seconds);
@@ -128,7 +139,7 @@ LateCounts run(double seconds, const std::string& example, bool still) {
   const ServoState& state = result.probe.servo;
   const ServoStatistics& servo = state.statistics;
   std::printf("%s, %s, %d frames, real-time priority %s, memory locked %s, on %u cores\n",
-              build_text().c_str(), example.c_str(), result.frames,
+              build_text().c_str(), (setup.example + ", " + setup.device).c_str(), result.frames,
               state.real_time.real_time_priority ? "yes" : "no", state.real_time.memory_locked ? "yes" : "no",
               cores);
   LateCounts late{.servo = part_of(servo.late, servo.ticks)};
@@ -187,21 +198,20 @@ void print_ratio(const std::vector<LateCounts>& runs) {
 }  // namespace palpate::bench
 
 int main(int argc, char** argv) {
-  double seconds = 60.0;
+  palpate::bench::Setup setup;
   int runs = 1;
-  std::string example = "tornado";
-  bool still = false;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--still") == 0) still = true;
+    if (std::strcmp(argv[i], "--still") == 0) setup.still = true;
     if (i + 1 == argc) continue;
-    if (std::strcmp(argv[i], "--seconds") == 0) seconds = std::atof(argv[i + 1]);
+    if (std::strcmp(argv[i], "--seconds") == 0) setup.seconds = std::atof(argv[i + 1]);
     if (std::strcmp(argv[i], "--runs") == 0) runs = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--example") == 0) example = argv[i + 1];
+    if (std::strcmp(argv[i], "--example") == 0) setup.example = argv[i + 1];
+    if (std::strcmp(argv[i], "--device") == 0) setup.device = argv[i + 1];
   }
   try {
     std::vector<palpate::bench::LateCounts> late;
     while (static_cast<int>(late.size()) < runs) {
-      late.push_back(palpate::bench::run(seconds, example, still));
+      late.push_back(palpate::bench::run(setup));
     }
     palpate::bench::print_ratio(late);
   } catch (const palpate::Error& error) {
