@@ -8,15 +8,17 @@
 namespace palpate {
 namespace {
 
-/// "3.1 us, 99 % below 8.2, 99.9 % below 11.0, at most 40.5"
+/// "3.1 us, 99 % below 8.2, 99.9 % below 11.0, at most 400"
 std::string spread(const TimeHistogram& times) {
-  constexpr double kMicroseconds = 1e-3;
-  const auto us = [&](std::uint64_t ns) { return kMicroseconds * static_cast<double>(ns); };
-  std::array<char, 128> text{};
-  (void)std::snprintf(text.data(), text.size(), "%.1f us, 99 %% below %.1f, 99.9 %% below %.1f, at most %.1f",
-                      us(times.percentile_ns(0.5)), us(times.percentile_ns(0.99)),
-                      us(times.percentile_ns(0.999)), us(times.max_ns()));
-  return text.data();
+  const auto us = [](std::uint64_t ns) {
+    constexpr double kMicroseconds = 1e-3, kLong = 100.0;
+    const double time = kMicroseconds * static_cast<double>(ns);
+    std::array<char, 32> text{};
+    (void)std::snprintf(text.data(), text.size(), time < kLong ? "%.1f" : "%.0f", time);
+    return std::string(text.data());
+  };
+  return us(times.percentile_ns(0.5)) + " us, 99 % below " + us(times.percentile_ns(0.99)) +
+         ", 99.9 % below " + us(times.percentile_ns(0.999)) + ", at most " + us(times.max_ns());
 }
 
 }  // namespace
