@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "common/field/analytic/analytic_scalar.h"
@@ -17,6 +18,7 @@
 #include "common/haptics/reference_frame.h"
 #include "common/report/constraint_budget.h"
 #include "common/report/formula_flow.h"
+#include "common/report/made_data.h"
 
 namespace palpate {
 namespace {
@@ -24,6 +26,9 @@ namespace {
 constexpr double kRadius = 0.05;  // m, of round features, and metres a unit of data
 constexpr double kRise = 0.5;     // of the helix, radii a radian
 constexpr double kFar = 0.04;     // m: no hand here is pulled that far off
+
+const Vec3 kPlaneNormal = glm::normalize(Vec3{0.31, 0.47, 0.83});
+constexpr double kPlaneOffset = 0.0137;  // units of data, from the origin
 
 /// Nothing lets go, and all is caught.
 ChainSettings settings() {
@@ -160,7 +165,7 @@ Vec3 nearest_on_ellipsoid(const Vec3& x) {
 
 BudgetSubject isosurface() {
   return {
-      .name = "isosurface",
+      .name = "isosurface, formula",
       .make =
           [] {
             const auto field = make_scalar_field(std::make_shared<const FormulaScalar<EllipsoidFormula>>());
@@ -174,6 +179,44 @@ BudgetSubject isosurface() {
             return kRadius * EllipsoidFormula::kHalfAxes *
                    Vec3{std::cos(up) * std::cos(u), std::cos(up) * std::sin(u), std::sin(up)};
           }};
+}
+
+/// A plane through cells: their interpolant is s = n . x - c itself, so that only the way from cell to cell
+/// counts.
+BudgetSubject plane_in_cells(std::string name, const DataSet& data) {
+  const auto field = make_scalar_field({data}, {.array = "velocity", .component = 0}, "made data");
+  const Vec3 n = kPlaneNormal, across = glm::normalize(glm::cross(n, Vec3{1.0, 0.0, 0.0}));
+  const double offset = kRadius * kPlaneOffset;
+  const auto flat = [n, offset](const Vec3& x) { return x - (glm::dot(x, n) - offset) * n; };
+  return {
+      .name = std::move(name),
+      .make =
+          [field] {
+            return ready(std::make_unique<IsosurfaceConstraint>(field, Workspace(kRadius, field->frame())));
+          },
+      .make_ideal = [flat] { return flat; },
+      .off_feature = [n, offset](const Vec3& x) { return std::abs(glm::dot(x, n) - offset); },
+      .guide =
+          [n, across, offset](double t) {
+            return offset * n +
+                   0.3 * kRadius * (swing(t) * across + std::sin(1.7 * t) * glm::cross(n, across));
+          }};
+}
+
+BudgetSubject isosurface_in_boxes() {
+  constexpr int kPoints = 33;
+  return plane_in_cells("isosurface, boxes",
+                        uniform_data(kPoints, {Vec3{-1.0}, Vec3{1.0}}, [](const Vec3& x) {
+                          return Vec3{glm::dot(x, kPlaneNormal) - kPlaneOffset, 0.0, 0.0};
+                        }));
+}
+
+BudgetSubject isosurface_in_tetrahedra() {
+  constexpr int kPoints = 33;
+  const auto even = even_coordinates(kPoints);
+  return plane_in_cells("isosurface, tets", tetrahedral_data(even, even, even, [](const Vec3& x) {
+                          return Vec3{glm::dot(x, kPlaneNormal) - kPlaneOffset, 0.0, 0.0};
+                        }));
 }
 
 /// Held across the flow of circles, free along it.
@@ -319,8 +362,9 @@ BudgetSubject grid_axis() {
 }  // namespace
 
 std::vector<BudgetSubject> budget_subjects() {
-  return {streamline(), tick_marks(),     isosurface(), linear_line(), linear_drag(),
-          polyline(),   isotropic_drag(), sphere(),     circle(),      grid_axis()};
+  return {streamline(),  tick_marks(),  isosurface(), isosurface_in_boxes(), isosurface_in_tetrahedra(),
+          linear_line(), linear_drag(), polyline(),   isotropic_drag(),      sphere(),
+          circle(),      grid_axis()};
 }
 
 }  // namespace palpate

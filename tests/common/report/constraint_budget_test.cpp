@@ -38,7 +38,8 @@ TEST(ConstraintBudget, SeesWhatASmallBudgetCosts) {
       EXPECT_GT(row.force_error.max, 0.1) << row.constraint;
     }
   }
-  for (const char* name : {"streamline", "tick marks", "isosurface", "polyline", "linear, line"}) {
+  for (const char* name :
+       {"streamline", "tick marks", "isosurface, formula", "isosurface, tets", "polyline", "linear, line"}) {
     EXPECT_TRUE(searching.contains(name)) << name;
   }
 }
