@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/scalar_examples.h"
+#include "common/haptics/constraint/streamline.h"
+#include "common/haptics/proxy_chain.h"
 #include "common/haptics/settings_text.h"
 #include "tests/common/trace/sampled_scalars.h"
 
@@ -274,6 +276,47 @@ TEST(Isosurface, IsNeverFurtherBehindThanTheSurfaceDemands) {
     ASSERT_LE(behind, too_far + 1e-12) << n << " at radius " << r;
   }
   EXPECT_GT(longest, 0.0);
+}
+
+/// Along x at unit speed.
+class Stream final : public AnalyticField {
+ public:
+  [[nodiscard]] Vec3 velocity(const Vec3&) const noexcept override { return {1.0, 0.0, 0.0}; }
+  [[nodiscard]] Mat3 jacobian(const Vec3&) const noexcept override { return Mat3{0.0}; }
+  [[nodiscard]] Box bounds() const noexcept override { return {Vec3{-1.5}, Vec3{1.5}}; }
+  [[nodiscard]] std::string name() const override { return "stream"; }
+  [[nodiscard]] std::string description() const override { return "stream"; }
+};
+
+// Ikits 2006, figure 6.7 (c), on the streamline y = 0.1 into the unit sphere: both constraints hold exactly,
+// the depth is felt on top of the line's pull, and once the surface gives way the line is still the same.
+TEST(Isosurface, AStreamlineIsFollowedIntoAPenetrableSurface) {
+  const auto flow = make_vector_field(std::make_shared<const Stream>());
+  const auto scalar = make_scalar_field(sphere_scalar());
+  const Workspace workspace(1.0, flow->frame());
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(
+      std::make_unique<StreamlineConstraint>(std::make_shared<LiveLine>(flow, 1e-7, 1), workspace));
+  links.push_back(std::make_unique<IsosurfaceConstraint>(scalar, workspace));
+  ChainSettings settings;
+  settings.streamline.release_distance = 0.5;
+  settings.isosurface = kSphere;  // lets through at 0.1
+  ProxyChain chain(std::move(links), settings);
+  const double entry = -std::sqrt(1.0 - 0.01);
+  bool released = false;
+  for (int n = 0; n <= 400; ++n) {
+    // The hand drifts off the line by up to 0.05.
+    const double x = -1.3 + 0.002 * n;
+    const ChainStep step = chain.step({x, 0.1 + 0.05 * std::min(1.0, n / 100.0), 0.0});
+    ASSERT_LT(glm::distance(step.proxies[0], {x, 0.1, 0.0}), 1e-9) << "on the same line all along";
+    if (step.state == HoldState::kReleased) released = true;
+    const bool held = x > entry && !released;
+    const Vec3 on_sphere = glm::normalize(Vec3{x, 0.1, 0.0});
+    const Vec3 expected = held ? on_sphere : step.proxies[0];
+    ASSERT_LT(glm::distance(step.proxies[1], expected), 1e-9) << x;
+    ASSERT_EQ(released, glm::length(Vec3{x, 0.1, 0.0}) < 0.9) << x;
+  }
+  EXPECT_TRUE(released);
 }
 
 TEST(Isosurface, SettingsReadBackFromTheirText) {
