@@ -8,6 +8,7 @@
 
 #include "common/app/haptic/haptic_mode.h"
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/scene/session.h"
 
@@ -110,9 +111,11 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 12> kRecorded{
-      "mode",           "workspace-scale", "stiffness",   "release",       "drag",      "ticks",
-      "tick-stiffness", "speed-force",     "field-force", "field-damping", "force-cap", "slew-cap"};
+  constexpr std::array<std::string_view, 17> kRecorded{
+      "mode",        "workspace-scale", "stiffness",   "release",   "drag",
+      "ticks",       "tick-stiffness",  "speed-force", "force-cap", "slew-cap",
+      "isovalue",    "surface",         "depth",       "snap",      "along-streamline",
+      "field-force", "field-damping"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

@@ -5,6 +5,7 @@
 
 #include <time.h>
 
+#include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/summaries.h"
@@ -16,6 +17,7 @@
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
+#include "common/field/scalar_threshold.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
@@ -106,6 +108,14 @@ std::string summary_text(const ProbeSummary& summary) {
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
   text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
           short_number(1e3 * summary.settings.streamline.release_distance) + " mm\n";
+  if (!summary.scalar.empty()) {
+    const IsosurfaceSettings& surface = summary.settings.isosurface;
+    text += "  surface    " + std::string(name_of(surface.hold)) + " of " + summary.scalar + " at";
+    for (int i = 0; i < surface.isovalues.count; ++i) {
+      text += (i > 0 ? ", " : " ") + short_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
+    }
+    text += "; lets through at " + short_number(1e3 * surface.depth) + " mm\n";
+  }
   if (!summary.device.empty()) text += "  device     " + summary.device + ", simulated\n";
   if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";
   text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
@@ -237,8 +247,20 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   } else {
     felt.field = input.load_field(options.common.threads, &context.progress);
     describe(*felt.field);
+    if (!options.touch.scalar.empty()) {
+      felt.scalar =
+          felt_scalar(options.touch.scalar, input, felt.field, options.common.threads, &context.progress);
+    }
   }
   return felt;
+}
+
+/// Settles what isosurfaces are felt where nothing was said, so that the summary can state it.
+void settle_isosurfaces(FeltInput& felt, ProbeSummary& summary) {
+  if (!felt.scalar) felt.scalar = make_speed_field(felt.field);
+  Isovalues& isovalues = summary.settings.isosurface.isovalues;
+  if (isovalues.count == 0) isovalues = {{otsu_threshold(*felt.scalar)}, 1};
+  summary.scalar = felt.scalar->name();
 }
 
 /// What can be refused before any work is done.
@@ -295,11 +317,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
     console.print(plan_text(summary.plan));
   }
-  const FeltInput felt = load_felt(input, options, context);
+  FeltInput felt = load_felt(input, options, context);
   for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
   const Workspace workspace =
       touch_workspace(options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
+  if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary);
   summary.input = input.title();
   summary.field = felt.name;
   summary.mode = mode.name;
@@ -312,7 +335,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   if (recording) {
-    const NamedField open{felt.field, field_key(input.field_label(), input.time().step), felt.scalar};
+    const NamedField open{
+        felt.field, field_key(input.field_label(), input.time().step) + scalar_key(options.touch.scalar),
+        felt.scalar};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
