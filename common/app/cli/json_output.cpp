@@ -229,6 +229,7 @@ std::string probe_json(const ProbeSummary& summary) {
             {"states", states},
             {"faults", summary.states[static_cast<std::size_t>(HoldState::kFault)]},
             {"stiffness_n_per_m", summary.settings.stiffness},
+            {"chain_force", name_of(kDefaultChainForceForm)},
             {"release_mm", 1e3 * summary.settings.streamline.release_distance},
             {"drag_mm", 1e3 * summary.settings.drag.threshold},
             {"tick_interval", summary.settings.ticks.interval},
