@@ -118,6 +118,20 @@ TEST(Linear, StiffnessAndDragFollowTransferFunctionsOfTheData) {
   }
 }
 
+// A wall of which x > 0 is the free side: pressed 4 mm deep, 0.5 of that is added to a drag of 1 mm.
+TEST(Linear, FrictionGrowsWithThePenetration) {
+  const auto ramp = test::scalars<test::Ramp>();
+  LinearSettings settings = line_rules(AxisRule::kDrag, 0.001);
+  settings.axes[0] = {.rule = AxisRule::kUnilateral, .kappa = 1.0, .tau = 0.02};
+  settings.friction = 0.5;
+  Held held(std::make_unique<ScalarFrame>(ramp, metres(ramp->frame()), Outward::kRising), settings);
+  (void)held.at({0.0, 0.0, 0.0});
+  (void)held.at({-0.004, 0.03, 0.04});
+  EXPECT_LE(glm::distance(held.pull(), Vec3(0.004, -0.6 * 0.003, -0.8 * 0.003)), 1e-9);
+  (void)held.at({0.001, 0.06, 0.08});
+  EXPECT_LE(glm::distance(held.pull(), Vec3(0.0, -0.6 * 0.001, -0.8 * 0.001)), 1e-9) << "off the wall";
+}
+
 // The flow is straight along x in the cube [-1, 1]^3; the hand pulls 10 mm across it and goes out.
 TEST(Linear, LetsGoOverTheFadeDistanceWhereTheDataEnds) {
   const auto flow = test::on_tetrahedra(rows(0, 0, 1, 0, 0, 0, 0, 0, 0), {0.0, 0.0, -2.0}, 5, 0.2, 1);

@@ -42,6 +42,18 @@ TEST(SnapDrag, JumpsByWholeTeethToWithinOneOfTheProbe) {
   }
 }
 
+// A probe that stands at a whole number of teeth, to rounding: what is left is one tooth, to rounding, and no
+// second jump follows.
+TEST(SnapDrag, MovesNothingASecondTimeAtWholeTeeth) {
+  constexpr double kTau = 0.1;
+  for (int k = 2; k < 1000; ++k) {
+    const double dx = k * kTau, left = dx - snap_drag(dx, kTau);
+    EXPECT_EQ(snap_drag(left, kTau), 0.0) << k;
+    const Vec3 along = dx * Vec3{0.6, 0.0, 0.8};
+    EXPECT_EQ(snap_jointly(along - snap_jointly(along, Vec3{kTau}), Vec3{kTau}), Vec3{0.0}) << k;
+  }
+}
+
 // Figure 6.3 (a), hand computed: tau = 2, the probe goes out and back.
 TEST(ForceProfile, UnilateralDrag) {
   const double probe[] = {1, 0, -1, -2, -3, -4, -3, -2, -1, 0};

@@ -41,9 +41,33 @@ Workspace workspace_at(const Placement& at, const LocalFrame& frame) {
   return {power_of_two(-at.exponent), frame};
 }
 
+/// Frames that are certain from a speed or a steepness on that is the same in every placement, whose bounds
+/// cut off other corners of the field.
+std::unique_ptr<FlowFrame> flow_frame(const std::shared_ptr<const VectorField>& field, const Placement& at,
+                                      double certain_speed) {
+  return std::make_unique<FlowFrame>(field, workspace_at(at, field->frame()),
+                                     certain_speed * power_of_two(at.exponent) / field->max_speed());
+}
+
+std::unique_ptr<ScalarFrame> scalar_frame(const std::shared_ptr<const ScalarField>& field,
+                                          const Placement& at, double certain_steepness,
+                                          Tangents tangents = Tangents::kOpen) {
+  const double mean = (field->highest() - field->lowest()) / field->diagonal();
+  const double steepness = certain_steepness * power_of_two(at.exponent);  // values grow by its square
+  return std::make_unique<ScalarFrame>(field, workspace_at(at, field->frame()), Outward::kRising, tangents,
+                                       steepness / mean);
+}
+
 /// Wandering about the origin, some 0.2 m to each side.
 Vec3 wander(double s) {
   return {0.2 * std::sin(9.0 * s), 0.2 * std::cos(14.0 * s), 0.2 * std::sin(11.0 * s + 1.0)};
+}
+
+constexpr double kAcross = 0.02;  // drag across directions [m]
+
+/// To and fro past the origin, as straight as a hand goes, at 10 mm, 0.5 mm and 23 um from it.
+Vec3 through_the_middle(double s) {
+  return {0.25 * std::cos(1.5 * kTurn * s), 0.05 * std::pow(0.1, 4.0 * s), 0.02 * std::sin(5.0 * s)};
 }
 
 ContractSubject dragged_point(AxisRule rule) {
@@ -87,9 +111,7 @@ ContractSubject follow_a_helix(bool by_speed) {
       const auto speed = std::make_shared<SpeedMeasure>(field, workspace);
       measures[0].tau = measures[1].kappa = measures[2].kappa = speed;
     }
-    return applied(
-        std::make_shared<LinearConstraint>(std::make_unique<FlowFrame>(field, workspace), measures),
-        settings);
+    return applied(std::make_shared<LinearConstraint>(flow_frame(field, at, 0.1), measures), settings);
   };
   subject.path = [](double s) {
     const Vec3 along = Helix{.seed = {0.8, 0.0, -0.5}, .rise = kRise}.at_time(0.5 * std::sin(4.0 * s));
@@ -107,30 +129,25 @@ ContractSubject follow_a_helix(bool by_speed) {
   return subject;
 }
 
-/// A line along the flow of a saddle, swept across the place where that rests.
-ContractSubject across_a_saddle() {
+/// A line along a linear flow, swept across the place where that rests.
+ContractSubject across_rest(const char* name, const Mat3& flow) {
   ContractSubject subject;
-  subject.name = "LinearFollowAcrossASaddle";
-  subject.make = [](const Placement& at) {
-    const auto formula = std::make_shared<const LinearField>(rows(1, 0, 0, 0, -1, 0, 0, 0, 0), Vec3{0.0});
-    const auto field = moved_flow(formula, at);
-    return applied(std::make_shared<LinearConstraint>(
-                       std::make_unique<FlowFrame>(field, workspace_at(at, field->frame()))),
-                   by_rules(AxisRule::kFree, AxisRule::kDrag, AxisRule::kDrag, 0.02));
+  subject.name = name;
+  subject.make = [flow](const Placement& at) {
+    const auto field = moved_flow(std::make_shared<const LinearField>(flow, Vec3{0.0}), at);
+    return applied(std::make_shared<LinearConstraint>(flow_frame(field, at, 0.1)),
+                   by_rules(AxisRule::kFree, AxisRule::kDrag, AxisRule::kDrag, kAcross));
   };
-  // Through the middle along y, where the flow turns round, and back beside it, with the hand off the line.
-  subject.path = [](double s) {
-    return Vec3{0.3 * std::sin(0.5 * kTurn * s) * std::sin(kTurn * s), 0.3 * std::cos(kTurn * s),
-                0.02 * std::sin(2.0 * kTurn * s)};
-  };
-  subject.off_feature = [](const Vec3& probe, const LinkUpdate& link) {
-    const Vec3 v{link.proxy.x, -link.proxy.y, 0.0};
+  subject.path = through_the_middle;
+  // Along the flow there is no stretch, and across it no more than the threshold.
+  subject.off_feature = [flow](const Vec3& probe, const LinkUpdate& link) {
+    const Vec3 v = flow * link.proxy, r = probe - link.proxy;
     const double speed = glm::length(v);
-    return speed > 0.0 ? std::abs(glm::dot(probe - link.proxy, v / speed)) : 0.0;
+    return std::max(speed > 0.0 ? std::abs(glm::dot(r, v / speed)) : 0.0, glm::length(r) - kAcross);
   };
-  // Certain from a speed of 0.02 * 4 sqrt(2) on, 0.11 m from the middle: where a stretch of R = 0.05 is
-  // reached, the reach of the fixed axes grows by (R + 0.01)^2 / 0.01 * 1.5 / 0.11 = 5 a metre.
-  subject.slope = 8.0;
+  // Certain from r_0 = 0.1 m on. Within, thresholds grow by up to 0.02 * 1.5 / r_0 = 0.3 a metre, and
+  // directions turn by 1 / r where the thresholds are 0.02 * 3 (r / r_0)^2.
+  subject.slope = 3.0;
   subject.moved_error = 1e-7;
   return subject;
 }
@@ -157,9 +174,6 @@ class Quadric final : public AnalyticScalar {
   Vec3 inverse_;
 };
 
-constexpr double kCertainPart =
-    0.005;  // of range over diagonal: the range of a quadric is at its far corners
-
 /// A surface that is pressed and stroked, with friction that grows with the pressure.
 ContractSubject wall_with_friction() {
   ContractSubject subject;
@@ -169,10 +183,7 @@ ContractSubject wall_with_friction() {
     LinearSettings settings = by_rules(AxisRule::kUnilateral, AxisRule::kDrag, AxisRule::kDrag, 0.003);
     settings.axes[0].tau = 0.05;
     settings.friction = 0.3;
-    return applied(
-        std::make_shared<LinearConstraint>(std::make_unique<ScalarFrame>(
-            field, workspace_at(at, field->frame()), Outward::kRising, Tangents::kOpen, kCertainPart)),
-        settings);
+    return applied(std::make_shared<LinearConstraint>(scalar_frame(field, at, 0.1)), settings);
   };
   subject.path = [](double s) {
     const double along = 2.0 * s, radius = 0.5 + 0.02 * std::cos(20.0 * s);
@@ -194,11 +205,10 @@ ContractSubject plane_across_a_minimum() {
   subject.name = "LinearPlaneAcrossAMinimum";
   subject.make = [](const Placement& at) {
     const auto field = moved_scalars(std::make_shared<const Quadric>(Vec3{0.5, 0.7, 0.9}), at);
-    return applied(std::make_shared<LinearConstraint>(std::make_unique<ScalarFrame>(
-                       field, workspace_at(at, field->frame()), Outward::kRising, Tangents::kOpen, 0.02)),
+    return applied(std::make_shared<LinearConstraint>(scalar_frame(field, at, 0.8)),
                    by_rules(AxisRule::kDrag, AxisRule::kFree, AxisRule::kFree, 0.02));
   };
-  subject.path = wander;
+  subject.path = through_the_middle;
   subject.off_feature = [](const Vec3& probe, const LinkUpdate& link) {
     const Vec3 n = glm::normalize(link.proxy / Vec3{0.25, 0.49, 0.81});
     return std::max(0.0, std::abs(glm::dot(probe - link.proxy, n)) - 0.02);
@@ -217,14 +227,13 @@ ContractSubject along_curvature() {
   subject.make = [](const Placement& at) {
     const auto field = moved_scalars(std::make_shared<const Quadric>(kEllipsoid), at);
     LinearSettings settings = by_rules(AxisRule::kFixed, AxisRule::kFree, AxisRule::kDrag, 0.01);
-    return applied(
-        std::make_shared<LinearConstraint>(std::make_unique<ScalarFrame>(
-            field, workspace_at(at, field->frame()), Outward::kRising, Tangents::kPrincipal, kCertainPart)),
-        settings);
+    return applied(std::make_shared<LinearConstraint>(scalar_frame(field, at, 2.0, Tangents::kPrincipal)),
+                   settings);
   };
   subject.path = [](double s) {
     const double u = kTurn * s;
-    return Vec3{0.2 * std::cos(u), 0.012 * std::sin(3.0 * u), 0.08 * std::sin(u)} * 1.02;
+    // Both curvatures are equal at x = 0.175, y = 0, z = 0.039, which is u = 0.51.
+    return Vec3{0.2 * std::cos(u), 0.01 * std::sin(2.0 * (u - 0.51)), 0.08 * std::sin(u)} * 1.02;
   };
   // Where the directions are certain: across the surface any stretch, along the larger curvature none.
   subject.off_feature = [](const Vec3& probe, const LinkUpdate& link) {
@@ -243,11 +252,15 @@ ContractSubject along_curvature() {
   return subject;
 }
 
-INSTANTIATE_TEST_SUITE_P(Linear, ConstraintContract,
-                         ::testing::Values(dragged_point(AxisRule::kDrag), dragged_point(AxisRule::kSnap),
-                                           follow_a_helix(false), follow_a_helix(true), across_a_saddle(),
-                                           wall_with_friction(), plane_across_a_minimum(), along_curvature()),
-                         subject_name);
+INSTANTIATE_TEST_SUITE_P(
+    Linear, ConstraintContract,
+    ::testing::Values(dragged_point(AxisRule::kDrag), dragged_point(AxisRule::kSnap), follow_a_helix(false),
+                      follow_a_helix(true),
+                      across_rest("LinearFollowAcrossASaddle", rows(1, 0, 0, 0, -1, 0, 0, 0, 0)),
+                      across_rest("LinearFollowAcrossAVortex", rows(0, -1, 0, 1, 0, 0, 0, 0, 0)),
+                      across_rest("LinearFollowAcrossASource", rows(1, 0, 0, 0, 1, 0, 0, 0, 0)),
+                      wall_with_friction(), plane_across_a_minimum(), along_curvature()),
+    subject_name);
 
 }  // namespace
 }  // namespace palpate::test
