@@ -37,6 +37,8 @@ class HapticTransferFunction {
   HapticTransferFunction(double constant = 0.0) noexcept {  // NOLINT: a constant is a transfer function
     knots_[0].value = constant;
   }
+  /// Straight from one knot to the other. @pre low.measure < high.measure.
+  HapticTransferFunction(Knot low, Knot high) noexcept : knots_{low, high}, count_(2) {}
 
   /// Reads the grammar above; every y is multiplied by `unit` [SI], which options in millimetres make use of.
   /// @return what is wrong, in a few words; nothing where `function` has been read.

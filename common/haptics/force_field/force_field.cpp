@@ -94,7 +94,8 @@ DensityDrag::DensityDrag(std::shared_ptr<const ScalarField> field, const Workspa
 SampleStatus DensityDrag::feel(const Vec3& x_data, CellHint& hint, LinkUpdate& link) const noexcept {
   const ScalarSample s = field_->sample(x_data, hint);
   if (s.status == SampleStatus::kOk) {
-    link.damping = Vec3{settings().damping * density_part(s.value, field_->lowest(), field_->highest())};
+    const double part = density_part(s.value, field_->lowest(), field_->highest());
+    link.damping = Vec3{settings().damping * settings().density(part)};
   }
   return s.status;
 }

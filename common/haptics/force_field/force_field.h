@@ -75,7 +75,7 @@ class TransverseDamping final : public ForceField {
   FlowScale scale_;
 };
 
-/// Eq. 2.3: dragged the more, the higher the value.
+/// Eq. 2.3: dragged by value, the more the higher it is unless the transfer function says otherwise.
 class DensityDrag final : public ForceField {
  public:
   DensityDrag(std::shared_ptr<const ScalarField> field, const Workspace& workspace);

@@ -1,14 +1,14 @@
 /// Forces as functions of the data at the probe and of the hand's velocity (Ikits 2006, sec. 2.3.2).
 ///
-///   density drag           f = -b r(s) xdot                          r rises from 0 to 1 over the values
-///   (2.3) direct display         f = F v / v_max (2.4) vortex pull            f = F w / max(1, |w|),   w =
-///   (omega x v) / W                                    (2.5) transverse damping     f = -b g(|v|) (xdot -
-///   (xdot . t) t),   t = v / |v|                              (2.6)
+///   density drag          f = -b h(r) xdot,   r = (s - s_min) / (s_max - s_min)            (2.3)
+///   direct display        f = F v / v_max                                                  (2.4)
+///   vortex pull           f = F w / max(1, |w|),   w = (omega x v) / W                     (2.5)
+///   transverse damping    f = -b g(|v|) (xdot - (xdot . t) t),   t = v / |v|               (2.6)
 ///
-/// with the strength F [N] and the damping b [N s/m] of the hand, and v, omega and s over scales of their
-/// field: a mode feels the same on a cell and on a galaxy. Eq. 2.5 points to the core of a helix. Eq. 2.6 is
-/// printed without its sign, with which it would push the hand on, and jumps where v vanishes and t has no
-/// meaning: g fades it there.
+/// with the strength F [N] and the damping b [N s/m] of the hand, h a haptic transfer function, and v, omega
+/// and s over scales of their field: a mode feels the same on a cell and on a galaxy. Eq. 2.5 points to the
+/// core of a helix. Eq. 2.6 is printed without its sign, with which it would push the hand on, and jumps
+/// where v vanishes and t has no meaning: g fades it there.
 ///
 /// Drags are given as coefficients b_a >= 0 along the axes e_a of a frame (LinkUpdate::damping), which makes
 /// it plain that they only take energy from the hand.
@@ -31,7 +31,7 @@ struct AxisDrag {
   Vec3 damping{0.0};  ///< b_a [N s/m], >= 0
 };
 
-/// r(s) in [0, 1] on a straight ramp; 0 where the values do not differ.
+/// r in [0, 1]; 0 where the values do not differ.
 [[nodiscard]] double density_part(double value, double lowest, double highest) noexcept;
 
 /// Eq. 2.4 [N].

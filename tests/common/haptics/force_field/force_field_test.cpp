@@ -135,6 +135,26 @@ TEST(ForceField, DensityDragIsThatOfTheValue) {
       1e-14);
 }
 
+TEST(ForceField, DensityDragFollowsItsTransferFunction) {
+  const auto field = make_vector_field(std::make_shared<HelixField>(0.0));
+  ForceFieldSettings settings{.damping = 4.0};
+  // Nothing below half of the values, then up to three quarters of the damping.
+  ASSERT_EQ(HapticTransferFunction::read("0.5:0,1:0.75", settings.density), std::nullopt);
+  ASSERT_TRUE(settings.valid());
+  ProxyChain chain = chain_of(kDensity, field, 0.05, settings);
+  const auto speed = make_speed_field(field);
+  const auto at = [&](double value) {  // the speed at (r, 0, 0) is r
+    return chain.step({0.05 * value, 0.0, 0.0}, {0.1, 0.0, 0.0}).force.x;
+  };
+  const double lowest = speed->lowest(), range = speed->highest() - lowest;
+  EXPECT_EQ(at(lowest + 0.4 * range), 0.0);
+  EXPECT_NEAR(at(lowest + 0.6 * range), -0.1 * 4.0 * 0.15, 1e-12);
+  settings.density = 1.5;
+  EXPECT_FALSE(settings.valid());
+  settings.density = -0.5;
+  EXPECT_FALSE(settings.valid());
+}
+
 TEST(ForceField, FeelsTheSameBitForBitOnACellAndOnAGalaxy) {
   const auto flow = example("tornado");
   constexpr int kLength = 70, kSpeed = -33;
