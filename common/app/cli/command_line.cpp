@@ -285,6 +285,10 @@ class VerbParser {
           group);
     scene("--field-damping", touch.field_damping,
           "transverse, density: drag in N s/m, where it is full; default 5", "B", group);
+    scene("--density-curve", touch.density_curve,
+          "density: part of the drag by value, both from 0 to 1, as R:PART,R:PART[,…][,smooth]; default "
+          "0:0,1:1",
+          "CURVE", group);
     scene("--force-cap", touch.force_cap, "largest force in N; default 4", "N", group);
     scene("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", group);
   }

@@ -80,6 +80,7 @@ struct TouchOptions {
   bool along_streamline = false;
   double field_force = 1.0;    ///< [N] of the force-field modes
   double field_damping = 5.0;  ///< [N s/m], likewise
+  std::string density_curve;   ///< haptic transfer function; empty: straight
   double force_cap = 4.0;      ///< [N]
   double slew_cap = 200.0;     ///< [N/s]
 };

@@ -76,6 +76,11 @@ ChainSettings touch_settings(const TouchOptions& options) {
   settings.ticks.stiffness = options.tick_stiffness;
   settings.force_field.strength = options.field_force;
   settings.force_field.damping = options.field_damping;
+  if (!options.density_curve.empty()) {
+    const auto problem = HapticTransferFunction::read(options.density_curve, settings.force_field.density);
+    if (problem) throw usage_error("--density-curve: " + *problem);
+    if (!settings.force_field.valid()) throw usage_error("--density-curve: parts from 0 to 1 are expected");
+  }
   if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();
     const auto parsed = std::from_chars(options.ticks.data(), end, settings.ticks.interval);
@@ -111,11 +116,11 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 17> kRecorded{
-      "mode",        "workspace-scale", "stiffness",   "release",   "drag",
-      "ticks",       "tick-stiffness",  "speed-force", "force-cap", "slew-cap",
-      "isovalue",    "surface",         "depth",       "snap",      "along-streamline",
-      "field-force", "field-damping"};
+  constexpr std::array<std::string_view, 18> kRecorded{
+      "mode",        "workspace-scale", "stiffness",    "release",   "drag",
+      "ticks",       "tick-stiffness",  "speed-force",  "force-cap", "slew-cap",
+      "isovalue",    "surface",         "depth",        "snap",      "along-streamline",
+      "field-force", "field-damping",   "density-curve"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

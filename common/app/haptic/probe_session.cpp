@@ -181,7 +181,8 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
       {"tick-stiffness", exact_number(settings.ticks.stiffness)},
       {"speed-force", exact_number(settings.streamline.speed_force)},
       {"field-force", exact_number(settings.force_field.strength)},
-      {"field-damping", exact_number(settings.force_field.damping)}};
+      {"field-damping", exact_number(settings.force_field.damping)},
+      {"density-curve", settings.force_field.density.text()}};
   if (choice_.ticks) {
     const double interval = settings.ticks.interval;
     options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");

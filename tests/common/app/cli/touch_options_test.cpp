@@ -49,6 +49,7 @@ TEST(TouchOptions, RefuseWhatNoChainCanUse) {
                                        {"--speed-force", {"nan", "inf"}},
                                        {"--field-force", {"nan", "inf"}},
                                        {"--field-damping", {"-1", "nan", "inf"}},
+                                       {"--density-curve", {"1:0,0:1", "0:0,1:2", "0:nan", "steep"}},
                                        {"--force-cap", {"-1", "0", "nan", "inf"}},
                                        {"--slew-cap", {"-1", "0", "nan", "inf"}},
                                        {"--workspace-scale", {"-1", "nan", "inf"}}}) {
@@ -68,6 +69,7 @@ TEST(TouchOptions, TakeWhatAChainCanUse) {
   EXPECT_EQ(refusal("--speed-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-damping", "0"), "");
+  EXPECT_EQ(refusal("--density-curve", "0:0,0.4:0,0.6:1,smooth"), "");
 }
 
 }  // namespace
