@@ -1,10 +1,9 @@
 #include "apps/flow/flow_model.h"
 
-#include <unistd.h>
-
 #include "common/app/cli/domain_outline.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/session_of.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -15,9 +14,6 @@
 
 namespace palpate {
 namespace {
-
-// Saved angles hold for any window; the zoom is stated for a picture of this shape.
-constexpr double kSessionAspect = 1.5;
 
 std::string grid_fact(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) {
@@ -202,9 +198,7 @@ std::string FlowModel::save_session(const SceneSettings& settings, const SceneVi
                                     const std::vector<std::pair<std::string, std::string>>& touch) {
   const Scene& scene = *scene_;
   const InputSpec& spec = scene.input.spec();
-  Session session{.program = program_};
-  for (const auto& file : spec.files) session.inputs.push_back(describe_input(file, false));
-  if (spec.solution) session.inputs.push_back(describe_input(*spec.solution, true));
+  Session session = begin_session(spec, program_);
   const auto add = [&session](const char* name, const std::string& value) {
     if (!value.empty()) session.options.emplace_back(name, value);
   };
@@ -225,14 +219,7 @@ std::string FlowModel::save_session(const SceneSettings& settings, const SceneVi
 
   for (const auto& [option, value] : touch) add(option.c_str(), value);
 
-  const std::string name =
-      (spec.files.empty() ? program_ + "-" + spec.example : spec.files.front().stem().string()) +
-      ".palpate.toml";
-  const auto beside = spec.files.empty() ? std::filesystem::path() : spec.files.front().parent_path();
-  const bool writable = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
-  const std::filesystem::path path = writable ? beside / name : std::filesystem::path(name);
-  palpate::save_session(path, session);
-  return path.string();
+  return store_session(session, spec);
 }
 
 }  // namespace palpate

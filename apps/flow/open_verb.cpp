@@ -1,7 +1,6 @@
 #include "apps/flow/open_verb.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
@@ -23,28 +22,6 @@
 
 namespace palpate {
 namespace {
-
-/// The first name that is free: flow-tour.png, flow-tour-2.png, …
-std::filesystem::path free_name(const std::string& stem) {
-  std::filesystem::path path = stem + ".png";
-  for (int n = 2; std::filesystem::exists(path); ++n) path = stem + "-" + std::to_string(n) + ".png";
-  return path;
-}
-
-/// `flow` alone where there is no display: a picture of the first example.
-ExitCode headless_tour(Options options, const VerbContext& context) {
-  const std::string program = context.explorer.name;
-  options.out = free_name(program + "-tour");
-  context.console.note("no display here, so no window: drawing example " + options.input.example + " into " +
-                       options.out.string() + " instead");
-  const ExitCode code = render_verb(flow_modes(), {}).run(options, context);
-  if (code == ExitCode::kDone) {
-    context.console.note("next: " + program + " --example list, " + program +
-                         " render FILE --out picture.png, " + program +
-                         " trace FILE --seeds grid:8,8,8 --out lines.vtp");
-  }
-  return code;
-}
 
 /// The path of `--device replay:FILE`; none for others.
 /// @throws Error (usage) for an unknown device; (bad input).
@@ -131,7 +108,10 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   const TraceOptions trace = trace_options(options, "both");
   const CameraAngles angles = camera_angles(options.view.camera);
   ProbeSessionOptions touch = touch_of(options, context);
-  if (!window_available() && nothing_named) return headless_tour(options, context);
+  if (!window_available() && nothing_named) {
+    return headless_tour(render_verb(flow_modes(), {}), options, context,
+                         "trace FILE --seeds grid:8,8,8 --out lines.vtp");
+  }
   if (options.common.explain) {
     const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
     const Input input = open_input(options, context);
@@ -146,10 +126,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
                                      .color_array = color.array ? color.name : std::string()})));
   }
   if (!window_available()) {
-    // A file that is missing or broken is the first thing to know.
-    (void)Input::open(input_spec(options.input), &context.progress);
-    throw work_error("no display, so no window; '" + context.explorer.name +
-                     " render' draws a picture without one: add --out picture.png");
+    refuse_window(options, context);
   }
   FlowModel model(options, context.explorer.name);
   WindowOptions window{.program = context.explorer.name,

@@ -1,5 +1,6 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_modes.h"
+#include "apps/grid/open_verb.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -8,7 +9,8 @@ int main(int argc, char** argv) {
       .name = "grid",
       .summary = "Explore volumes: CT, MR, densities and other scalars",
       .kind = FieldKind::kScalar,
-      .examples = {{"grid info tooth.nhdr", "what the file holds"},
+      .examples = {{"grid tooth.nhdr", "look at a file in the window"},
+                   {"grid info tooth.nhdr", "what the file holds"},
                    {"grid info avg152T1.nii.gz", "orientation included, in RAS+ mm"},
                    {"grid render tooth.nhdr --out tooth.png", "a picture, with or without a display"},
                    {"grid probe tooth.nhdr --path path.csv --out log.csv", "feel along a recorded path"},
@@ -28,7 +30,10 @@ int main(int argc, char** argv) {
                      {"grid render ct.nii.gz --transfer-function ct --camera 0,0,0,1 --out ct.png",
                       "Hounsfield units, seen from the back to the front"},
                      {"grid render --example shells --transfer-function shells.csv --out shells.png",
-                      "with a transfer function of your own"}})},
+                      "with a transfer function of your own"}}),
+                open_verb({{"grid tooth.nhdr", "a file in the window"},
+                           {"grid --example shells", "a built-in volume"},
+                           {"grid open --session tooth.palpate.toml", "what Ctrl+S saved"}})},
 
   };
   return run_explorer(grid, argc, argv);

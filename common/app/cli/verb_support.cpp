@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/verbs.h"
@@ -48,6 +49,29 @@ Input open_input(const Options& options, const VerbContext& context) {
   Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
   for (const std::string& note : input.notes()) context.console.note(input.title() + ": " + note);
   return input;
+}
+
+ExitCode headless_tour(const Verb& render, Options options, const VerbContext& context,
+                       const std::string& next) {
+  const std::string program = context.explorer.name;
+  // The first name that is free: flow-tour.png, flow-tour-2.png, …
+  options.out = program + "-tour.png";
+  for (int n = 2; std::filesystem::exists(options.out); ++n)
+    options.out = program + "-tour-" + std::to_string(n) + ".png";
+  context.console.note("no display here, so no window: drawing example " + options.input.example + " into " +
+                       options.out.string() + " instead");
+  const ExitCode code = render.run(options, context);
+  if (code == ExitCode::kDone) {
+    context.console.note("next: " + program + " --example list, " + program +
+                         " render FILE --out picture.png, " + program + " " + next);
+  }
+  return code;
+}
+
+void refuse_window(const Options& options, const VerbContext& context) {
+  (void)Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
+  throw work_error("no display, so no window; '" + context.explorer.name +
+                   " render' draws a picture without one: add --out picture.png");
 }
 
 TraceOptions trace_options(const Options& options, const std::string& default_direction) {

@@ -204,20 +204,38 @@ void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   }
 }
 
-void draw_look(SceneView& view, PanelActions& actions) {
-  section("LOOK");
-  LineStyle& style = view.style;
+void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume) {
+  section("VOLUME");
+  choose("field", state.settings.field, scene.info->fields);
+  draw_time(state, scene.info->times);
+  static const std::string kAutomatic = "from the histogram";
+  static const std::vector<std::string> kWords{kAutomatic, "density", "mr", "ct"};
+  std::string transfer = state.settings.transfer.empty() ? kAutomatic : state.settings.transfer;
+  if (choose("colours", transfer, kWords))
+    state.settings.transfer = transfer == kAutomatic ? std::string() : transfer;
+  constexpr double kFewest = 0.5, kMost = 16.0;
+  ImGui::SliderScalar("samples a voxel", ImGuiDataType_Double, &volume.samples_per_voxel, &kFewest, &kMost,
+                      "%.1f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::Checkbox("shading", &volume.shading);
+}
+
+void draw_line_look(LineStyle& style) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
   ImGui::SliderScalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   ImGui::SliderScalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
                       ImGuiSliderFlags_AlwaysClamp);
+  ImGui::Checkbox("halos", &style.halo);
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  ImGui::Checkbox("fade with depth", &style.depth_cue);
+}
+
+void draw_look(SceneView& view, PanelActions& actions) {
+  section("LOOK");
+  if (!view.volume) draw_line_look(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
-  ImGui::Checkbox("halos", &style.halo);
-  ImGui::SameLine(half);
-  ImGui::Checkbox("fade with depth", &style.depth_cue);
   ImGui::Checkbox("outline", &view.show_outline);
   ImGui::SameLine(half);
   ImGui::Checkbox("axes", &view.show_axes);
@@ -252,6 +270,11 @@ void draw_job(const Progress& job, PanelActions& actions) {
 }
 
 std::string status_text(const SceneState& scene) {
+  if (scene.volume) {
+    const VolumeImage& image = *scene.volume->image;
+    return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
+           short_number(image.highest) + "   loaded in " + short_number(scene.seconds_load) + " s";
+  }
   std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
@@ -374,6 +397,12 @@ WindowLayout layout(int width, int height, float text_height) {
   return result;
 }
 
+std::string size_text(const SceneState& scene) {
+  if (!scene.volume) return counted(scene.lines->size(), "line");
+  const Index3& n = scene.volume->image->points;
+  return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";
+}
+
 PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout) {
   PanelActions actions;
   ImGui::SetNextWindowPos({0.0F, 0.0F});
@@ -388,8 +417,12 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       section("TOUCH");
       actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file);
     }
-    draw_lines(state, *state.scene);
-    draw_color(state, *state.scene, view);
+    if (state.scene->volume && view.volume) {
+      draw_volume(state, *state.scene, *view.volume);
+    } else {
+      draw_lines(state, *state.scene);
+      draw_color(state, *state.scene, view);
+    }
     draw_look(view, actions);
     for (const std::string& note : state.scene->notes) {
       ImGui::Spacing();

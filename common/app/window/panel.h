@@ -53,6 +53,9 @@ struct WindowLayout {
 
 [[nodiscard]] WindowLayout layout(int width, int height, float text_height);
 
+/// "300 lines", or "103 x 94 x 161 voxels" of a volume.
+[[nodiscard]] std::string size_text(const SceneState& scene);
+
 /// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
 [[nodiscard]] PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout);
 

@@ -173,7 +173,8 @@ class Window {
     view_.outline = scene_->info->outline;
     view_.units = scene_->info->units;
     view_.title = scene_->info->name;
-    view_.subtitle = scene_->settings.field + ", " + counted(scene_->lines->size(), "line");
+    view_.subtitle = scene_->settings.field + ", " + size_text(*scene_);
+    adopt_volume();
     const std::vector<double>& times = scene_->info->times;
     if (times.size() > 1 && scene_->settings.time_step < times.size()) {
       view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
@@ -193,6 +194,16 @@ class Window {
     state_.seeds = seed_choice(state_.settings.seeds);
     adopt_field();
     say({}, false);
+  }
+
+  /// What the user has chosen about the look of a volume stays while the input does.
+  void adopt_volume() {
+    const std::optional<VolumeView> before = std::exchange(view_.volume, scene_->volume);
+    view_.anatomical = scene_->info->anatomical;
+    view_.volume_label = scene_->settings.field;
+    if (!view_.volume || !before || job_kind_ != JobKind::kUpdate) return;
+    view_.volume->shading = before->shading;
+    view_.volume->samples_per_voxel = before->samples_per_voxel;
   }
 
   /// The hand feels what the lines show.

@@ -1,4 +1,5 @@
-/// What the window needs of a program: opening inputs and tracing lines, behind plain values.
+/// What the window needs of a program: opening inputs, tracing lines and reading volumes, behind plain
+/// values.
 ///
 /// The window calls these functions on a background thread, one at a time; the picture goes on meanwhile.
 /// What they return is immutable. Words are those of the command line (design: command line).
@@ -41,6 +42,7 @@ struct SceneSettings {
   double max_length = 0.0;  ///< data units; 0: the default
   std::uint64_t random_seed = 1;
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
+  std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
 
   bool operator==(const SceneSettings&) const = default;
 };
@@ -57,15 +59,17 @@ struct SceneInfo {
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
+  bool anatomical = false;  ///< coordinates are RAS+
 };
 
-/// A scene with its lines.
+/// A scene with its lines, or its volume.
 struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   SceneSettings settings;                          ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
   std::shared_ptr<const VectorField> probed;       ///< what the hand feels; null: nothing
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
+  std::optional<VolumeView> volume;                ///< in place of lines
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;
