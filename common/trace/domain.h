@@ -22,7 +22,7 @@
 
 namespace palpate {
 
-/// Depth behind a face, relative to the numbers it is computed from, that is rounding.
+/// Depth behind a face, relative to the numbers it is computed from, that is rounding: face_rounding().
 inline constexpr double kGrazing = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// The first crossing that a parabola predicts.
@@ -43,10 +43,11 @@ struct FlowGradient {
   [[nodiscard]] Mat3 matrix() const { return {column[0].xyz(), column[1].xyz(), column[2].xyz()}; }
 };
 
-/// Whether value + rate s + curvature s^2 / 2 stays positive for 0 < s <= reach, by a quick bound.
+/// Whether value + rate s + curvature s^2 / 2 stays positive for 0 < s <= reach, by a quick bound. Not so
+/// where `value` is negative: a point behind a face by rounding has crossed it.
 [[nodiscard]] inline bool stays_positive(double value, double rate, double curvature, double reach) {
   const double slope = std::min(0.0, rate + 0.5 * reach * std::min(0.0, curvature));
-  return slope == 0.0 || value + reach * slope > 0.0;
+  return slope == 0.0 ? value >= 0.0 : value + reach * slope > 0.0;
 }
 
 /// Smallest s > 0 with value + rate s + curvature s^2 / 2 = 0; infinite where there is none, and where the
@@ -108,6 +109,9 @@ class BoxDomain : public BoxFaces {
     return ((c_[0] + dx * c_[1]) + dy * (c_[2] + dx * c_[4])) +
            dz * ((c_[3] + dx * c_[6]) + dy * (c_[5] + dx * c_[7]));
   }
+  [[nodiscard]] double face_rounding(int face, const Pack4& y) const {
+    return kGrazing * (size_ + std::abs(y[face >> 1]));
+  }
   [[nodiscard]] FlowGradient gradient(const Pack4& y) const {
     const Pack4 d = y - corner_;
     const double dx = d.lo[0], dy = d.lo[1], dz = d.hi[0];
@@ -161,8 +165,8 @@ class BoxDomain : public BoxFaces {
   void consider(int face, const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
                 Crossing& first) const {
     const double value = face == entry ? 0.0 : face_value(face, y);
-    const double grazing = kGrazing * (size_ + std::abs(y[face >> 1]));
-    const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), grazing);
+    const double s =
+        first_root(value, face_rate(face, n), face_rate(face, curvature), face_rounding(face, y));
     if (s < first.distance) first = {face, s};
   }
 
@@ -221,6 +225,7 @@ class TetDomain {
   [[nodiscard]] double face_rate(int face, const Pack4& d) const {
     return glm::dot(face_[static_cast<std::size_t>(face)], d.xyz());
   }
+  [[nodiscard]] static double face_rounding(int, const Pack4&) { return kGrazing; }
   [[nodiscard]] Crossing predict(const Pack4& y, const Pack4& n, const Pack4& curvature, int entry,
                                  double reach) const {
     Crossing first;
@@ -228,7 +233,7 @@ class TetDomain {
       const double value = face == entry ? 0.0 : face_value(face, y);
       const double rate = face_rate(face, n), bend = face_rate(face, curvature);
       if (stays_positive(value, rate, bend, reach)) continue;
-      const double s = first_root(value, rate, bend, kGrazing);
+      const double s = first_root(value, rate, bend, face_rounding(face, y));
       if (s < first.distance) first = {face, s};
     }
     return first;
@@ -263,6 +268,7 @@ class FormulaDomain : public BoxFaces {
   [[nodiscard]] static bool bad() { return false; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] Pack4 velocity(const Pack4& y) const { return {sign_ * formula_->velocity(y.xyz()), 0.0}; }
+  [[nodiscard]] double face_rounding(int, const Pack4&) const { return kGrazing * size_; }
   [[nodiscard]] FlowGradient gradient(const Pack4& y) const {
     const Mat3 j = sign_ * formula_->jacobian(y.xyz());
     return {Pack4{j[0], 0.0}, Pack4{j[1], 0.0}, Pack4{j[2], 0.0}};
@@ -273,7 +279,8 @@ class FormulaDomain : public BoxFaces {
     for (int face = 0; face < 6; ++face) {
       const double value = face == entry ? 0.0 : face_value(face, y);
       if (stays_positive(value, face_rate(face, n), face_rate(face, curvature), reach)) continue;
-      const double s = first_root(value, face_rate(face, n), face_rate(face, curvature), kGrazing * size_);
+      const double s =
+          first_root(value, face_rate(face, n), face_rate(face, curvature), face_rounding(face, y));
       if (s < first.distance) first = {face, s};
     }
     return first;

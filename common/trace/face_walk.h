@@ -117,6 +117,7 @@ class FaceWalk final : public LineWalk {
   static constexpr int kMaxStanding = 64;     ///< crossings without progress
   static constexpr int kMaxAttempts = 80;
   static constexpr int kMaxReaimed = 12;  ///< new aims at another face within a step
+  static constexpr int kMaxMissed = 16;   ///< aims at a face within a step that did not come near it
 
   static double magnitude(const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
@@ -197,7 +198,7 @@ class FaceWalk final : public LineWalk {
     const auto jacobian = [this](const Pack4& y, const Pack4& k) { return slope_jacobian(y, k); };
     int face = predicted.distance <= h_ ? predicted.face : -1;
     double h = face >= 0 ? predicted.distance : std::min(h_, settings_.largest_step);
-    int reaimed = 0;
+    int reaimed = 0, missed = 0;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const double smallest = 4.0 * kUlp * (magnitude(y_.xyz()) + domain_.size());
       if (!(h > smallest)) return standing_cross(face);
@@ -243,8 +244,13 @@ class FaceWalk final : public LineWalk {
         const Pack4 third = (1.0 / h) * (bend1 - bend_);
         const double rate = domain_.face_rate(face, k1);
         const double value = domain_.face_value(face, y1);
-        double delta = -value / rate;
-        delta = -value / (rate + 0.5 * delta * domain_.face_rate(face, bend1));
+        // On the face as far as rounding can tell: to aim again, at a face that is only touched, would not
+        // end.
+        double delta = 0.0;
+        if (std::abs(value) > domain_.face_rounding(face, y1)) {
+          delta = -value / rate;
+          delta = -value / (rate + 0.5 * delta * domain_.face_rate(face, bend1));
+        }
         if (!(rate < 0.0) || !(std::abs(delta) <= near_ * h)) {
           // Aim again, at what the curve itself says.
           const Crossing exit =
@@ -252,6 +258,12 @@ class FaceWalk final : public LineWalk {
           if (exit.distance > 1.0 && !(rate < 0.0)) {
             face = -1;  // the prediction was wrong: the curve turns back before the face
           } else {
+            if (++missed > kMaxMissed) {
+              // A face that is only touched, as far as rounding can tell, is no aim: nearer to it first.
+              face = -1;
+              h *= 0.5;
+              continue;
+            }
             const double theta = std::clamp(exit.distance, 0.01, 1.5);
             if (theta * h > h_ && Method::kAdaptive == false) {
               face = -1;

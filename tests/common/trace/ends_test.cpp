@@ -342,5 +342,37 @@ TEST(Ends, LineThatTouchesAFaceOnAnEdgeGoesOn) {
   }
 }
 
+// Circles that touch faces of an even mesh on its edges: aims at a face that is only touched, to rounding,
+// did not converge, and lines stopped there.
+TEST(Ends, CirclesThatTouchFacesOnEdgesGoOn) {
+  const Field field = test::on_tetrahedra(rows(0, -2, 0, 2, 0, 0, 0, 0, 0), Vec3{0.0}, 9, 0.0, 1);
+  std::vector<Vec3> seeds;
+  for (const double radius : {0.25, 0.5, 0.75}) {
+    for (const double z : {0.0, 0.1, 0.125, 0.25, -0.3}) {
+      for (const double angle : {0.0, 0.3}) {
+        seeds.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+      }
+    }
+  }
+  for (const Integrator integrator : {Integrator::kRk34, Integrator::kDp54, Integrator::kRodas4}) {
+    for (const double tolerance : {1e-6, 1e-10}) {
+      const TraceResult result = trace_lines(*field, seeds,
+                                             {.integrator = integrator,
+                                              .backward = true,
+                                              .tolerance = tolerance,
+                                              .max_length = 1.4,
+                                              .max_steps = 100'000,
+                                              .threads = 1});
+      for (const Line& line : result.lines) {
+        const Vec3& x = line.points.back().position;
+        // The smallest circles close before their length is reached.
+        EXPECT_TRUE(line.end == End::kMaxLength || line.end == End::kLoop)
+            << name_of(integrator) << " " << tolerance << " stops at " << x.x << " " << x.y << " " << x.z
+            << ": " << name_of(line.end);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate
