@@ -36,7 +36,7 @@ std::optional<std::string> HapticTransferFunction::read(std::string_view text,
     }
     made.knots_[i] = {*measure, *value * unit};
   }
-  if (const auto problem = made.problem()) return problem;
+  if (auto problem = made.problem()) return problem;
   function = made;
   return std::nullopt;
 }
