@@ -1,6 +1,9 @@
 // Marches along a part of a ray, front to back, on samples at t = n d (volume_pass.h). A stretch between two
 // samples, their values taken as the ends of a linear course, adds what the table of its length holds:
 //   C <- C + (1 - A) C_table,   A <- A + (1 - A) A_table
+// Software rasterisers compute both branches of an `if`: a step reads one voxel and one entry of a table whichever way
+// it goes, bricks are asked every other step, light is computed once a stretch that is seen, and stretches cut short by
+// borders come before and after the loop.
 // Needs volume/volume_block.glsl and volume/ray.glsl, and shaded() where rays are shaded.
 
 // Table coordinate of the value at g; NaN where there is none.
@@ -8,72 +11,90 @@ float value_at(vec3 g) {
   return (texture(voxels, (g + 0.5) / volume.points.xyz).x - volume.lower.w) * volume.upper.w + volume.points.w;
 }
 
-// Where the ray leaves the empty bricks around its point at t; t itself where none is empty.
+// Where the ray leaves the empty bricks around its point at t; no more than t where none is empty.
 float end_of_empty(Ray ray, float t, float map) {
-  const float kBrickCells = 8.0, kBeyond = 1e30;
-  vec3 count = volume.bricks.xyz;
-  vec3 brick = clamp(floor((ray.start + t * ray.speed) / kBrickCells), vec3(0.0), count - 1.0);
-  float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map * count.z)), 0).x);
-  if (far == 0.0) return t;
-  // The nearest brick that is not empty begins `far` bricks away: up to there all are empty, and nothing lies
-  // outside the volume.
-  vec3 lower = brick - (far - 1.0), upper = brick + far;
-  vec3 low = mix(lower * kBrickCells, vec3(-kBeyond), lessThanEqual(lower, vec3(0.0)));
-  vec3 high = mix(upper * kBrickCells, vec3(kBeyond), greaterThanEqual(upper, count));
-  vec3 wall = mix(low, high, greaterThan(ray.speed, vec3(0.0)));
-  vec3 speed = mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
-  vec3 leave = mix((wall - ray.start) / speed, vec3(kBeyond), lessThan(abs(ray.speed), vec3(1e-30)));
-  return max(t, min(leave.x, min(leave.y, leave.z)));
+  const float kBrickCells = 8.0;
+  vec3 brick = clamp(floor((ray.start + t * ray.speed) / kBrickCells), vec3(0.0), volume.bricks.xyz - 1.0);
+  float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map * volume.bricks.z)), 0).x);
+  // The nearest brick that is not empty begins `far` bricks away: up to there all are empty.
+  vec3 wall = kBrickCells * (brick + mix(vec3(1.0 - far), vec3(far), greaterThan(ray.speed, vec3(0.0))));
+  vec3 leave = (wall - ray.start) * ray.pace;
+  return far > 0.0 ? min(leave.x, min(leave.y, leave.z)) : t;
 }
 
-// A stretch of any length from the two layers about it.
-vec4 short_stretch(vec2 ends, float first_layer, float stretch) {
-  float place = min(stretch / volume.lengths.x, volume.lengths.y - 1.0);
+// What a stretch of any length shows, from the two layers of the table about its length.
+vec4 short_stretch(float front, float back, float first_layer, float stretch) {
+  if (isnan(front + back)) return vec4(0.0);
+  float place = clamp(stretch / volume.lengths.x, 0.0, volume.lengths.y - 1.0);
   float below = min(floor(place), volume.lengths.y - 2.0);
-  return mix(texture(tables, vec3(ends, first_layer + below)), texture(tables, vec3(ends, first_layer + below + 1.0)),
-             place - below);
+  return mix(texture(tables, vec3(front, back, first_layer + below)),
+             texture(tables, vec3(front, back, first_layer + below + 1.0)), place - below);
+}
+
+void gather(vec4 seen, Ray ray, vec4 part, float middle, inout vec4 gathered) {
+#ifdef SHADED
+  if (part.z > 0.5) seen.rgb = shaded(seen, ray, middle);
+#endif
+  gathered += (1.0 - gathered.a) * seen;
+}
+
+// Samples at whole n, between which stretches have the length of a layer.
+struct Walk {
+  float d;
+  float layer;  // of all tables
+  float n;      // the present sample, and its value
+  float front;
+  float last;   // the sample at which the walk ends
+};
+
+// Goes to the next sample, over samples up to `inside` in one step; at the last one it stays.
+vec4 walk_on(inout Walk walk, Ray ray, float inside) {
+  float next = min(max(walk.n + 1.0, inside), walk.last);
+  float back = value_at(ray.start + next * walk.d * ray.speed);
+  bool blank = inside > walk.n || next == walk.n || isnan(walk.front + back);
+  vec4 seen = texture(tables, vec3(walk.front, back, walk.layer)) * (blank ? 0.0 : 1.0);
+  walk.n = next;
+  walk.front = back;
+  return seen;
 }
 
 // Adds what lies between `from` and `to`.
 void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  const int kMostSteps = 65536;
   float first_layer = part.x * volume.lengths.y;
   // The longest length of the table that still takes `part.y` samples a voxel; some room for rounding.
   float layer = floor(1.0 / (part.y * length(ray.speed) * volume.lengths.x) + 1e-3);
   layer = clamp(layer, 1.0, volume.lengths.y - 1.0);
-  float d = layer * volume.lengths.x;
+  Walk walk;
+  walk.d = layer * volume.lengths.x;
+  walk.layer = first_layer + layer;
+  walk.n = floor(from / walk.d) + 1.0;
+  walk.last = ceil(to / walk.d) - 1.0;
+  bool leaps = volume.bricks.w > 0.5;
 
-  float n = floor(from / d) + 1.0;
-  float t = from;
-  float front = value_at(ray.start + t * ray.speed);
-  bool clear = volume.bricks.w > 0.5;
-  for (int i = 0; i < kMostSteps && t < to; ++i) {
-    if (clear) {
-      float leave = end_of_empty(ray, t, part.x);
-      if (leave >= to) return;
-      float inside = floor(leave / d);  // the last sample that is still in empty bricks
-      if (inside >= n) {
-        n = inside + 1.0;
-        t = inside * d;
-        front = value_at(ray.start + t * ray.speed);
-      }
-    }
-    float next = min(n * d, to);
-    float back = value_at(ray.start + next * ray.speed);
-    vec4 seen = vec4(0.0);
-    if (!isnan(front + back)) {
-      vec2 ends = vec2(front, back);
-      seen = abs(next - t - d) < 1e-3 * d ? texture(tables, vec3(ends, first_layer + layer))
-                                          : short_stretch(ends, first_layer, next - t);
-    }
-    clear = seen.a == 0.0 && volume.bricks.w > 0.5;
+  float t = min(walk.n * walk.d, to);
+  walk.front = value_at(ray.start + t * ray.speed);
+  gather(short_stretch(value_at(ray.start + from * ray.speed), walk.front, first_layer, t - from), ray, part,
+         0.5 * (from + t), gathered);
+
+  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
+    // The last sample that is still in empty bricks.
+    float inside = leaps ? floor(end_of_empty(ray, walk.n * walk.d, part.x) / walk.d) : walk.n;
 #ifdef SHADED
-    if (part.z > 0.5 && seen.a > 0.0) seen.rgb = shaded(seen, ray, 0.5 * (t + next));
+    vec4 seen;
+    for (int i = 0; i < 8 && walk.n < walk.last; ++i) {  // light costs most: on to the next stretch that is seen
+      seen = walk_on(walk, ray, inside);
+      if (seen.a > 0.0) break;
+    }
+    gather(seen, ray, part, (walk.n - 0.5) * walk.d, gathered);
+#else
+    gather(walk_on(walk, ray, inside), ray, part, 0.0, gathered);
+    gather(walk_on(walk, ray, inside), ray, part, 0.0, gathered);
 #endif
-    gathered += (1.0 - gathered.a) * seen;
-    if (gathered.a > volume.lengths.z) return;
-    t = next;
-    n += 1.0;
-    front = back;
+  }
+
+  if (walk.n == walk.last && gathered.a <= volume.lengths.z) {
+    t = walk.n * walk.d;
+    gather(short_stretch(walk.front, value_at(ray.start + to * ray.speed), first_layer, to - t), ray, part,
+           0.5 * (t + to), gathered);
   }
 }

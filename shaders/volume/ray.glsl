@@ -4,6 +4,7 @@ struct Ray {
   vec3 direction;  // N, unit
   vec3 start;      // g at t = 0
   vec3 speed;      // g a unit of t
+  vec3 pace;       // its reciprocal, large where there is no speed
   float first;     // t between which the ray is to be cast; first > last: nowhere
   float last;
 };
@@ -30,10 +31,8 @@ Ray pixel_ray() {
   ray.start = (volume.grid_from_scene * vec4(ray.origin, 1.0)).xyz;
   ray.speed = mat3(volume.grid_from_scene) * ray.direction;
 
-  // Slabs of the box; along an axis that the ray does not follow at all, division gives the infinities that
-  // are wanted, but for 0 / 0.
-  vec3 speed = mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
-  vec3 a = (volume.lower.xyz - ray.start) / speed, b = (volume.upper.xyz - ray.start) / speed;
+  ray.pace = 1.0 / mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
+  vec3 a = (volume.lower.xyz - ray.start) * ray.pace, b = (volume.upper.xyz - ray.start) * ray.pace;
   vec3 near = min(a, b), far = max(a, b);
   ray.first = max(near.x, max(near.y, near.z));
   ray.last = min(far.x, min(far.y, far.z));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -16,8 +17,13 @@
 namespace palpate::test {
 
 struct VolumePicture::State {
-  OffscreenContext context;
-  VolumePass pass;
+  explicit State(Context which) {
+    if (which == Context::kOwn) context.emplace();
+    pass.emplace();
+  }
+
+  std::optional<OffscreenContext> context;
+  std::optional<VolumePass> pass;  // needs a context
   int width = 0, height = 0;
   GlTexture color, depth;
   GlFramebuffer framebuffer;
@@ -30,11 +36,12 @@ struct VolumePicture::State {
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-    pass.draw(has_depth ? depth.name() : 0);
+    pass->draw(has_depth ? depth.name() : 0);
   }
 };
 
-VolumePicture::VolumePicture(int width, int height) : state_(std::make_unique<State>()) {
+VolumePicture::VolumePicture(int width, int height, Context context)
+    : state_(std::make_unique<State>(context)) {
   State& s = *state_;
   s.width = width;
   s.height = height;
@@ -68,7 +75,7 @@ FloatImage VolumePicture::draw(const VolumeView& view, const Camera& camera,
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
-  s.pass.update(view, frame);
+  s.pass->update(view, frame);
   s.draw();
   FloatImage image{
       s.width, s.height,
@@ -85,7 +92,7 @@ double VolumePicture::draw_again() {
   return 1e3 * clock.seconds();
 }
 
-const VolumePass::Cost& VolumePicture::cost() const { return state_->pass.cost(); }
+const VolumePass::Cost& VolumePicture::cost() const { return state_->pass->cost(); }
 
 Rgba FloatImage::at(int x, int y) const {
   const float* p = rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

@@ -23,10 +23,12 @@ struct FloatImage {
   [[nodiscard]] Rgba at(int x, int y) const;
 };
 
-/// Owns a context and a framebuffer of single precision, cleared to nothing.
+/// Owns a framebuffer of single precision, cleared to nothing, and a context for it unless one is current
+/// already.
 class VolumePicture {
  public:
-  VolumePicture(int width, int height);
+  enum class Context : std::uint8_t { kOwn, kCurrent };
+  VolumePicture(int width, int height, Context context = Context::kOwn);
   ~VolumePicture();
 
   /// @param opaque_depth where not empty: a number of [0, 1] for each pixel, as a depth buffer holds.

@@ -68,11 +68,9 @@ void own(VolumeImage& image, std::vector<T> numbers, ScalarType type) {
 // Signed numbers as unsigned ones, in the same order.
 template <typename Signed, typename Unsigned>
 void shift_signed(VolumeImage& image, const DataArray& array, ScalarType type) {
-  constexpr int kLowest = std::numeric_limits<Signed>::min();
+  constexpr double kLowest = std::numeric_limits<Signed>::min();
   std::vector<Unsigned> numbers(array.tuples);
-  for (std::size_t i = 0; i < array.tuples; ++i) {
-    numbers[i] = static_cast<Unsigned>(int{read_as<Signed>(array.bytes, i)} - kLowest);
-  }
+  for (std::size_t i = 0; i < array.tuples; ++i) numbers[i] = static_cast<Unsigned>(array.at(i) - kLowest);
   own(image, std::move(numbers), type);
   image.offset = kLowest;
 }

@@ -146,7 +146,8 @@ TEST(LensPicture, OfLensesWithoutMatterIsThatWithoutLens) {
   Lens nothing{make_sphere(Vec3(0.0), 0.0)}, outside{make_sphere({5.0, 0.0, 0.0}, 2.0)};
   nothing.cut = outside.cut = true;
   view.lenses = {nothing, outside};
-  EXPECT_EQ(worst_difference(picture.draw(view, camera), whole), 0.0);
+  // With lenses a ray ends at the very step at which it is opaque, without them at every other one.
+  EXPECT_LE(worst_difference(picture.draw(view, camera), whole), 0.5 / 255.0);
 }
 
 TEST(LensPicture, OfALensLargerThanTheVolumeIsAllFocus) {
