@@ -8,7 +8,9 @@
 #include <random>
 #include <utility>
 
+#include "common/field/analytic/analytic_scalar.h"
 #include "common/haptics/constraint/circle.h"
+#include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/polyline.h"
 #include "common/haptics/constraint/sphere.h"
@@ -50,6 +52,7 @@ struct Subject {
   double angle = 0.0;  ///< [degrees]
   Vec3 middle{0.0};    ///< [m]
   std::function<Links()> make;
+  int steps = kStepsPerTurn;
 };
 
 std::unique_ptr<Constraint> line_at(double degrees) {
@@ -76,6 +79,24 @@ std::unique_ptr<StreamlineConstraint> streamline() {
       std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, 1), Workspace(0.1, field->frame()));
 }
 constexpr Vec3 kOnStreamline{0.05, 0.0, 0.0};
+
+/// Zero on a bent surface that meets the streamline through (0.5, 0, 0) at 43 degrees from its normal.
+struct BentFormula {
+  static constexpr const char* kName = "bent";
+  static constexpr const char* kDescription = "y + 0.7 (x - 0.5) + 0.8 (z^2 + (x - 0.5)^2)";
+  inline static const Box kBounds{Vec3{-2.0}, Vec3{2.0}};
+  template <typename T>
+  static T value(const T& x, const T& y, const T& z) {
+    const T beside = x - 0.5;
+    return y + 0.7 * beside + 0.8 * (z * z + beside * beside);
+  }
+};
+
+/// That surface, felt from either side.
+std::unique_ptr<Constraint> wall() {
+  const auto field = make_scalar_field(std::make_shared<const FormulaScalar<BentFormula>>());
+  return std::make_unique<IsosurfaceConstraint>(field, Workspace(0.1, field->frame()));
+}
 
 template <typename... Link>
 Links links_of(std::unique_ptr<Link>... links) {
@@ -108,6 +129,11 @@ std::vector<Subject> subjects() {
                    return links_of(streamline(), std::make_unique<SphereConstraint>(
                                                      kOnStreamline + Vec3{0.03, 0.04, 0.0}, 0.05));
                  }});
+  constexpr int kManySteps = 16 * kStepsPerTurn;  // the force steps where a wall takes hold or lets go
+  all.push_back({"streamline, then isosurface", 0.0, kOnStreamline,
+                 [] { return links_of(streamline(), wall()); }, kManySteps});
+  all.push_back({"isosurface, then streamline", 0.0, kOnStreamline,
+                 [] { return links_of(wall(), streamline()); }, kManySteps});
   all.push_back({"streamline, then tick marks", 0.0, kOnStreamline, [] {
                    auto first = streamline();
                    auto marks = std::make_unique<TickMarks>(*first);
@@ -126,6 +152,8 @@ ChainSettings settings_of_loops() {
   settings.shape = {.snap_distance = 0.05, .release_distance = 0.1};
   settings.streamline.release_distance = 0.04;
   settings.drag.threshold = 0.001;
+  settings.isosurface.isovalues.count = 1;
+  settings.isosurface.depth = 0.04;
   settings.ticks.interval = 0.02;  // a millimetre apart, roughly
   return settings;
 }
@@ -133,7 +161,7 @@ ChainSettings settings_of_loops() {
 /// A closed curve: three harmonics with random directions.
 class Loop {
  public:
-  Loop(const Vec3& middle, std::uint64_t seed) : middle_(middle) {
+  Loop(const Subject& subject, std::uint64_t seed) : middle_(subject.middle), steps_(subject.steps) {
     std::mt19937_64 random(seed);
     const auto unit = [&random] { return static_cast<double>(random() >> 11U) * 0x1p-52 - 1.0; };
     for (Vec3& part : parts_) {
@@ -141,8 +169,9 @@ class Loop {
       part = Vec3{x, y, z};
     }
   }
+  [[nodiscard]] int steps() const noexcept { return steps_; }
   [[nodiscard]] Vec3 at(int step) const {
-    const double turn = 2.0 * std::numbers::pi * step / kStepsPerTurn;
+    const double turn = 2.0 * std::numbers::pi * step / steps_;
     Vec3 x = middle_;
     for (std::size_t m = 0; m < kHarmonics; ++m) {
       const double n = static_cast<double>(m + 1);
@@ -154,6 +183,7 @@ class Loop {
  private:
   static constexpr std::size_t kHarmonics = 3;
   Vec3 middle_;
+  int steps_;
   std::array<Vec3, 2 * kHarmonics> parts_{};
 };
 
@@ -171,12 +201,12 @@ double energy_of(const Vec3& probe, const ChainStep& step, double stiffness) {
 /// Leads a hand around once, and then once more that counts.
 void lead_around(ProxyChain& chain, const Loop& loop, int direction, ChainWorkRow& row) {
   chain.reset();
-  for (int n = 0; n < kStepsPerTurn; ++n) (void)chain.step(loop.at(direction * n));
+  for (int n = 0; n < loop.steps(); ++n) (void)chain.step(loop.at(direction * n));
   Vec3 last = loop.at(0);
   Vec3 last_force = chain.step(last).force;
   double work = 0.0, energy = 0.0;
   const double before = thread_microseconds();
-  for (int n = 1; n <= kStepsPerTurn; ++n) {
+  for (int n = 1; n <= loop.steps(); ++n) {
     const Vec3 x = loop.at(direction * n);
     const ChainStep step = chain.step(x);
     work += glm::dot(0.5 * (last_force + step.force), x - last);
@@ -198,10 +228,10 @@ ChainWorkRow measure(const Subject& subject, ChainForceForm form, int loops) {
   chain.set_force_form(form);
   ChainWorkRow row{.chain = subject.name, .angle = subject.angle, .form = form};
   for (int n = 0; n < loops; ++n) {
-    const Loop loop(subject.middle, static_cast<std::uint64_t>(n) + 1);
+    const Loop loop(subject, static_cast<std::uint64_t>(n) + 1);
     for (const int direction : {1, -1}) lead_around(chain, loop, direction, row);
   }
-  row.us_mean /= static_cast<double>(row.turns) * kStepsPerTurn;
+  row.us_mean /= static_cast<double>(row.turns) * subject.steps;
   return row;
 }
 

@@ -46,11 +46,13 @@ ReportSection chain_work_section(const ChainWork& work) {
       "further one: no hand and no damping of a device is sure to hold it. 'Sum' adds up the springs as they "
       "are (Ikits 2006, sec. 6.7); 'consistent' carries each of them back by the transposed Jacobians of the "
       "links before it, and is what hands feel by default.",
-      "Its price is seen where a dragged point comes first: whether it sticks or slides, the springs behind "
-      "it "
-      "are felt or not, and the force steps (column 'steepest'), by no more than these springs hold; the "
-      "slew "
-      "limit of the safety stage turns that into a ramp."};
+      "Its price is seen where a link that takes hold and lets go comes first, a dragged point or a wall: "
+      "the "
+      "springs behind it are felt or not, and the force steps (column 'steepest'), by no more than these "
+      "springs "
+      "hold; the slew limit of the safety stage turns that into a ramp. With the curve first, as sec. 6.7 "
+      "has it, "
+      "there is none."};
   section.columns = {"chain", "force", "yields", "takes", "steepest [N/m]", "us a step"};
   for (const ChainWorkRow& row : work.rows) {
     section.table.push_back({case_name(row), std::string(name_of(row.form)), three_digits(row.yield),
