@@ -19,6 +19,7 @@
 #include "common/scene/seeds.h"
 #include "common/scene/session.h"
 #include "common/servo/recording.h"
+#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
@@ -55,10 +56,11 @@ ProbeSessionOptions touch_of(const Options& options, const VerbContext& context)
   touch.path = device_path(options.device);
   touch.simulated = simulated_option(options.device);
   if (touch.simulated) {
-    const DeviceProfile& profile = touch.simulated->profile;
-    touch.limits.force_cap = std::min(touch.limits.force_cap, profile.peak_force);
+    touch.limits.force_cap = std::min(touch.limits.force_cap, touch.simulated->profile.peak_force);
     context.console.note("simulated: " + title_of(*touch.simulated));
-    const std::string note = stiffness_note(profile, touch.choice.settings, options.rate);
+    const ChainSettings& settings = touch.choice.settings;
+    const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
+                                               settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
   }
   if (!options.replay.empty()) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/servo/hand_step.h"
+#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
@@ -73,11 +74,9 @@ double linear_stability_limit(double mass, double damping, double rate) {
 }
 
 WallLoop loop_of(const WallCase& wall) {
-  return {.damping = wall.device.damping,
-          .friction = wall.device.friction,
-          .encoder_step = wall.device.encoder_step,
-          .delay = wall.device.sensor_delay + wall.device.actuator_delay,
-          .period = 1.0 / wall.rate};
+  WallLoop loop = wall_loop(wall.device, wall.rate);
+  loop.device_stiffness = 0.0;
+  return loop;
 }
 
 double largest_stable_stiffness(const WallCase& given) {

@@ -52,7 +52,7 @@ struct WallRun {
 /// The right-hand side of (1) in closed form [N/m]. @pre damping and mass above zero.
 [[nodiscard]] double linear_stability_limit(double mass, double damping, double rate);
 
-/// What coupling.h needs to know of a case.
+/// What coupling.h needs to know of a case, but for the stiffness that its maker allows.
 [[nodiscard]] WallLoop loop_of(const WallCase& wall);
 
 /// The stiffness above which the arm first goes on swinging, to 1 % [N/m]; 0 where it always does. Tried from

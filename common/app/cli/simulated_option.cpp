@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/haptics/coupling.h"
 
 namespace palpate {
 
@@ -36,16 +35,6 @@ std::optional<SimulatedDeviceOptions> simulated_option(const std::string& device
 std::string title_of(const SimulatedDeviceOptions& device) {
   return std::string(device.profile.title) + " in a " + (device.hand == kFirmHand ? "firm" : "relaxed") +
          " hand";
-}
-
-std::string stiffness_note(const DeviceProfile& device, const ChainSettings& settings, double rate) {
-  const WallLoop loop{.damping = device.damping,
-                      .friction = device.friction,
-                      .encoder_step = device.encoder_step,
-                      .delay = device.sensor_delay + device.actuator_delay,
-                      .period = 1.0 / rate,
-                      .device_stiffness = device.max_stiffness};
-  return stiffness_warning(loop, settings.stiffness, settings.damping);
 }
 
 }  // namespace palpate

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "common/device/simulated_device.h"
-#include "common/haptics/chain_settings.h"
 
 namespace palpate {
 
@@ -16,10 +15,5 @@ namespace palpate {
 
 /// "PHANToM Premium 3.0 class in a relaxed hand"
 [[nodiscard]] std::string title_of(const SimulatedDeviceOptions& device);
-
-/// What is to be said of settings that may make the device swing; empty where there is nothing.
-/// @param rate of the servo [Hz].
-[[nodiscard]] std::string stiffness_note(const DeviceProfile& device, const ChainSettings& settings,
-                                         double rate);
 
 }  // namespace palpate

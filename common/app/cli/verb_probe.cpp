@@ -22,6 +22,7 @@
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
 #include "common/servo/servo_loop.h"
+#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
@@ -363,7 +364,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     if (file) run.log_to(*file, haptics.chain->size());
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (simulated) {
-      const std::string note = stiffness_note(simulated->profile, summary.settings, options.rate);
+      const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),
+                                                 summary.settings.stiffness, summary.settings.damping);
       if (!note.empty()) console.note(note);
       follow_operator(path, *simulated, options.rate, stepper, workspace, run, context.progress);
     } else {

@@ -10,6 +10,7 @@
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
@@ -167,6 +168,12 @@ void ProbeSession::choose(const TouchChoice& choice) {
   } else if (!(choice.settings == before.settings)) {
     servo_->set_settings(chain_settings());
   }
+}
+
+std::string ProbeSession::stiffness_note() const {
+  if (!options_.simulated) return {};
+  return stiffness_warning(wall_loop(options_.simulated->profile, options_.servo_rate),
+                           choice_.settings.stiffness, choice_.settings.damping);
 }
 
 std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {

@@ -108,6 +108,9 @@ class ProbeSession {
 
   [[nodiscard]] const TouchChoice& choice() const noexcept { return choice_; }
   void choose(const TouchChoice& choice);
+  /// Where the stiffness is more than the device can show: one line that names the limit. Empty where it is
+  /// not, and for devices that show no force.
+  [[nodiscard]] std::string stiffness_note() const;
   /// The choice as options of the command line and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> options() const;
 

@@ -113,6 +113,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   edit_settings(choice, session.modes()[choice.mode].name);
   choose_looks(choice, half);
   session.choose(choice);
+  if (const std::string note = session.stiffness_note(); !note.empty())
+    ImGui::TextWrapped("%s", note.c_str());
 
   actions.keep = ImGui::Button("Keep line  (K)", size);
   ImGui::SameLine();

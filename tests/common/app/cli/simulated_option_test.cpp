@@ -39,14 +39,5 @@ TEST(SimulatedOption, RefusesWhatItDoesNotKnow) {
             "--device simulated:hand=firm,hand=firm: one device and one hand at most");
 }
 
-TEST(SimulatedOption, WarnsOfAStiffnessThatTheDeviceCannotShow) {
-  const DeviceProfile& premium = find_profile("premium3");
-  EXPECT_EQ(stiffness_note(premium, {}, 1000.0), "") << "the default stiffness is at its bound";
-  EXPECT_NE(stiffness_note(premium, {.stiffness = 201.0}, 1000.0), "");
-  EXPECT_EQ(stiffness_note(premium, {.stiffness = 201.0}, 2000.0), "");
-  EXPECT_NE(stiffness_note(premium, {.stiffness = 1001.0}, 10'000.0).find("stated for this device"),
-            std::string::npos);
-}
-
 }  // namespace
 }  // namespace palpate::test

@@ -57,9 +57,27 @@ TEST(SimulatedHand, WandersByItselfAndComesWhereTheMouseLeads) {
   hand.session.grab(0.0, kSeed);
   EXPECT_TRUE(hand.wait_for([&] { return glm::distance(hand.session.readout().probe, kSeed) < kNear; }));
   hand.session.let_go();
-  EXPECT_TRUE(hand.wait_for([&] { return glm::distance(hand.session.readout().probe, kSeed) > 2.0 * kNear; }));
+  EXPECT_TRUE(
+      hand.wait_for([&] { return glm::distance(hand.session.readout().probe, kSeed) > 2.0 * kNear; }));
   EXPECT_TRUE(hand.session.readout().held) << "the hand stays on the device";
   hand.session.finish();
+}
+
+TEST(SimulatedHand, WarnsOfAStiffnessThatTheDeviceCannotShow) {
+  SimulatedHand hand(options_with(find_profile("premium3")));
+  EXPECT_EQ(hand.session.stiffness_note(), "") << "the default stiffness is at its bound";
+  TouchChoice choice = hand.session.choice();
+  choice.settings.stiffness = 201.0;
+  hand.session.choose(choice);
+  EXPECT_NE(hand.session.stiffness_note().find("is above 200 N/m"), std::string::npos);
+  ProbeSessionOptions fast = options_with(find_profile("premium3"));
+  fast.servo_rate = 2000.0;
+  fast.choice.settings.stiffness = 201.0;
+  EXPECT_EQ(SimulatedHand(std::move(fast)).session.stiffness_note(), "");
+  ProbeSessionOptions mouse;
+  mouse.modes = sample_modes();
+  mouse.choice.settings.stiffness = 1e6;
+  EXPECT_EQ(SimulatedHand(std::move(mouse)).session.stiffness_note(), "") << "a mouse shows no force";
 }
 
 TEST(SimulatedHand, FollowsAPathAndLetsGoAtItsEnd) {
