@@ -37,6 +37,13 @@ Ray pixel_ray() {
   ray.first = max(near.x, max(near.y, near.z));
   ray.last = min(far.x, min(far.y, far.z));
   if (perspective) ray.first = max(ray.first, 0.0);
+  if (volume.bricks.w > 0.5) {
+    const int kTilePixels = 8;
+    vec2 span = texelFetch(tiles, ivec2(gl_FragCoord.xy) / kTilePixels, 0).xy;
+    // Tiles know the shell of what is seen; a ray that begins in the volume may begin within the shell.
+    if (!perspective || ray.first > 0.0) ray.first = max(ray.first, -span.x);
+    ray.last = min(ray.last, span.y);
+  }
   if (has_opaque_depth) ray.last = min(ray.last, opaque_distance(ray, ray.last));
   return ray;
 }

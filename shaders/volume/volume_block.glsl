@@ -11,7 +11,7 @@ layout(std140, binding = 1) uniform Volume {
   vec4 lower;         // xyz: corner of the volume, g; w: number at the first entry of a table
   vec4 upper;         // xyz: opposite corner; w: table coordinate a number
   vec4 points;        // xyz: voxels an axis; w: table coordinate of the first entry
-  vec4 bricks;        // xyz: bricks an axis; w: 1 leap over empty ones
+  vec4 bricks;        // xyz: bricks an axis; w: 1 leave out empty ones
   vec4 lengths;       // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end
   vec4 parts[1 + kMostLenses];  // the context, then the lenses
   ivec4 lens_count;             // x: lenses
@@ -21,4 +21,5 @@ layout(binding = 0) uniform sampler3D voxels;
 layout(binding = 1) uniform sampler2DArray tables;   // associated colour and opacity: front entry, back entry, layer
 layout(binding = 2) uniform usampler3D empty_bricks; // distances in bricks, one map after another along z
 layout(binding = 3) uniform sampler2D opaque_depth;
+layout(binding = 4) uniform sampler2D tiles;  // volume/tiles.vert
 layout(location = 0) uniform bool has_opaque_depth;

@@ -17,13 +17,14 @@
 #include "common/render/gl/program.h"
 #include "common/render/volume/brick_map.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate {
 namespace {
 
 // Bindings and locations of shaders/volume/.
-enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3 };
+enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4 };
 enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
 constexpr GLint kHasOpaqueDepth = 0;
 
@@ -125,9 +126,12 @@ struct VolumePass::State {
 
   std::shared_ptr<const VolumeImage> image;
   BrickRanges ranges;
+  TilePass tiles;
   TableKey key;
   std::vector<std::uint16_t> table;  // kept: it is large and asked for again while a function is dragged
   Variant variant = Variant::kPlain;
+  SceneFrame frame;
+  bool skip_empty = true;
 
   void update_image(const VolumeView& view) {
     if (image == view.image) return;
@@ -162,6 +166,7 @@ struct VolumePass::State {
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 
     table.resize(4 * entries * entries * lengths);
+    std::vector<std::uint8_t> maps;
     for (std::size_t i = 0; i < transfers.size(); ++i) {
       const std::vector<OpticalEntry> optical =
           optical_entries(*transfers[i], image->offset + image->scale * wanted.range.lower,
@@ -173,11 +178,13 @@ struct VolumePass::State {
           empty_distances(ranges, optical, wanted.range.lower, wanted.range.upper);
       glTextureSubImage3D(empty_bricks.name(), 0, 0, 0, static_cast<GLint>(i) * b.z, b.x, b.y, b.z,
                           GL_RED_INTEGER, GL_UNSIGNED_BYTE, distances.data());
+      maps.insert(maps.end(), distances.begin(), distances.end());
       if (i > 0) continue;
       const auto empty = std::count_if(distances.begin(), distances.end(), [](auto d) { return d > 0; });
       cost.empty_share = static_cast<double>(empty) / static_cast<double>(distances.size());
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    tiles.set_bricks(shell_bricks(b, maps));
     cost.table_bytes = table.size() * sizeof(std::uint16_t) * transfers.size();
     cost.brick_bytes = ranges.ranges.size() * transfers.size();
     cost.table_ms = 1e3 * clock.seconds();
@@ -203,6 +210,8 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   s.update_image(view);
   s.update_tables(view);
   s.update_program(view);
+  s.frame = frame;
+  s.skip_empty = view.skip_empty;
   s.volume_block = make_block_buffer(make_volume_block(view, frame, s.ranges.bricks));
   if (s.variant == Variant::kLenses) s.lens_block = make_block_buffer(make_lens_block(view, frame));
 }
@@ -210,6 +219,10 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
 void VolumePass::draw(std::uint32_t opaque_depth) {
   State& s = *state_;
   PALPATE_CHECK(s.image != nullptr);
+  if (s.skip_empty) {
+    if (!s.tiles.compiled()) ++s.cost.programs;
+    glBindTextureUnit(kTiles, s.tiles.draw(*s.image, s.frame));
+  }
   glUseProgram(s.programs[static_cast<std::size_t>(s.variant)].name());
   glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, s.volume_block.name());
   if (s.variant == Variant::kLenses) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, s.lens_block.name());

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/render/volume/tile_pass.h"
 #include "tests/common/render/volume/sample_volumes.h"
 
 namespace palpate::test {
@@ -103,6 +104,29 @@ TEST(EmptyDistances, TakeValuesBeyondTheTableAsItsEnds) {
   EXPECT_EQ(distance_of(-9.0F, 1.1F, kSeenAboveOne), 0);
   EXPECT_EQ(distance_of(5.0F, 9.0F, kSeenAboveOne), 0);
   EXPECT_EQ(distance_of(5.0F, 9.0F, {{Vec3f(0.0F), 1.0F}, {Vec3f(0.0F), 0.0F}}), 255);
+}
+
+TEST(ShellBricks, LeaveOutThoseBetweenOthers) {
+  const Index3 bricks{5, 6, 7};
+  std::vector<std::uint8_t> maps(2 * 5 * 6 * 7, 1);
+  EXPECT_TRUE(shell_bricks(bricks, maps).empty());
+  // A block of 3 x 3 x 3 whose middle is seen in the other map alone.
+  for (int z = 2; z < 5; ++z) {
+    for (int y = 1; y < 4; ++y) {
+      for (int x = 1; x < 4; ++x) maps[index_of(bricks, x, y, z)] = 0;
+    }
+  }
+  const std::uint32_t middle = 2U | 2U << 10U | 3U << 20U;
+  std::vector<std::uint32_t> shell = shell_bricks(bricks, maps);
+  EXPECT_EQ(shell.size(), 26U);
+  EXPECT_EQ(std::count(shell.begin(), shell.end(), middle), 0);
+  maps[index_of(bricks, 2, 2, 3)] = 1;
+  EXPECT_EQ(shell_bricks(bricks, maps).size(), 26U);
+  maps[5 * 6 * 7 + index_of(bricks, 2, 2, 3)] = 0;
+  EXPECT_EQ(shell_bricks(bricks, maps).size(), 26U);
+  // All of the volume: its border.
+  std::fill(maps.begin(), maps.end(), std::uint8_t{0});
+  EXPECT_EQ(shell_bricks(bricks, maps).size(), 5U * 6U * 7U - 3U * 4U * 5U);
 }
 
 }  // namespace

@@ -234,10 +234,10 @@ TEST(VolumePass, CompilesOnlyTheShadersThatItNeeds) {
   VolumePicture picture(16, 16);
   (void)picture.draw(view, camera_of(view));
   (void)picture.draw(view, camera_of(view));
-  EXPECT_EQ(picture.cost().programs, 1);
+  EXPECT_EQ(picture.cost().programs, 2);  // rays without light, and tiles
   view.shading = true;
   (void)picture.draw(view, camera_of(view));
-  EXPECT_EQ(picture.cost().programs, 2);
+  EXPECT_EQ(picture.cost().programs, 3);
   EXPECT_EQ(picture.cost().voxel_bytes, 33U * 33U * 33U);
   EXPECT_EQ(picture.cost().table_bytes, 8U * 256U * 256U * 32U);
 }

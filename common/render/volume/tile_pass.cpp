@@ -1,0 +1,121 @@
+#include "common/render/volume/tile_pass.h"
+
+#include <algorithm>
+#include <array>
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "common/base/check.h"
+#include "common/math/power_of_two.h"
+#include "common/render/gl/program.h"
+#include "common/render/volume/brick_map.h"
+
+namespace palpate {
+namespace {
+
+// Locations and bindings of shaders/volume/tiles.vert.
+enum Uniform : GLint { kSceneFromGrid = 1, kRadius = 2, kTileCount = 3 };
+constexpr GLuint kBricks = 0;
+constexpr int kTilePixels = 8;
+
+// The farthest corner of a brick from its middle; along an axis of one voxel a brick begins half a step
+// earlier.
+double brick_radius(const Mat3& scene_from_grid) {
+  constexpr double kHalf = 0.5 * kBrickCells + 0.5;
+  double radius = 0.0;
+  for (const double y : {-1.0, 1.0}) {
+    for (const double z : {-1.0, 1.0})
+      radius = std::max(radius, glm::length(scene_from_grid * Vec3(1.0, y, z)));
+  }
+  return kHalf * radius;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> shell_bricks(const Index3& bricks, std::span<const std::uint8_t> distances) {
+  PALPATE_CHECK(std::max({bricks.x, bricks.y, bricks.z}) <= 1024);
+  const auto nx = static_cast<std::size_t>(bricks.x), ny = static_cast<std::size_t>(bricks.y);
+  const std::size_t count = nx * ny * static_cast<std::size_t>(bricks.z);
+  PALPATE_CHECK(count > 0 && distances.size() % count == 0);
+  std::vector<std::uint8_t> seen(count, 0);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (distances[i] == 0) seen[i % count] = 1;
+  }
+  std::vector<std::uint32_t> shell;
+  for (int z = 0; z < bricks.z; ++z) {
+    for (int y = 0; y < bricks.y; ++y) {
+      for (int x = 0; x < bricks.x; ++x) {
+        const std::size_t i = static_cast<std::size_t>(x) +
+                              nx * (static_cast<std::size_t>(y) + ny * static_cast<std::size_t>(z));
+        if (seen[i] == 0) continue;
+        const bool border =
+            x == 0 || y == 0 || z == 0 || x + 1 == bricks.x || y + 1 == bricks.y || z + 1 == bricks.z;
+        const bool inner = !border && seen[i - 1] != 0 && seen[i + 1] != 0 && seen[i - nx] != 0 &&
+                           seen[i + nx] != 0 && seen[i - nx * ny] != 0 && seen[i + nx * ny] != 0;
+        if (inner) continue;
+        shell.push_back(static_cast<std::uint32_t>(x) | static_cast<std::uint32_t>(y) << 10U |
+                        static_cast<std::uint32_t>(z) << 20U);
+      }
+    }
+  }
+  return shell;
+}
+
+void TilePass::set_bricks(std::span<const std::uint32_t> shell) {
+  bricks_ = make_buffer(shell);
+  brick_count_ = shell.size();
+}
+
+std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame) {
+  std::array<GLint, 4> viewport{};
+  GLint framebuffer = 0;
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+  const int columns = (viewport[2] + kTilePixels - 1) / kTilePixels;
+  const int rows = (viewport[3] + kTilePixels - 1) / kTilePixels;
+  if (!program_) {
+    program_ = compile_program("volume/tiles.vert", "volume/tiles.frag");
+    no_vertices_ = make_vertex_array();
+  }
+  if (columns != columns_ || rows != rows_) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    tiles_ = GlTexture(name);
+    glTextureStorage2D(name, 1, GL_RG32F, columns, rows);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glCreateFramebuffers(1, &name);
+    framebuffer_ = GlFramebuffer(name);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, tiles_.name(), 0);
+    columns_ = columns;
+    rows_ = rows;
+  }
+
+  const double to_scene = power_of_two(-frame.exponent);
+  const Mat3 axes = image.axes * to_scene;
+  glm::mat4 scene_from_grid{Mat4(axes)};
+  scene_from_grid[3] = {Vec3f(frame.scene_from_data(image.origin)), 1.0F};
+
+  constexpr std::array<float, 4> kNothing{-1e30F, -1e30F, 0.0F, 0.0F};
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, columns, rows);
+  glUseProgram(program_.name());
+  glUniformMatrix4fv(kSceneFromGrid, 1, GL_FALSE, glm::value_ptr(scene_from_grid));
+  glUniform1f(kRadius, static_cast<float>(brick_radius(axes)));
+  glUniform2f(kTileCount, static_cast<float>(columns), static_cast<float>(rows));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBricks, bricks_.name());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MAX);
+  glBindVertexArray(no_vertices_.name());
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * brick_count_));
+  glBlendEquation(GL_FUNC_ADD);
+  glDisable(GL_BLEND);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  return tiles_.name();
+}
+
+}  // namespace palpate

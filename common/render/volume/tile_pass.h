@@ -1,0 +1,46 @@
+/// A small picture that says for each tile of the large one between which distances rays can meet something:
+/// the shell of bricks that show something, drawn as squares about their bounding spheres
+/// (shaders/volume/tiles.vert; Krueger and Westermann 2003 draw their faces). Rays of the other tiles are not
+/// cast at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/math/vec.h"
+#include "common/render/camera.h"
+#include "common/render/gl/object.h"
+#include "common/render/volume/volume_image.h"
+
+namespace palpate {
+
+/// Bricks that show something in any of the maps, and have a neighbour that does not or lie at the border:
+/// all others lie between these along any ray. As the shader reads them, 10 bits an axis.
+/// @param distances of empty_distances(), one or several maps one after another. @pre at most 1024 bricks an
+/// axis.
+[[nodiscard]] std::vector<std::uint32_t> shell_bricks(const Index3& bricks,
+                                                      std::span<const std::uint8_t> distances);
+
+class TilePass {
+ public:
+  void set_bricks(std::span<const std::uint32_t> shell);
+  /// Draws the tiles of a picture as large as the viewport. Needs the frame's uniform block bound to 0; keeps
+  /// the framebuffer and viewport.
+  /// @return the name of the texture: minus the first and the last t of each tile; the last before the first
+  /// where nothing is.
+  [[nodiscard]] std::uint32_t draw(const VolumeImage& image, const SceneFrame& frame);
+  [[nodiscard]] bool compiled() const noexcept { return static_cast<bool>(program_); }
+
+ private:
+  GlProgram program_;
+  GlVertexArray no_vertices_;
+  GlBuffer bricks_;
+  std::size_t brick_count_ = 0;
+  GlTexture tiles_;
+  GlFramebuffer framebuffer_;
+  int columns_ = 0, rows_ = 0;
+};
+
+}  // namespace palpate
