@@ -52,5 +52,13 @@ TEST_F(FaultReplay, PlaysWhatLedToAFault) {
   }
 }
 
+TEST_F(FaultReplay, RefusesRatesThatNoServoHas) {
+  for (const std::string rate : {"99", "10001", "0", "-1", "nan", "fast"}) {
+    const ProgramResult result = run({"open", "--example", "abc", "--rate", rate});
+    EXPECT_EQ(result.exit_code, 2) << rate << ": " << result.err;
+    EXPECT_NE(result.err.find("rate"), std::string::npos) << result.err;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::test

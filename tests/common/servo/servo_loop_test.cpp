@@ -241,8 +241,62 @@ TEST(ServoLoop, AllocatesNothingInATick) {
   EXPECT_EQ(device.allocations, 0U);
 }
 
+/// Takes long at times, and once gives what is no position.
+class ClumsyDevice final : public Device {
+ public:
+  bool read(double now, DeviceSample& sample) noexcept override {
+    ++reads_;
+    if (reads_ % 40 == 39) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    sample = {now, reads_ == 200 ? Vec3{std::nan("")} : kNear, 0};
+    return reads_ > 100;
+  }
+  void command(const Vec3& /*force*/) noexcept override {}
+  void emergency_stop() noexcept override {}
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+
+ private:
+  DeviceLimits limits_;
+  int reads_ = 0;
+};
+
+TEST(ServoLoop, RecordsOverrunsAndSavesTheSecondsBeforeAFault) {
+  const TempFolder folder;
+  const std::string file = folder.path("run.txt").string();
+  ServoStatistics statistics;
+  {
+    Recorder recorder(file, {.program = "test"}, false);
+    FaultRecorder faults(folder.path("faults"), {.program = "test"}, 1000.0);
+    ClumsyDevice device;
+    {
+      ServoLoop servo(device, sphere_chain(kRadius), "0.05", {}, &recorder, &faults);
+      EXPECT_TRUE(wait_for(servo, [&](const ServoState& s) {
+        statistics = s.statistics;
+        return s.hand.number > 300;
+      }));
+    }
+    recorder.finish();
+    EXPECT_EQ(recorder.lost(), 0U);
+  }
+  EXPECT_EQ(statistics.faults, 1U);
+  EXPECT_GT(statistics.overruns, 4U);
+  EXPECT_GE(statistics.skipped, statistics.overruns);
+  const Recording run = read_recording(file);
+  EXPECT_GE(run.overruns.size(), statistics.overruns);
+  EXPECT_EQ(run.faults, (std::vector<RecordedFault>{{199, ForceCut::kNotFinite}}));
+  const Recording fault = read_recording(folder.path("faults/test-fault-1.rec").string());
+  EXPECT_EQ(fault.faults, run.faults);
+  ReplaySource replay(fault, [](const std::string& radius) { return sphere_chain(std::stod(radius)); });
+  while (!replay.done()) (void)replay.step();
+  EXPECT_EQ(replay.verdict().same, fault.steps.size());
+}
+
 TEST(ServoLoop, RefusesAnAbsurdRate) {
   RestingDevice device;
+  for (const double rate : {99.9, 10'001.0, 0.0, -1000.0, std::nan("")}) {
+    EXPECT_THROW(check_servo_rate(rate), Error) << rate;
+  }
+  EXPECT_NO_THROW(check_servo_rate(100.0));
+  EXPECT_NO_THROW(check_servo_rate(10'000.0));
   EXPECT_THROW(ServoLoop(device, nullptr, "", {.rate = 1.0}), Error);
   EXPECT_THROW(ServoLoop(device, nullptr, "", {.rate = std::nan("")}), Error);
 }
