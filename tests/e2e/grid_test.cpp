@@ -1,5 +1,7 @@
 // `grid`, run as a user runs it.
 
+#include <stb_image.h>
+
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
 
@@ -12,7 +14,11 @@ class Grid : public ExplorerTest {
 };
 
 TEST_F(Grid, HelpsWithExamplesAndListsItsVerbs) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"info", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"info", "--help"},
+                                                    {"probe", "-h"},
+                                                    {"render", "-h"},
+                                                    {"open", "-h"}}) {
     const ProgramResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_NE(result.out.find("Examples:"), std::string::npos) << arguments[0];
@@ -72,6 +78,94 @@ TEST_F(Grid, OpensWhatTheVtkAndNrrdHelpersRead) {
   const ProgramResult field = run({"info", tooth.string(), "--field", "density"});
   EXPECT_EQ(field.exit_code, 2);
   EXPECT_NE(field.err.find("scalars"), std::string::npos) << field.err;
+}
+
+/// Mean brightness of a picture's middle, 0 to 255.
+double brightness(const std::filesystem::path& file) {
+  int width = 0, height = 0, channels = 0;
+  unsigned char* pixels = stbi_load(file.c_str(), &width, &height, &channels, 3);
+  if (pixels == nullptr) return -1.0;
+  double sum = 0.0;
+  int count = 0;
+  for (int y = 2 * height / 5; y < 3 * height / 5; ++y) {
+    for (int x = 2 * width / 5; x < 3 * width / 5; ++x, ++count) {
+      const unsigned char* p = pixels + 3 * (y * width + x);
+      sum += (p[0] + p[1] + p[2]) / 3.0;
+    }
+  }
+  stbi_image_free(pixels);
+  return sum / count;
+}
+
+TEST_F(Grid, RendersWhatTheTransferFunctionShows) {
+  folder_.write("clear.csv", "value,red,green,blue,opacity\n0,1,1,1,0\n255,1,1,1,0\n");
+  const auto render = [this](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render", "--example", "shells", "--size", "96x96", "--out", name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return brightness(folder_.path(name));
+  };
+  const double clear = render("clear.png", {"--transfer-function", "clear.csv"});
+  EXPECT_GT(render("automatic.png", {}), clear + 10.0);
+  EXPECT_GT(render("density.png", {"--transfer-function", "density", "--shading", "off"}), clear + 10.0);
+  EXPECT_EQ(files().size(), 4U) << "temporary files stay";
+}
+
+TEST_F(Grid, RenderStatesItsErrorAndRefusesNonsense) {
+  const Json summary = json({"render", "--example", "marschner-lobb", "--size", "64x48", "--out", "a.png",
+                             "--projection", "orthographic"});
+  EXPECT_EQ(summary["voxels"], 41 * 41 * 41);
+  EXPECT_GE(summary["image_error"].get<double>(), 0.0);
+  EXPECT_LT(summary["image_error"].get<double>(), 0.02);
+  EXPECT_GT(summary["frame_ms"].get<double>(), 0.0);
+
+  const auto refused = [this](const std::vector<std::string>& more, int exit_code, const std::string& word) {
+    std::vector<std::string> arguments{"render", "--example", "voxel", "--size", "32x32", "--out", "b.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("b.png")));
+  };
+  refused({"--transfer-function", "rainbow"}, 2, "density");
+  refused({"--transfer-function", "lost.csv"}, 3, "lost.csv");
+  folder_.write("bad.csv", "value,red,green,blue,opacity\n0,0,0,0,0\n1,nan,0,0,1\n");
+  refused({"--transfer-function", "bad.csv"}, 3, "bad.csv");
+  refused({"--samples", "0"}, 2, "--samples");
+  refused({"--projection", "fisheye"}, 2, "--projection");
+  refused({"--field", "density"}, 2, "scalars");
+}
+
+// Through the outermost shell of the example "shells", radius 0.86, and on to the middle.
+TEST_F(Grid, ProbesIsosurfacesAndDensities) {
+  std::string path = "t,x,y,z\n";
+  for (int i = 0; i <= 300; ++i)
+    path += std::to_string(1e-3 * i) + "," + std::to_string(1.0 - i / 300.0) + ",0,0\n";
+  folder_.write("path.csv", path);
+  for (const std::string mode : {"isosurface", "density"}) {
+    const Json summary = json({"probe", "--example", "shells", "--path", "path.csv", "--mode", mode, "--out",
+                               mode + ".csv", "--workspace-scale", "0.05"});
+    EXPECT_EQ(summary["steps"], 301);
+    EXPECT_EQ(summary["faults"], 0);
+    EXPECT_EQ(summary["mode"], mode);
+    EXPECT_GT(summary["max_force_n"].get<double>(), 0.01) << mode;
+    EXPECT_LE(summary["max_force_n"].get<double>(), summary["force_cap_n"].get<double>()) << mode;
+  }
+  const ProgramResult unknown =
+      run({"probe", "--example", "shells", "--path", "path.csv", "--mode", "streamline", "--json"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("isosurface, density"), std::string::npos) << unknown.err;
+}
+
+TEST_F(Grid, WithoutADisplayItDrawsAPictureOrSaysWhy) {
+  const ProgramResult alone = run({});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("grid-tour.png")));
+  const ProgramResult named = run({"--example", "blob"});
+  EXPECT_EQ(named.exit_code, 1);
+  EXPECT_NE(named.err.find("no display"), std::string::npos) << named.err;
+  EXPECT_EQ(run({"lost.nrrd"}).exit_code, 3);
 }
 
 }  // namespace

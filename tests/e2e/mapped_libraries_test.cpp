@@ -1,5 +1,5 @@
-// `flow` stays small: whatever file it opens, no library of a reader, mesher or device is mapped into it, and
-// a NRRD file does not even start the helper that knows VTK.
+// `flow` and `grid` stay small: whatever file it opens, no library of a reader, mesher or device is mapped
+// into them, and a NRRD file does not even start the helper that knows VTK.
 
 #include <fstream>
 #include <set>
@@ -68,7 +68,7 @@ void expect_small(const Observation& seen) {
   EXPECT_FALSE(seen.libraries.empty());
   for (const std::string& library : seen.libraries) {
     for (const char* unwanted :
-         {"vtk", "CGAL", "libtet", "openvdb", "libusb", "hdf5", "netcdf", "teem", "libmpi"}) {
+         {"vtk", "CGAL", "libtet", "openvdb", "libusb", "hdf5", "netcdf", "teem", "libmpi", "nifti"}) {
       EXPECT_EQ(library.find(unwanted), std::string::npos) << library;
     }
   }
@@ -103,6 +103,31 @@ TEST(MappedLibraries, AreFewWhateverFileIsOpened) {
     EXPECT_EQ(seen.result.exit_code, 0) << input[0] << ": " << seen.result.err;
     expect_small(seen);
     EXPECT_EQ(seen.helpers.size(), 1U) << input[0];
+  }
+}
+
+TEST(MappedLibraries, AreFewInGridToo) {
+  const TempFolder folder;
+  std::vector<std::string> inputs;
+  for (const char* file :
+       {"grid/tooth/tooth.nhdr", "grid/ironprot/ironProt.vtk", "grid/head-mr/avg152T1_RL_nifti.nii.gz"}) {
+    const auto path = shared_data(file);
+    if (!path.empty()) inputs.push_back(path.string());
+  }
+  inputs.push_back(folder.write("v_2x2x2_uint8.raw", "abcdefgh").string());
+  inputs.push_back(folder
+                       .write("v.mha",
+                              "NDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = "
+                              "LOCAL\nabcdefgh")
+                       .string());
+  int number = 0;
+  for (const std::string& input : inputs) {
+    const std::string out = std::to_string(++number) + ".png";
+    const Observation seen =
+        observe({bin("grid").string(), "render", input, "--size", "64x64", "--out", out}, folder.path());
+    EXPECT_EQ(seen.result.exit_code, 0) << input << ": " << seen.result.err;
+    expect_small(seen);
+    EXPECT_EQ(seen.helpers.size(), 1U) << input;
   }
 }
 
