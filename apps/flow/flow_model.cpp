@@ -1,6 +1,7 @@
 #include "apps/flow/flow_model.h"
 
 #include "common/app/cli/domain_outline.h"
+#include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/session_of.h"
@@ -90,7 +91,14 @@ FlowModel::Scene FlowModel::load(const Options& options, Progress& progress) {
   auto info = describe(input, *field);
   std::string label = input.field_label();
   const std::size_t time_step = input.time().step;
-  return {std::move(input), std::move(field), std::move(info), std::move(label), time_step};
+  Scene scene{std::move(input), std::move(field), std::move(info), std::move(label), time_step};
+  choose_felt(scene, options, progress);
+  return scene;
+}
+
+void FlowModel::choose_felt(Scene& scene, const Options& options, Progress& progress) {
+  if (options.touch.scalar.empty()) return;
+  scene.felt = felt_scalar(options.touch.scalar, scene.input, scene.field, options.common.threads, &progress);
 }
 
 SceneState FlowModel::trace(const Scene& scene, const Options& options, const SceneSettings& settings,
@@ -104,6 +112,8 @@ SceneState FlowModel::trace(const Scene& scene, const Options& options, const Sc
       .settings = settings,
       .lines = std::make_shared<const std::vector<Line>>(std::move(result.lines)),
       .probed = scene.field,
+      .felt_scalar = scene.felt,
+      .felt_scalar_key = scalar_key(options.touch.scalar),
       .ends = result.ends,
       .seeds = seeds.size(),
       .outside_seeds = result.outside_seeds.size(),
@@ -158,13 +168,16 @@ SceneState FlowModel::update(const SceneSettings& settings, Progress& progress) 
   if (settings.field != scene.field_label || settings.time_step != scene.time_step) {
     const std::string old_label = scene.field_label;
     const std::size_t old_step = scene.time_step;
+    const auto old_field = scene.field;
     try {
       if (scene.input.file()) {
         scene.input.set_field(settings.field);
         scene.input.set_time_step(settings.time_step);
       }
       scene.field = scene.input.load_field(options_.common.threads, &progress);
+      choose_felt(scene, options_, progress);
     } catch (...) {
+      scene.field = old_field;
       scene.input.set_field(old_label);
       scene.input.set_time_step(old_step);
       throw;
@@ -217,6 +230,7 @@ std::string FlowModel::save_session(const SceneSettings& settings, const SceneVi
   add("color",
       settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);
 
+  add("scalar", options_.touch.scalar);
   for (const auto& [option, value] : touch) add(option.c_str(), value);
 
   return store_session(session, spec);

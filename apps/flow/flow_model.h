@@ -32,9 +32,12 @@ class FlowModel final : public WindowModel {
     std::shared_ptr<const SceneInfo> info;
     std::string field_label;
     std::size_t time_step = 0;
-    SceneState shown;  ///< the lines that were traced last
+    std::shared_ptr<const ScalarField> felt;  ///< as `--scalar` names it; null: the default one
+    SceneState shown;                         ///< the lines that were traced last
   };
 
+  /// Reads the scalar that the hand feels, if one was named.
+  static void choose_felt(Scene& scene, const Options& options, Progress& progress);
   [[nodiscard]] static Scene load(const Options& options, Progress& progress);
   [[nodiscard]] static SceneState trace(const Scene& scene, const Options& options,
                                         const SceneSettings& settings, Progress& progress);

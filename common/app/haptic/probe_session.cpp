@@ -73,10 +73,11 @@ HapticChain ProbeSession::build(const std::string& description) const {
   return build_chain(description, options_.modes, open_, options_.threads);
 }
 
-bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name) {
+bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name,
+                             std::shared_ptr<const ScalarField> scalar) {
   if (!available() || !field || field == open_.field) return false;
   let_go();
-  open_ = {std::move(field), name};
+  open_ = {std::move(field), name, std::move(scalar)};
   hint_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
@@ -190,6 +191,16 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
       {"field-force", exact_number(settings.force_field.strength)},
       {"field-damping", exact_number(settings.force_field.damping)},
       {"density-curve", settings.force_field.density.text()}};
+  const IsosurfaceSettings& surface = settings.isosurface;
+  options.emplace_back("surface", name_of(surface.hold));
+  options.emplace_back("depth", exact_number(kMillimetres * surface.depth));
+  options.emplace_back("snap", exact_number(kMillimetres * surface.snap_distance));
+  std::string isovalues;
+  for (int i = 0; i < surface.isovalues.count; ++i) {
+    (isovalues += i > 0 ? "," : "") += exact_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
+  }
+  if (!isovalues.empty()) options.emplace_back("isovalue", isovalues);
+  if (surface.along_streamline) options.emplace_back("along-streamline", "true");
   if (choice_.ticks) {
     const double interval = settings.ticks.interval;
     options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");

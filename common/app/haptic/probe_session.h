@@ -91,8 +91,10 @@ class ProbeSession {
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
 
   /// Takes another field and lets go; `name` is its field_key(). The same field again changes nothing.
+  /// @param scalar what modes of a scalar feel; null: what each takes by default
   /// @return whether it was another one.
-  bool set_field(std::shared_ptr<const VectorField> field, const std::string& name);
+  bool set_field(std::shared_ptr<const VectorField> field, const std::string& name,
+                 std::shared_ptr<const ScalarField> scalar = nullptr);
 
   /// @name The hand
   /// @{

@@ -209,7 +209,9 @@ class Window {
   /// The hand feels what the lines show.
   void adopt_field() {
     if (!scene_->probed || !touch_->available()) return;
-    if (touch_->set_field(scene_->probed, field_key(scene_->settings.field, scene_->settings.time_step))) {
+    const std::string name =
+        field_key(scene_->settings.field, scene_->settings.time_step) + scene_->felt_scalar_key;
+    if (touch_->set_field(scene_->probed, name, scene_->felt_scalar)) {
       touch_control_->let_go();
     }
     if (!view_.probe) view_.probe.emplace();

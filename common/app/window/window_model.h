@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
@@ -68,6 +69,8 @@ struct SceneState {
   SceneSettings settings;                          ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
   std::shared_ptr<const VectorField> probed;       ///< what the hand feels; null: nothing
+  std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed
+  std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::optional<VolumeView> volume;                ///< in place of lines
   std::array<std::size_t, kEndCount> ends{};
