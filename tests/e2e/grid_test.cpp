@@ -1,5 +1,8 @@
 // `grid`, run as a user runs it.
 
+#include <cmath>
+#include <limits>
+
 #include <stb_image.h>
 
 #include "tests/e2e/explorer_test.h"
@@ -156,6 +159,42 @@ TEST_F(Grid, ProbesIsosurfacesAndDensities) {
       run({"probe", "--example", "shells", "--path", "path.csv", "--mode", "streamline", "--json"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("isosurface, density"), std::string::npos) << unknown.err;
+}
+
+TEST_F(Grid, DrawsThinConstantAnisotropicAndEmptyVolumes) {
+  std::string numbers;
+  for (int i = 0; i < 64; ++i) {
+    const float value =
+        i % 5 == 0 ? std::numeric_limits<float>::quiet_NaN() : std::sin(static_cast<float>(i));
+    numbers.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  std::string nothing;
+  for (int i = 0; i < 64; ++i) nothing += std::string("\0\0\xc0\x7f", 4);  // NaN
+  folder_.write("thin_8x8x1_uint8.raw", std::string(32, '\0') + std::string(32, '\x7f'));
+  folder_.write("constant_4x4x4_uint8.raw", std::string(64, '\7'));
+  folder_.write("holes_4x4x4_float32.raw", numbers);
+  folder_.write("nothing_4x4x4_float32.raw", nothing);
+  for (const std::string name :
+       {"thin_8x8x1_uint8", "constant_4x4x4_uint8", "holes_4x4x4_float32", "nothing_4x4x4_float32"}) {
+    const ProgramResult result = run({"render", name + ".raw", "--size", "32x32", "--out", name + ".png"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(run({"info", name + ".raw"}).exit_code, 0) << name;
+  }
+  const ProgramResult stretched =
+      run({"render", "holes_4x4x4_float32.raw", "--raw-size", "4x4x4", "--raw-type", "float32",
+           "--raw-spacing", "1,1,1000", "--size", "32x32", "--out", "stretched.png"});
+  EXPECT_EQ(stretched.exit_code, 0) << stretched.err;
+}
+
+TEST_F(Grid, TakesWhatASessionHoldsAndWhatIsTypedInstead) {
+  folder_.write("s.toml",
+                "format = 1\nprogram = \"grid\"\n[scene]\nexample = \"voxel\"\nsamples = \"2\"\n"
+                "shading = \"off\"\nprojection = \"orthographic\"\ntransfer-function = \"rainbow\"\n");
+  EXPECT_EQ(run({"render", "--session", "s.toml", "--size", "32x32", "--out", "a.png"}).exit_code, 2);
+  const ProgramResult typed = run(
+      {"render", "--session", "s.toml", "--transfer-function", "mr", "--size", "32x32", "--out", "a.png"});
+  EXPECT_EQ(typed.exit_code, 0) << typed.err;
+  EXPECT_NE(typed.err.find("example voxel"), std::string::npos) << typed.err;
 }
 
 TEST_F(Grid, WithoutADisplayItDrawsAPictureOrSaysWhy) {
