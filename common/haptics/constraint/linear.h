@@ -9,10 +9,13 @@
 /// moving under a hand at rest. Here steps are repeated until the rules at p move it no more, so that p is at
 /// rest for any probe at rest. None of them leads away from x: rules are projections on to convex sets about
 /// it, and the relaxation that makes steps few goes no more than twice as far. With a budget of one iteration
-/// this is the step of the reference. It stays linear: along a line the proxy follows the tangents, and drifts
-/// off the curve by the second order of each step (sec. 6.6 says so, and streamline.h does better). Where the
-/// stretch is longer than the radius on which axes turn there may be no place at rest near by: the state says
-/// so, and a drag rule in place of a fixed axis prevents it.
+/// this is the step of the reference. It stays linear: along a line the proxy follows the tangents, and
+/// drifts off the curve by the second order of each step (sec. 6.6 says so, and streamline.h does better).
+/// Where the stretch is longer than the radius on which axes turn there may be no place at rest near by: the
+/// state says so, and a drag rule in place of a fixed axis prevents it.
+///
+/// Axes that the frame leaves open have one rule: the second and third of a flow, or of a gradient, hold as
+/// much as both rules agree on, so give them the same.
 ///
 /// Where it fades. Uncertain axes become alike (make_alike()): what is held across an undefined direction is
 /// let go, what is alike for all axes stays. Where the data ends, or is bad, the last frame stays and the

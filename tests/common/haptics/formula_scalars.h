@@ -41,6 +41,15 @@ struct Cylinder : FormulaScalarBase {
   }
 };
 
+/// A quadratic with all of its terms.
+struct Mixed : FormulaScalarBase {
+  static constexpr const char* kName = "mixed";
+  template <typename T>
+  static T value(const T& x, const T& y, const T& z) {
+    return x * x - 2.0 * y * y + 0.5 * z * z + x * y - 3.0 * y * z + 0.25 * z * x + x - y + 2.0;
+  }
+};
+
 /// Data units are local units.
 template <typename Formula>
 [[nodiscard]] std::shared_ptr<const ScalarField> scalars() {
