@@ -116,11 +116,11 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 18> kRecorded{
-      "mode",        "workspace-scale", "stiffness",    "release",   "drag",
-      "ticks",       "tick-stiffness",  "speed-force",  "force-cap", "slew-cap",
-      "isovalue",    "surface",         "depth",        "snap",      "along-streamline",
-      "field-force", "field-damping",   "density-curve"};
+  constexpr std::array<std::string_view, 20> kRecorded{
+      "mode",        "workspace-scale", "stiffness",     "release",   "drag",
+      "ticks",       "tick-stiffness",  "speed-force",   "force-cap", "slew-cap",
+      "isovalue",    "surface",         "depth",         "snap",      "along-streamline",
+      "field-force", "field-damping",   "density-curve", "damping",   "passivity"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

@@ -9,6 +9,7 @@
 
 #include "common/app/cli/command_line.h"
 #include "common/base/error.h"
+#include "common/haptics/proxy_chain.h"
 
 namespace palpate::test {
 namespace {
@@ -42,6 +43,8 @@ TEST(TouchOptions, RefuseWhatNoChainCanUse) {
     std::vector<std::string> values;
   };
   for (const auto& [option, values] : {Bad{"--stiffness", {"-1", "nan", "inf"}},
+                                       {"--damping", {"-1", "nan", "inf"}},
+                                       {"--passivity", {"maybe", "2"}},
                                        {"--release", {"-1", "0", "nan", "inf"}},
                                        {"--drag", {"-1", "nan", "inf"}},
                                        {"--ticks", {"-1", "nan", "inf", "often"}},
@@ -70,6 +73,17 @@ TEST(TouchOptions, TakeWhatAChainCanUse) {
   EXPECT_EQ(refusal("--field-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-damping", "0"), "");
   EXPECT_EQ(refusal("--density-curve", "0:0,0.4:0,0.6:1,smooth"), "");
+}
+
+TEST(TouchOptions, SayFromHowManyLinksAChainIsControlled) {
+  const auto links = [](const char* word) {
+    return touch_settings(parse({"probe", "--example", "abc", "--passivity", word}).options.touch)
+        .passivity.from_links;
+  };
+  EXPECT_EQ(touch_settings(parse({"probe", "--example", "abc"}).options.touch).passivity.from_links, 2.0);
+  EXPECT_EQ(links("auto"), 2.0);
+  EXPECT_EQ(links("on"), 1.0);
+  EXPECT_GT(links("off"), ChainStep::kMaxLinks);
 }
 
 }  // namespace
