@@ -52,15 +52,15 @@ class StepControl {
     const auto number = std::bit_cast<std::uint64_t>(x);
     const int exponent = static_cast<int>(number >> kMantissaBits) - kBias;
     const double f = std::bit_cast<double>((number & kMantissa) | kOne) - 1.0;
-    return exponent +
-           (1.1457996e-4 + f * (1.43687490 + f * (-0.67088268 + f * (0.31226948 - f * 0.07844068))));
+    const double low = 1.1457996e-4 + f * 1.43687490, high = -0.67088268 + f * 0.31226948;
+    return exponent + (low + (f * f) * (high - (f * f) * 0.07844068));
   }
   /// Power of two to a relative 1e-4. @pre |x| < 1000.
   [[nodiscard]] static double rough_exp2(double x) noexcept {
     const double whole = std::floor(x), f = x - whole;
     const auto exponent = static_cast<std::uint64_t>(static_cast<int>(whole) + kBias);
-    return std::bit_cast<double>(exponent << kMantissaBits) *
-           (0.99990029 + f * (0.69632477 + f * (0.22469316 + f * 0.07896726)));
+    const double low = 0.99990029 + f * 0.69632477, high = 0.22469316 + f * 0.07896726;
+    return std::bit_cast<double>(exponent << kMantissaBits) * (low + (f * f) * high);
   }
   static constexpr int kMantissaBits = 52, kBias = 1023;
   static constexpr std::uint64_t kOne = std::uint64_t{kBias} << kMantissaBits;

@@ -31,7 +31,10 @@ template <class Domain, class Method>
 class FaceWalk final : public LineWalk {
  public:
   FaceWalk(const Domain& domain, const WalkSettings& settings)
-      : domain_(domain), settings_(settings), control_(Method::kPower) {
+      : domain_(domain),
+        settings_(settings),
+        inverse_tolerance_(1.0 / settings.tolerance),
+        control_(Method::kPower) {
     // What the series over the last bit neglects falls with the fourth power of its part of the step.
     near_ = Method::kAdaptive ? std::min(0.12, 2.0 * std::sqrt(std::sqrt(settings.tolerance))) : 0.02;
   }
@@ -202,6 +205,8 @@ class FaceWalk final : public LineWalk {
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const double smallest = 4.0 * kUlp * (magnitude(y_.xyz()) + domain_.size());
       if (!(h > smallest)) return standing_cross(face);
+      // Divisions that need not wait for the step.
+      const double speed = 1.0 / k_[3], per_length = 1.0 / h;
       const bool sound = method_.attempt(f, jacobian, y_, k_, h);
       const Pack4& k1 = method_.last_slope();
       double local = 0.0;
@@ -211,11 +216,11 @@ class FaceWalk final : public LineWalk {
         local = std::sqrt(e.lo[0] * e.lo[0] + e.lo[1] * e.lo[1] + e.hi[0] * e.hi[0]);
         if constexpr (Method::kAdaptive) {
           // The error in time counts as the way that it stands for.
-          const double time_error = std::abs(e.hi[1]) / k_[3];
-          const double error = std::max(local, time_error);
-          double ratio = error / (settings_.tolerance * h);
+          const double time_error = std::abs(e.hi[1]) * speed;
+          const double error = std::max(local, time_error) * per_length;
+          double ratio = error * inverse_tolerance_;
           // Next to a zero the direction is rounding: no step is short enough for an error below that.
-          if (ratio > 1.0) ratio = error / ((settings_.tolerance + slope_rounding()) * h);
+          if (ratio > 1.0) ratio = error / (settings_.tolerance + slope_rounding());
           constexpr double kFarBelow = 0.1;
           if (face >= 0 && ratio <= kFarBelow && sound) {
             verdict = {true, h_ > h ? 1.0 : 2.0};  // cut short by a face: nothing to learn for the next step
@@ -241,7 +246,7 @@ class FaceWalk final : public LineWalk {
       if (face >= 0) {
         gradient_ = domain_.gradient(y1);
         const Pack4 bend1 = curvature(gradient_, k1);
-        const Pack4 third = (1.0 / h) * (bend1 - bend_);
+        const Pack4 third = per_length * (bend1 - bend_);
         const double rate = domain_.face_rate(face, k1);
         const double value = domain_.face_value(face, y1);
         // On the face as far as rounding can tell: to aim again, at a face that is only touched, would not
@@ -367,6 +372,7 @@ class FaceWalk final : public LineWalk {
 
   Domain domain_;
   WalkSettings settings_;
+  double inverse_tolerance_;
   Method method_;
   StepControl control_;
   /// An estimate of the error of the very solution that is kept has nothing in reserve: no direction that
