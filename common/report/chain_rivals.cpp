@@ -196,7 +196,9 @@ RivalRun measure(RivalMethod method, double angle) {
   const Method move = make_method(method, scene);
   RivalRun run{.method = method, .angle = angle};
   const double end = scene.way_in();
-  for (double way = -kBefore; way < end; way += kStep) {
+  const int steps = static_cast<int>(std::ceil((end + kBefore) / kStep));
+  for (int n = 0; n < steps; ++n) {
+    const double way = kStep * n - kBefore;
     RivalStep step{.probe = scene.hand(way), .depth = Scene::depth(scene.at(way))};
     const double before = thread_microseconds();
     move(step);

@@ -24,7 +24,9 @@ std::string picture_of(const std::vector<RivalRun>& runs) {
       .bar_label = three_digits(kMilli * kDepthLimit) + " mm, where the surface is to let go"};
   PictureCurve surface{.name = "surface"};
   constexpr double kRadius = 60.0, kAround = 0.7;  // mm, of the sphere; radians
-  for (double turn = -kAround; turn <= kAround; turn += 0.01) {
+  constexpr int kParts = 70;
+  for (int n = -kParts; n <= kParts; ++n) {
+    const double turn = kAround * n / kParts;
     surface.points.push_back({kRadius * std::cos(turn), kRadius * std::sin(turn)});
   }
   // The chain's first proxy is on the curve to a nanometre, which makes it the curve for all panels.
