@@ -214,6 +214,18 @@ TEST(StepControl, StepsGrowInNumberWithTheRootOfTheTolerance) {
   EXPECT_NEAR(ratio, 10.0, 3.0);  // 1e4 to the power 1/4
 }
 
+// Its own logarithm and power of two are rough, over every octave of the ratio.
+TEST(StepControl, FactorIsThatOfTheFormulaToAThousandth) {
+  constexpr double kPower = 4.0;
+  double previous = 1.0;
+  StepControl control(kPower);
+  for (double ratio = 1.0; ratio > 1.1e-4; ratio *= 0.93) {
+    const double exact = 0.9 * std::pow(ratio, -0.7 / kPower) * std::pow(previous, 0.4 / kPower);
+    EXPECT_NEAR(control.judge(ratio).factor, exact, 1e-3 * exact) << ratio;
+    previous = ratio;
+  }
+}
+
 TEST(StepControl, RejectsWhatIsNotANumberAndDoesNotGrowRightAfter) {
   StepControl control(4.0);
   EXPECT_FALSE(control.judge(NAN).accepted);
