@@ -75,16 +75,17 @@ HapticChain make_isosurface(const HapticScene& scene) {
 }  // namespace
 
 std::vector<HapticMode> flow_modes() {
-  return {{"streamline", "held by the streamline, which gives when pushed and pops over to the next",
-           make_streamline},
-          {"isotropic", "the same drag in all directions, to steady the hand", make_isotropic},
-          {"direct", "carried along by the flow, the harder the faster it is", make_direct},
-          {"transverse", "dragged when moving across the flow, free along it", make_transverse},
-          {"vortex", "pulled to the cores of vortices", make_vortex},
-          {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
-           make_density},
-          {kIsosurfaceMode, "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
-           make_isosurface}};
+  return {
+      {"streamline", "held by the streamline, which gives when pushed and pops over to the next",
+       make_streamline},
+      {"isotropic", "the same drag in all directions, to steady the hand", make_isotropic},
+      {"direct", "carried along by the flow, the harder the faster it is", make_direct},
+      {"transverse", "dragged when moving across the flow, free along it", make_transverse},
+      {"vortex", "pulled to the cores of vortices", make_vortex},
+      {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
+       make_density},
+      {kIsosurfaceMode, "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
+       make_isosurface}};
 }
 
 }  // namespace palpate
