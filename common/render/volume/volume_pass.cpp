@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -205,6 +206,10 @@ VolumePass::~VolumePass() = default;
 
 void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   PALPATE_CHECK(view.image != nullptr);
+  PALPATE_CHECK(view.samples_per_voxel > 0.0 && std::isfinite(view.samples_per_voxel));
+  for (const Lens& lens : view.lenses) {
+    PALPATE_CHECK(lens.samples_per_voxel > 0.0 && std::isfinite(lens.samples_per_voxel));
+  }
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
   State& s = *state_;
   s.update_image(view);

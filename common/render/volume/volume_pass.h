@@ -27,6 +27,8 @@ class VolumePass {
 
   /// Uploads what `view` changes: voxels when the image is another one, tables when transfer functions or
   /// lengths are, and compiles the shader that it needs.
+  /// @pre view.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
+  /// least two table entries, and lengths a multiple of kLengthGroup.
   /// @throws Error (usage) where the volume is larger than the driver's textures.
   void update(const VolumeView& view, const SceneFrame& frame);
 
