@@ -16,17 +16,9 @@ using namespace std::chrono_literals;
 
 constexpr auto kPause = 50ms;  // between two looks for something to write
 constexpr std::size_t kMostEntries = 1U << 16U;
+constexpr std::size_t kSettings = 1U << 10U;  // a slider that is moved all the time: 60 a second
 
 }  // namespace
-
-void FaultRecorder::Situation::take(const Entry& entry, const DeviceLimits& limits) noexcept {
-  if (const auto* change = std::get_if<RecordedChange>(&entry)) {
-    take(change->change);
-    return;
-  }
-  const ForceCut cut = std::get<StepEntry>(entry).step.cut;
-  if (cut == ForceCut::kTooFast || (is_fault(cut) && limits.latch_faults)) off = true;
-}
 
 void FaultRecorder::Situation::take(const Change& change) noexcept {
   if (const auto* placed = std::get_if<ChainChange>(&change)) {
@@ -54,13 +46,67 @@ void FaultRecorder::Situation::take(const Change& change) noexcept {
   }
 }
 
-void FaultRecorder::Memory::add(const Entry& entry, const DeviceLimits& limits) noexcept {
-  if (count == entries.size()) {
-    before.take(entries[first], limits);
-    first = (first + 1) % entries.size();
-    --count;
+void FaultRecorder::Situation::take(const HandStep& step, const DeviceLimits& limits) noexcept {
+  if (step.cut == ForceCut::kTooFast || (is_fault(step.cut) && limits.latch_faults)) off = true;
+}
+
+void FaultRecorder::Memory::reserve(std::size_t entries) {
+  entries_.resize(entries);
+  settings_.resize(kSettings);
+}
+
+void FaultRecorder::Memory::begin(const Situation& before) noexcept {
+  first_ = count_ = settings_first_ = settings_next_ = 0;
+  before_ = before;
+}
+
+Change FaultRecorder::Memory::change_of(const ChangeEntry& entry) const noexcept {
+  if (const auto* slot = std::get_if<Slot>(&entry.what)) return settings_[slot->index];
+  if (const auto* chain = std::get_if<ChainChange>(&entry.what)) return *chain;
+  return std::get<HandSwitch>(entry.what);
+}
+
+void FaultRecorder::Memory::take(const Entry& entry, Situation& situation,
+                                 const DeviceLimits& limits) const noexcept {
+  if (const auto* change = std::get_if<ChangeEntry>(&entry)) {
+    situation.take(change_of(*change));
+  } else {
+    situation.take(std::get<StepEntry>(entry).step, limits);
   }
-  entries[(first + count++) % entries.size()] = entry;
+}
+
+void FaultRecorder::Memory::drop_oldest(const DeviceLimits& limits) noexcept {
+  const Entry& oldest = entries_[first_];
+  take(oldest, before_, limits);
+  const auto* change = std::get_if<ChangeEntry>(&oldest);
+  if (change != nullptr && std::holds_alternative<Slot>(change->what)) ++settings_first_;
+  first_ = (first_ + 1) % entries_.size();
+  --count_;
+}
+
+void FaultRecorder::Memory::push(const Entry& entry, const DeviceLimits& limits) noexcept {
+  if (count_ == entries_.size()) drop_oldest(limits);
+  entries_[(first_ + count_++) % entries_.size()] = entry;
+}
+
+void FaultRecorder::Memory::add(const StepEntry& entry, const DeviceLimits& limits) noexcept {
+  push(entry, limits);
+}
+
+void FaultRecorder::Memory::add(std::uint64_t step, const Change& change,
+                                const DeviceLimits& limits) noexcept {
+  ChangeEntry entry{.step = step, .what = {}};
+  if (const auto* settings = std::get_if<ChainSettings>(&change)) {
+    while (settings_next_ - settings_first_ == settings_.size()) drop_oldest(limits);
+    const std::size_t index = settings_next_++ % settings_.size();
+    settings_[index] = *settings;
+    entry.what = Slot{index};
+  } else if (const auto* chain = std::get_if<ChainChange>(&change)) {
+    entry.what = *chain;
+  } else {
+    entry.what = std::get<HandSwitch>(change);
+  }
+  push(entry, limits);
 }
 
 FaultRecorder::FaultRecorder(std::filesystem::path folder, RecordingHeader header, double rate)
@@ -68,7 +114,7 @@ FaultRecorder::FaultRecorder(std::filesystem::path folder, RecordingHeader heade
       header_(std::move(header)),
       aftermath_(static_cast<std::uint64_t>(std::ceil(kAftermath * rate))) {
   const auto entries = static_cast<std::size_t>(std::ceil(kSeconds * rate));
-  for (Memory& memory : memories_) memory.entries.resize(std::min(entries, kMostEntries));
+  for (Memory& memory : memories_) memory.reserve(std::min(entries, kMostEntries));
   thread_ = std::jthread([this](const std::stop_token& stop) { write_loop(stop); });
 }
 
@@ -82,16 +128,13 @@ void FaultRecorder::finish() {
 }
 
 void FaultRecorder::change(std::uint64_t step, const Change& change) noexcept {
-  add(RecordedChange{step, change});
-}
-
-void FaultRecorder::add(const Entry& entry) noexcept {
-  now_.take(entry, header_.limits);
-  memories_[static_cast<std::size_t>(active_)].add(entry, header_.limits);
+  now_.take(change);
+  memories_[static_cast<std::size_t>(active_)].add(step, change, header_.limits);
 }
 
 void FaultRecorder::step(const HandInput& input, const HandStep& step) noexcept {
-  add(StepEntry{input, step});
+  now_.take(step, header_.limits);
+  memories_[static_cast<std::size_t>(active_)].add(StepEntry{input, step}, header_.limits);
   if (is_fault(step.cut) && step.cut != cut_) begin_fault();
   cut_ = step.cut;
   if (to_go_ && (*to_go_)-- == 0) hand_over();
@@ -108,9 +151,7 @@ void FaultRecorder::hand_over() noexcept {
   if (handed_.load(std::memory_order_acquire) != kNone) return;
   ++files_;
   const int full = std::exchange(active_, 1 - active_);
-  Memory& fresh = memories_[static_cast<std::size_t>(active_)];
-  fresh.first = fresh.count = 0;
-  fresh.before = now_;
+  memories_[static_cast<std::size_t>(active_)].begin(now_);
   handed_.store(full, std::memory_order_release);
 }
 
@@ -165,24 +206,24 @@ std::filesystem::path FaultRecorder::free_name() const {
 
 std::string FaultRecorder::text_of(const Memory& memory) {
   // The first step of a hand off the device, which makes all be forgotten: from there everything is known.
-  Situation before = memory.before;
+  Situation before = memory.before();
   std::size_t first = 0;
-  for (; first < memory.count; ++first) {
+  for (; first < memory.count(); ++first) {
     const auto* step = std::get_if<StepEntry>(&memory.at(first));
     if (step != nullptr && !step->input.present && !before.paused) break;
-    before.take(memory.at(first), header_.limits);
+    memory.take(memory.at(first), before, header_.limits);
   }
-  const bool exact = first < memory.count && !(header_.limits.continuous_cap < header_.limits.force_cap);
+  const bool exact = first < memory.count() && !(header_.limits.continuous_cap < header_.limits.force_cap);
   if (!exact) {
     first = 0;
-    before = memory.before;
+    before = memory.before();
   }
   // Changes that stand first belong to the step after them.
   const auto number_of = [](const Entry& entry) {
-    const auto* change = std::get_if<RecordedChange>(&entry);
+    const auto* change = std::get_if<ChangeEntry>(&entry);
     return change != nullptr ? change->step : std::get<StepEntry>(entry).step.number;
   };
-  const std::uint64_t begin = memory.count > 0 ? number_of(memory.at(first)) : 0;
+  const std::uint64_t begin = memory.count() > 0 ? number_of(memory.at(first)) : 0;
 
   RecordingText text(exact);
   text.header(header_);
@@ -191,12 +232,14 @@ std::string FaultRecorder::text_of(const Memory& memory) {
   if (before.settings) text.settings(begin, *before.settings);
   if (before.off) text.change(begin, HandSwitch::kForceOff);
   if (before.paused) text.change(begin, HandSwitch::kPause);
-  for (std::size_t i = first; i < memory.count; ++i) {
+  for (std::size_t i = first; i < memory.count(); ++i) {
     if (const auto* step = std::get_if<StepEntry>(&memory.at(i))) {
       text.step(step->input, step->step);
       continue;
     }
-    const auto& [number, change] = std::get<RecordedChange>(memory.at(i));
+    const auto& entry = std::get<ChangeEntry>(memory.at(i));
+    const std::uint64_t number = entry.step;
+    const Change change = memory.change_of(entry);
     if (const auto* chain = std::get_if<ChainChange>(&change)) {
       text.chain(number, descriptions_[chain->chain]);
     } else if (const auto* settings = std::get_if<ChainSettings>(&change)) {

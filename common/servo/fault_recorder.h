@@ -65,7 +65,15 @@ class FaultRecorder {
     HandInput input;
     HandStep step;
   };
-  using Entry = std::variant<StepEntry, RecordedChange>;
+  /// Settings are many times as large as a step: they lie apart, and an entry names their slot.
+  struct Slot {
+    std::size_t index = 0;
+  };
+  struct ChangeEntry {
+    std::uint64_t step = 0;
+    std::variant<HandSwitch, ChainChange, Slot> what;
+  };
+  using Entry = std::variant<StepEntry, ChangeEntry>;
 
   /// What is in place after some entry.
   struct Situation {
@@ -73,23 +81,41 @@ class FaultRecorder {
     std::optional<ChainSettings> settings;
     bool off = false, paused = false;
 
-    void take(const Entry& entry, const DeviceLimits& limits) noexcept;
     void take(const Change& change) noexcept;
+    void take(const HandStep& step, const DeviceLimits& limits) noexcept;
   };
 
-  /// The latest entries, oldest first from `first`.
-  struct Memory {
-    std::vector<Entry> entries;
-    std::size_t first = 0, count = 0;
-    Situation before;  ///< the first entry
+  /// The latest entries.
+  class Memory {
+   public:
+    void reserve(std::size_t entries);
+    /// Forgets all, and begins in `before`.
+    void begin(const Situation& before) noexcept;
+    void add(const StepEntry& entry, const DeviceLimits& limits) noexcept;
+    void add(std::uint64_t step, const Change& change, const DeviceLimits& limits) noexcept;
 
-    void add(const Entry& entry, const DeviceLimits& limits) noexcept;
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// Oldest first.
     [[nodiscard]] const Entry& at(std::size_t i) const noexcept {
-      return entries[(first + i) % entries.size()];
+      return entries_[(first_ + i) % entries_.size()];
     }
+    [[nodiscard]] Change change_of(const ChangeEntry& entry) const noexcept;
+    /// In place before the oldest entry.
+    [[nodiscard]] const Situation& before() const noexcept { return before_; }
+    /// Takes what `entry`, one of these, does to a situation.
+    void take(const Entry& entry, Situation& situation, const DeviceLimits& limits) const noexcept;
+
+   private:
+    void drop_oldest(const DeviceLimits& limits) noexcept;
+    void push(const Entry& entry, const DeviceLimits& limits) noexcept;
+
+    std::vector<Entry> entries_;
+    std::vector<ChainSettings> settings_;
+    std::size_t first_ = 0, count_ = 0;
+    std::size_t settings_first_ = 0, settings_next_ = 0;  ///< count those that were dropped and added
+    Situation before_;
   };
 
-  void add(const Entry& entry) noexcept;
   void begin_fault() noexcept;
   void hand_over() noexcept;
   void write_loop(const std::stop_token& stop);

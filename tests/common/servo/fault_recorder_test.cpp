@@ -150,6 +150,27 @@ TEST_F(FaultRecorderTest, KnowsWhatWasInPlaceBeforeItsMemoryBegins) {
   EXPECT_EQ(play(recording).same, recording.steps.size());
 }
 
+TEST_F(FaultRecorderTest, KeepsTheLatestSettingsOfASliderThatIsNeverAtRest) {
+  constexpr int kEdits = 1500;  // more than are kept
+  {
+    SteppedRun run(folder_.path("faults"), limits_);
+    for (int i = 0; i < kEdits; ++i) {
+      run.change(ChainSettings{.stiffness = 100.0 + i});
+      if (i == 1000) {
+        run.lift(1);
+      } else {
+        run.go(1);
+      }
+    }
+    run.step(true, {kNan, 0.0, 0.0});
+  }
+  const Recording recording = read(1);
+  EXPECT_EQ(recording.steps.front().number, 1000U);
+  EXPECT_EQ(std::get<ChainSettings>(recording.changes[1].change).stiffness, 1100.0);
+  EXPECT_EQ(std::get<ChainSettings>(recording.changes.back().change).stiffness, 99.0 + kEdits);
+  EXPECT_EQ(play(recording).same, recording.steps.size());
+}
+
 TEST_F(FaultRecorderTest, ComparesNothingWhereItBeginsInTheMidst) {
   {
     SteppedRun run(folder_.path("faults"), limits_);
