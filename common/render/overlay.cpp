@@ -270,6 +270,7 @@ void draw_volume_colors(const Pen& pen, const SceneView& view, float right, floa
   constexpr std::size_t kEntries = 128;
   const std::vector<ColorSample> samples = volume.transfer.table(range.lower, range.upper, kEntries);
   std::vector<Rgb> colors;
+  colors.reserve(samples.size());
   for (const ColorSample& sample : samples)
     colors.push_back({sample.color.r, sample.color.g, sample.color.b});
   const float left = draw_color_bar(pen, {.label = view.volume_label, .table = colors, .range = range}, right,
