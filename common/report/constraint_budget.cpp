@@ -53,15 +53,6 @@ std::vector<Vec3> hand_of(const BudgetSubject& subject, std::size_t steps) {
   return path;
 }
 
-StepErrors errors_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.99), values.back()};
-}
-
 BudgetRow measure(const BudgetSubject& subject, const std::vector<Vec3>& path, int iterations) {
   const double stiffness = ChainSettings{}.stiffness;
   const auto constraint = subject.make();
@@ -91,23 +82,12 @@ BudgetRow measure(const BudgetSubject& subject, const std::vector<Vec3>& path, i
   return row;
 }
 
-double clock_cost() {
-  constexpr int kReadings = 10'000;
-  std::vector<double> costs;
-  costs.reserve(kReadings);
-  for (int n = 0; n < kReadings; ++n) {
-    const double before = thread_microseconds();
-    costs.push_back(thread_microseconds() - before);
-  }
-  return errors_of(std::move(costs)).median;
-}
-
 }  // namespace
 
 ConstraintBudget run_constraint_budget(Effort effort, Progress* progress) {
   if (progress) progress->begin("constraints by their budget", 0);
   ConstraintBudget budget;
-  budget.clock_microseconds = clock_cost();
+  budget.clock_microseconds = clock_microseconds();
   for (const BudgetSubject& subject : budget_subjects()) {
     const std::vector<Vec3> path = hand_of(subject, steps_of(effort));
     for (const int iterations : kIterations) {

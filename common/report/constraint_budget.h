@@ -18,8 +18,8 @@
 
 #include "common/base/progress.h"
 #include "common/haptics/constraint.h"
-#include "common/report/constraint_sweep.h"
 #include "common/report/section.h"
+#include "common/report/step_errors.h"
 #include "common/report/sweep.h"
 
 namespace palpate {

@@ -194,7 +194,7 @@ BudgetSubject plane_in_cells(std::string name, const DataSet& data) {
           [field] {
             return ready(std::make_unique<IsosurfaceConstraint>(field, Workspace(kRadius, field->frame())));
           },
-      .make_ideal = [flat] { return flat; },
+      .make_ideal = [flat]() -> IdealProxy { return flat; },
       .off_feature = [n, offset](const Vec3& x) { return std::abs(glm::dot(x, n) - offset); },
       .guide =
           [n, across, offset](double t) {
@@ -340,7 +340,7 @@ BudgetSubject polyline() {
   };
   return {.name = "polyline",
           .make = [vertices] { return ready(std::make_unique<PolylineConstraint>(vertices)); },
-          .make_ideal = [nearest] { return nearest; },
+          .make_ideal = [nearest]() -> IdealProxy { return nearest; },
           .off_feature = [nearest](const Vec3& x) { return glm::distance(nearest(x), x); },
           .guide = [](double t) { return on_helix(swing(t)); }};
 }

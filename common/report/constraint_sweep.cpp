@@ -36,26 +36,6 @@ constexpr double kReferenceLength = 0.6, kRoughReferenceLength = 0.2;
 
 constexpr double kNear = 1e-7;  // diagonals: well below what is promised
 
-StepErrors errors_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.99), values.back()};
-}
-
-double clock_cost() {
-  constexpr int kReadings = 10'000;
-  std::vector<double> costs;
-  costs.reserve(kReadings);
-  for (int n = 0; n < kReadings; ++n) {
-    const double before = thread_microseconds();
-    costs.push_back(thread_microseconds() - before);
-  }
-  return errors_of(std::move(costs)).median;
-}
-
 class Sweeper {
  public:
   Sweeper(const std::shared_ptr<const VectorField>& field, const ConstraintSweepRequest& request,
@@ -68,7 +48,7 @@ class Sweeper {
 
   ConstraintSweep run() {
     const PathPlan plan = plan_of(request_.effort);
-    ConstraintSweep sweep{.subject = request_.subject, .clock_microseconds = clock_cost()};
+    ConstraintSweep sweep{.subject = request_.subject, .clock_microseconds = clock_microseconds()};
     sweep.release_force = run_.settings().stiffness * run_.settings().streamline.release_distance;
     sweep.seeds = std::min(plan.seeds, request_.seeds.size());
     for (const PathKind kind : kPathKinds) {

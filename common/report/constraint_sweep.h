@@ -20,16 +20,10 @@
 #include "common/base/work_precision.h"
 #include "common/haptics/constraint.h"
 #include "common/report/probe_paths.h"
+#include "common/report/step_errors.h"
 #include "common/report/sweep.h"
 
 namespace palpate {
-
-/// One of the quantities (1) over all steps.
-struct StepErrors {
-  double median = 0.0;
-  double p99 = 0.0;
-  double max = 0.0;
-};
 
 /// One kind of path with one budget.
 struct ConstraintRow {
