@@ -78,10 +78,12 @@ TEST(HandPassivity, IsWatchedOverInChainsOfTwoLinksByDefault) {
   EXPECT_GT(one.to_hand, 0.01) << "4000 N/m at 50 mm/s leak 0.4 mJ a cycle";
   EXPECT_EQ(one.largest_damping, 0.0);
   const Cycles two = in_and_out(chain_of<Wall, Wall>(settings));
-  EXPECT_LE(two.to_hand, 1e-4);
+  // An arm takes 0.1 N s/m by itself, which is left to it: at 50 mm/s over 0.2 m.
+  constexpr double kArm = 0.1 * 0.05 * 0.2;
+  EXPECT_LE(two.to_hand, kArm);
   EXPECT_GT(two.largest_damping, 0.0);
   settings.passivity.from_links = 1.0;
-  EXPECT_LE(in_and_out(chain_of<Wall>(settings)).to_hand, 1e-4);
+  EXPECT_LE(in_and_out(chain_of<Wall>(settings)).to_hand, kArm);
   settings.passivity.from_links = 100.0;
   EXPECT_EQ(in_and_out(chain_of<Wall, Wall>(settings)).to_hand, one.to_hand);
 }
