@@ -94,9 +94,9 @@ struct Options {
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded
-  std::string device =
-      "mouse";  ///< open: mouse, replay:FILE.csv or simulated…; probe: mouse (the path), simulated…
-  double rate = 1000.0;          ///< open: of the servo [Hz]
+  /// open: mouse, replay:FILE.csv or simulated…; probe: mouse, which stands for the path, or simulated…
+  std::string device = "mouse";
+  double rate = 1000.0;          ///< of the servo [Hz]
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size = "1280x960";
