@@ -78,17 +78,18 @@ std::string svg(const PlanePicture& picture) {
   std::string body;
   for (std::size_t n = 0; n < picture.panels.size(); ++n) {
     const PicturePanel& content = picture.panels[n];
-    const Panel panel{kGap + static_cast<double>(n % kPanelsInARow) * (kPanelWidth + kGap),
-                      kTop + static_cast<double>(n / kPanelsInARow) * (height + kTop - kGap),
-                      kPanelWidth / size.x, picture.lower, picture.upper};
+    const std::size_t column = n % kPanelsInARow, row = n / kPanelsInARow;
+    const Panel panel{kGap + static_cast<double>(column) * (kPanelWidth + kGap),
+                      kTop + static_cast<double>(row) * (height + kTop - kGap), kPanelWidth / size.x,
+                      picture.lower, picture.upper};
     const std::string box = "x=\"" + number(panel.x) + "\" y=\"" + number(panel.y) + "\" width=\"" +
                             number(kPanelWidth) + "\" height=\"" + number(height) + "\"";
     const std::string clip = "panel" + std::to_string(n);
     body += text_at(panel.x, panel.y - 8.0, content.title, 14);
-    body += "<clipPath id=\"" + clip + "\"><rect " + box + "/></clipPath>\n<g clip-path=\"url(#" + clip +
-            ")\">\n";
+    body.append("<clipPath id=\"").append(clip).append("\"><rect ").append(box);
+    body.append("/></clipPath>\n<g clip-path=\"url(#").append(clip).append(")\">\n");
     for (const PictureCurve& curve : content.curves) body += drawn(curve, panel, color_of(index_of(curve)));
-    body += "</g>\n<rect " + box + " fill=\"none\" stroke=\"#444\"/>\n";
+    body.append("</g>\n<rect ").append(box).append(" fill=\"none\" stroke=\"#444\"/>\n");
     const double bar_y = panel.y + height - 10.0, bar_x = panel.x + 10.0;
     body += "<line x1=\"" + number(bar_x) + "\" y1=\"" + number(bar_y) + "\" x2=\"" +
             number(bar_x + panel.scale * picture.bar) + "\" y2=\"" + number(bar_y) +

@@ -103,18 +103,18 @@ void measure(DepthMethod method, double size, const std::array<double, n>& times
              std::vector<SurfaceDepthRow>& rows) {
   Estimate estimate(method, size);
   if (method == DepthMethod::kProxy) (void)estimate.at(estimate.outside());
-  double time = 0.0;
+  int step = 0;
   for (const double end : times) {
     SurfaceDepthRow row{.method = method, .size = size, .time = end};
-    int steps = 0;
-    for (; time < end; time += kStep, ++steps) {
-      const Hand hand = hand_at(time, size);
+    const int first = step;
+    for (; kStep * step < end; ++step) {
+      const Hand hand = hand_at(kStep * step, size);
       const double before = thread_microseconds();
       const double depth = estimate.at(hand.place);
       row.us_mean += thread_microseconds() - before;
       row.error = std::max(row.error, size * std::abs(depth - hand.depth));
     }
-    row.us_mean /= steps;
+    row.us_mean /= step - first;
     rows.push_back(row);
   }
 }
