@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "common/load/memory_file.h"
 #include "common/base/unique_fd.h"
+#include "common/load/memory_file.h"
 
 namespace palpate {
 

@@ -15,8 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/base/error.h"
 #include "common/base/errno_text.h"
+#include "common/base/error.h"
 
 namespace palpate {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include <Eigen/Eigenvalues>
@@ -196,8 +197,10 @@ AffineModes<R>::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& te
       constexpr Real kGrazing = Real(1e-12);
       if (std::abs(slope[i]) <= kGrazing * slope_scale) {
         if (std::abs(curvature[i]) <= kGrazing * curvature_scale) continue;
-        if (curvature[i] > 0 && slope[i] < 0) {
-          from = 4 * -slope[i] / curvature[i];
+        if (curvature[i] > 0) {
+          // Looked for from where the line has come inside by more than rounding of slope and place.
+          constexpr Real kRounding = 8 * std::numeric_limits<Real>::epsilon();
+          from = std::max(4 * std::abs(slope[i]) / curvature[i], std::sqrt(kRounding / curvature[i]));
           if (!(search.value(from) > 0)) from = 0;
         }
       }

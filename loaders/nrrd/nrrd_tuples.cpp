@@ -1,7 +1,6 @@
 #include "loaders/nrrd/nrrd_tuples.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <teem/nrrd.h>
 
@@ -50,7 +49,10 @@ std::string array_name(TupleKind kind) {
   return kind == TupleKind::kVector ? "vectors" : "tensors";
 }
 
-int turned_size(TupleKind kind) noexcept { return kind == TupleKind::kVector ? 3 : 6; }
+int turned_size(TupleKind kind) noexcept {
+  if (kind == TupleKind::kVector) return 3;
+  return is_masked(kind) ? 7 : 6;
+}
 
 void turn_tuple(TupleKind kind, const Mat3& axes, const double* tuple, double* turned) noexcept {
   if (kind == TupleKind::kVector) {
@@ -58,10 +60,7 @@ void turn_tuple(TupleKind kind, const Mat3& axes, const double* tuple, double* t
     for (int c = 0; c < 3; ++c) turned[c] = v[c];
     return;
   }
-  if (is_masked(kind) && !(tuple[0] >= 0.5)) {
-    std::fill_n(turned, 6, std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
+  if (is_masked(kind)) *turned++ = tuple[0];
   const Mat3 d = axes * symmetric(kind, is_masked(kind) ? tuple + 1 : tuple) * glm::transpose(axes);
   const double six[6] = {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]};
   std::copy_n(six, 6, turned);

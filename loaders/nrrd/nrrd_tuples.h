@@ -21,11 +21,11 @@ enum class TupleKind : std::uint8_t {
 [[nodiscard]] TupleKind tuple_kind(int nrrd_kind, std::size_t size) noexcept;
 /// "vectors", "tensors", "components".
 [[nodiscard]] std::string array_name(TupleKind kind);
-/// Numbers that a turned tuple has: 3 of a vector; 6 of a tensor (xx xy xz yy yz zz, the symmetric part).
-/// @pre kind is not kNumbers.
+/// Numbers that a turned tuple has: 3 of a vector; 6 of a tensor (xx xy xz yy yz zz, the symmetric part),
+/// after its mask where it has one. @pre kind is not kNumbers.
 [[nodiscard]] int turned_size(TupleKind kind) noexcept;
 
-/// Turns one tuple from the axes of its measurement. A tensor whose mask is below 0.5 becomes NaN.
+/// Turns one tuple from the axes of its measurement; a mask is left as it is.
 /// @param axes those axes in RAS, as columns.  @pre kind is not kNumbers.
 void turn_tuple(TupleKind kind, const Mat3& axes, const double* tuple, double* turned) noexcept;
 

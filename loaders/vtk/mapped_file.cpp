@@ -7,8 +7,8 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-#include "common/base/error.h"
 #include "common/base/errno_text.h"
+#include "common/base/error.h"
 #include "common/base/unique_fd.h"
 
 namespace palpate {

@@ -1,5 +1,4 @@
 // Small NRRD files written by hand, read through the helper program.
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -135,7 +134,7 @@ TEST(Nrrd, TheMeasurementFrameTurnsVectors) {
 
 // A tensor with known axes, written in a measurement frame, comes back in RAS as R D R^T; an LPS file's signs
 // do nothing to xx, yy, zz and xy, and turn xz and yz.
-TEST(Nrrd, TensorsAreTurnedIntoRasAndMaskedOnesAreNone) {
+TEST(Nrrd, TensorsAreTurnedIntoRasAndMasksAreKept) {
   const test::TempFolder folder;
   std::vector<float> values;
   for (int p = 0; p < 8; ++p) {
@@ -149,10 +148,11 @@ TEST(Nrrd, TensorsAreTurnedIntoRasAndMaskedOnesAreNone) {
                       frame + "\n" + raw(values));
     DataArray array = read_all(file).at(0).arrays.at(0);
     EXPECT_EQ(array.name, "tensors");
-    EXPECT_EQ(array.components, 6);
-    EXPECT_TRUE(std::isnan(array.at(3, 0)));
+    EXPECT_EQ(array.components, 7);
+    EXPECT_EQ(array.at(0, 0), 1.0);
+    EXPECT_EQ(array.at(3, 0), 0.0);
     std::vector<double> first;
-    for (int c = 0; c < 6; ++c) first.push_back(array.at(0, c));
+    for (int c = 1; c < 7; ++c) first.push_back(array.at(0, c));
     return first;
   };
   EXPECT_EQ(read("right-anterior-superior", ""), (std::vector<double>{1.0, 0.25, 0.5, 2.0, 0.125, 3.0}));

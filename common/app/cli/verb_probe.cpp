@@ -336,9 +336,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   if (recording) {
-    const NamedField open{
-        felt.field, field_key(input.field_label(), input.time().step) + scalar_key(options.touch.scalar),
-        felt.scalar};
+    // Examples have one field each, all of the same label.
+    const std::string label = input.file() != nullptr ? input.field_label() : input.title();
+    const NamedField open{felt.field, field_key(label, input.time().step) + scalar_key(options.touch.scalar),
+                          felt.scalar};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);

@@ -209,8 +209,10 @@ class Window {
   /// The hand feels what the lines show.
   void adopt_field() {
     if (!scene_->probed || !touch_->available()) return;
-    const std::string name =
-        field_key(scene_->settings.field, scene_->settings.time_step) + scene_->felt_scalar_key;
+    // Examples have one field each, all of the same label.
+    const SceneInfo& info = *scene_->info;
+    const std::string& label = info.files.files.empty() ? info.name : scene_->settings.field;
+    const std::string name = field_key(label, scene_->settings.time_step) + scene_->felt_scalar_key;
     if (touch_->set_field(scene_->probed, name, scene_->felt_scalar)) {
       touch_control_->let_go();
     }
