@@ -46,12 +46,13 @@ Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const Pictur
 
 void TouchControl::grab(const PictureArea& area, const SceneView& view, double time) {
   grabbed_ = true;
+  waiting_ = false;
   axis_.reset();
   session_.grab(time, start_of_probe(view, size_of(area), {x_ - area.left, y_ - area.top}));
 }
 
 void TouchControl::let_go() noexcept {
-  grabbed_ = by_shift_ = false;
+  grabbed_ = by_shift_ = waiting_ = false;
   axis_.reset();
   session_.let_go();
 }
@@ -76,7 +77,9 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     case InputKind::kPress:
       ++buttons_;
-      return false;
+      if (!waiting_ || over_panel || !area.contains(x_, y_)) return false;
+      grab(area, view, time);
+      return true;
     case InputKind::kRelease:
       buttons_ = std::max(0, buttons_ - 1);
       return false;
@@ -127,6 +130,11 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       if (grabbed_) {
         let_go();
         return "let go";
+      }
+      // From the panel's button the mouse has a way to go.
+      if (!area.contains(x_, y_)) {
+        waiting_ = !waiting_;
+        return waiting_ ? "click on a line to grab the probe there" : "let go";
       }
       grab(area, view, time);
       return "grabbed: the mouse moves the probe, the wheel along the view; K keeps the line, G lets go";

@@ -40,6 +40,7 @@ class TouchControl {
   ProbeSession& session_;
   bool grabbed_ = false;
   bool by_shift_ = false;  ///< for as long as Shift is held
+  bool waiting_ = false;   ///< asked for away from the picture: the next click into it grabs the probe there
   int buttons_ = 0;        ///< that are down: the camera's then
   std::optional<int> axis_;
   double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]

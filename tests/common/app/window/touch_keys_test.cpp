@@ -23,6 +23,19 @@ TEST_F(TouchWindowTest, GGrabsAtTheMouseAndLetsGo) {
   EXPECT_TRUE(free.view.probe->followed) << "stays in the picture";
 }
 
+TEST_F(TouchWindowTest, AskedForOverThePanelItIsGrabbedByTheNextClickIntoThePicture) {
+  move(next(), 20.0, middle_y_);
+  key('G');
+  const WindowResult asked = run();
+  EXPECT_FALSE(asked.probe.held);
+  EXPECT_NE(asked.message.find("click on a line"), std::string::npos) << asked.message;
+  click(next(), middle_x_, middle_y_);
+  last_ += kPause;
+  const WindowResult held = run();
+  EXPECT_TRUE(held.probe.held);
+  EXPECT_EQ(held.view.camera.axes[2], asked.view.camera.axes[2]) << "that click is not the camera's";
+}
+
 TEST_F(TouchWindowTest, TheProbeStaysUnderTheMouse) {
   grab();
   const Vec3 start = run().probe.probe;
