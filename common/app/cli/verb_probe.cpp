@@ -336,8 +336,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   if (recording) {
-    // Examples have one field each, all of the same label.
-    const std::string label = input.file() != nullptr ? input.field_label() : input.title();
+    // The fields of all examples have the same label.
+    std::string label = input.field_label();
+    if (input.file() == nullptr) label.insert(0, input.title() + " ");
     const NamedField open{felt.field, field_key(label, input.time().step) + scalar_key(options.touch.scalar),
                           felt.scalar};
     int links = 0;

@@ -209,9 +209,10 @@ class Window {
   /// The hand feels what the lines show.
   void adopt_field() {
     if (!scene_->probed || !touch_->available()) return;
-    // Examples have one field each, all of the same label.
+    // The fields of all examples have the same label.
     const SceneInfo& info = *scene_->info;
-    const std::string& label = info.files.files.empty() ? info.name : scene_->settings.field;
+    std::string label = scene_->settings.field;
+    if (info.files.files.empty()) label.insert(0, info.name + " ");
     const std::string name = field_key(label, scene_->settings.time_step) + scene_->felt_scalar_key;
     if (touch_->set_field(scene_->probed, name, scene_->felt_scalar)) {
       touch_control_->let_go();
