@@ -18,9 +18,9 @@ constexpr int kSmallest = 200, kLargest = 20'000;  // [screen coordinates] of a 
 
 /// The folder of an XDG variable, which has to be absolute to count.
 std::optional<std::filesystem::path> folder_of(const char* variable, const char* below_home) {
-  const char* const given = std::getenv(variable);
+  const char* const given = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): read only
   if (given != nullptr && std::filesystem::path(given).is_absolute()) return std::filesystem::path(given);
-  const char* const home = std::getenv("HOME");
+  const char* const home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe): read only
   if (home == nullptr || !std::filesystem::path(home).is_absolute()) return std::nullopt;
   return std::filesystem::path(home) / below_home;
 }

@@ -524,7 +524,7 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options,
   options.recent = before.recent;
   apply_look(before.look, options.view);
   options.touch.fault_folder = files->recent.parent_path();
-  const WindowResult result = run_window(model, options);
+  WindowResult result = run_window(model, options);
   const UserSettings after{
       .width = result.width, .height = result.height, .look = look_of(result.view), .recent = result.recent};
   try {
