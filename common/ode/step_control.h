@@ -58,7 +58,8 @@ class StepControl {
   /// Power of two to a relative 1e-4. @pre |x| < 1000.
   [[nodiscard]] static double rough_exp2(double x) noexcept {
     const double whole = std::floor(x), f = x - whole;
-    const auto exponent = static_cast<std::uint64_t>(static_cast<int>(whole) + kBias);
+    const int biased = static_cast<int>(whole) + kBias;
+    const auto exponent = static_cast<std::uint64_t>(biased);
     const double low = 0.99990029 + f * 0.69632477, high = 0.22469316 + f * 0.07896726;
     return std::bit_cast<double>(exponent << kMantissaBits) * (low + (f * f) * high);
   }
