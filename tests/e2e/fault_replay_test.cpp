@@ -23,7 +23,7 @@ class FaultReplay : public ExplorerTest {
 
 TEST_F(FaultReplay, PlaysWhatLedToAFault) {
   const auto field = make_vector_field(example("tornado"));
-  const NamedField open{field, field_key("velocity", 0)};
+  const NamedField open{field, field_key("example tornado velocity", 0)};
   const auto modes = flow_modes();
   const double scale = Workspace::default_scale(field->diagonal());
   for (const std::string mode : {"streamline", "transverse"}) {

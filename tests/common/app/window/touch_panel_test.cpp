@@ -33,9 +33,9 @@ class TouchPanelTest : public TouchWindowTest {
   }
 };
 
-TEST_F(TouchPanelTest, GrabLetsTheMouseTakeTheProbeIntoThePicture) {
+TEST_F(TouchPanelTest, GrabLetsAClickIntoThePictureTakeTheProbeThere) {
   press(kLeft, row(kFirstButtons));
-  move_by(next(), 0.0, 0.0);
+  press(middle_x_, middle_y_);
   last_ += kPause;
   const WindowResult held = run();
   EXPECT_TRUE(held.probe.held);
