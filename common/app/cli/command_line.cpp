@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -12,6 +11,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/cli/scene_options.h"
+#include "common/app/cli/touch_command_line.h"
 #include "common/base/version.h"
 #include "common/scene/session.h"
 
@@ -68,23 +69,17 @@ std::string examples_text(const std::vector<UsageExample>& examples) {
   return text;
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ";") + part;
-  return text;
-}
-
 /// The options of one verb, bound to `options`.
 class VerbParser {
  public:
   VerbParser(CLI::App& app, const Explorer& explorer, const Verb& verb, Options& options)
-      : app_(app), options_(options) {
+      : app_(app), options_(options), scene_options_(app) {
     app_.footer(examples_text(verb.examples));
     add_common();
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.view) add_view(explorer.kind);
-    if (verb.groups.touch) add_touch(explorer.kind);
+    if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();
     if (verb.groups.hand) add_operator();
     if (verb.groups.record) add_record();
@@ -94,40 +89,14 @@ class VerbParser {
     if (verb.groups.effort) add_effort();
   }
 
-  /// Options that describe the scene and were given, with their text.
-  std::vector<std::pair<std::string, std::string>> given() const {
-    std::vector<std::pair<std::string, std::string>> values;
-    for (const CLI::Option* option : scene_options_) {
-      if (option->count() > 0) values.emplace_back(option->get_lnames().front(), joined(option->results()));
-    }
-    return values;
-  }
-
-  /// Whether a session may hold this option.
-  bool knows(const std::string& name) const {
-    return std::any_of(scene_options_.begin(), scene_options_.end(),
-                       [&](const CLI::Option* option) { return option->get_lnames().front() == name; });
-  }
+  [[nodiscard]] const SceneOptions& scene_options() const noexcept { return scene_options_; }
 
   void check() const {
-    const auto positive = [](double value, const char* name) {
-      if (!(std::isfinite(value) && value >= 0.0)) {
-        throw usage_error(std::string(name) + ": a finite number, not below zero, is expected");
-      }
-    };
-    positive(options_.tracing.tolerance, "--tolerance");
-    positive(options_.tracing.step, "--step");
-    positive(options_.tracing.max_length, "--max-length");
-    positive(options_.tracing.max_time, "--max-time");
-    positive(options_.touch.workspace_scale, "--workspace-scale");
-    positive(options_.touch.stiffness, "--stiffness");
-    positive(options_.touch.release, "--release");
-    positive(options_.touch.drag, "--drag");
-    positive(options_.touch.depth, "--depth");
-    positive(options_.touch.snap, "--snap");
-    positive(options_.touch.field_damping, "--field-damping");
-    positive(options_.touch.force_cap, "--force-cap");
-    positive(options_.touch.slew_cap, "--slew-cap");
+    check_not_negative(options_.tracing.tolerance, "--tolerance");
+    check_not_negative(options_.tracing.step, "--step");
+    check_not_negative(options_.tracing.max_length, "--max-length");
+    check_not_negative(options_.tracing.max_time, "--max-time");
+    check_touch_options(options_.touch);
     if (options_.tracing.tolerance == 0.0)
       throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
   }
@@ -136,9 +105,7 @@ class VerbParser {
   template <typename T>
   CLI::Option* scene(const std::string& name, T& value, const std::string& text, const std::string& type,
                      const std::string& group) {
-    CLI::Option* option = app_.add_option(name, value, text)->type_name(type)->group(group);
-    scene_options_.push_back(option);
-    return option;
+    return scene_options_.add(name, value, text, type, group);
   }
 
   void add_common() {
@@ -255,70 +222,6 @@ class VerbParser {
         ->check(CLI::IsMember({"perspective", "orthographic"}));
   }
 
-  void add_touch(FieldKind kind) {
-    const char* group = "Touch";
-    TouchOptions& touch = options_.touch;
-    scene("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", group);
-    scene("--workspace-scale", touch.workspace_scale,
-          "metres per data unit; 0, the default: the diagonal of the data is 0.25 m", "M", group);
-    scene("--stiffness", touch.stiffness, "of the spring between probe and proxy, in N/m; default 200", "K",
-          group);
-    scene("--damping", touch.damping, "of the motion that a constraint holds back, in N s/m; default 0: none",
-          "B", group);
-    scene("--passivity", touch.passivity,
-          "watch the energy that the hand gets back, and damp it: on, off, or auto (default): for chains of "
-          "two links and more",
-          "auto|on|off", group);
-    scene("--release", touch.release, "stretch in mm at which a line lets go; default 10", "MM", group);
-    scene("--drag", touch.drag, "distance in mm at which an isotropic drag follows; default 4", "MM", group);
-    scene("--ticks", touch.ticks,
-          "tick marks felt at equal times along the line: 'auto', or the time between them in data units",
-          "auto|T", group);
-    scene("--tick-stiffness", touch.tick_stiffness, "of the tick marks, relative; default 0.25", "0..1",
-          group)
-        ->check(CLI::Range(0.0, 1.0));
-    scene("--speed-force", touch.speed_force,
-          "force in N along the line where the flow is fastest; negative: against it", "N", group);
-    add_isosurface(kind);
-    scene("--field-force", touch.field_force,
-          "direct: force in N where the flow is fastest; vortex: that of a strong vortex; default 1", "N",
-          group);
-    scene("--field-damping", touch.field_damping,
-          "transverse, density: drag in N s/m, where it is full; default 5", "B", group);
-    scene("--density-curve", touch.density_curve,
-          "density: part of the drag by value, both from 0 to 1, as R:PART,R:PART[,…][,smooth]; default "
-          "0:0,1:1",
-          "CURVE", group);
-    scene("--force-cap", touch.force_cap, "largest force in N; default 4", "N", group);
-    scene("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", group);
-  }
-
-  void add_isosurface(FieldKind kind) {
-    const char* group = "Touch";
-    TouchOptions& touch = options_.touch;
-    if (kind == FieldKind::kVector) {
-      scene("--scalar", touch.scalar, "what modes of a scalar feel: speed (default), or an array of the file",
-            "NAME", group);
-      scene_options_.push_back(
-          app_.add_flag("--along-streamline", touch.along_streamline,
-                        "isosurface: follow a streamline until it meets the surface, and into it")
-              ->group(group));
-    }
-    scene("--isovalue", touch.isovalues,
-          "isovalues of surfaces that are felt, up to eight; default: the one that parts the values best "
-          "(Otsu)",
-          "V[,V...]", group);
-    scene("--surface", touch.surface,
-          "what isosurfaces do: stop the probe (wall) or only one that comes from below or above, or hold on "
-          "to "
-          "it (layer)",
-          "wall|below|above|layer", group);
-    scene("--depth", touch.depth, "stretch in mm at which an isosurface lets the probe through; default 10",
-          "MM", group);
-    scene("--snap", touch.snap,
-          "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", group);
-  }
-
   void add_path() {
     app_.add_option("--path", options_.path, "table of the probe's path, header t,x,y,z[,b0]: one step a row")
         ->type_name("FILE.csv")
@@ -386,7 +289,7 @@ class VerbParser {
 
   CLI::App& app_;
   Options& options_;
-  std::vector<CLI::Option*> scene_options_;
+  SceneOptions scene_options_;
 };
 
 /// CLI11's help with the usage line that a user of verbs expects.
@@ -453,13 +356,15 @@ ParsedCommand parse_once(
   const CLI::App* chosen = app.get_subcommands().front();
   parsed.verb = find_verb(explorer, chosen->get_name());
   parsers.at(chosen)->check();
-  parsed.options.given = parsers.at(chosen)->given();
+  parsed.options.given = parsers.at(chosen)->scene_options().given();
   if (with_names) {
-    with_names(parsed, {[&](const std::string& name) { return parsers.at(chosen)->knows(name); },
-                        [&](const std::string& name) {
-                          return std::any_of(parsers.begin(), parsers.end(),
-                                             [&](const auto& parser) { return parser.second->knows(name); });
-                        }});
+    with_names(parsed,
+               {[&](const std::string& name) { return parsers.at(chosen)->scene_options().knows(name); },
+                [&](const std::string& name) {
+                  return std::any_of(parsers.begin(), parsers.end(), [&](const auto& parser) {
+                    return parser.second->scene_options().knows(name);
+                  });
+                }});
   }
   return parsed;
 }

@@ -1,4 +1,5 @@
-/// The command line's spelling: which option is called what, and the help texts. The only user of CLI11.
+/// The command line's spelling: which option is called what, and the help texts. With touch_command_line.h,
+/// the only user of CLI11.
 #pragma once
 
 #include <optional>

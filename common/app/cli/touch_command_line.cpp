@@ -1,0 +1,102 @@
+#include "common/app/cli/touch_command_line.h"
+
+#include <cmath>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kGroup = "Touch";
+
+void add_hold(SceneOptions& options, TouchOptions& touch) {
+  options.add("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", kGroup);
+  options.add("--workspace-scale", touch.workspace_scale,
+              "metres per data unit; 0, the default: the diagonal of the data is 0.25 m", "M", kGroup);
+  options.add("--stiffness", touch.stiffness, "of the spring between probe and proxy, in N/m; default 200",
+              "K", kGroup);
+  options.add("--damping", touch.damping,
+              "of the motion that a constraint holds back, in N s/m; default 0: none", "B", kGroup);
+  options.add("--passivity", touch.passivity,
+              "watch the energy that the hand gets back, and damp it: on, off, or auto (default): for chains "
+              "of two links and more",
+              "auto|on|off", kGroup);
+  options.add("--force-cap", touch.force_cap, "largest force in N; default 4", "N", kGroup);
+  options.add("--slew-cap", touch.slew_cap, "fastest change of the force in N/s; default 200", "N/s", kGroup);
+}
+
+void add_lines(SceneOptions& options, TouchOptions& touch) {
+  options.add("--release", touch.release, "stretch in mm at which a line lets go; default 10", "MM", kGroup);
+  options.add("--drag", touch.drag, "distance in mm at which an isotropic drag follows; default 4", "MM",
+              kGroup);
+  options.add("--ticks", touch.ticks,
+              "tick marks felt at equal times along the line: 'auto', or the time between them in data units",
+              "auto|T", kGroup);
+  options
+      .add("--tick-stiffness", touch.tick_stiffness, "of the tick marks, relative; default 0.25", "0..1",
+           kGroup)
+      ->check(CLI::Range(0.0, 1.0));
+  options.add("--speed-force", touch.speed_force,
+              "force in N along the line where the flow is fastest; negative: against it", "N", kGroup);
+}
+
+void add_isosurface(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
+  if (kind == FieldKind::kVector) {
+    options.add("--scalar", touch.scalar,
+                "what modes of a scalar feel: speed (default), or an array of the file", "NAME", kGroup);
+    options.add_flag("--along-streamline", touch.along_streamline,
+                     "isosurface: follow a streamline until it meets the surface, and into it", kGroup);
+  }
+  options.add("--isovalue", touch.isovalues,
+              "isovalues of surfaces that are felt, up to eight; default: the one that parts the values best "
+              "(Otsu)",
+              "V[,V...]", kGroup);
+  options.add("--surface", touch.surface,
+              "what isosurfaces do: stop the probe (wall) or only one that comes from below or above, or "
+              "hold on to it (layer)",
+              "wall|below|above|layer", kGroup);
+  options.add("--depth", touch.depth,
+              "stretch in mm at which an isosurface lets the probe through; default 10", "MM", kGroup);
+  options.add("--snap", touch.snap,
+              "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", kGroup);
+}
+
+void add_force_fields(SceneOptions& options, TouchOptions& touch) {
+  options.add("--field-force", touch.field_force,
+              "direct: force in N where the flow is fastest; vortex: that of a strong vortex; default 1", "N",
+              kGroup);
+  options.add("--field-damping", touch.field_damping,
+              "transverse, density: drag in N s/m, where it is full; default 5", "B", kGroup);
+  options.add("--density-curve", touch.density_curve,
+              "density: part of the drag by value, both from 0 to 1, as R:PART,R:PART[,…][,smooth]; default "
+              "0:0,1:1",
+              "CURVE", kGroup);
+}
+
+}  // namespace
+
+void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
+  add_hold(options, touch);
+  add_lines(options, touch);
+  add_isosurface(options, touch, kind);
+  add_force_fields(options, touch);
+}
+
+void check_not_negative(double value, const std::string& option) {
+  if (std::isfinite(value) && value >= 0.0) return;
+  throw usage_error(option + ": a finite number, not below zero, is expected");
+}
+
+void check_touch_options(const TouchOptions& touch) {
+  check_not_negative(touch.workspace_scale, "--workspace-scale");
+  check_not_negative(touch.stiffness, "--stiffness");
+  check_not_negative(touch.release, "--release");
+  check_not_negative(touch.drag, "--drag");
+  check_not_negative(touch.depth, "--depth");
+  check_not_negative(touch.snap, "--snap");
+  check_not_negative(touch.field_damping, "--field-damping");
+  check_not_negative(touch.force_cap, "--force-cap");
+  check_not_negative(touch.slew_cap, "--slew-cap");
+}
+
+}  // namespace palpate
