@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/scalar_examples.h"
+#include "common/math/counter_random.h"
 
 namespace palpate {
 namespace {
@@ -88,14 +89,6 @@ DataSet shells() {
   });
 }
 
-/// A number in [0, 1) that looks random, from the index of a point (Steele, Lea and Flood 2014, SplitMix64).
-double noise(std::uint64_t index) {
-  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-}
-
 /// Three overlapping Gaussian blobs under white noise of a tenth of full scale.
 DataSet blob() {
   constexpr int kPoints = 64;
@@ -107,7 +100,7 @@ DataSet blob() {
   const std::array<Part, 3> parts{
       {{{0.0, 0.0, 0.0}, 0.45, 0.6}, {{0.4, 0.2, 0.1}, 0.25, 0.35}, {{-0.3, 0.35, -0.25}, 0.2, 0.4}}};
   return cube<std::uint16_t>(kPoints, kUnitCube, [&](const Vec3& x, std::uint64_t index) {
-    double sum = kNoise * noise(index);
+    double sum = kNoise * uniform_at(index);
     for (const Part& part : parts) {
       const Vec3 away = (x - part.center) / part.radius;
       sum += part.value * std::exp(-glm::dot(away, away));
