@@ -13,6 +13,7 @@
 
 #include "common/base/progress.h"
 #include "common/field/data_set.h"
+#include "common/field/tensor/tensor_source.h"
 #include "common/field/vector_choice.h"
 #include "common/load/raw_layout.h"
 
@@ -50,6 +51,7 @@ struct FileInfo {
   std::string units;               ///< as the file states them ("coordinates in mm"), or empty
   bool anatomical = false;         ///< coordinates are RAS+: x to the right, y to the front, z up
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
+  DiffusionInfo diffusion;         ///< where the file holds tensors or what they are fitted to
 };
 
 /// An open input with its helper program. Movable; closing it ends the helper.

@@ -7,6 +7,7 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/load/volume_block.h"
 #include "common/scene/raw_file.h"
@@ -52,8 +53,28 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
   return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
 }
 
+std::string_view name_of(FieldKind kind) noexcept {
+  switch (kind) {
+    case FieldKind::kScalar:
+      return "scalar";
+    case FieldKind::kTensor:
+      return "tensor";
+    case FieldKind::kVector:
+      break;
+  }
+  return "vector";
+}
+
 std::vector<ExampleInfo> examples_of(FieldKind kind) {
-  return kind == FieldKind::kScalar ? volume_examples() : examples();
+  switch (kind) {
+    case FieldKind::kScalar:
+      return volume_examples();
+    case FieldKind::kTensor:
+      return tensor_examples();
+    case FieldKind::kVector:
+      break;
+  }
+  return examples();
 }
 
 Input Input::open(const InputSpec& spec, Progress* progress) {
@@ -76,6 +97,9 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   if (input.spec_.kind == FieldKind::kScalar) {
     for (const ScalarChoice& choice : scalar_choices(input.arrays_))
       input.fields_.push_back(label_of(choice, input.arrays_));
+  } else if (input.spec_.kind == FieldKind::kTensor) {
+    for (const TensorSource& source : tensor_sources(input.arrays_, input.file()->diffusion))
+      input.fields_.push_back(source.label);
   } else if (input.file() && input.not_volume_.empty()) {
     for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
@@ -99,7 +123,7 @@ void Input::open_example() {
       throw usage_error("--field " + spec_.field + ": a built-in example has one field, " + kFormulaField);
     return;
   }
-  made_ = volume_example(spec_.example);
+  made_ = spec_.kind == FieldKind::kTensor ? tensor_example(spec_.example) : volume_example(spec_.example);
   const DataArray& array = made_->arrays.front();
   arrays_ = {{array.name, array.association, array.components, array.type, array.tuples}};
   made_info_ = FileInfo{.format = "made on the fly"};
@@ -137,14 +161,20 @@ VectorChoice Input::choice() const {
 
 ScalarChoice Input::scalar_choice() const { return choose_scalar(arrays_, spec_.field, file_name()); }
 
+TensorSource Input::tensor_source() const {
+  return choose_tensors(arrays_, file()->diffusion, spec_.field, file_name());
+}
+
 std::string Input::field_label() const {
   if (!file()) return kFormulaField;
+  if (spec_.kind == FieldKind::kTensor) return tensor_source().label;
   return spec_.kind == FieldKind::kScalar ? label_of(scalar_choice(), arrays_) : choice().label;
 }
 
 std::vector<std::string> Input::field_arrays() const {
   if (!file()) return {};
   if (spec_.kind == FieldKind::kScalar) return {scalar_choice().array};
+  if (spec_.kind == FieldKind::kTensor) return tensor_source().arrays;
   return choice().arrays;
 }
 
@@ -152,8 +182,9 @@ std::string Input::choice_sentence() const {
   if (!file()) return title_ + ": field " + kFormulaField + ", a formula";
   const std::string chosen = field_label();
   std::string text = title_ + ": field " + chosen;
-  const Association on =
-      spec_.kind == FieldKind::kScalar ? scalar_choice().association : choice().association;
+  Association on = Association::kPoint;
+  if (spec_.kind == FieldKind::kScalar) on = scalar_choice().association;
+  if (spec_.kind == FieldKind::kVector) on = choice().association;
   text += on == Association::kCell ? " (cell values brought to the points)" : "";
   std::string others;
   for (const std::string& other : fields_) {
@@ -210,6 +241,27 @@ std::shared_ptr<const ScalarField> Input::load_scalar(int threads, Progress* pro
   if (progress) progress->begin("preparing the field", 0);
   auto field = make_scalar_field(blocks, chosen, file_name(), threads);
   seconds_field_ = watch.seconds();
+  return field;
+}
+
+TensorImage Input::load_tensor_image(int threads, Progress* progress) {
+  check_volume();
+  const TensorSource source = tensor_source();
+  if (progress) progress->begin("reading " + title_, 0);
+  std::vector<DataSet> blocks = read_timed(source.arrays, progress);
+  const Stopwatch watch;
+  if (progress) progress->begin("preparing the tensors", 0);
+  TensorImage image =
+      make_tensor_image(std::move(blocks), source, file()->diffusion, file_name(), threads, progress);
+  seconds_field_ = watch.seconds();
+  return image;
+}
+
+std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* progress) {
+  const TensorImage made = load_tensor_image(threads, progress);
+  const Stopwatch watch;
+  auto field = make_tensor_field(made.image, made.choice, file_name(), threads, made.notes);
+  seconds_field_ += watch.seconds();
   return field;
 }
 

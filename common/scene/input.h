@@ -14,13 +14,19 @@
 #include "common/field/analytic/examples.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
+#include "common/field/tensor/tensor_field.h"
+#include "common/field/tensor/tensor_source.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
+#include "common/scene/tensor_image.h"
 
 namespace palpate {
 
 /// What an explorer takes from its input.
-enum class FieldKind : std::uint8_t { kVector, kScalar };
+enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor };
+
+/// "vector", "scalar", "tensor".
+[[nodiscard]] std::string_view name_of(FieldKind kind) noexcept;
 
 /// The built-in data sets of a kind; the first is the one shown by default.
 [[nodiscard]] std::vector<ExampleInfo> examples_of(FieldKind kind);
@@ -78,7 +84,9 @@ class Input {
   [[nodiscard]] VectorChoice choice() const;
   /// The same for a scalar field.
   [[nodiscard]] ScalarChoice scalar_choice() const;
-  /// What spec().field means, of either kind: "velocity". @throws as choice().
+  /// The same for a tensor field.
+  [[nodiscard]] TensorSource tensor_source() const;
+  /// What spec().field means, of any kind: "velocity". @throws as choice().
   [[nodiscard]] std::string field_label() const;
   /// The arrays that the field is made of; none for a formula. @throws as choice().
   [[nodiscard]] std::vector<std::string> field_arrays() const;
@@ -91,6 +99,10 @@ class Input {
   [[nodiscard]] std::shared_ptr<const VectorField> load_field(int threads, Progress* progress = nullptr);
   /// The same for the scalar field. @pre file().
   [[nodiscard]] std::shared_ptr<const ScalarField> load_scalar(int threads, Progress* progress = nullptr);
+  /// The same for the tensor field. @pre file().
+  [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr);
+  /// The image that load_tensor() makes its field of. @pre file().
+  [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.
   [[nodiscard]] std::vector<DataSet> read_timed(const std::vector<std::string>& names, Progress* progress);
   /// Reads topology and arrays by name at the chosen time step. @pre file().

@@ -55,7 +55,7 @@ bool is_box(const FileInfo& file) {
 }
 
 void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
-  const bool scalar = input.spec().kind == FieldKind::kScalar;
+  const std::string field = "the " + std::string(name_of(input.spec().kind)) + " field";
   std::vector<std::string> wanted;
   if (use.field && !input.fields().empty()) wanted = input.field_arrays();
   for (const ArrayInfo& array : input.arrays()) {
@@ -65,8 +65,7 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
     const bool colors = array.name == use.color_array;
     const std::string what = kArray + array.name;
     if (in_field) {
-      plan.push_back(
-          used(what, scalar ? "the scalar field" : "the vector field", bytes, array_milliseconds(bytes)));
+      plan.push_back(used(what, field, bytes, array_milliseconds(bytes)));
     } else if (colors) {
       plan.push_back(used(what, "colours the lines", bytes, array_milliseconds(bytes)));
     } else if (use.all_arrays) {

@@ -135,8 +135,7 @@ class VerbParser {
     scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME",
           group);
     scene("--field", input.field,
-          std::string(kind == FieldKind::kScalar ? "the scalar field" : "the vector field") +
-              "; without it the likeliest one is taken and named",
+          "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
           "NAME", group);
     if (kind == FieldKind::kScalar) add_raw();
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",

@@ -150,6 +150,9 @@ std::string info_json(const InfoSummary& summary) {
   json["field"] = summary.field.empty() ? Json(nullptr) : Json(summary.field);
   if (input.spec().kind == FieldKind::kVector) {
     json["max_speed"] = summary.max_speed;
+  } else if (input.spec().kind == FieldKind::kTensor) {
+    json["largest_trace"] = summary.largest_trace;
+    json["negative_tensors"] = summary.negative_tensors;
   } else if (summary.field_range) {
     json["range"] = {summary.field_range->lower, summary.field_range->upper};
   }

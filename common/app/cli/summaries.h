@@ -55,6 +55,8 @@ struct InfoSummary {
   std::string field;                          ///< empty: none can be made
   double max_speed = 0.0;                     ///< of a vector field
   std::optional<ComponentRange> field_range;  ///< of a scalar field with finite values
+  double largest_trace = 0.0;                 ///< of a tensor field, in the data's units
+  std::size_t negative_tensors = 0;           ///< of a tensor field: with an eigenvalue below zero
   Box bounds;
   std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;

@@ -7,6 +7,7 @@
 #include "common/app/cli/verbs.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/field/field_grid.h"
 #include "common/scene/plan.h"
 
 namespace palpate {
@@ -148,7 +149,7 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
 
 std::string summary_text(const InfoSummary& summary) {
   const Input& input = *summary.input;
-  const bool scalar = input.spec().kind == FieldKind::kScalar;
+  const FieldKind kind = input.spec().kind;
   std::string text =
       input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
   if (!input.file()) {
@@ -156,14 +157,14 @@ std::string summary_text(const InfoSummary& summary) {
             position_text(summary.bounds.upper) + "\n";
   }
   if (!input.not_volume().empty()) {
-    text += scalar ? "  field      no volume cells: nothing to feel\n"
-                   : "  field      no volume cells: nothing to trace\n";
+    text += kind == FieldKind::kScalar ? "  field      no volume cells: nothing to feel\n"
+                                       : "  field      no volume cells: nothing to trace\n";
   } else if (summary.field.empty()) {
-    text += std::string("  field      no ") + (scalar ? "scalar" : "vector") +
-            " field can be made from these arrays\n";
+    text += "  field      no " + std::string(name_of(kind)) + " field can be made from these arrays\n";
   } else {
     text += "  field      " + summary.field;
-    if (!scalar) text += ", speed up to " + short_number(summary.max_speed);
+    if (kind == FieldKind::kVector) text += ", speed up to " + short_number(summary.max_speed);
+    if (kind == FieldKind::kTensor) text += ", traces up to " + short_number(summary.largest_trace);
     if (summary.field_range) {
       text +=
           ", " + short_number(summary.field_range->lower) + " … " + short_number(summary.field_range->upper);
@@ -179,13 +180,19 @@ std::string summary_text(const InfoSummary& summary) {
   return text;
 }
 
+template <typename Field>
+const TetMesh* tet_mesh_of(const Field& field) {
+  return field.tet_mesh();
+}
+const TetMesh* tet_mesh_of(const TensorField& field) { return field.grid()->tets.get(); }
+
 /// Adds what is to be said of the field.
 template <typename Field>
 void add_field(const Input& input, const Field& field, bool explain, InfoSummary& summary) {
   summary.field = input.field_label();
   summary.bounds = field.bounds();
   summary.notes.insert(summary.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
-  if (explain) summary.measured = measured_costs(input, field.tet_mesh());
+  if (explain) summary.measured = measured_costs(input, tet_mesh_of(field));
 }
 
 ExitCode run_info(const Options& options, const VerbContext& context) {
@@ -227,6 +234,11 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
     add_field(input, *field, options.common.explain, summary);
     if (field->lowest() <= field->highest())
       summary.field_range = ComponentRange{field->lowest(), field->highest()};
+  } else if (has_field && context.explorer.kind == FieldKind::kTensor) {
+    const auto field = input.load_tensor(options.common.threads, &context.progress);
+    add_field(input, *field, options.common.explain, summary);
+    summary.largest_trace = field->largest_trace();
+    summary.negative_tensors = field->negative_tensors();
   } else if (has_field) {
     const auto field = input.load_field(options.common.threads, &context.progress);
     add_field(input, *field, options.common.explain, summary);

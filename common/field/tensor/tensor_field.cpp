@@ -129,11 +129,12 @@ class TensorFieldBuilder {
  public:
   static std::shared_ptr<const TensorField> make(const DataSet& image, const DataArray& array,
                                                  const TensorChoice& choice, const std::string& file,
-                                                 int threads) {
+                                                 int threads, const std::vector<std::string>& notes) {
     auto field = std::make_shared<TensorField>();
     field->name_ = choice.array;
     field->grid_ = make_field_grid(std::span(&image, 1), file, threads);
     field->notes_ = field->grid_->notes;
+    field->notes_.lines.insert(field->notes_.lines.begin(), notes.begin(), notes.end());
     field->interpolation_ = choice.interpolation;
 
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
@@ -200,7 +201,8 @@ class TensorFieldBuilder {
 };
 
 std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const TensorChoice& choice,
-                                                     const std::string& file, int threads) {
+                                                     const std::string& file, int threads,
+                                                     const std::vector<std::string>& notes) {
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
   };
@@ -212,7 +214,7 @@ std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const
     refuse("array '" + choice.array + "' with " + std::to_string(array->components) + " components",
            std::to_string(components) + " components");
   }
-  return TensorFieldBuilder::make(image, *array, choice, file, threads);
+  return TensorFieldBuilder::make(image, *array, choice, file, threads, notes);
 }
 
 }  // namespace palpate

@@ -78,10 +78,11 @@ class TensorField {
 
 /// Makes the field from an image. With logarithms, eigenvalues below 1e-6 of largest_trace() are lifted to
 /// that: fitted tensors have zero and negative ones.
+/// @param notes become the first of the field's.
 /// @throws Error (bad input) with `file` where the array is missing or has another number of components, or
 /// the topology is hostile or flat.
-[[nodiscard]] std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image,
-                                                                   const TensorChoice& choice,
-                                                                   const std::string& file, int threads = 0);
+[[nodiscard]] std::shared_ptr<const TensorField> make_tensor_field(
+    const DataSet& image, const TensorChoice& choice, const std::string& file, int threads = 0,
+    const std::vector<std::string>& notes = {});
 
 }  // namespace palpate

@@ -1,0 +1,61 @@
+#include "common/field/tensor/tensor_source.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+bool has_tensor_size(const ArrayInfo& array) {
+  constexpr std::array<int, 3> kSizes{6, 7, 9};
+  return array.association == Association::kPoint &&
+         std::find(kSizes.begin(), kSizes.end(), array.components) != kSizes.end();
+}
+
+}  // namespace
+
+std::vector<TensorSource> tensor_sources(const std::vector<ArrayInfo>& arrays,
+                                         const DiffusionInfo& diffusion) {
+  using Kind = TensorSource::Kind;
+  const auto has = [&](std::string_view name, int components) {
+    return std::any_of(arrays.begin(), arrays.end(), [&](const ArrayInfo& array) {
+      return array.name == name && array.components == components && array.association == Association::kPoint;
+    });
+  };
+  const bool has_signals = diffusion.gradients && !diffusion.gradients->weightings.empty() &&
+                           has(kSignalArray, static_cast<int>(diffusion.gradients->weightings.size()));
+  std::vector<TensorSource> sources;
+  for (const ArrayInfo& array : arrays) {
+    if (has_tensor_size(array) && array.name != kSignalArray)
+      sources.push_back({Kind::kArray, {array.name}, array.name});
+  }
+  const bool directions = has("V1", 3);
+  if (directions && has("V2", 3) && has("V3", 3) && has("L1", 1) && has("L2", 1) && has("L3", 1))
+    sources.push_back({Kind::kEigenSet, {"V1", "V2", "V3", "L1", "L2", "L3"}, "eigenvectors"});
+  if (has_signals) sources.push_back({Kind::kSignals, {kSignalArray}, "fit"});
+  if (directions && has("FA", 1)) sources.push_back({Kind::kDirections, {"V1", "FA"}, "directions"});
+  return sources;
+}
+
+TensorSource choose_tensors(const std::vector<ArrayInfo>& arrays, const DiffusionInfo& diffusion,
+                            std::string_view requested, const std::string& file) {
+  const std::vector<TensorSource> sources = tensor_sources(arrays, diffusion);
+  if (sources.empty()) {
+    throw input_error(
+        {file, "", "has no tensors",
+         "tensors (6, 7 or 9 numbers a point), diffusion-weighted volumes with their gradients, "
+         "or FSL's V1 with FA",
+         "for volumes in NIfTI name the gradients by --bval and --bvec"});
+  }
+  if (requested.empty()) return sources.front();
+  std::string known;
+  for (const TensorSource& source : sources) {
+    if (source.label == requested) return source;
+    known += (known.empty() ? "" : ", ") + source.label;
+  }
+  throw usage_error("--field " + std::string(requested) + ": " + file + " has " + known);
+}
+
+}  // namespace palpate
