@@ -18,9 +18,11 @@ enum class End : std::uint8_t {
   kMaxSteps,
   kLoop,
   kBadData,
-  kStoppedByRule
+  kStoppedByRule,
+  kBelowCutoff,  ///< tracts: the measure of anisotropy fell below its cut-off
+  kSharpTurn     ///< tracts: it would have turned by more than allowed
 };
-inline constexpr int kEndCount = 8;
+inline constexpr int kEndCount = 10;
 [[nodiscard]] std::string_view name_of(End end) noexcept;  ///< "left_domain"
 
 struct LinePoint {

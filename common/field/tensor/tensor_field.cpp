@@ -75,6 +75,11 @@ int component_count(TensorOrder order) noexcept {
 const Box& TensorField::bounds() const noexcept { return grid_->bounds; }
 const LocalFrame& TensorField::frame() const noexcept { return grid_->frame; }
 
+std::variant<std::span<const float>, std::span<const double>> TensorField::values() const noexcept {
+  using Either = std::variant<std::span<const float>, std::span<const double>>;
+  return std::visit([](const auto& values) -> Either { return std::span(values); }, values_);
+}
+
 TensorField::Six TensorField::stored(std::size_t point) const noexcept {
   Six d{};
   std::visit(

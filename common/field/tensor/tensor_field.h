@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,6 +56,10 @@ class TensorField {
   [[nodiscard]] const Box& bounds() const noexcept;  ///< data coordinates
   [[nodiscard]] const LocalFrame& frame() const noexcept;
   [[nodiscard]] const FieldNotes& notes() const noexcept { return notes_; }
+  [[nodiscard]] TensorInterpolation interpolation() const noexcept { return interpolation_; }
+  /// What is interpolated, six numbers as TensorOrder::kRows at each point of grid(): tensors, or their
+  /// logarithms. NaN where there is no tensor.
+  [[nodiscard]] std::variant<std::span<const float>, std::span<const double>> values() const noexcept;
   /// The largest trace of a tensor of the field, a scale for thresholds; 0 where none is above zero.
   [[nodiscard]] double largest_trace() const noexcept { return largest_trace_; }
   /// Points whose tensor has an eigenvalue below zero: measures take it as zero.

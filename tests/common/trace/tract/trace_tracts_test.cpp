@@ -1,0 +1,276 @@
+// Tracts beside curves that are known, orders of convergence, and what must not change them.
+
+#include "common/trace/tract/trace_tracts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "tests/common/trace/tract/tensor_images.h"
+
+namespace palpate {
+namespace {
+
+using test::Helices;
+using test::tensor_along;
+using test::tensor_field;
+
+constexpr double kRadius = 8.0, kPitch = 10.0;
+
+/// Voxels of one about the helix, in axes of unit length and angle `shear`.
+UniformTopology around_helix(const Mat3& axes) {
+  const Index3 points{27, 27, 37};
+  return {points, -(axes * Vec3{13.0, 13.0, 18.0}), axes};
+}
+
+Mat3 turned() {
+  const Vec3 a = glm::normalize(Vec3{2.0, 1.0, 0.5}), b = glm::normalize(glm::cross(a, Vec3{0.0, 0.3, 1.0}));
+  return {a, b, glm::cross(a, b)};
+}
+
+/// Largest distance of points from the helix through (kRadius, 0, 0), each at its own height.
+double distance_from_helix(const Tractogram& lines) {
+  double most = 0.0;
+  for (const Vec3f& point : lines.points) {
+    const Vec3 x{point};
+    // The closest point lies near the height of this one: a search is enough.
+    double least = HUGE_VAL;
+    for (int n = -400; n <= 400; ++n) {
+      const Vec3 on = Helices{kPitch}.at(kRadius, 0.0, x.z + 0.002 * n * kPitch / 4.0);
+      least = std::min(least, glm::distance(x, on));
+    }
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+TEST(TraceTracts, FollowsTheHelixInPlainTurnedAndShearedImages) {
+  const Helices helices{kPitch};
+  // Two turns: the seed lies in the middle.
+  const double length = 2.0 * std::hypot(2.0 * M_PI * kRadius, kPitch);
+  const Mat3 sheared{Vec3{1.0, 0.0, 0.0}, Vec3{0.35, 0.95, 0.0}, Vec3{0.0, -0.2, 1.0}};
+  const Mat3 left_handed{Vec3{-1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}};
+  for (const Mat3& axes : {Mat3{1.0}, turned(), left_handed, sheared}) {
+    UniformTopology image = around_helix(axes);
+    if (axes == sheared || axes == turned()) {  // the corners must hold the helix still
+      image.points = {41, 41, 49};
+      image.origin = -(axes * Vec3{20.0, 20.0, 24.0});
+    }
+    const auto field = tensor_field(image, [&](const Vec3& x) { return tensor_along(helices.direction(x)); });
+    const std::vector<Vec3> seeds{helices.at(kRadius, 0.0, 0.0)};
+    for (const Integrator integrator : {Integrator::kDp54, Integrator::kRk4}) {
+      TractOptions options;
+      options.integrator = integrator;
+      options.max_length = length / 2.0;
+      const TractResult up = trace_tracts(*field, seeds, options);
+      ASSERT_EQ(up.lines.line_count(), 1U);
+      // One way uses the whole length up; both ways together make two turns.
+      const auto line = up.lines.line(0);
+      const double climbed = std::abs(line.back().z - line.front().z);
+      EXPECT_NEAR(climbed, kPitch, 0.05 * kPitch);
+      EXPECT_LT(distance_from_helix(up.lines), 0.2);
+      EXPECT_EQ(up.ends[0][1], End::kMaxLength);
+    }
+  }
+}
+
+/// A single cell: the interpolant is smooth there, and orders show.
+std::shared_ptr<const TensorField> one_cell(TensorInterpolation interpolation) {
+  const UniformTopology cell{{2, 2, 2}, Vec3{-1.0}, Mat3{2.0}};
+  const auto bent = [](const Vec3& x) {
+    return tensor_along({1.0, 0.3 + 0.5 * x.x - 0.2 * x.z, 0.2 + 0.3 * x.y * x.x});
+  };
+  return tensor_field<double>(cell, bent, interpolation);
+}
+
+/// The point 1.28 from the seed on.
+Vec3 end_point(const TensorField& field, Integrator integrator, double step, double tolerance) {
+  TractOptions options;
+  options.integrator = integrator;
+  options.step = step;
+  options.tolerance = tolerance;
+  options.max_length = 1.28;
+  options.cutoff = 0.05;
+  options.max_angle = 80.0;
+  const std::vector<Vec3> seeds{{-0.7, -0.3, 0.1}};
+  const TractResult result = trace_tracts(field, seeds, options);
+  EXPECT_EQ(result.lines.line_count(), 1U);
+  EXPECT_EQ(result.ends[0][1], End::kMaxLength);
+  return result.lines.points.back();
+}
+
+TEST(TraceTracts, ConvergesWithTheOrderOfTheMethod) {
+  for (const auto interpolation : {TensorInterpolation::kComponents, TensorInterpolation::kLogEuclidean}) {
+    const auto field = one_cell(interpolation);
+    const Vec3 exact = end_point(*field, Integrator::kDp54, 0.01, 1e-11);
+    const auto error = [&](Integrator integrator, double step) {
+      return glm::distance(end_point(*field, integrator, step, 1e-4), exact);
+    };
+    EXPECT_NEAR(std::log2(error(Integrator::kEuler, 0.04) / error(Integrator::kEuler, 0.02)), 1.0, 0.1);
+    // Points are single: 64 times the rounding is the least error that shows an order.
+    EXPECT_NEAR(std::log2(error(Integrator::kRk4, 0.64) / error(Integrator::kRk4, 0.32)), 4.0, 0.7);
+    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+      const double made = glm::distance(end_point(*field, Integrator::kDp54, 0.32, tolerance), exact);
+      EXPECT_LT(made, 5.0 * tolerance * 1.28 + 2e-7) << tolerance;
+    }
+  }
+}
+
+TEST(TraceTracts, StatesAnErrorOfTheTrueSize) {
+  const auto field = one_cell(TensorInterpolation::kComponents);
+  const Vec3 exact = end_point(*field, Integrator::kDp54, 0.01, 1e-11);
+  for (const double step : {0.16, 0.32}) {
+    TractOptions options;
+    options.integrator = Integrator::kEuler;
+    options.step = step;
+    options.max_length = 1.28;
+    options.cutoff = 0.05;
+    options.max_angle = 80.0;
+    const std::vector<Vec3> seeds{{-0.7, -0.3, 0.1}};
+    const TractResult result = trace_tracts(*field, seeds, options);
+    const double made = glm::distance(Vec3{result.lines.points.back()}, exact);
+    const double stated = result.lines.of_points[0].values.back();
+    EXPECT_GT(stated, 0.3 * made);
+    EXPECT_LT(stated, 4.0 * made);
+  }
+}
+
+/// A bundle of helices in noise-free tissue, and seeds all over it.
+struct Case {
+  std::shared_ptr<const TensorField> field;
+  std::vector<Vec3> seeds;
+};
+Case many_lines(double scale = 1.0) {
+  Case made;
+  UniformTopology image = around_helix(Mat3{1.0});
+  image.origin *= scale;
+  image.axes *= scale;
+  made.field = tensor_field(image, [&](const Vec3& x) {
+    const double r = std::hypot(x.x, x.y) / scale;
+    const Vec3 along = Helices{kPitch}.direction(x / scale);
+    return scale * (r > 3.0 && r < 11.0 ? tensor_along(along) : Mat3{0.9});
+  });
+  for (int n = 0; n < 500; ++n) {
+    made.seeds.push_back(scale * Vec3{-15.0 + 0.061 * n, 13.0 * std::sin(1.7 * n), 15.0 * std::cos(2.3 * n)});
+  }
+  return made;
+}
+
+TEST(TraceTracts, GivesTheSameLinesForAnyNumberOfThreads) {
+  const Case made = many_lines();
+  TractOptions options;
+  options.threads = 1;
+  const TractResult one = trace_tracts(*made.field, made.seeds, options);
+  EXPECT_GT(one.lines.line_count(), 100U);
+  EXPECT_GT(one.dropped.outside, 0U);
+  EXPECT_GT(one.dropped.below_cutoff, 0U);
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    const TractResult other = trace_tracts(*made.field, made.seeds, options);
+    EXPECT_EQ(one.lines.points, other.lines.points);
+    EXPECT_EQ(one.lines.starts, other.lines.starts);
+    EXPECT_EQ(one.seeds, other.seeds);
+    EXPECT_EQ(one.ends, other.ends);
+    EXPECT_EQ(one.lines.of_points[0].values, other.lines.of_points[0].values);
+  }
+}
+
+TEST(TraceTracts, PowersOfTwoScaleTheLinesAndNothingElse) {
+  const Case plain = many_lines();
+  const TractResult expected = trace_tracts(*plain.field, plain.seeds, {});
+  for (const double scale : {0x1p-30, 0x1p40}) {
+    const Case made = many_lines(scale);
+    const TractResult found = trace_tracts(*made.field, made.seeds, {});
+    ASSERT_EQ(found.lines.starts, expected.lines.starts);
+    for (std::size_t i = 0; i < found.lines.points.size(); ++i) {
+      ASSERT_EQ(Vec3{found.lines.points[i]}, scale * Vec3{expected.lines.points[i]});
+    }
+  }
+}
+
+TEST(TraceTracts, BothWaysOfReadingTensorsAgree) {
+  // A rectilinear grid at equal steps is the same image, read through TensorField::sample().
+  const Case made = many_lines();
+  const UniformTopology uniform = around_helix(Mat3{1.0});
+  DataSet image = test::tensor_image(uniform, [&](const Vec3& x) {
+    CellHint hint;
+    return made.field->sample(x, hint).value;
+  });
+  RectilinearTopology lines;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < uniform.points[axis]; ++i) {
+      lines.coordinates[static_cast<std::size_t>(axis)].push_back(uniform.origin[axis] + i);
+    }
+  }
+  image.topology = lines;
+  const auto other = make_tensor_field(image, {.array = "D"}, "image");
+  TractOptions options;
+  options.max_length = 30.0;
+  const TractResult a = trace_tracts(*made.field, made.seeds, options);
+  const TractResult b = trace_tracts(*other, made.seeds, options);
+  ASSERT_EQ(a.lines.starts, b.lines.starts);
+  for (std::size_t i = 0; i < a.lines.points.size(); ++i) {
+    // Rounding may refuse a step of one that the other takes: both keep the tolerance.
+    ASSERT_LT(glm::distance(a.lines.points[i], b.lines.points[i]),
+              2.0 * options.tolerance * options.max_length);
+  }
+}
+
+TEST(TraceTracts, EndsWhereTheEigenvaluesCross) {
+  // Along x where x < 0, along y where x > 0: the main eigenvector jumps by a right angle.
+  const UniformTopology image{{21, 21, 5}, Vec3{-10.0, -10.0, -2.0}, Mat3{1.0}};
+  const auto field = tensor_field(image, [](const Vec3& x) {
+    return Mat3{Vec3{1.0 - 0.05 * x.x, 0.0, 0.0}, Vec3{0.0, 1.0 + 0.05 * x.x, 0.0}, Vec3{0.0, 0.0, 0.2}};
+  });
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kRk4, Integrator::kDp54}) {
+    TractOptions options;
+    options.integrator = integrator;
+    options.cutoff = 0.05;
+    const std::vector<Vec3> seeds{{-6.0, 0.3, 0.1}};
+    const TractResult result = trace_tracts(*field, seeds, options);
+    ASSERT_EQ(result.lines.line_count(), 1U);
+    EXPECT_EQ(result.ends[0][0], End::kLeftDomain);
+    EXPECT_EQ(result.ends[0][1], End::kSharpTurn);
+    EXPECT_NEAR(result.lines.points.back().x, 0.0, 0.3);
+    for (const Vec3f& x : result.lines.points) EXPECT_NEAR(x.y, 0.3, 1e-4);
+  }
+}
+
+TEST(TraceTracts, ReachesTheBorderAndHolesWhenStepsAreControlled) {
+  const UniformTopology image{{11, 5, 5}, Vec3{0.0}, Mat3{1.0}};
+  const double nan = std::nan("");
+  const auto field = tensor_field(image, [&](const Vec3& x) {
+    return x.x > 8.5 ? Mat3{nan} : tensor_along({1.0, 0.0, 0.0});
+  });
+  const std::vector<Vec3> seeds{{3.1, 2.0, 2.0}, {8.5, 2.0, 2.0}, {3.0, nan, 2.0}, {-1.0, 2.0, 2.0}};
+  const TractResult result = trace_tracts(*field, seeds, {});
+  ASSERT_EQ(result.lines.line_count(), 1U);
+  EXPECT_EQ(result.ends[0], (std::array{End::kLeftDomain, End::kBadData}));
+  EXPECT_NEAR(result.lines.points.front().x, 0.0, 0.01);
+  EXPECT_NEAR(result.lines.points.back().x, 8.0, 0.01);
+  EXPECT_EQ(result.dropped.outside, 2U);
+  EXPECT_EQ(result.dropped.bad_data, 1U);
+}
+
+TEST(TraceTracts, RefusesOptionsThatMakeNoSense) {
+  const auto field = one_cell(TensorInterpolation::kComponents);
+  const auto refused = [&](auto set) {
+    TractOptions options;
+    set(options);
+    EXPECT_THROW((void)trace_tracts(*field, {}, options), Error);
+  };
+  refused([](TractOptions& o) { o.step = -1.0; });
+  refused([](TractOptions& o) { o.cutoff = 1.5; });
+  refused([](TractOptions& o) { o.max_angle = 120.0; });
+  refused([](TractOptions& o) { o.tolerance = 0.0; });
+  refused([](TractOptions& o) { o.min_length = 2.0, o.max_length = 1.0; });
+  refused([](TractOptions& o) { o.max_length = std::nan(""); });
+  EXPECT_EQ(trace_tracts(*field, {}, {}).lines.line_count(), 0U);
+}
+
+}  // namespace
+}  // namespace palpate
