@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "common/haptics/constraint/anisotropy_settings.h"
 #include "common/haptics/constraint/drag_settings.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/isosurface_settings.h"
@@ -30,6 +31,7 @@ struct ChainSettings {
   GridAxisSettings grid_axis;
   IsosurfaceSettings isosurface;
   LinearSettings linear;
+  AnisotropySettings anisotropy;
   ForceFieldSettings force_field;
 
   bool operator==(const ChainSettings&) const = default;
@@ -38,7 +40,8 @@ struct ChainSettings {
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && isosurface.valid() && linear.valid() && force_field.valid();
+           grid_axis.valid() && isosurface.valid() && linear.valid() && anisotropy.valid() &&
+           force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -54,6 +57,7 @@ struct ChainSettings {
     GridAxisSettings::each(self.grid_axis, visit);
     IsosurfaceSettings::each(self.isosurface, visit);
     LinearSettings::each(self.linear, visit);
+    AnisotropySettings::each(self.anisotropy, visit);
     ForceFieldSettings::each(self.force_field, visit);
   }
 };

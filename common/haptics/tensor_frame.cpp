@@ -1,24 +1,42 @@
 #include "common/haptics/tensor_frame.h"
 
-#include <cmath>
-
-#include "common/base/error.h"
-#include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/eigenframe.h"
+#include "common/haptics/fade.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
 
-FrameSample TensorFrame::at(const Vec3& x, const Mat3& last) noexcept {
+TensorReader::TensorReader(std::shared_ptr<const TensorField> field, const Workspace& workspace)
+    : field_(std::move(field)), workspace_(workspace), full_trace_(kFullPart * field_->typical_trace()) {}
+
+const TensorReader::Reading& TensorReader::at(const Vec3& x) noexcept {
+  if (x == place_) return reading_;
+  place_ = x;
   const TensorSample sample = field_->sample(workspace_.data_from_workspace(x), hint_);
-  if (sample.status != SampleStatus::kOk) return {.axes = last, .status = sample.status};
-  return {.axes = carried_frame(symmetric_eigen(sample.value).vectors, last)};
+  reading_ = {.status = sample.status};
+  if (sample.status == SampleStatus::kOk) {
+    const SymmetricEigen eigen = symmetric_eigen(sample.value);
+    reading_.axes = eigen.vectors;
+    reading_.parts = anisotropy(eigen.values);
+    const Vec3 positive = glm::max(eigen.values, Vec3{0.0});
+    const double diffusing = fade((positive.x + positive.y + positive.z) / full_trace_);
+    reading_.parts.linear *= diffusing;
+    reading_.parts.planar *= diffusing;
+    reading_.parts.spherical = 1.0 - reading_.parts.linear - reading_.parts.planar;
+  }
+  return reading_;
+}
+
+FrameSample TensorFrame::at(const Vec3& x, const Mat3& last) noexcept {
+  const TensorReader::Reading& reading = tensors_->at(x);
+  if (reading.status != SampleStatus::kOk) return {.axes = last, .status = reading.status};
+  return {.axes = carried_frame(reading.axes, last)};
 }
 
 ScalarSample AnisotropyMeasure::at(const Vec3& x) noexcept {
-  const TensorSample sample = field_->sample(workspace_.data_from_workspace(x), hint_);
-  if (sample.status != SampleStatus::kOk) return {.status = sample.status};
-  const Anisotropy parts = anisotropy(symmetric_eigenvalues(sample.value));
+  const TensorReader::Reading& reading = tensors_->at(x);
+  if (reading.status != SampleStatus::kOk) return {.status = reading.status};
+  const Anisotropy& parts = reading.parts;
   double sum = parts.spherical;
   switch (sum_) {
     case Sum::kLinear:
@@ -34,41 +52,6 @@ ScalarSample AnisotropyMeasure::at(const Vec3& x) noexcept {
       break;
   }
   return {.value = sum, .status = SampleStatus::kOk};
-}
-
-std::unique_ptr<LinearConstraint> anisotropy_drag(const std::shared_ptr<const TensorField>& field,
-                                                  const Workspace& workspace, IsotropicPlaces isotropic) {
-  using Sum = AnisotropyMeasure::Sum;
-  const auto measure = [&](Sum sum) { return std::make_shared<AnisotropyMeasure>(field, workspace, sum); };
-  std::array<AxisMeasures, 3> measures;
-  if (isotropic == IsotropicPlaces::kFree) {
-    measures[1].tau = measure(Sum::kLinear);
-    measures[2].tau = measure(Sum::kLinearPlanar);
-  } else {
-    measures[0].tau = measure(Sum::kSpherical);
-    measures[1].tau = measure(Sum::kNotPlanar);
-  }
-  return std::make_unique<LinearConstraint>(std::make_unique<TensorFrame>(field, workspace),
-                                            std::move(measures));
-}
-
-LinearSettings anisotropy_settings(const HapticTransferFunction& tau, IsotropicPlaces isotropic) {
-  if (!(tau.lowest() >= 0.0) || !std::isfinite(tau.highest())) {
-    throw usage_error("a drag threshold that is below zero or not finite");
-  }
-  if (isotropic == IsotropicPlaces::kFree && tau(0.0) != 0.0) {
-    throw usage_error(
-        "a drag threshold that is not 0 where nothing is anisotropic: the hold would depend on axes that "
-        "are not defined there; let it begin with 0:0");
-  }
-  LinearSettings settings;
-  for (LinearAxis& axis : settings.axes) axis = {.rule = AxisRule::kDrag, .tau = tau};
-  if (isotropic == IsotropicPlaces::kFree) {
-    settings.axes[0].rule = AxisRule::kFree;
-  } else {
-    settings.axes[2].tau = tau(1.0);
-  }
-  return settings;
 }
 
 }  // namespace palpate

@@ -115,4 +115,11 @@ double HapticTransferFunction::highest() const noexcept {
   return most;
 }
 
+bool HapticTransferFunction::rising() const noexcept {
+  for (std::size_t i = 1; i < count_; ++i) {
+    if (!(knots_[i].value >= knots_[i - 1].value)) return false;
+  }
+  return true;
+}
+
 }  // namespace palpate

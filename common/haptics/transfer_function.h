@@ -54,6 +54,8 @@ class HapticTransferFunction {
   [[nodiscard]] double lowest() const noexcept;   ///< value anywhere; NaN if a knot is
   [[nodiscard]] double highest() const noexcept;  ///< value anywhere; NaN if a knot is
 
+  [[nodiscard]] bool rising() const noexcept;  ///< it falls nowhere
+
   bool operator==(const HapticTransferFunction&) const = default;
 
  private:

@@ -164,6 +164,7 @@ class TensorFieldBuilder {
   /// Counts tensors that are not there or not positive.
   static void survey(TensorField& field) {
     const std::size_t points = field.grid_->point_count();
+    std::vector<double> traces;
     for (std::size_t point = 0; point < points; ++point) {
       const Six d = field.stored(point);
       const bool finite = std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); });
@@ -171,8 +172,15 @@ class TensorFieldBuilder {
         ++field.notes_.bad_values;
         continue;
       }
-      field.largest_trace_ = std::max(field.largest_trace_, d[0] + d[3] + d[5]);
+      const double trace = d[0] + d[3] + d[5];
+      field.largest_trace_ = std::max(field.largest_trace_, trace);
+      if (trace > 0.0) traces.push_back(trace);
       if (symmetric_eigenvalues(matrix_of(d))[2] < 0.0) ++field.negative_tensors_;
+    }
+    if (!traces.empty()) {
+      const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
+      std::nth_element(traces.begin(), middle, traces.end());
+      field.typical_trace_ = *middle;
     }
     if (field.notes_.bad_values > 0) {
       field.notes_.lines.push_back(std::to_string(field.notes_.bad_values) +

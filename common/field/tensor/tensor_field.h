@@ -62,6 +62,8 @@ class TensorField {
   [[nodiscard]] std::variant<std::span<const float>, std::span<const double>> values() const noexcept;
   /// The largest trace of a tensor of the field, a scale for thresholds; 0 where none is above zero.
   [[nodiscard]] double largest_trace() const noexcept { return largest_trace_; }
+  /// The median of the traces above zero, which outliers do not move; 0 where there is none.
+  [[nodiscard]] double typical_trace() const noexcept { return typical_trace_; }
   /// Points whose tensor has an eigenvalue below zero: measures take it as zero.
   [[nodiscard]] std::size_t negative_tensors() const noexcept { return negative_tensors_; }
 
@@ -78,6 +80,7 @@ class TensorField {
   /// kRows, in X; of logarithms, where these are interpolated. NaN where there is no tensor.
   std::variant<std::vector<float>, std::vector<double>> values_;
   double largest_trace_ = 0.0;
+  double typical_trace_ = 0.0;
   std::size_t negative_tensors_ = 0;
 };
 

@@ -1,4 +1,6 @@
 // Anisotropy drag: lines, planes, isotropic places, and sweeps from one to the other.
+#include "common/haptics/constraint/anisotropy_drag.h"
+
 #include <array>
 #include <cmath>
 #include <functional>
@@ -7,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
-#include "common/haptics/tensor_frame.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpate {
@@ -55,19 +55,19 @@ std::shared_ptr<const TensorField> field_of(const std::function<Mat3(const Vec3&
 class Hand {
  public:
   Hand(const std::shared_ptr<const TensorField>& field, IsotropicPlaces isotropic)
-      : drag_(anisotropy_drag(field, Workspace(1.0, field->frame()), isotropic)) {
+      : drag_(field, Workspace(1.0, field->frame()), isotropic) {
     ChainSettings settings;
-    settings.linear = anisotropy_settings(ramp(), isotropic);
-    drag_->apply(settings);
+    settings.anisotropy.tau = ramp();
+    drag_.apply(settings);
   }
   const LinkUpdate& at(const Vec3& probe) {
     link_ = {};
-    drag_->update(probe, UpdateBudget{}, link_);
+    drag_.update(probe, UpdateBudget{}, link_);
     return link_;
   }
 
  private:
-  std::unique_ptr<LinearConstraint> drag_;
+  AnisotropyDrag drag_;
   LinkUpdate link_;
 };
 
@@ -144,7 +144,8 @@ TEST(AnisotropyDrag, NeitherJumpsNorChattersWhereEigenvaluesCross) {
       Vec3 before = path(-0.15), felt{0.0};
       hand.at(before);
       double largest = 0.0;
-      for (double t = -0.15; t < 0.15; t += kStep) {
+      for (int n = 0; n < 15'000; ++n) {
+        const double t = -0.15 + n * kStep;
         const Vec3 x = path(t);
         const Vec3 stretch = hand.at(x).proxy - x;
         if (t > -0.14) largest = std::max(largest, glm::distance(stretch, felt) / glm::distance(x, before));
@@ -174,12 +175,43 @@ TEST(AnisotropyDrag, FollowsABundleThatTurns) {
   };
   hand.at(circle(-0.5, kRadius));
   double farthest = 0.0;
-  for (double angle = -0.5; angle < 0.5; angle += 1e-4) {
+  for (int n = 0; n < 10'000; ++n) {
+    const double angle = -0.5 + n * 1e-4;
     // The hand strays by less than what drags it along.
     const Vec3 probe = circle(angle, kRadius + 0.002 * std::sin(30.0 * angle));
     farthest = std::max(farthest, std::abs(glm::distance(hand.at(probe).proxy, centre) - kRadius));
   }
   EXPECT_LT(farthest, 0.0008);
+}
+
+// Through voxels without a tensor, without diffusion, with eigenvalues below zero and with NaN.
+TEST(AnisotropyDrag, StaysFiniteAndLetsGoWithoutAJumpWhereTensorsAreBad) {
+  const Mat3 good = with_values(turned({1, 1, 0}, 0.5), {1.7, 0.3, 0.3});
+  const std::vector<Mat3> bad{Mat3{0.0}, Mat3{NAN}, with_values(Mat3{1.0}, {0.5, -0.1, -0.7}), Mat3{-1.0}};
+  for (std::size_t which = 0; which < bad.size(); ++which) {
+    const auto field = field_of([&](const Vec3& x) { return std::abs(x.x) < 0.05 ? bad[which] : good; }, 7);
+    for (const auto isotropic : {IsotropicPlaces::kFree, IsotropicPlaces::kPoint}) {
+      Hand hand(field, isotropic);
+      const auto path = [](double t) { return Vec3{t, 0.003 * std::sin(40.0 * t), 0.05 * t}; };
+      constexpr double kStep = 2e-5;
+      Vec3 before = path(-0.19);
+      Vec3 felt{0.0};
+      hand.at(before);
+      double largest = 0.0;
+      for (int n = 0; n < 19'000; ++n) {
+        const double t = -0.19 + n * kStep;
+        const Vec3 x = path(t);
+        const LinkUpdate& link = hand.at(x);
+        ASSERT_TRUE(is_finite(link.proxy) && is_finite(link.kappa)) << which << " at " << t;
+        const Vec3 stretch = link.frame * (link.kappa * ((link.proxy - x) * link.frame));
+        if (t > -0.18) largest = std::max(largest, glm::distance(stretch, felt) / glm::distance(x, before));
+        felt = stretch;
+        before = x;
+      }
+      // The hold opens and closes over the fade distance of 2 mm, and grows over a voxel of 67 mm.
+      EXPECT_LT(largest, 2.0 + kTau / 0.002) << "tensor " << which;
+    }
+  }
 }
 
 TEST(AnisotropyDrag, UpdatesDoNotAllocate) {
@@ -190,11 +222,20 @@ TEST(AnisotropyDrag, UpdatesDoNotAllocate) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
-TEST(AnisotropyDrag, ThresholdsThatMakeNoSenseAreRefused) {
-  EXPECT_THROW(static_cast<void>(anisotropy_settings(-1.0, IsotropicPlaces::kPoint)), Error);
-  EXPECT_THROW(static_cast<void>(anisotropy_settings(0.004, IsotropicPlaces::kFree)), Error);
-  EXPECT_THROW(static_cast<void>(anisotropy_settings(NAN, IsotropicPlaces::kPoint)), Error);
-  EXPECT_TRUE(anisotropy_settings(0.004, IsotropicPlaces::kPoint).valid());
+TEST(AnisotropyDrag, ThresholdsThatMakeNoSenseAreNotValid) {
+  const auto valid = [](const char* text) {
+    AnisotropySettings settings;
+    EXPECT_FALSE(HapticTransferFunction::read(text, settings.tau)) << text;
+    return settings.valid();
+  };
+  EXPECT_TRUE(AnisotropySettings{}.valid());
+  for (const char* good : {"0", "0:0,1:0.004", "0.2:0,0.5:0.004,smooth", "0:0,0.5:0.001,0.6:0.001"})
+    EXPECT_TRUE(valid(good)) << good;
+  for (const char* bad : {"0.004", "-1", "0:0.001,1:0.004", "0:0,0.5:0.004,1:0.003", "-1:-1,0:0,1:1"})
+    EXPECT_FALSE(valid(bad)) << bad;
+  AnisotropySettings settings;
+  settings.tau = NAN;
+  EXPECT_FALSE(settings.valid());
 }
 
 }  // namespace
