@@ -5,10 +5,22 @@
 namespace palpate {
 
 std::string_view name_of(Format format) noexcept {
-  static constexpr std::array<std::string_view, kFormatCount> kNames{
-      "legacy VTK", "VTK XML",   "VTK multi-block", "VTK XML in pieces", "VTK time series",
-      "PLOT3D",     "EnSight",   "Exodus II",       "OpenFOAM",          "NRRD",
-      "NIfTI",      "MetaImage", "raw voxels"};
+  static constexpr std::array<std::string_view, kFormatCount> kNames{"legacy VTK",
+                                                                     "VTK XML",
+                                                                     "VTK multi-block",
+                                                                     "VTK XML in pieces",
+                                                                     "VTK time series",
+                                                                     "PLOT3D",
+                                                                     "EnSight",
+                                                                     "Exodus II",
+                                                                     "OpenFOAM",
+                                                                     "NRRD",
+                                                                     "NIfTI",
+                                                                     "MetaImage",
+                                                                     "EX",
+                                                                     "openCARP",
+                                                                     "TetGen",
+                                                                     "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -26,6 +38,10 @@ std::string_view helper_of(Format format) noexcept {
       return "palpate-load-nifti";
     case Format::kMetaImage:
       return "palpate-load-meta";
+    case Format::kEx:
+    case Format::kCarp:
+    case Format::kTetgen:
+      return "palpate-load-cardiac";
     case Format::kRaw:
       return "palpate-load-raw";
     default:

@@ -19,9 +19,12 @@ enum class Format : std::uint8_t {
   kNrrd,
   kNifti,
   kMetaImage,  ///< .mha, .mhd
+  kEx,         ///< .exnode, .exelem: finite element models of CMISS and OpenCMISS
+  kCarp,       ///< openCARP: .pts, .elem, .lon
+  kTetgen,     ///< TetGen and Chaste: .node, .ele, .ortho, .axi
   kRaw         ///< voxels without a header: never found by content
 };
-inline constexpr int kFormatCount = 13;
+inline constexpr int kFormatCount = 16;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

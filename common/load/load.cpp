@@ -42,7 +42,8 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
   const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
                      format == Format::kParaviewSeries || format == Format::kEnsight ||
                      format == Format::kOpenFoam || format == Format::kNrrd || format == Format::kNifti ||
-                     format == Format::kMetaImage;
+                     format == Format::kMetaImage || format == Format::kEx || format == Format::kCarp ||
+                     format == Format::kTetgen;
   if (!index) return bytes;
   std::filesystem::path folder = request.files.front();
   std::error_code error;

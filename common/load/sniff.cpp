@@ -21,7 +21,7 @@ namespace palpate {
 namespace {
 
 constexpr const char* kReadable =
-    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II or OpenFOAM file";
+    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen file";
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -83,6 +83,25 @@ bool looks_like_ensight(std::string_view text) {
 /// MetaImage's header is lines of "key = value", these three among them.
 bool looks_like_meta_image(std::string_view text) {
   return line_starts(text, "NDims") && line_starts(text, "DimSize") && line_starts(text, "ElementType");
+}
+
+/// EX files are lines of keywords, some of them indented.
+bool looks_like_ex(std::string_view text) {
+  const auto has = [text](std::string_view word) { return text.find(word) != std::string_view::npos; };
+  if (!has("#Fields=") && !has("Shape.") && !has("EX Version")) return false;
+  return has("Group name:") || has("Region:") || has("EX Version");
+}
+
+/// Meshes whose files are bare numbers: the ending says which, the first character that it is text.
+std::optional<Format> bare_mesh(std::string_view trimmed, std::string_view ending) {
+  static constexpr std::array<std::string_view, 3> kCarp{".pts", ".elem", ".lon"};
+  static constexpr std::array<std::string_view, 4> kTetgen{".node", ".ele", ".ortho", ".axi"};
+  if (trimmed.empty()) return {};
+  const char first = trimmed.front();
+  if (first != '#' && std::isdigit(static_cast<unsigned char>(first)) == 0) return {};
+  if (std::find(kCarp.begin(), kCarp.end(), ending) != kCarp.end()) return Format::kCarp;
+  if (std::find(kTetgen.begin(), kTetgen.end(), ending) != kTetgen.end()) return Format::kTetgen;
+  return {};
 }
 
 /// NIfTI's mark stands at the end of its 348 bytes, in version 2 behind the size of the header.
@@ -169,6 +188,8 @@ Sniffed sniff(const FileHead& head) {
   if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {
     return {Format::kOpenFoam, "", ""};
   }
+  if (looks_like_ex(text)) return {Format::kEx, "", ""};
+  if (const auto mesh = bare_mesh(trimmed, head.ending)) return {mesh, "", ""};
   const Plot3dBytes bytes{head.bytes, head.tail, head.file_size};
   if (find_plot3d_layout(bytes, Plot3dFile::kGrid) || may_be_plot3d_text(bytes, Plot3dFile::kGrid))
     return {Format::kPlot3d, "", ""};
@@ -221,7 +242,7 @@ Format find_format(const std::filesystem::path& path) {
     refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
   }
   HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);
-  const std::string ending = lower_ending(path);
+  std::string ending = lower_ending(path);
   if (ending == ".foam" || ending == ".openfoam") {
     // By custom an empty file that only marks the case's folder.
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -233,10 +254,13 @@ Format find_format(const std::filesystem::path& path) {
   if (packed) {
     head.bytes = gzip_head(head.bytes, kSniffBytes);
     head.tail.clear();
+    if (ending == ".gz") ending = lower_ending(path.stem());
   }
   const Sniffed sniffed = sniff(
       {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size, ending});
-  if (packed && sniffed.format != Format::kNifti) {
+  const bool unpacks = sniffed.format == Format::kNifti || sniffed.format == Format::kEx ||
+                       sniffed.format == Format::kCarp || sniffed.format == Format::kTetgen;
+  if (packed && !unpacks) {
     refuse(path,
            "a gzip file" + (sniffed.format ? " of " + std::string(name_of(*sniffed.format)) : std::string()),
            kReadable, "unpack it first");

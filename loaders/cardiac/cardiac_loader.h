@@ -1,0 +1,13 @@
+/// Heart models: EX files, openCARP, TetGen and Chaste.
+#pragma once
+
+#include <memory>
+
+#include "common/load/serve.h"
+
+namespace palpate {
+
+/// The Loader of the helper program palpate-load-cardiac.
+[[nodiscard]] std::unique_ptr<Loader> make_cardiac_loader();
+
+}  // namespace palpate

@@ -1,0 +1,52 @@
+/// An element of an EX model with its parameters gathered: places, tangents, fibre axes.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/math/vec.h"
+#include "loaders/cardiac/ex_basis.h"
+#include "loaders/cardiac/ex_model.h"
+
+namespace palpate::ex {
+
+/// A place in an element.
+struct Place {
+  Vec3 x{0.0};            ///< Cartesian
+  Mat3 tangents{0.0};     ///< columns: dx/dxi_1 to dx/dxi_3
+  Vec3 angles{0.0};       ///< [rad] fibre, imbrication, sheet; zero where the model has none
+  bool has_axes = false;  ///< false where dx/dxi_1 and dx/dxi_2 span no plane: `axes` are undefined
+  Mat3 axes{0.0};         ///< columns: fibre, sheet, sheet normal; orthonormal
+};
+
+class ElementShape {
+ public:
+  /// Gathers what the element's corners name. @param fibre_field of the header, or null.
+  /// @throws Error (bad input) naming `file` and the element where a node, value or factor is missing.
+  ElementShape(const Model& model, const Element& element, const ElementField& coordinates,
+               const ElementField* fibres, const std::string& file);
+
+  /// @pre 0 <= xi <= 1.
+  ///
+  /// Fibre axes: dx/dxi_1 is turned about the wall normal dx/dxi_1 x dx/dxi_2 by the fibre angle towards
+  /// dx/dxi_2; the fibre is then turned about the axis across it by the imbrication angle, against the normal
+  /// where that is positive; last the sheet about the fibre by the sheet angle, from across the fibre towards
+  /// the normal. (Convention of OpenCMISS-Zinc's fibre axes; LeGrice et al. 1997.)
+  [[nodiscard]] Place at(const Vec3& xi) const;
+
+ private:
+  struct Component {
+    std::array<Basis, 3> basis{};
+    std::vector<double> parameters;
+  };
+  static Component gather(const Model& model, const Element& element, const std::string& field,
+                          const ElementComponent& component, const std::string& file);
+
+  System system_ = System::kCartesian;
+  double focus_ = 1.0;
+  std::array<Component, 3> coordinates_;
+  std::vector<Component> angles_;  ///< up to three
+};
+
+}  // namespace palpate::ex

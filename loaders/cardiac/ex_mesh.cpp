@@ -1,0 +1,261 @@
+#include "loaders/cardiac/ex_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/grid/point_merge.h"
+#include "loaders/cardiac/ex_element.h"
+#include "loaders/cardiac/mesh_text.h"
+
+namespace palpate::ex {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Places closer than this times the shortest edge at them are one point.
+constexpr double kSamePlace = 1e-6;
+/// Angles that differ by more than this at one point are said to disagree [rad].
+constexpr double kSameAngle = 1e-6;
+/// Most places that a sampling may have.
+constexpr std::size_t kMostPlaces = 50'000'000;
+
+/// The shapes of all elements, with the field that says where they are and the one of their fibres.
+std::vector<ElementShape> shapes_of(const Model& model, const std::string& file, bool& with_fibres) {
+  if (model.elements.empty())
+    throw input_error({file, "", "holds no element of three dimensions", "an .exelem file with them",
+                       "name the .exnode and the .exelem file together"});
+  std::vector<ElementShape> shapes;
+  shapes.reserve(model.elements.size());
+  std::set<std::int64_t> names;
+  with_fibres = true;
+  for (const Element& element : model.elements) {
+    const std::string place = "line " + std::to_string(element.line);
+    if (!names.insert(element.name).second)
+      throw input_error({file, place, "has element " + std::to_string(element.name) + " for a second time",
+                         "every element once"});
+    const ElementField* coordinates = nullptr;
+    const ElementField* fibres = nullptr;
+    for (const ElementField& field : model.element_headers[element.header]) {
+      if (field.name == "coordinates" || (coordinates == nullptr && field.components.size() == 3))
+        coordinates = &field;
+      if (field.name == "fibres" || field.name == "fibers") fibres = &field;
+    }
+    if (coordinates == nullptr || coordinates->components.size() != 3)
+      throw input_error({file, place, "has no coordinates of three components", "a field \"coordinates\""});
+    with_fibres = with_fibres && fibres != nullptr;
+    shapes.emplace_back(model, element, *coordinates, fibres, file);
+  }
+  return shapes;
+}
+
+DataArray array_of(const char* name, int components, const std::vector<double>& values) {
+  return make_array(name, Association::kPoint, components, std::span<const double>(values));
+}
+
+/// Numbers the places of a lattice of (n + 1)^3, first axis fastest.
+struct Lattice {
+  std::size_t side;
+  [[nodiscard]] std::size_t at(std::size_t i, std::size_t j, std::size_t k) const {
+    return i + side * (j + side * k);
+  }
+  [[nodiscard]] std::size_t count() const { return side * side * side; }
+};
+
+/// The corners of cell (i, j, k) in VTK's order of a hexahedron.
+std::array<std::size_t, 8> corners_of(const Lattice& lattice, std::size_t i, std::size_t j, std::size_t k) {
+  return {lattice.at(i, j, k),
+          lattice.at(i + 1, j, k),
+          lattice.at(i + 1, j + 1, k),
+          lattice.at(i, j + 1, k),
+          lattice.at(i, j, k + 1),
+          lattice.at(i + 1, j, k + 1),
+          lattice.at(i + 1, j + 1, k + 1),
+          lattice.at(i, j + 1, k + 1)};
+}
+
+/// The shortest edge at each place that is not zero.
+std::vector<double> spacings(const std::vector<Place>& places, const Lattice& lattice, std::size_t elements) {
+  std::vector<double> shortest(places.size(), std::numeric_limits<double>::infinity());
+  const std::size_t n = lattice.side;
+  const std::array<std::size_t, 3> stride{1, n, n * n};
+  for (std::size_t e = 0; e < elements; ++e) {
+    for (std::size_t p = 0; p < lattice.count(); ++p) {
+      const std::array<std::size_t, 3> index{p % n, p / n % n, p / (n * n)};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (index[axis] + 1 >= n) continue;
+        const std::size_t a = e * lattice.count() + p;
+        const std::size_t b = a + stride[axis];
+        const double length = glm::distance(places[a].x, places[b].x);
+        if (!(length > 0.0)) continue;
+        shortest[a] = std::min(shortest[a], length);
+        shortest[b] = std::min(shortest[b], length);
+      }
+    }
+  }
+  return shortest;
+}
+
+/// For each place the first one at the same point.
+std::vector<std::uint32_t> joined(const std::vector<Place>& places, const Lattice& lattice,
+                                  std::size_t elements, const std::string& file) {
+  const std::vector<double> spacing = spacings(places, lattice, elements);
+  double size = 0.0;
+  for (const Place& place : places) size = std::max(size, glm::length(place.x - places.front().x));
+  std::vector<Vec3> positions;
+  std::vector<MergeCandidate> candidates;
+  positions.reserve(places.size());
+  candidates.reserve(places.size());
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const Vec3& x = places[p].x;
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+      throw input_error({file, "", "leads to coordinates that are not finite"});
+    positions.push_back(x);
+    // A collapsed edge is zero but for rounding: it must not count as a spacing.
+    const bool real = std::isfinite(spacing[p]) && spacing[p] > 1e-9 * size;
+    candidates.push_back({static_cast<std::uint32_t>(p), real ? spacing[p] : 1e-3 * size,
+                          static_cast<std::uint32_t>(p / lattice.count()), true});
+  }
+  return merge_points(positions, candidates, kSamePlace);
+}
+
+bool disagree(const Place& a, const Place& b) {
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(std::remainder(a.angles[c] - b.angles[c], std::numbers::pi)) > kSameAngle) return true;
+  return false;
+}
+
+/// Nodes and weights of Gauss-Legendre quadrature on [0, 1], by Newton's method on the recurrence.
+std::vector<std::pair<double, double>> gauss_legendre(int order) {
+  std::vector<std::pair<double, double>> rule;
+  for (int i = 0; i < order; ++i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5));
+    double slope = 1.0;
+    for (int step = 0; step < 50; ++step) {
+      double before = 1.0, value = x;
+      for (int k = 2; k <= order; ++k)
+        before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
+      slope = order * (x * value - before) / (x * x - 1.0);
+      const double change = value / slope;
+      x -= change;
+      if (std::abs(change) < 1e-15) break;
+    }
+    rule.emplace_back(0.5 * (1.0 - x), 1.0 / ((1.0 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+}  // namespace
+
+SampledModel sample(const Model& model, int refine, const std::string& file) {
+  bool with_fibres = false;
+  const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
+  const Lattice lattice{static_cast<std::size_t>(refine) + 1};
+  const auto cells_along = static_cast<std::size_t>(refine);
+  if (shapes.size() > kMostPlaces / lattice.count())
+    throw input_error(
+        {file, "", "has " + std::to_string(shapes.size()) + " elements", "fewer to be sampled"});
+
+  std::vector<Place> places;
+  places.reserve(shapes.size() * lattice.count());
+  for (const ElementShape& shape : shapes) {
+    for (std::size_t k = 0; k < lattice.side; ++k)
+      for (std::size_t j = 0; j < lattice.side; ++j)
+        for (std::size_t i = 0; i < lattice.side; ++i)
+          places.push_back(
+              shape.at(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) /
+                       static_cast<double>(refine)));
+  }
+
+  const std::vector<std::uint32_t> first = joined(places, lattice, shapes.size(), file);
+  std::vector<std::int64_t> point_of(places.size(), -1);
+  std::vector<double> positions, fibre, sheet, normal;
+  std::array<std::vector<double>, 3> angles;
+  std::size_t points = 0, undefined = 0;
+  std::set<std::uint32_t> disagreeing;
+  const auto append = [](std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v[0], v[1], v[2]}); };
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    if (first[p] != p) {
+      // A collapsed edge has many directions at one place: which of them does not matter, there is none.
+      if (with_fibres && places[p].has_axes && disagree(places[p], places[first[p]]))
+        disagreeing.insert(first[p]);
+      point_of[p] = point_of[first[p]];
+      continue;
+    }
+    const Place& place = places[p];
+    point_of[p] = static_cast<std::int64_t>(points++);
+    append(positions, place.x);
+    if (!with_fibres) continue;
+    if (!place.has_axes) ++undefined;
+    append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
+    append(sheet, place.has_axes ? place.axes[1] : Vec3{kNaN});
+    append(normal, place.has_axes ? place.axes[2] : Vec3{kNaN});
+    for (int c = 0; c < 3; ++c)
+      angles[static_cast<std::size_t>(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
+  }
+
+  SampledModel sampled;
+  UnstructuredTopology topology;
+  topology.positions = array_of("points", 3, positions);
+  topology.offsets.push_back(0);
+  std::vector<double> element_of;
+  for (std::size_t e = 0; e < shapes.size(); ++e) {
+    for (std::size_t k = 0; k < cells_along; ++k) {
+      for (std::size_t j = 0; j < cells_along; ++j) {
+        for (std::size_t i = 0; i < cells_along; ++i) {
+          for (const std::size_t corner : corners_of(lattice, i, j, k))
+            topology.connectivity.push_back(point_of[e * lattice.count() + corner]);
+          topology.types.push_back(kVtkHexahedron);
+          topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+          element_of.push_back(static_cast<double>(model.elements[e].name));
+        }
+      }
+    }
+  }
+  sampled.mesh.topology = std::move(topology);
+  if (with_fibres) {
+    sampled.mesh.arrays.push_back(array_of("fibre", 3, fibre));
+    sampled.mesh.arrays.push_back(array_of("sheet", 3, sheet));
+    sampled.mesh.arrays.push_back(array_of("normal", 3, normal));
+    sampled.mesh.arrays.push_back(array_of("fibre angle", 1, angles[0]));
+    sampled.mesh.arrays.push_back(array_of("imbrication angle", 1, angles[1]));
+    sampled.mesh.arrays.push_back(array_of("sheet angle", 1, angles[2]));
+  }
+  sampled.mesh.arrays.push_back(
+      make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
+
+  const std::string side = std::to_string(refine);
+  sampled.notes.push_back(counted(shapes.size(), "curved element") + " sampled as " + side + " x " + side +
+                          " x " + side + " hexahedra each");
+  if (undefined > 0)
+    sampled.notes.push_back(counted(undefined, "point") +
+                            " on collapsed edges without a fibre direction: no data there");
+  if (!disagreeing.empty())
+    sampled.notes.push_back(counted(disagreeing.size(), "point") +
+                            " where elements disagree on an angle: that of the first one is kept");
+  return sampled;
+}
+
+double exact_volume(const Model& model, int order, const std::string& file) {
+  bool with_fibres = false;
+  const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
+  const auto rule = gauss_legendre(order);
+  double volume = 0.0;
+  for (const ElementShape& shape : shapes) {
+    double part = 0.0;
+    for (const auto& [z, wz] : rule)
+      for (const auto& [y, wy] : rule)
+        for (const auto& [x, wx] : rule)
+          part += wx * wy * wz * glm::determinant(shape.at({x, y, z}).tangents);
+    volume += std::abs(part);
+  }
+  return volume;
+}
+
+}  // namespace palpate::ex

@@ -1,0 +1,80 @@
+/// A finite element model of EX files (CMISS, OpenCMISS-Zinc; formats before version 2): parameters at nodes
+/// and how each component of a field is interpolated in an element.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace palpate::ex {
+
+/// Along one axis of an element.
+enum class Basis : std::uint8_t { kLinear, kQuadratic, kCubic, kHermite };
+/// Nodes along that axis, and parameters (value, derivative) at each.
+[[nodiscard]] int node_count(Basis basis) noexcept;
+[[nodiscard]] int parameter_count(Basis basis) noexcept;
+
+/// How an angle that winds around the axis is taken where it passes from 2 pi to 0.
+enum class Winding : std::uint8_t { kNone, kIncreasing, kDecreasing, kNonIncreasing, kNonDecreasing };
+
+enum class System : std::uint8_t { kCartesian, kCylindrical, kProlate };
+
+/// A component of a field as a node's header describes it.
+struct NodeComponent {
+  std::string name;
+  int first = 0;        ///< its first number among those of the node
+  int derivatives = 0;  ///< numbers that follow the value, for each version
+  int versions = 1;
+};
+
+struct NodeField {
+  std::string name;
+  System system = System::kCartesian;
+  double focus = 1.0;  ///< of a prolate spheroidal system
+  std::vector<NodeComponent> components;
+};
+
+struct Node {
+  std::uint32_t header = 0;  ///< of Model::node_headers
+  std::vector<double> values;
+};
+
+/// The parameters that one corner of an element contributes to a component.
+struct Corner {
+  int node = 0;             ///< of the element's own list
+  std::vector<int> values;  ///< of the component at that node, from 0: versions one after the other
+  std::vector<int> scales;  ///< of the element's scale factors, from 0; -1 for a factor of one
+};
+
+struct ElementComponent {
+  std::string name;
+  std::array<Basis, 3> basis{};
+  Winding winding = Winding::kNone;  ///< along the first axis
+  std::vector<Corner> corners;       ///< first axis fastest
+};
+
+struct ElementField {
+  std::string name;
+  System system = System::kCartesian;
+  double focus = 1.0;
+  std::vector<ElementComponent> components;
+};
+
+struct Element {
+  std::int64_t name = 0;     ///< its number in the file
+  std::uint32_t header = 0;  ///< of Model::element_headers
+  std::size_t line = 0;      ///< where it begins
+  std::vector<std::int64_t> nodes;
+  std::vector<double> scales;
+};
+
+struct Model {
+  std::vector<std::vector<NodeField>> node_headers;
+  std::map<std::int64_t, Node> nodes;
+  std::vector<std::vector<ElementField>> element_headers;
+  std::vector<Element> elements;  ///< of three dimensions
+};
+
+}  // namespace palpate::ex

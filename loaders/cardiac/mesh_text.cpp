@@ -1,0 +1,102 @@
+#include "loaders/cardiac/mesh_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <system_error>
+
+#include "common/base/number_text.h"
+#include "common/load/gzip_head.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return text;
+}
+
+Vec3 unit_or_nan(const Vec3& v) {
+  // Scaled first, so that neither tiny nor huge numbers are lost in squares.
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  if (!(largest > 0.0) || !std::isfinite(largest)) return Vec3{kNaN};
+  return glm::normalize(v / largest);
+}
+
+void append(std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v[0], v[1], v[2]}); }
+
+}  // namespace
+
+std::size_t believed_count(TextLines& lines, const char* what, std::size_t least_bytes) {
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(lines.file(), ignored);
+  const bool packed = lower(lines.file()).ends_with(".gz");
+  const double room =
+      static_cast<double>(ignored ? 0 : bytes) * (packed ? static_cast<double>(kGzipRatio) : 1.0);
+  const double most = std::min(room / static_cast<double>(least_bytes), 2e9);
+  return static_cast<std::size_t>(lines.integer(what, 0, static_cast<std::int64_t>(most)));
+}
+
+Directions read_directions(TextLines& lines, std::size_t count, int per_row) {
+  Directions directions;
+  for (std::size_t row = 0; row < count; ++row) {
+    Vec3 vectors[3] = {Vec3{0.0}, Vec3{0.0}, Vec3{0.0}};
+    for (int n = 0; n < per_row; ++n) {
+      const std::string_view word = lines.word();
+      if (word.empty())
+        lines.refuse("ends after " + std::to_string(row) + " directions", std::to_string(count));
+      const auto value = number(word);
+      if (!value)
+        lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a component of a direction");
+      vectors[n / 3][n % 3] = *value;
+    }
+    const Vec3 fibre = unit_or_nan(vectors[0]);
+    if (std::isnan(fibre[0])) ++directions.missing;
+    append(directions.fibre, fibre);
+    if (per_row == 3) continue;
+    const Vec3 sheet = unit_or_nan(vectors[1]);
+    append(directions.sheet, sheet);
+    append(directions.normal, unit_or_nan(per_row == 9 ? vectors[2] : glm::cross(fibre, sheet)));
+  }
+  return directions;
+}
+
+void add_directions(const Directions& directions, DataSet& mesh) {
+  const auto add = [&mesh](const char* name, const std::vector<double>& values) {
+    if (!values.empty())
+      mesh.arrays.push_back(make_array(name, Association::kCell, 3, std::span<const double>(values)));
+  };
+  add("fibre", directions.fibre);
+  add("sheet", directions.sheet);
+  add("normal", directions.normal);
+}
+
+std::string ending_of(const std::string& file) {
+  std::filesystem::path path(file);
+  std::string ending = lower(path.extension().string());
+  if (ending == ".gz") ending = lower(path.stem().extension().string());
+  return ending;
+}
+
+std::string stem_of(const std::string& file) {
+  std::filesystem::path path(file);
+  if (lower(path.extension().string()) == ".gz") path.replace_extension();
+  return path.replace_extension().string();
+}
+
+std::string sibling(const std::string& file, const std::string& ending) {
+  const std::string stem = stem_of(file);
+  std::error_code ignored;
+  for (const std::string& candidate : {stem + ending, stem + ending + ".gz"})
+    if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
+  return {};
+}
+
+}  // namespace palpate

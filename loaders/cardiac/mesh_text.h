@@ -1,0 +1,52 @@
+/// What the readers of meshes in text share.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "loaders/cardiac/text_lines.h"
+
+namespace palpate {
+
+/// @name Cell types of the VTK file format
+/// @{
+inline constexpr std::uint8_t kVtkLine = 3;
+inline constexpr std::uint8_t kVtkTriangle = 5;
+inline constexpr std::uint8_t kVtkQuad = 9;
+inline constexpr std::uint8_t kVtkTetrahedron = 10;
+inline constexpr std::uint8_t kVtkHexahedron = 12;
+inline constexpr std::uint8_t kVtkWedge = 13;
+inline constexpr std::uint8_t kVtkPyramid = 14;
+inline constexpr std::uint8_t kVtkQuadraticTetrahedron = 24;
+/// @}
+
+/// A count at the start of a text file, believed as far as the file could hold that many.
+/// @param least_bytes that each of the counted things takes at least, packed as it may be.
+/// @throws Error (bad input) where it is no whole number, below zero or more than the file can hold.
+[[nodiscard]] std::size_t believed_count(TextLines& lines, const char* what, std::size_t least_bytes);
+
+/// Reads `count` vectors of three numbers, row after row. Used for fibre directions: one that is zero or
+/// missing (a row of zeros or "nan") becomes NaN.
+struct Directions {
+  std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
+  std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
+};
+/// @param per_row 3, 6 or 9 numbers. With 6 the normal is their cross product.
+/// @throws Error (bad input) naming the line where a row has other numbers or the file ends.
+[[nodiscard]] Directions read_directions(TextLines& lines, std::size_t count, int per_row);
+
+/// Adds them as cell arrays "fibre", "sheet", "normal", normalised.
+void add_directions(const Directions& directions, DataSet& mesh);
+
+/// A file with the same stem and another ending beside `file`, packed or not (".pts", ".pts.gz"); empty where
+/// there is none.
+[[nodiscard]] std::string sibling(const std::string& file, const std::string& ending);
+
+/// `file` without its ending, and without ".gz" before that.
+[[nodiscard]] std::string stem_of(const std::string& file);
+/// The ending of `file`, lower case with its dot; that before ".gz" where it is packed.
+[[nodiscard]] std::string ending_of(const std::string& file);
+
+}  // namespace palpate

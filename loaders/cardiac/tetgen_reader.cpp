@@ -1,0 +1,183 @@
+#include "loaders/cardiac/tetgen_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/math/vec.h"
+#include "loaders/cardiac/mesh_text.h"
+#include "loaders/cardiac/text_lines.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kMostAttributes = 100;
+constexpr std::string_view kQuadratic = "_quad";  // what Chaste puts behind the name of a quadratic mesh
+/// The edges of a tetrahedron in VTK's order of the nodes that halve them.
+constexpr std::array<std::pair<std::size_t, std::size_t>, 6> kEdges{
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+struct Nodes {
+  std::int64_t first = 0;
+  std::vector<double> positions;
+  std::vector<std::vector<double>> attributes;
+  [[nodiscard]] std::size_t count() const { return positions.size() / 3; }
+  [[nodiscard]] Vec3 at(std::int64_t node) const {
+    const auto p = static_cast<std::size_t>(node) * 3;
+    return {positions[p], positions[p + 1], positions[p + 2]};
+  }
+};
+
+Nodes read_nodes(const std::string& file) {
+  constexpr std::size_t kLeastBytes = 8;  // "0 1 2 3\n"
+  TextLines lines(file, '#');
+  const std::size_t count = believed_count(lines, "the number of nodes", kLeastBytes);
+  (void)lines.integer("the number of dimensions, 3,", 3, 3);
+  const auto attributes =
+      static_cast<std::size_t>(lines.integer("the number of attributes", 0, kMostAttributes));
+  const bool marked = lines.integer("0 or 1 for boundary markers,", 0, 1) == 1;
+  Nodes nodes;
+  nodes.attributes.resize(attributes);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n == 0) {
+      nodes.first = lines.integer("0 or 1, the number of the first node,", 0, 1);
+    } else {
+      const std::int64_t expected = nodes.first + static_cast<std::int64_t>(n);
+      (void)lines.integer("the next node's number", expected, expected);
+    }
+    for (int axis = 0; axis < 3; ++axis) nodes.positions.push_back(lines.number("a coordinate"));
+    for (auto& values : nodes.attributes) values.push_back(lines.number("an attribute"));
+    if (marked) (void)lines.number("a boundary marker");
+  }
+  return nodes;
+}
+
+/// Puts the six nodes behind the corners into VTK's order, each to the edge whose middle it is next to.
+/// False where two of them are next to one middle.
+bool order_mid_nodes(const Nodes& nodes, std::array<std::int64_t, 10>& cell) {
+  std::array<std::int64_t, 6> ordered{};
+  std::array<bool, 6> taken{};
+  for (std::size_t m = 4; m < cell.size(); ++m) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < kEdges.size(); ++e) {
+      const Vec3 middle = 0.5 * (nodes.at(cell[kEdges[e].first]) + nodes.at(cell[kEdges[e].second]));
+      const double distance = glm::distance(middle, nodes.at(cell[m]));
+      if (distance < least) {
+        least = distance;
+        nearest = e;
+      }
+    }
+    if (taken[nearest]) return false;
+    taken[nearest] = true;
+    ordered[nearest] = cell[m];
+  }
+  std::copy(ordered.begin(), ordered.end(), cell.begin() + 4);
+  return true;
+}
+
+UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
+                                   std::vector<std::vector<double>>& attributes) {
+  constexpr std::size_t kLeastBytes = 10;  // "0 1 2 3 4\n"
+  TextLines lines(file, '#');
+  const std::size_t count = believed_count(lines, "the number of elements", kLeastBytes);
+  const std::int64_t corners = lines.integer("4 or 10 nodes an element,", 4, 10);
+  if (corners != 4 && corners != 10)
+    lines.refuse("has elements of " + std::to_string(corners) + " nodes", "4 or 10");
+  attributes.resize(static_cast<std::size_t>(lines.integer("the number of attributes", 0, kMostAttributes)));
+  UnstructuredTopology topology;
+  topology.offsets.push_back(0);
+  std::int64_t first = 0;
+  for (std::size_t e = 0; e < count; ++e) {
+    const std::int64_t expected = first + static_cast<std::int64_t>(e);
+    if (e == 0) {
+      first = lines.integer("0 or 1, the number of the first element,", 0, 1);
+    } else {
+      (void)lines.integer("the next element's number", expected, expected);
+    }
+    std::array<std::int64_t, 10> cell{};
+    const auto used = static_cast<std::size_t>(corners);
+    const std::int64_t last = nodes.first + static_cast<std::int64_t>(nodes.count()) - 1;
+    for (std::size_t n = 0; n < used; ++n)
+      cell[n] = lines.integer("a node of the element", nodes.first, last) - nodes.first;
+    for (auto& values : attributes) values.push_back(lines.number("an attribute"));
+    if (used == 10 && !order_mid_nodes(nodes, cell))
+      lines.refuse("has nodes that are not on six edges of their tetrahedron", "one node on each edge");
+    topology.connectivity.insert(topology.connectivity.end(), cell.begin(),
+                                 cell.begin() + static_cast<std::ptrdiff_t>(used));
+    topology.types.push_back(used == 10 ? kVtkQuadraticTetrahedron : kVtkTetrahedron);
+    topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+  }
+  return topology;
+}
+
+void add_attributes(const std::vector<std::vector<double>>& attributes, Association association,
+                    DataSet& mesh) {
+  for (std::size_t a = 0; a < attributes.size(); ++a)
+    mesh.arrays.push_back(make_array("attribute " + std::to_string(a + 1), association, 1,
+                                     std::span<const double>(attributes[a])));
+}
+
+}  // namespace
+
+TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
+  TetgenFiles files;
+  for (const std::string& file : named) {
+    const std::string ending = ending_of(file);
+    std::string* part = ending == ".node" ? &files.node : ending == ".ele" ? &files.ele : &files.directions;
+    if (!part->empty()) throw input_error({file, "", "plays the same part as " + *part, "one of them"});
+    *part = file;
+  }
+  const std::string& any = named.front();
+  // Chaste keeps directions of a quadratic mesh under the name of the linear one.
+  const std::array<std::string, 2> stems{stem_of(any), stem_of(any) + std::string(kQuadratic)};
+  for (const std::string& stem : stems) {
+    if (files.node.empty()) files.node = sibling(stem + ".ele", ".node");
+    if (files.ele.empty()) files.ele = sibling(stem + ".ele", ".ele");
+  }
+  if (files.node.empty())
+    throw input_error({any, "", "has no .node file beside it", stem_of(any) + ".node", "name it too"});
+  if (files.ele.empty())
+    throw input_error({any, "", "has no .ele file beside it", stem_of(any) + ".ele", "name it too"});
+  std::string stem = stem_of(files.ele);
+  for (int without_quad = 0; without_quad < 2 && files.directions.empty(); ++without_quad) {
+    for (const char* ending : {".ortho", ".axi"})
+      if (files.directions.empty()) files.directions = sibling(stem + ".ele", ending);
+    if (stem.ends_with(kQuadratic)) stem.resize(stem.size() - kQuadratic.size());
+  }
+  return files;
+}
+
+DataSet read_tetgen(const TetgenFiles& files, std::vector<std::string>& notes) {
+  const Nodes nodes = read_nodes(files.node);
+  std::vector<std::vector<double>> attributes;
+  UnstructuredTopology topology = read_elements(files.ele, nodes, attributes);
+  const std::size_t elements = topology.types.size();
+  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(nodes.positions));
+  DataSet mesh;
+  mesh.topology = std::move(topology);
+  if (!files.directions.empty()) {
+    TextLines lines(files.directions, '#');
+    const int per_row = ending_of(files.directions) == ".axi" ? 3 : 9;
+    const auto rows = static_cast<std::size_t>(lines.integer("the number of directions", 0, 2'000'000'000));
+    if (rows != elements)
+      lines.refuse("has " + std::to_string(rows) + " directions",
+                   std::to_string(elements) + ", one an element");
+    const Directions directions = read_directions(lines, rows, per_row);
+    add_directions(directions, mesh);
+    if (directions.missing > 0)
+      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");
+    notes.push_back("fibres from " + files.directions);
+  }
+  add_attributes(nodes.attributes, Association::kPoint, mesh);
+  add_attributes(attributes, Association::kCell, mesh);
+  return mesh;
+}
+
+}  // namespace palpate

@@ -1,0 +1,287 @@
+// EX models: the measured dog heart, and small models whose answers are known.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/field/grid/cell_split.h"
+#include "loaders/cardiac/ex_basis.h"
+#include "loaders/cardiac/ex_element.h"
+#include "loaders/cardiac/ex_mesh.h"
+#include "loaders/cardiac/ex_reader.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::ex {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Model heart(const std::filesystem::path& nodes) {
+  Model model;
+  read_ex_file(nodes.string(), model);
+  read_ex_file((nodes.parent_path() / "heart.exelem.gz").string(), model);
+  return model;
+}
+
+const ElementField& field_of(const Model& model, const Element& element, const std::string& name) {
+  for (const ElementField& field : model.element_headers[element.header])
+    if (field.name == name) return field;
+  throw std::runtime_error("no field " + name);
+}
+
+/// The volume of the tetrahedra that a field is made of; those of folded cells count with their signs.
+double mesh_volume(const DataSet& mesh) {
+  const SplitMesh split = split_into_tetrahedra({&mesh, 1}, "mesh");
+  double volume = 0.0;
+  for (const TetMesh::Tet& tet : split.tets) {
+    const Vec3 origin = split.points[tet[0]];
+    volume += glm::dot(glm::cross(split.points[tet[1]] - origin, split.points[tet[2]] - origin),
+                       split.points[tet[3]] - origin) /
+              6.0;
+  }
+  return std::abs(volume);
+}
+
+TEST(ExBasis, PolynomialsAreReproducedWithTheirSlopes) {
+  for (const Basis basis : {Basis::kLinear, Basis::kQuadratic, Basis::kCubic, Basis::kHermite}) {
+    const int degree = basis == Basis::kLinear ? 1 : basis == Basis::kQuadratic ? 2 : 3;
+    const auto value = [degree](double x) { return std::pow(x + 0.3, degree); };
+    const auto slope = [degree](double x) { return degree * std::pow(x + 0.3, degree - 1); };
+    const int nodes = node_count(basis);
+    for (const double xi : {0.0, 0.21, 0.5, 1.0}) {
+      const AxisWeights weights = axis_weights(basis, xi);
+      double sum = 0.0, sum_slope = 0.0;
+      std::size_t w = 0;
+      for (int n = 0; n < nodes; ++n) {
+        const double x = static_cast<double>(n) / (nodes - 1);
+        for (int d = 0; d < parameter_count(basis); ++d, ++w) {
+          const double parameter = d == 0 ? value(x) : slope(x);
+          sum += weights.value[w] * parameter;
+          sum_slope += weights.slope[w] * parameter;
+        }
+      }
+      EXPECT_NEAR(sum, value(xi), 1e-14);
+      EXPECT_NEAR(sum_slope, slope(xi), 1e-13);
+    }
+  }
+}
+
+TEST(DogHeart, NodalAnglesAreThoseOfTheFile) {
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  const Model model = heart(nodes);
+  EXPECT_EQ(model.nodes.size(), 195U);
+  ASSERT_EQ(model.elements.size(), 120U);
+  int compared = 0;
+  for (const Element& element : model.elements) {
+    const ElementField& fibres = field_of(model, element, "fibres");
+    const ElementShape shape(model, element, field_of(model, element, "coordinates"), &fibres, "heart");
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const Vec3 xi(static_cast<double>(corner & 1U), static_cast<double>((corner >> 1U) & 1U),
+                    static_cast<double>(corner >> 2U));
+      const Place place = shape.at(xi);
+      // The value that the element names: the first parameter of its corner, with a factor of one.
+      const Corner& named = fibres.components[0].corners[corner];
+      const Node& node = model.nodes.at(element.nodes[static_cast<std::size_t>(named.node)]);
+      const auto& header = model.node_headers[node.header];
+      const NodeComponent& stored = header[1].components[0];
+      ASSERT_EQ(stored.name, "fibre angle");
+      EXPECT_NEAR(
+          place.angles[0],
+          node.values[static_cast<std::size_t>(stored.first) + static_cast<std::size_t>(named.values[0])],
+          1e-9);
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 960);
+}
+
+TEST(DogHeart, AnglesTurnThroughTheWall) {
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  const Model model = heart(nodes);
+  // Means of the node layers as published with the data: +77, +9, -58 degrees.
+  std::array<double, 3> sum{};
+  std::array<int, 3> count{};
+  std::map<std::int64_t, int> inner;  // how often a node is at an element's inner or outer side
+  std::map<std::int64_t, int> outer;
+  for (const Element& element : model.elements)
+    for (std::size_t n = 0; n < element.nodes.size(); ++n)
+      ++(n < element.nodes.size() / 2 ? inner : outer)[element.nodes[n]];
+  for (const auto& [name, node] : model.nodes) {
+    const bool in = inner.contains(name), out = outer.contains(name);
+    const std::size_t layer = in && out ? 1 : in ? 0 : 2;
+    const NodeComponent& stored = model.node_headers[node.header][1].components[0];
+    sum[layer] += node.values[static_cast<std::size_t>(stored.first)] * 180.0 / kPi;
+    ++count[layer];
+  }
+  // Angles of directions are known up to half turns, so the mean is of the file's own choice of them.
+  EXPECT_GT(sum[0] / count[0], sum[1] / count[1]);
+  EXPECT_GT(sum[1] / count[1], sum[2] / count[2]);
+}
+
+TEST(DogHeart, VolumeOfTheMeshConvergesToTheCurvedOneAtSecondOrder) {
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  const Model model = heart(nodes);
+  const double exact = exact_volume(model, 9, "heart");
+  EXPECT_NEAR(exact_volume(model, 12, "heart") / exact, 1.0, 1e-9);
+  std::array<double, 3> error{};
+  for (std::size_t level = 0; level < 3; ++level)
+    error[level] = std::abs(mesh_volume(sample(model, 2 << level, "heart").mesh) / exact - 1.0);
+  EXPECT_LT(error[2], 0.005);
+  EXPECT_GT(std::log2(error[0] / error[1]), 1.8);
+  EXPECT_GT(std::log2(error[1] / error[2]), 1.8);
+}
+
+TEST(DogHeart, SampledElementsAreOnePieceWithUnitAxes) {
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  const SampledModel sampled = sample(heart(nodes), 2, "heart");
+  const DataArray* fibre = sampled.mesh.find("fibre", Association::kPoint);
+  const DataArray* sheet = sampled.mesh.find("sheet", Association::kPoint);
+  ASSERT_NE(fibre, nullptr);
+  ASSERT_NE(sheet, nullptr);
+  std::size_t undefined = 0;
+  for (std::size_t p = 0; p < fibre->tuples; ++p) {
+    const Vec3 f(fibre->at(p, 0), fibre->at(p, 1), fibre->at(p, 2));
+    const Vec3 s(sheet->at(p, 0), sheet->at(p, 1), sheet->at(p, 2));
+    if (std::isnan(f[0])) {
+      ++undefined;
+      continue;
+    }
+    EXPECT_NEAR(glm::length(f), 1.0, 1e-12);
+    EXPECT_NEAR(glm::dot(f, s), 0.0, 1e-12);
+  }
+  EXPECT_LT(undefined, 10U);  // the collapsed edges of the apex
+  // Far fewer than 120 elements with 27 places each would have, were they not joined.
+  EXPECT_LT(fibre->tuples, 120U * 27U / 2U);
+}
+
+/// One element of unit size: coordinates in `system`, its eight nodes' values, a fibre angle.
+std::string node_file(const std::string& system, const std::array<Vec3, 8>& places, double angle) {
+  std::string text =
+      " Group name: box\n #Fields=2\n 1) coordinates, coordinate, " + system +
+      ", #Components=3\n   x. Value index= 1, #Derivatives= 0\n   y. Value index= 2, #Derivatives= "
+      "0\n   z. Value index= 3, #Derivatives= 0\n 2) fibres, anatomical, fibre, #Components=1\n   "
+      "fibre angle. Value index= 4, #Derivatives= 0\n";
+  for (std::size_t n = 0; n < 8; ++n) {
+    text += " Node: " + std::to_string(n + 1) + "\n";
+    for (int c = 0; c < 3; ++c) text += " " + std::to_string(places[n][c]);
+    text += "\n " + std::to_string(angle) + "\n";
+  }
+  return text;
+}
+std::string component(const std::string& name, const std::string& modify = "no modify") {
+  std::string text = "   " + name + ".  l.Lagrange*l.Lagrange*l.Lagrange, " + modify +
+                     ", standard node based.\n     #Nodes= 8\n";
+  for (int n = 1; n <= 8; ++n)
+    text += "      " + std::to_string(n) +
+            ".  #Values=1\n       Value indices:     1\n       Scale factor indices:   0\n";
+  return text;
+}
+std::string element_file(const std::string& system, const std::string& modify = "no modify") {
+  return " Group name: box\n Shape.  Dimension=3\n #Scale factor sets= 0\n #Nodes= 8\n #Fields=2\n 1) "
+         "coordinates, coordinate, " +
+         system + ", #Components=3\n" + component("x") + component("y", modify) + component("z") +
+         " 2) fibres, anatomical, fibre, #Components=1\n" + component("fibre angle") +
+         " Element:     7 0 0\n   Faces:\n   0 1 0\n   Nodes:\n 1 2 3 4 5 6 7 8\n";
+}
+
+Model made(const test::TempFolder& folder, const std::string& nodes, const std::string& elements) {
+  Model model;
+  read_ex_file(folder.write("a.exnode", nodes).string(), model);
+  read_ex_file(folder.write("a.exelem", elements).string(), model);
+  return model;
+}
+
+TEST(ExElement, FibreAngleTurnsFromTheFirstAxisToTheSecond) {
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n)
+    places[n] = Vec3(static_cast<double>(n & 1U) * 2.0, static_cast<double>((n >> 1U) & 1U),
+                     static_cast<double>(n >> 2U));
+  const Model model = made(folder, node_file("rectangular cartesian", places, kPi / 6.0),
+                           element_file("rectangular cartesian"));
+  const DataSet mesh = sample(model, 2, "box").mesh;
+  const DataArray* fibre = mesh.find("fibre", Association::kPoint);
+  ASSERT_NE(fibre, nullptr);
+  EXPECT_EQ(fibre->tuples, 27U);
+  for (std::size_t p = 0; p < fibre->tuples; ++p) {
+    EXPECT_NEAR(fibre->at(p, 0), std::cos(kPi / 6.0), 1e-6);
+    EXPECT_NEAR(fibre->at(p, 1), std::sin(kPi / 6.0), 1e-6);
+    EXPECT_NEAR(fibre->at(p, 2), 0.0, 1e-12);
+  }
+  EXPECT_NEAR(mesh_volume(mesh), 2.0, 1e-12);
+  EXPECT_NEAR(exact_volume(model, 3, "box"), 2.0, 1e-12);
+}
+
+TEST(ExElement, ARingOfCylindricalElementsClosesOverTheSeam) {
+  // One element from 300 to 60 degrees: 120 degrees of a ring of radii 1 and 2 and height 1.
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n) {
+    const double angle = (n & 1U) == 0 ? 300.0 : 60.0;
+    places[n] =
+        Vec3(1.0 + static_cast<double>(n >> 2U), angle * kPi / 180.0, static_cast<double>((n >> 1U) & 1U));
+  }
+  const double sector = kPi * (4.0 - 1.0) / 3.0;
+  const Model model = made(folder, node_file("cylindrical polar", places, 0.0),
+                           element_file("cylindrical polar", "increasing in xi1"));
+  EXPECT_NEAR(exact_volume(model, 8, "ring"), sector, 1e-4);  // six digits in the file
+  const Model unmended =
+      made(folder, node_file("cylindrical polar", places, 0.0), element_file("cylindrical polar"));
+  EXPECT_NEAR(exact_volume(unmended, 8, "ring"), 2.0 * sector, 1e-4);
+}
+
+TEST(ExElement, EdgesOnEitherSideOfTheSeamStayTogether) {
+  // Below from 43 to 6 degrees, above from 36 to 355: without the whole edges brought together, a turn lies
+  // between.
+  const test::TempFolder folder;
+  static constexpr double kAngles[4] = {43.0, 6.0, 36.0, 355.0};
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n)
+    places[n] = Vec3(1.0 + static_cast<double>(n >> 2U), kAngles[n & 3U] * kPi / 180.0,
+                     static_cast<double>((n >> 1U) & 1U));
+  const Model model = made(folder, node_file("cylindrical polar", places, 0.0),
+                           element_file("cylindrical polar", "decreasing in xi1"));
+  const double mean_width = (37.0 + 41.0) / 2.0 * kPi / 180.0;
+  EXPECT_NEAR(exact_volume(model, 8, "ring"), 0.5 * (4.0 - 1.0) * mean_width, 1e-4);
+}
+
+TEST(ExReader, MistakesAreNamedWithFileAndLine) {
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places{};
+  const std::string nodes = node_file("rectangular cartesian", places, 0.0);
+  const std::string elements = element_file("rectangular cartesian");
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    if (at == std::string::npos) throw std::runtime_error("no " + what);
+    return text.replace(at, what.size(), by);
+  };
+  const std::pair<std::string, std::string> wrong[] = {
+      {replaced(nodes, "Node: 3", "Node: 2"), elements},
+      {replaced(nodes, "Value index= 2", "Value index= 5"), elements},
+      {replaced(nodes, "#Components=3", "#Components=99999999999"), elements},
+      {nodes.substr(0, nodes.size() - 12), elements},
+      {nodes, replaced(elements, "l.Lagrange*l.Lagrange*l.Lagrange", "l.simplex(2)*l.simplex*l.Lagrange")},
+      {nodes, replaced(elements, " 1 2 3 4 5 6 7 8", " 1 2 3 4 5 6 7 88")},
+      {nodes, replaced(elements, " 1 2 3 4 5 6 7 8", " 1 2 3 4")},
+      {nodes, replaced(elements, "Value indices:     1", "Value indices:     2")},
+      {nodes, replaced(elements, "Scale factor indices:   0", "Scale factor indices:   9")},
+      {nodes, replaced(elements, "Value indices:     1", "Value indices     1")},
+      {nodes, replaced(elements, "rectangular cartesian", "oblate spheroidal")},
+      {nodes, replaced(elements, "#Nodes= 8", "#Nodes= nan")},
+      {"EX Version: 2\n" + nodes, elements},
+      {nodes, "word salad\n"}};
+  for (const auto& [n, e] : wrong) {
+    try {
+      (void)sample(made(folder, n, e), 2, (folder.path() / "a.exelem").string());
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_NE(std::string(error.what()).find("a.ex"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::ex
