@@ -1,106 +1,20 @@
 #include "apps/flow/open_verb.h"
 
-#include <algorithm>
-
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
-#include "common/app/cli/json_output.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
-#include "common/app/cli/simulated_option.h"
-#include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
-#include "common/app/haptic/servo_rows.h"
+#include "common/app/cli/window_touch.h"
 #include "common/app/window/window.h"
 #include "common/base/parallel.h"
 #include "common/base/version.h"
 #include "common/field/analytic/examples.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
-#include "common/scene/session.h"
-#include "common/servo/recording.h"
-#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
-
-/// The path of `--device replay:FILE`; none for others.
-/// @throws Error (usage) for an unknown device; (bad input).
-std::vector<PathRow> device_path(const std::string& device) {
-  constexpr std::string_view kReplay = "replay:";
-  if (device.starts_with(kReplay)) {
-    std::vector<PathRow> path = read_probe_path(device.substr(kReplay.size()));
-    if (path.empty()) throw usage_error("--device " + device + ": the path has no rows");
-    return path;
-  }
-  if (device != "mouse" && !simulated_option(device)) {
-    throw usage_error("unknown device '" + device + "'; known are mouse, replay:FILE.csv, simulated");
-  }
-  return {};
-}
-
-/// What the hand feels in the window, and where it is recorded or comes from.
-ProbeSessionOptions touch_of(const Options& options, const VerbContext& context) {
-  ProbeSessionOptions touch;
-  touch.modes = flow_modes();
-  if (!options.touch.mode.empty()) {
-    touch.choice.mode =
-        static_cast<std::size_t>(&find_mode(touch.modes, options.touch.mode) - touch.modes.data());
-  }
-  touch.choice.settings = touch_settings(options.touch);
-  touch.choice.ticks = wants_ticks(options.touch);
-  touch.limits = touch_limits(options.touch);
-  touch.workspace_scale = options.touch.workspace_scale;
-  touch.threads = options.common.threads;
-  check_replay_options(options);
-  touch.path = device_path(options.device);
-  touch.simulated = simulated_option(options.device);
-  if (touch.simulated) {
-    touch.limits.force_cap = std::min(touch.limits.force_cap, touch.simulated->profile.peak_force);
-    context.console.note("simulated: " + title_of(*touch.simulated));
-    const ChainSettings& settings = touch.choice.settings;
-    const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
-                                               settings.stiffness, settings.damping);
-    if (!note.empty()) context.console.note(note);
-  }
-  if (!options.replay.empty()) {
-    touch.replay = read_recording(options.replay.string());
-    for (const std::string& line : changed_since(touch.replay->header, options, context.progress)) {
-      context.console.note(options.replay.string() + ": " + line);
-    }
-  }
-  check_servo_rate(options.rate);
-  touch.servo_rate = options.rate;
-  touch.record = options.record;
-  touch.overwrite = options.common.force;
-  touch.recorded.program = context.explorer.name;
-  touch.recorded.version = version();
-  touch.recorded.build = build_text();
-  const auto add = [&](const std::filesystem::path& file) {
-    // Checksums take as long as reading the whole file: only where a run is recorded on purpose.
-    std::error_code missing;  // which is said when it is opened
-    RecordedFile input{std::filesystem::absolute(file, missing).string(), 0, {}};
-    input.bytes = std::filesystem::file_size(file, missing);
-    if (missing) input.bytes = 0;
-    if (!options.record.empty()) input.sha256 = describe_input(file, false, &context.progress).sha256;
-    touch.recorded.inputs.push_back(std::move(input));
-  };
-  for (const auto& file : options.input.files) add(file);
-  if (options.input.solution) add(*options.input.solution);
-  if (!options.input.example.empty()) touch.recorded.values.emplace_back("example", options.input.example);
-  return touch;
-}
-
-/// What is said when the window is closed: how the servo did, in a row a line.
-std::string servo_text(const OpenSummary& summary) {
-  std::string text;
-  for (const ServoRow& row : servo_rows(summary.servo)) {
-    constexpr std::size_t kColumn = 13;
-    text += row.name + std::string(kColumn - std::min(kColumn, row.name.size()), ' ') + row.value + '\n';
-  }
-  if (!summary.fault.empty()) text += summary.fault + '\n';
-  return text;
-}
 
 ExitCode run_open(const Options& given, const VerbContext& context) {
   Options options = given;
@@ -109,7 +23,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   if (nothing_named) options.input.example = examples().front().name;
   const TraceOptions trace = trace_options(options, "both");
   const CameraAngles angles = camera_angles(options.view.camera);
-  ProbeSessionOptions touch = touch_of(options, context);
+  ProbeSessionOptions touch = window_touch(flow_modes(), options, context);
   if (!window_available() && nothing_named) {
     return headless_tour(render_verb(flow_modes(), {}), options, context,
                          "trace FILE --seeds grid:8,8,8 --out lines.vtp");
@@ -144,9 +58,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   }
   const WindowResult result =
       run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
-  const OpenSummary summary{result.probe.servo, result.probe.fault, result.replay};
-  context.console.print(servo_text(summary));
-  context.console.print_json(open_json(summary));
+  tell_of_touch(result, context);
   if (options.common.explain) context.console.print(measured_text(model.costs()));
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }

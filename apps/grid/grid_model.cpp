@@ -5,7 +5,6 @@
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/session_of.h"
 #include "common/app/cli/verbs.h"
-#include "common/app/cli/volume_scene.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -32,15 +31,16 @@ GridModel::GridModel(Options options, std::string program)
     : options_(std::move(options)), program_(std::move(program)) {}
 
 SceneState GridModel::describe(const Input& input, const Options& options, const SceneSettings& settings,
-                               const std::shared_ptr<const VolumeImage>& image) {
+                               const TangibleVolume& volume) {
   Options with = options;
   with.volume.transfer = settings.transfer;
-  SceneView view = make_volume_scene(input, image, with, 1.0);
+  SceneView view = make_volume_scene(input, volume.image, with, 1.0);
   SceneState state;
   state.info = describe_input_of(input, view);
   state.settings = settings;
   state.lines = std::make_shared<const std::vector<Line>>();
   state.volume = std::move(view.volume);
+  state.felt_scalar = volume.field;
   state.notes = input.notes();
   state.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   return state;
@@ -49,13 +49,13 @@ SceneState GridModel::describe(const Input& input, const Options& options, const
 SceneState GridModel::show(const Options& options, Progress& progress) {
   progress.begin("opening", 0);
   Input input = Input::open(input_spec(options.input, FieldKind::kScalar), &progress);
-  auto image = load_volume(input, &progress);
+  TangibleVolume volume = load_tangible_volume(input, options.common.threads, &progress);
   SceneSettings settings;
   settings.field = input.field_label();
   settings.time_step = input.time().step;
   settings.transfer = options.volume.transfer;
-  SceneState state = describe(input, options, settings, image);
-  scene_ = Scene{std::move(input), std::move(image), state};
+  SceneState state = describe(input, options, settings, volume);
+  scene_ = Scene{std::move(input), std::move(volume), state};
   return state;
 }
 
@@ -75,23 +75,23 @@ SceneState GridModel::open(const InputFiles& files, Progress& progress) {
 SceneState GridModel::update(const SceneSettings& settings, Progress& progress) {
   Scene& scene = *scene_;
   const SceneSettings& before = scene.shown.settings;
-  std::shared_ptr<const VolumeImage> image = scene.image;
+  TangibleVolume volume = scene.volume;
   if (settings.field != before.field || settings.time_step != before.time_step) {
     try {
       scene.input.set_field(settings.field);
       scene.input.set_time_step(settings.time_step);
-      image = load_volume(scene.input, &progress);
+      volume = load_tangible_volume(scene.input, options_.common.threads, &progress);
     } catch (...) {
       scene.input.set_field(before.field);
       scene.input.set_time_step(before.time_step);
       throw;
     }
   }
-  SceneState state = describe(scene.input, options_, settings, image);
+  SceneState state = describe(scene.input, options_, settings, volume);
   // Another time step of a field keeps its colours, or a film would flicker.
   const bool same_colors = settings.field == before.field && settings.transfer == before.transfer;
   if (same_colors) state.volume->transfer = scene.shown.volume->transfer;
-  scene.image = std::move(image);
+  scene.volume = std::move(volume);
   scene.shown = state;
   return state;
 }

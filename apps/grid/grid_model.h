@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/app/cli/options.h"
+#include "common/app/cli/volume_scene.h"
 #include "common/app/window/window_model.h"
 #include "common/scene/input.h"
 
@@ -24,16 +25,15 @@ class GridModel final : public WindowModel {
   /// An open input with the voxels that were read last.
   struct Scene {
     Input input;
-    std::shared_ptr<const VolumeImage> image;
+    TangibleVolume volume;
     SceneState shown;
   };
 
   /// Opens what `options` name and keeps it.
   SceneState show(const Options& options, Progress& progress);
-  /// The scene of `image` with its transfer function.
+  /// The scene of `volume` with its transfer function.
   [[nodiscard]] static SceneState describe(const Input& input, const Options& options,
-                                           const SceneSettings& settings,
-                                           const std::shared_ptr<const VolumeImage>& image);
+                                           const SceneSettings& settings, const TangibleVolume& volume);
 
   Options options_;
   std::string program_;

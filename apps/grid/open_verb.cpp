@@ -3,9 +3,11 @@
 #include <utility>
 
 #include "apps/grid/grid_model.h"
+#include "apps/grid/grid_modes.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/volume_scene.h"
+#include "common/app/cli/window_touch.h"
 #include "common/app/window/window.h"
 #include "common/base/parallel.h"
 #include "common/base/version.h"
@@ -21,6 +23,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   if (nothing_named) options.input.example = examples_of(FieldKind::kScalar).front().name;
   const CameraAngles angles = camera_angles(options.view.camera);
   check_volume_options(options.volume);
+  ProbeSessionOptions touch = window_touch(grid_modes(), options, context);
   if (!window_available() && nothing_named) {
     return headless_tour(volume_render_verb({}), options, context,
                          "probe FILE --path path.csv --out log.csv");
@@ -38,10 +41,12 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
                        .angles = angles,
                        .command_line = context.command_line,
                        .version = version_text(context.explorer.name),
+                       .touch = std::move(touch),
                        .stop_requested = [] { return InterruptGuard::interrupted(); }};
   if (options.volume.projection == "orthographic") window.view.camera.projection = Projection::kOrthographic;
-  (void)run_user_window(model, std::move(window),
-                        [&](const std::string& line) { context.console.note(line); });
+  const WindowResult result =
+      run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
+  tell_of_touch(result, context);
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 
@@ -49,8 +54,8 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
 
 Verb open_verb(std::vector<UsageExample> examples) {
   return {.name = "open",
-          .summary = "look at a volume in a window (the verb that FILE alone stands for)",
-          .groups = {.view = true},
+          .summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
+          .groups = {.view = true, .touch = true, .record = true, .replay = true},
           .examples = std::move(examples),
           .run = run_open};
 }

@@ -78,7 +78,8 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
   const PathView& q = b.probe->path;
   return a.lines == b.lines && a.style == b.style && a.camera == b.camera && same_box(a.bounds, b.bounds) &&
          a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
-         p.points == q.points && a.probe->style == b.probe->style;
+         p.points == q.points && a.probe->style == b.probe->style &&
+         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume));
 }
 
 bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0; }
@@ -219,22 +220,22 @@ struct SceneRenderer::State {
     if (!is_transparent(view)) draw_lines(view, base, unit);
   }
 
-  // Behind and between opaque things, by their depths.
+  // Behind and between opaque things, by their depths, into the framebuffer that is bound.
   void draw_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
     volume->update(*view.volume, frame);
-    const std::uint32_t depth = target.copy_depth();
-    target.bind_scene();
-    volume->draw(depth);
+    volume->draw(target.copy_depth());
   }
 
   // With a probe, what stays is drawn once and kept; each picture begins with a copy of it. The path is
-  // added to it bit by bit. The order is that of drawing everything, so the picture is the same.
+  // added to it bit by bit. The order is that of drawing everything, so the picture is the same. A volume
+  // stays, too: the hand is seen through it, and need not wait for its rays.
   void draw_with_probe(const SceneView& view, const LineDraw& base, float unit) {
     const bool other_path = update_probe(view);
     target.bind_still();
     if (other_path || !still || !same_still_part(*still, view)) {
       draw_still_part(view, base, unit);
+      if (view.volume) draw_volume(view);
       still = view;
       still_path = 0;
     }
@@ -280,8 +281,8 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   } else {
     s.target.bind_scene();
     s.draw_still_part(view, base, unit);
+    if (view.volume) s.draw_volume(view);
   }
-  if (view.volume) s.draw_volume(view);
   if (is_transparent(view)) s.draw_lines(view, base, unit);
 
   glDisable(GL_DEPTH_TEST);

@@ -10,7 +10,8 @@ namespace palpate {
 /// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
 /// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
 /// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
-/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time.
+/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time. A
+/// volume belongs to what does not move: with a probe in the view it hides nothing of it, solid or not.
 /// Needs an OpenGL 4.5 core context, the same at every call and at destruction.
 class SceneRenderer {
  public:

@@ -29,9 +29,10 @@ class TouchWindow : public ExplorerTest {
     return true;
   }
 
-  /// `flow open` with a window, which Ctrl-C in the terminal closes once `ready` says so.
-  ProgramResult open_until(const std::vector<std::string>& arguments, const std::function<bool()>& ready) {
-    std::vector<std::string> command{bin("flow").string(), "open"};
+  /// `open` with a window, which Ctrl-C in the terminal closes once `ready` says so.
+  ProgramResult open_until(const std::vector<std::string>& arguments, const std::function<bool()>& ready,
+                           const char* explorer = "flow") {
+    std::vector<std::string> command{bin(explorer).string(), "open"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     Program program(command, folder_.path());
     EXPECT_TRUE(wait_for(ready));
@@ -159,6 +160,26 @@ TEST_F(TouchWindow, TheWindowRecordsAndReplays) {
       open_until({"--example", "tornado", "--replay", "run.txt"}, [&] { return ++looks > 100; });
   EXPECT_EQ(replayed.exit_code, 130) << replayed.err;
   EXPECT_EQ(read_file(file), before);
+}
+
+TEST_F(TouchWindow, AHandOnAVolumeIsRecordedAndRepeated) {
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
+  const auto file = folder_.path("run.txt");
+  const ProgramResult lived = open_until(
+      {"--example", "blob", "--device", "simulated", "--record", "run.txt"},
+      [&] { return read_file(file).find("\ns 500 ") != std::string::npos; }, "grid");
+  EXPECT_EQ(lived.exit_code, 130) << lived.err;
+  const Recording recording = read_recording(file.string());
+  EXPECT_TRUE(recording.ended);
+  EXPECT_GE(recording.steps.size(), 500U);
+  const ProgramResult again =
+      Program({bin("grid").string(), "probe", "--example", "blob", "--replay", "run.txt", "--json"},
+              folder_.path())
+          .finish();
+  const Json summary = Json::parse(again.out, nullptr, false);
+  ASSERT_TRUE(summary.is_object()) << again.err;
+  EXPECT_EQ(summary["replay_differs"], false) << summary["replay"];
+  EXPECT_EQ(summary["mode"], "isosurface");
 }
 
 }  // namespace

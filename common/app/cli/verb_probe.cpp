@@ -338,7 +338,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (recording) {
     // The fields of all examples have the same label.
     std::string label = input.field_label();
-    if (input.file() == nullptr) label.insert(0, input.title() + " ");
+    if (input.spec().files.empty()) label.insert(0, input.title() + " ");
     const NamedField open{felt.field, field_key(label, input.time().step) + scalar_key(options.touch.scalar),
                           felt.scalar};
     int links = 0;

@@ -1,5 +1,6 @@
 #include "common/app/cli/volume_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <utility>
@@ -30,6 +31,24 @@ std::vector<std::vector<Vec3>> image_outline(const VolumeImage& image) {
     }
   }
   return edges;
+}
+
+/// What was read, and the image that is made of it.
+struct Voxels {
+  std::vector<DataSet> blocks;
+  ScalarChoice choice;
+  std::string file;
+  std::shared_ptr<const VolumeImage> image;
+};
+
+Voxels read_voxels(Input& input, Progress* progress) {
+  Voxels voxels{.choice = input.scalar_choice()};
+  voxels.file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
+  if (progress) progress->begin("reading " + input.title(), 0);
+  voxels.blocks = input.read_timed({voxels.choice.array}, progress);
+  voxels.image = make_volume_image(volume_source(voxels.blocks, voxels.choice, voxels.file),
+                                   voxels.choice.array, voxels.file);
+  return voxels;
 }
 
 }  // namespace
@@ -72,11 +91,17 @@ void check_volume_options(const VolumeOptions& options) {
 }
 
 std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
-  const std::string file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
-  const ScalarChoice choice = input.scalar_choice();
-  if (progress) progress->begin("reading " + input.title(), 0);
-  const std::vector<DataSet> blocks = input.read_timed({choice.array}, progress);
-  return make_volume_image(volume_source(blocks, choice, file), choice.array, file);
+  return read_voxels(input, progress).image;
+}
+
+TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress) {
+  const Voxels voxels = read_voxels(input, progress);
+  TangibleVolume volume{voxels.image, nullptr};
+  const Index3& n = voxels.image->points;
+  if (std::min({n.x, n.y, n.z}) < 2) return volume;
+  if (progress) progress->begin("preparing the field", 0);
+  volume.field = make_scalar_field(voxels.blocks, voxels.choice, voxels.file, threads);
+  return volume;
 }
 
 SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,

@@ -26,6 +26,14 @@ void check_volume_options(const VolumeOptions& options);
 /// @throws Error, Cancelled.
 [[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress);
 
+/// The same voxels to be drawn and to be felt, read once.
+struct TangibleVolume {
+  std::shared_ptr<const VolumeImage> image;
+  std::shared_ptr<const ScalarField> field;  ///< null where the image is flat: it has no inside
+};
+/// @throws Error, Cancelled.
+[[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);
+
 /// A scene of `image` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,

@@ -62,7 +62,7 @@ HapticChain build_chain(const std::string& description, std::span<const HapticMo
   const auto mode = std::find_if(modes.begin(), modes.end(),
                                  [&](const HapticMode& each) { return each.name == chain.mode; });
   if (mode == modes.end()) refuse(description, "there is no mode '" + chain.mode + "'");
-  const Workspace workspace(chain.workspace_scale, frame_of(open.field.get(), open.scalar.get()));
+  const Workspace workspace(chain.workspace_scale, open.frame());
   return mode->make({open.field, workspace, chain.settings, threads, open.scalar});
 }
 

@@ -19,6 +19,14 @@ struct NamedField {
   std::shared_ptr<const VectorField> field;  ///< null for a volume of scalars alone
   std::string name;                          ///< field_key()
   std::shared_ptr<const ScalarField> scalar = nullptr;
+
+  [[nodiscard]] bool empty() const noexcept { return !field && !scalar; }
+  /// @name Of the fields that are there. @pre !empty()
+  /// @{
+  [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_of(field.get(), scalar.get()); }
+  [[nodiscard]] const Box& bounds() const noexcept { return field ? field->bounds() : scalar->bounds(); }
+  [[nodiscard]] double diagonal() const noexcept { return bounds().diagonal(); }
+  /// @}
 };
 
 [[nodiscard]] std::string field_key(const std::string& label, std::size_t time_step);

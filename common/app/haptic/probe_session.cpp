@@ -27,6 +27,17 @@ bool same_points(const Line& a, const Line& b) {
          a.points.back().position == b.points.back().position;
 }
 
+/// The cell of the grid that `x` lies in: a number, or i j k. @param hint of a sample there.
+template <class Field>
+std::string cell_text(const Field& field, const Vec3& x, const CellHint& hint) {
+  if (const BoxGrid* grid = field.box_grid()) {
+    Index3 cell{0};
+    if (!grid->locate(field.frame().local_from_data(x), cell)) return {};
+    return std::to_string(cell.x) + "  " + std::to_string(cell.y) + "  " + std::to_string(cell.z);
+  }
+  return field.tet_mesh() != nullptr ? std::to_string(hint.cell) : std::string();
+}
+
 /// NaN, for none felt, counts as equal to itself.
 bool same_forces(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -53,15 +64,15 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
 ProbeSession::~ProbeSession() = default;
 
 Workspace ProbeSession::workspace() const {
-  const double scale = options_.workspace_scale > 0.0 ? options_.workspace_scale
-                                                      : Workspace::default_scale(open_.field->diagonal());
-  return {scale, open_.field->frame()};
+  const double scale =
+      options_.workspace_scale > 0.0 ? options_.workspace_scale : Workspace::default_scale(open_.diagonal());
+  return {scale, open_.frame()};
 }
 
 /// The settings as the chain gets them: without tick marks their interval is zero.
 ChainSettings ProbeSession::chain_settings() const {
   ChainSettings settings = choice_.settings;
-  if (!choice_.ticks) {
+  if (!choice_.ticks || !has_flow()) {
     settings.ticks.interval = 0.0;
   } else if (settings.ticks.interval == 0.0) {
     settings.ticks.interval = default_tick_interval(*open_.field, workspace());
@@ -75,10 +86,11 @@ HapticChain ProbeSession::build(const std::string& description) const {
 
 bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name,
                              std::shared_ptr<const ScalarField> scalar) {
-  if (!available() || !field || field == open_.field) return false;
+  if (!available() || (!field && !scalar)) return false;
+  if (field == open_.field && (field || scalar == open_.scalar)) return false;
   let_go();
   open_ = {std::move(field), name, std::move(scalar)};
-  hint_ = {};
+  hint_ = scalar_hint_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   clear_path();
@@ -118,7 +130,7 @@ Device& ProbeSession::device() {
   simulated.wander.reset();
   if (options_.path.empty()) {
     constexpr double kPart = 0.3;  // of the sides of the field, to either side of its middle
-    const Box& box = open_.field->bounds();
+    const Box& box = open_.bounds();
     simulated.wander = {workspace.workspace_from_data(box.center()),
                         kPart * workspace.workspace_from_data(box.size())};
   }
@@ -212,7 +224,7 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
 }
 
 void ProbeSession::clear_path() {
-  path_ = std::make_shared<ProbePath>(open_.field ? kPathSpacing * open_.field->diagonal() : 0.0);
+  path_ = std::make_shared<ProbePath>(open_.empty() ? 0.0 : kPathSpacing * open_.diagonal());
 }
 
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
@@ -260,7 +272,7 @@ void ProbeSession::take(const HandStep& step) {
     other_line_ = false;
   }
   path_->append(on_line ? proxy : gap, force);
-  const double spacing = kPathSpacing * open_.field->diagonal();
+  const double spacing = kPathSpacing * open_.diagonal();
   if (!on_line) {
     // Nothing is felt of a line.
   } else if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
@@ -294,24 +306,28 @@ void ProbeSession::follow_replayed_chain(std::uint64_t step) {
 
 void ProbeSession::read_out() {
   if (!readout_.held) return;
-  const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
-  readout_.sampled = sample.status == SampleStatus::kOk;
-  readout_.velocity = sample.value;
+  readout_.sampled = false;
+  readout_.scalar.reset();
+  readout_.scalar_name.clear();
   readout_.cell.clear();
-  if (!readout_.sampled) return;
-  if (const BoxGrid* grid = open_.field->box_grid()) {
-    Index3 cell{0};
-    if (grid->locate(open_.field->frame().local_from_data(readout_.proxy), cell)) {
-      readout_.cell = std::to_string(cell.x) + "  " + std::to_string(cell.y) + "  " + std::to_string(cell.z);
-    }
-  } else if (open_.field->tet_mesh() != nullptr) {
-    readout_.cell = std::to_string(hint_.cell);
+  if (open_.scalar) {
+    const ScalarSample sample = open_.scalar->sample(readout_.proxy, scalar_hint_);
+    if (sample.status == SampleStatus::kOk) readout_.scalar = sample.value;
+    readout_.scalar_name = open_.scalar->name();
+  }
+  if (open_.field) {
+    const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
+    readout_.sampled = sample.status == SampleStatus::kOk;
+    readout_.velocity = sample.value;
+    if (readout_.sampled) readout_.cell = cell_text(*open_.field, readout_.proxy, hint_);
+  } else if (readout_.scalar) {
+    readout_.cell = cell_text(*open_.scalar, readout_.proxy, scalar_hint_);
   }
 }
 
 void ProbeSession::ask_local(const Camera& camera) {
   LocalRequest request;
-  if (choice_.local != SeedShape::kNone && readout_.held) {
+  if (choice_.local != SeedShape::kNone && readout_.held && has_flow()) {
     const double diagonal = open_.field->diagonal();
     request.field = open_.field;
     request.shape = choice_.local;

@@ -70,8 +70,10 @@ struct ProbeReadout {
   Vec3 probe{0.0};
   Vec3 proxy{0.0};
   std::string cell;    ///< of the grid, at the proxy: a number, or i j k; empty where there is none
-  Vec3 velocity{0.0};  ///< at the proxy; meaningless where `sampled` is false
+  Vec3 velocity{0.0};  ///< at the proxy, of a flow; meaningless where `sampled` is false
   bool sampled = false;
+  std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
+  std::string scalar_name;       ///< empty where none is felt
   double residual = 0.0;
   double force = 0.0;    ///< [N]
   double stretch = 0.0;  ///< [mm]
@@ -91,10 +93,13 @@ class ProbeSession {
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
 
   /// Takes another field and lets go; `name` is its field_key(). The same field again changes nothing.
+  /// @param field null for a volume of scalars alone.
   /// @param scalar what modes of a scalar feel; null: what each takes by default
   /// @return whether it was another one.
   bool set_field(std::shared_ptr<const VectorField> field, const std::string& name,
                  std::shared_ptr<const ScalarField> scalar = nullptr);
+  /// Whether there is a flow, whose lines can be followed, kept and shown about the probe.
+  [[nodiscard]] bool has_flow() const noexcept { return open_.field != nullptr; }
 
   /// @name The hand
   /// @{
@@ -168,7 +173,7 @@ class ProbeSession {
   bool other_line_ = false;      ///< it was let go, or another one caught, since then
   KeptLines kept_;
   ProbeReadout readout_;
-  CellHint hint_;
+  CellHint hint_, scalar_hint_;
   std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
   std::size_t next_event_ = 0, next_change_ = 0;    ///< of the replay
   bool growing_ = false;

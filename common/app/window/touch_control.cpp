@@ -137,7 +137,8 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
         return waiting_ ? "click on a line to grab the probe there" : "let go";
       }
       grab(area, view, time);
-      return "grabbed: the mouse moves the probe, the wheel along the view; K keeps the line, G lets go";
+      return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +
+             (session_.has_flow() ? "K keeps the line, G lets go" : "G lets go");
     case Command::kForceOff:
       session_.force_off();
       return "force off; switch it on again in the panel";

@@ -35,29 +35,34 @@ void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
   ImGui::EndCombo();
 }
 
-void edit_settings(TouchChoice& choice, std::string_view mode) {
+void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
   constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0,
                    kHeaviest = 20.0;
   ChainSettings& settings = choice.settings;
   slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
   double release = kMillimetres * settings.streamline.release_distance,
          drag = kMillimetres * settings.drag.threshold;
-  if (slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
+  if (flow && slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
     settings.streamline.release_distance = release / kMillimetres;
-  if (slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
+  if (flow && slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
   if (mode == "direct" || mode == "vortex") {
     slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
   }
   if (mode == "transverse" || mode == "density") {
     slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
   }
+  if (!flow) return;
   slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
   ImGui::Checkbox("tick marks", &choice.ticks);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
   if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
 }
 
-void choose_looks(TouchChoice& choice, float half) {
+void choose_looks(TouchChoice& choice, float half, bool flow) {
+  if (!flow) {
+    ImGui::Checkbox("path", &choice.show_path);
+    return;
+  }
   ImGui::Checkbox("stream balls", &choice.show_balls);
   ImGui::SameLine(half);
   ImGui::Checkbox("path", &choice.show_path);
@@ -110,14 +115,16 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   TouchChoice choice = session.choice();
   choose_mode(choice, session.modes());
-  edit_settings(choice, session.modes()[choice.mode].name);
-  choose_looks(choice, half);
+  edit_settings(choice, session.modes()[choice.mode].name, session.has_flow());
+  choose_looks(choice, half, session.has_flow());
   session.choose(choice);
   if (const std::string note = session.stiffness_note(); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 
-  actions.keep = ImGui::Button("Keep line  (K)", size);
-  ImGui::SameLine();
+  if (session.has_flow()) {
+    actions.keep = ImGui::Button("Keep line  (K)", size);
+    ImGui::SameLine();
+  }
   if (ImGui::Button("Clear path", size)) session.clear_path();
   list_kept(session.kept());
   if (!session.kept().entries().empty()) {
@@ -152,8 +159,13 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
   if (readout.sampled) {
     rows.add("value", "%.4g  %.4g  %.4g", readout.velocity.x, readout.velocity.y, readout.velocity.z);
     rows.add("speed", "%.4g", glm::length(readout.velocity));
-  } else {
+  } else if (session.has_flow()) {
     rows.add("value", "none here");
+  }
+  if (readout.scalar) {
+    rows.add(readout.scalar_name.c_str(), "%.5g", *readout.scalar);
+  } else if (!readout.scalar_name.empty()) {
+    rows.add(readout.scalar_name.c_str(), "none here");
   }
   rows.add("force", "%.2f N", readout.force);
   rows.add("stretch", "%.2f mm", readout.stretch);

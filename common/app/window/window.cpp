@@ -208,7 +208,7 @@ class Window {
 
   /// The hand feels what the lines show.
   void adopt_field() {
-    if (!scene_->probed || !touch_->available()) return;
+    if ((!scene_->probed && !scene_->felt_scalar) || !touch_->available()) return;
     // The fields of all examples have the same label.
     const SceneInfo& info = *scene_->info;
     std::string label = scene_->settings.field;

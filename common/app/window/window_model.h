@@ -68,8 +68,8 @@ struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   SceneSettings settings;                          ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
-  std::shared_ptr<const VectorField> probed;       ///< what the hand feels; null: nothing
-  std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed
+  std::shared_ptr<const VectorField> probed;       ///< the flow that the hand feels; null: none
+  std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed, if any
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::optional<VolumeView> volume;                ///< in place of lines

@@ -73,7 +73,8 @@ bool RenderTarget::resize(int width, int height, double resolution) {
 }
 
 void RenderTarget::bind_scene() {
-  glBindFramebuffer(GL_FRAMEBUFFER, scene_.name());
+  drawn_ = scene_.name();
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
@@ -83,7 +84,8 @@ void RenderTarget::bind_still() {
     still_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
     still_ = make_framebuffer(still_color_, still_depth_);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, still_.name());
+  drawn_ = still_.name();
+  glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
@@ -111,7 +113,7 @@ std::uint32_t RenderTarget::copy_depth() {
     glNamedFramebufferDrawBuffer(name, GL_NONE);
   }
   // Of the samples of a pixel the driver takes one.
-  glBlitNamedFramebuffer(scene_.name(), depth_framebuffer_.name(), 0, 0, scene_width_, scene_height_, 0, 0,
+  glBlitNamedFramebuffer(drawn_, depth_framebuffer_.name(), 0, 0, scene_width_, scene_height_, 0, 0,
                          scene_width_, scene_height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   return depth_copy_.name();
 }

@@ -23,8 +23,9 @@ class RenderTarget {
   /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
   void bind_still();
   void copy_still_to_scene();  ///< colours and depths, sample by sample
-  /// The depths of the scene as they are now, one sample a pixel, for passes that look up what lies in front
-  /// of them. @return the name of a texture that stays valid until the size changes.
+  /// The depths, as they are now, of what bind_scene() or bind_still() bound last: one sample a pixel, for
+  /// passes that look up what lies in front of them. @return the name of a texture that stays valid until the
+  /// size changes.
   [[nodiscard]] std::uint32_t copy_depth();
   void resolve();                    ///< copies it, averaged, to the plain one
   void bind_resolved();              ///< draw into the plain one, without depth
@@ -39,6 +40,7 @@ class RenderTarget {
  private:
   int width_ = 0, height_ = 0;
   int scene_width_ = 0, scene_height_ = 0;
+  std::uint32_t drawn_ = 0;  ///< the framebuffer that was bound last to be drawn into, with depth
   GlRenderbuffer scene_color_, scene_depth_, averaged_color_, resolved_color_;
   GlRenderbuffer still_color_, still_depth_;
   GlFramebuffer scene_, resolved_, still_;

@@ -98,7 +98,8 @@ class TouchWindowTest : public ::testing::Test {
   static constexpr int kPause = 12;
 
   /// Runs the script and `kPause` frames more.
-  WindowResult run() {
+  WindowResult run() { return run_model(model_); }
+  WindowResult run_model(WindowModel& model) {
     options_.frames = last_ + 2 * kPause;
     options_.stop_requested = [this] {
       std::this_thread::sleep_for(std::chrono::milliseconds(8));
@@ -106,7 +107,7 @@ class TouchWindowTest : public ::testing::Test {
       frame_times_.push_back(std::chrono::duration<double, std::milli>(now.time_since_epoch()).count());
       return false;
     };
-    return run_window(model_, options_);
+    return run_window(model, options_);
   }
   void at(int frame, InputEvent event) {
     options_.script.push_back({frame, std::move(event)});

@@ -1,0 +1,101 @@
+// A hand on a volume of scalars, in the window: no flow, so nothing is followed or kept.
+
+#include <cmath>
+
+#include "apps/grid/grid_modes.h"
+#include "common/field/analytic/volume_examples.h"
+#include "common/field/scalar_threshold.h"
+#include "tests/common/app/window/touch_window.h"
+
+namespace palpate::test {
+namespace {
+
+/// Three joined blobs.
+class BlobModel final : public WindowModel {
+ public:
+  SceneState start(Progress&) override { return make({.field = kVolumeArray}); }
+  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
+  SceneState update(const SceneSettings& settings, Progress&) override { return make(settings); }
+  std::string save_session(const SceneSettings&, const SceneView&,
+                           const std::vector<std::pair<std::string, std::string>>& touch) override {
+    std::string all;
+    for (const auto& [name, value] : touch) all += " " + name + "=" + value;
+    return all;
+  }
+
+ private:
+  static SceneState make(const SceneSettings& settings) {
+    static const DataSet data = volume_example("blob");
+    static const auto image = make_volume_image(data, kVolumeArray, "blob");
+    static const auto field = make_scalar_field({data}, {kVolumeArray, Association::kPoint, 0}, "blob", 1);
+    auto info = std::make_shared<SceneInfo>();
+    info->name = "blob";
+    info->fields = {kVolumeArray};
+    info->bounds = image->bounds();
+    SceneState scene{.info = info, .settings = settings};
+    scene.lines = std::make_shared<const std::vector<Line>>();
+    scene.felt_scalar = field;
+    scene.volume =
+        VolumeView{.image = image,
+                   .transfer = make_color_transfer(ColorPreset::kDensity, image->lowest, image->highest)};
+    return scene;
+  }
+};
+
+class TouchVolume : public TouchWindowTest {
+ protected:
+  void SetUp() override {
+    TouchWindowTest::SetUp();
+    options_.touch.modes = grid_modes();
+  }
+  WindowResult run() { return run_model(blob_); }
+
+  BlobModel blob_;
+};
+
+TEST_F(TouchVolume, TheHandIsOnTheProbeAndReadsTheScalar) {
+  grab();
+  const WindowResult result = run();
+  EXPECT_TRUE(result.probe.held);
+  EXPECT_EQ(result.probe.servo.hand.chain.links, 1);
+  EXPECT_EQ(result.probe.scalar_name, kVolumeArray);
+  ASSERT_TRUE(result.probe.scalar);
+  EXPECT_GT(*result.probe.scalar, 0.0);
+  EXPECT_FALSE(result.probe.sampled) << "there is no flow";
+  EXPECT_FALSE(result.probe.cell.empty());
+  ASSERT_TRUE(result.view.probe);
+  EXPECT_TRUE(is_finite(result.view.probe->probe));
+}
+
+TEST_F(TouchVolume, TheWallHoldsTheProxyBackOnTheIsovalue) {
+  grab();
+  // From outside the blobs back into them, where the wall is in the way.
+  lead_to(-250.0, 0.0);
+  lead_to(-60.0, 0.0);
+  const WindowResult result = run();
+  EXPECT_EQ(result.probe.state, HoldState::kHeld);
+  EXPECT_GT(result.probe.force, 0.05);
+  ASSERT_TRUE(result.probe.scalar);
+  Progress progress;
+  const auto felt = blob_.start(progress).felt_scalar;
+  EXPECT_NEAR(*result.probe.scalar, otsu_threshold(*felt), 1e-6 * felt->highest());
+}
+
+TEST_F(TouchVolume, AnotherModeIsFeltAfterItsKey) {
+  key('2');
+  grab();
+  EXPECT_EQ(run().message.find("no line"), std::string::npos);
+  key('K');
+  EXPECT_NE(run().message.find("no line is followed"), std::string::npos) << "nothing can be kept here";
+}
+
+TEST_F(TouchVolume, TheSessionHoldsWhatIsFelt) {
+  options_.touch.choice.mode = 1;
+  key('S', kModifierControl);
+  const std::string saved = run().message;
+  EXPECT_NE(saved.find("mode=density"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("stiffness=200"), std::string::npos) << saved;
+}
+
+}  // namespace
+}  // namespace palpate::test
