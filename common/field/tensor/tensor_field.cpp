@@ -37,6 +37,16 @@ std::array<int, 6> places(TensorOrder order) noexcept {
   }
 }
 
+/// v v^T / |v|^2; NaN where v is zero or not finite. Signs leave no trace in it.
+Six outer_product(const DataArray& array, std::size_t tuple) {
+  Vec3 v(array.at(tuple, 0), array.at(tuple, 1), array.at(tuple, 2));
+  // Scaled first, so that neither tiny nor huge numbers are lost in squares.
+  v /= std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  const double square = glm::dot(v, v);
+  return {v[0] * v[0] / square, v[0] * v[1] / square, v[0] * v[2] / square,
+          v[1] * v[1] / square, v[1] * v[2] / square, v[2] * v[2] / square};
+}
+
 /// The tensor of a tuple; NaN where a mask says that there is none.
 Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
   Six d{};
@@ -45,6 +55,7 @@ Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
     const auto mean = [&](int row, int column) { return 0.5 * at(row, column) + 0.5 * at(column, row); };
     return {at(0, 0), mean(0, 1), mean(0, 2), at(1, 1), mean(1, 2), at(2, 2)};
   }
+  if (order == TensorOrder::kAxis) return outer_product(array, tuple);
   if (order == TensorOrder::kMask && !(array.at(tuple, 0) >= 0.5)) {
     d.fill(std::numeric_limits<double>::quiet_NaN());
     return d;
@@ -67,6 +78,8 @@ int component_count(TensorOrder order) noexcept {
       return 9;
     case TensorOrder::kMask:
       return 7;
+    case TensorOrder::kAxis:
+      return 3;
     default:
       return 6;
   }
@@ -143,13 +156,14 @@ class TensorFieldBuilder {
     field->interpolation_ = choice.interpolation;
 
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
-    const bool use_double = logarithms || array.type != ScalarType::kFloat32;
+    const bool use_double =
+        logarithms || array.type != ScalarType::kFloat32 || choice.order == TensorOrder::kAxis;
     const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const Six d = read_tuple(*block.find(choice.array, Association::kPoint), tuple, choice.order);
+      const Six d = read_tuple(*block.find(choice.array, choice.association), tuple, choice.order);
       std::copy(d.begin(), d.end(), out);
     };
     GatheredValues gathered =
-        gather_values(*field->grid_, std::span(&image, 1), Association::kPoint, 6, use_double, read, threads);
+        gather_values(*field->grid_, std::span(&image, 1), choice.association, 6, use_double, read, threads);
     if (use_double) {
       field->values_ = std::move(gathered.doubles);
     } else {
@@ -220,8 +234,12 @@ std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const
     throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
   };
   check_block(image, 0, 1, file);
-  const DataArray* const array = image.find(choice.array, Association::kPoint);
-  if (array == nullptr) refuse("no point array '" + choice.array + "'", "an array of tensors");
+  const DataArray* const array = image.find(choice.array, choice.association);
+  if (array == nullptr) {
+    const bool points = choice.association == Association::kPoint;
+    refuse(std::string("no ") + (points ? "point" : "cell") + " array '" + choice.array + "'",
+           "an array of tensors");
+  }
   const int components = component_count(choice.order);
   if (array->components != components) {
     refuse("array '" + choice.array + "' with " + std::to_string(array->components) + " components",

@@ -27,7 +27,8 @@ enum class TensorOrder : std::uint8_t {
   kMask,      ///< a mask, then as kRows: NRRD's 3D-masked-symmetric-matrix; below 0.5 there is no tensor
   kDiagonal,  ///< xx yy zz xy xz yz: MRtrix
   kLower,     ///< xx xy yy xz yz zz: NIfTI's symmetric-matrix intent
-  kFull       ///< all nine; the symmetric part is taken
+  kFull,      ///< all nine; the symmetric part is taken
+  kAxis       ///< a direction v without a sign, such as a fibre's: v v^T / |v|^2 (Ikits 2006, sec. 8.2)
 };
 /// Numbers a tuple has.
 [[nodiscard]] int component_count(TensorOrder order) noexcept;
@@ -35,9 +36,11 @@ enum class TensorOrder : std::uint8_t {
 enum class TensorInterpolation : std::uint8_t { kComponents, kLogEuclidean };
 
 struct TensorChoice {
-  std::string array;  ///< of points
+  std::string array;
   TensorOrder order = TensorOrder::kRows;
   TensorInterpolation interpolation = TensorInterpolation::kComponents;
+  /// Tensors of cells are brought to the points: the volume-weighted mean of the cells around each.
+  Association association = Association::kPoint;
 };
 
 /// A tensor sample; `value` is zero unless `status` is kOk, and never to be used then.
