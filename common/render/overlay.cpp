@@ -284,6 +284,20 @@ void draw_volume_colors(const Pen& pen, const SceneView& view, float right, floa
     pen.list().AddLine(place(i), place(i + 1), pen.faint_ink(), std::max(1.0F, em / 12.0F));
 }
 
+// The colours of slices and glyphs.
+void draw_tensor_colors(const Pen& pen, const TensorView& tensors, float right, float middle, float length) {
+  if (tensors.color == TensorColor::kDirection) {
+    draw_legend(pen, "direction",
+                {{{1.0F, 0.1F, 0.1F}, "left, right"},
+                 {{0.1F, 1.0F, 0.1F}, "back, front"},
+                 {{0.1F, 0.1F, 1.0F}, "feet, head"}},
+                right, middle);
+    return;
+  }
+  const std::array<Rgb, 2> greys{Rgb(0.0F), Rgb(1.0F)};
+  draw_color_bar(pen, {.label = "FA", .table = greys, .range = {0.0, 1.0}}, right, middle, length);
+}
+
 bool shows_path(const SceneView& view) { return view.probe && view.probe->path.count > 0; }
 
 void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legend, int width, int height) {
@@ -293,6 +307,9 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
   if (view.volume) {
     draw_volume_colors(pen, view, right, 0.5F * h, 0.46F * h);
     return;
+  }
+  if (view.tensors && !legend.has_lines) {
+    draw_tensor_colors(pen, *view.tensors, right, shows_path(view) ? 0.31F * h : 0.5F * h, 0.30F * h);
   }
   if (!shows_path(view)) {
     if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);

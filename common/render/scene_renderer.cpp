@@ -19,6 +19,7 @@
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/tensor/tensor_pass.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -53,6 +54,11 @@ Box reach_of(const SceneView& view) {
   for (const auto& polyline : view.outline) {
     for (const Vec3& x : polyline) box.include(x);
   }
+  if (view.tensors) {
+    const Box voxels = view.tensors->image->bounds();
+    box.include(voxels.lower);
+    box.include(voxels.upper);
+  }
   return box;
 }
 
@@ -79,7 +85,8 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
   return a.lines == b.lines && a.style == b.style && a.camera == b.camera && same_box(a.bounds, b.bounds) &&
          a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
          p.points == q.points && a.probe->style == b.probe->style &&
-         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume));
+         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
+         same_tensors(a, b);
 }
 
 bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0; }
@@ -115,6 +122,7 @@ struct SceneRenderer::State {
   LineSet lines, outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
+  std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<Overlay> overlay;
   Stopwatch since_draw;
 
@@ -122,6 +130,7 @@ struct SceneRenderer::State {
   bool filled = false;
   std::shared_ptr<const std::vector<Line>> shown_lines;
   Box shown_bounds, reach;
+  std::shared_ptr<const TensorVoxels> shown_tensors;
   std::vector<std::vector<Vec3>> shown_outline;
   std::optional<LineStyle> shown_style;
   SceneFrame frame;
@@ -133,7 +142,7 @@ struct SceneRenderer::State {
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
-        shown_outline == view.outline) {
+        shown_outline == view.outline && shown_tensors == (view.tensors ? view.tensors->image : nullptr)) {
       return;
     }
     reach = reach_of(view);
@@ -143,6 +152,7 @@ struct SceneRenderer::State {
         make_line_geometry(view.outline.empty() ? box_edges(view.bounds) : view.outline, frame));
     shown_lines = view.lines;
     shown_bounds = view.bounds;
+    shown_tensors = view.tensors ? view.tensors->image : nullptr;
     shown_outline = view.outline;
     shown_style.reset();
     still.reset();
@@ -204,7 +214,8 @@ struct SceneRenderer::State {
 
   // All that stays as it is while the probe moves, into the framebuffer that is bound. Transparent lines
   // are not part of it: they mix with what lies behind them, which may be the probe.
-  void draw_still_part(const SceneView& view, const LineDraw& base, float unit) {
+  void draw_still_part(const SceneView& view, const LineDraw& base, float unit,
+                       const ViewTransform& transform) {
     glDepthMask(GL_TRUE);
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -216,6 +227,10 @@ struct SceneRenderer::State {
       how.color = palette_of(view.background).outline;
       how.min_width = how.width = std::max(1.0F, 1.3F * unit);
       outline.draw(how);
+    }
+    if (view.tensors) {
+      if (!tensors) tensors = std::make_unique<TensorPass>();
+      tensors->draw(view, frame, transform, unit);
     }
     if (!is_transparent(view)) draw_lines(view, base, unit);
   }
@@ -230,11 +245,12 @@ struct SceneRenderer::State {
   // With a probe, what stays is drawn once and kept; each picture begins with a copy of it. The path is
   // added to it bit by bit. The order is that of drawing everything, so the picture is the same. A volume
   // stays, too: the hand is seen through it, and need not wait for its rays.
-  void draw_with_probe(const SceneView& view, const LineDraw& base, float unit) {
+  void draw_with_probe(const SceneView& view, const LineDraw& base, float unit,
+                       const ViewTransform& transform) {
     const bool other_path = update_probe(view);
     target.bind_still();
     if (other_path || !still || !same_still_part(*still, view)) {
-      draw_still_part(view, base, unit);
+      draw_still_part(view, base, unit, transform);
       if (view.volume) draw_volume(view);
       still = view;
       still_path = 0;
@@ -277,10 +293,10 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   base.tolerance = line_tolerance(transform, perspective, pixel);
   base.back = Vec3f(view.camera.axes[2]);
   if (view.probe) {
-    s.draw_with_probe(view, base, unit);
+    s.draw_with_probe(view, base, unit, transform);
   } else {
     s.target.bind_scene();
-    s.draw_still_part(view, base, unit);
+    s.draw_still_part(view, base, unit, transform);
     if (view.volume) s.draw_volume(view);
   }
   if (is_transparent(view)) s.draw_lines(view, base, unit);

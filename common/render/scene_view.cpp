@@ -2,6 +2,11 @@
 
 namespace palpate {
 
+bool same_tensors(const SceneView& a, const SceneView& b) {
+  return a.tensors.has_value() == b.tensors.has_value() &&
+         (!a.tensors || same_picture(*a.tensors, *b.tensors));
+}
+
 bool same_picture(const SceneView& a, const SceneView& b) {
   return a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
          a.bounds.lower == b.bounds.lower && a.bounds.upper == b.bounds.upper && a.units == b.units &&
@@ -9,8 +14,8 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
-         (!a.volume || same_picture(*a.volume, *b.volume)) && a.volume_label == b.volume_label &&
-         a.anatomical == b.anatomical;
+         (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) &&
+         a.volume_label == b.volume_label && a.anatomical == b.anatomical;
 }
 
 std::array<int, 4> Image::pixel(int x, int y) const noexcept {

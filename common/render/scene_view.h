@@ -14,6 +14,7 @@
 #include "common/render/camera.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
+#include "common/render/tensor/tensor_view.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -36,12 +37,16 @@ struct SceneView {
   Camera camera;
   std::optional<ProbeView> probe;
   std::optional<VolumeView> volume;
+  std::optional<TensorView> tensors;
   std::string volume_label;  ///< what its values are, for the colour bar
   bool anatomical = false;   ///< data coordinates are RAS+: letters say where right, front and up are
 };
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const SceneView& a, const SceneView& b);
+
+/// Whether both show the same tensors in the same way.
+[[nodiscard]] bool same_tensors(const SceneView& a, const SceneView& b);
 
 /// An image: `rgba` has 4 * width * height bytes, sRGB, rows from the top.
 struct Image {

@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
+#include "common/field/grid/block_join.h"
 #include "common/field/tensor/tensor_function.h"
 #include "common/math/symmetric3.h"
 
@@ -133,13 +134,35 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(at.cell)];
     for (int i = 0; i < 4; ++i) add(mean, at.b[i], stored(tet[static_cast<std::size_t>(i)]));
   }
+  return sample_of(mean);
+}
+
+TensorSample TensorField::sample_of(const Six& numbers) const noexcept {
   // A corner without a tensor is NaN in all of its numbers.
-  if (!std::all_of(mean.begin(), mean.end(), [](double d) { return std::isfinite(d); })) {
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double d) { return std::isfinite(d); })) {
     return {.status = SampleStatus::kBadData};
   }
-  Mat3 value = matrix_of(mean);
+  Mat3 value = matrix_of(numbers);
   if (interpolation_ == TensorInterpolation::kLogEuclidean) value = symmetric_exp(value);
   return {.value = value, .status = SampleStatus::kOk};
+}
+
+TensorSample TensorField::voxel(const Index3& at) const noexcept {
+  const Index3 n = voxels_ ? voxels_->points : Index3{0};
+  Index3 place = at;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (at[axis] < 0 || at[axis] >= n[axis]) return {};
+    if (grid_->box && grid_->reversed[static_cast<std::size_t>(axis)]) place[axis] = n[axis] - 1 - at[axis];
+  }
+  auto point =
+      static_cast<std::size_t>(place.x) +
+      static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(place.y) +
+                                       static_cast<std::size_t>(n.y) * static_cast<std::size_t>(place.z));
+  if (!grid_->point_of_input.empty()) {
+    if (grid_->point_of_input[point] == kNoPoint) return {.status = SampleStatus::kBadData};
+    point = grid_->point_of_input[point];
+  }
+  return sample_of(stored(point));
 }
 
 /// Puts a TensorField together.
@@ -154,6 +177,7 @@ class TensorFieldBuilder {
     field->notes_ = field->grid_->notes;
     field->notes_.lines.insert(field->notes_.lines.begin(), notes.begin(), notes.end());
     field->interpolation_ = choice.interpolation;
+    if (const auto* uniform = std::get_if<UniformTopology>(&image.topology)) field->voxels_ = *uniform;
 
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
     const bool use_double =

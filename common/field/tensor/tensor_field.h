@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -54,6 +55,12 @@ class TensorField {
   /// Samples at `x` in data coordinates. @rt Safe.
   [[nodiscard]] TensorSample sample(const Vec3& x_data, CellHint& hint) const noexcept;
 
+  /// Where the voxels of the image stand that the field was made from; none where it was not uniform.
+  [[nodiscard]] const std::optional<UniformTopology>& voxels() const noexcept { return voxels_; }
+  /// The tensor of one voxel alone: its neighbours may have none. Outside the image there is none either.
+  /// @pre voxels(). @rt Safe.
+  [[nodiscard]] TensorSample voxel(const Index3& at) const noexcept;
+
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::shared_ptr<const FieldGrid>& grid() const noexcept { return grid_; }
   [[nodiscard]] const Box& bounds() const noexcept;  ///< data coordinates
@@ -75,9 +82,11 @@ class TensorField {
   using Six = std::array<double, 6>;  ///< as TensorOrder::kRows
 
   [[nodiscard]] Six stored(std::size_t point) const noexcept;
+  [[nodiscard]] TensorSample sample_of(const Six& numbers) const noexcept;
 
   std::string name_;
   std::shared_ptr<const FieldGrid> grid_;
+  std::optional<UniformTopology> voxels_;
   FieldNotes notes_;
   TensorInterpolation interpolation_ = TensorInterpolation::kComponents;
   /// kRows, in X; of logarithms, where these are interpolated. NaN where there is no tensor.

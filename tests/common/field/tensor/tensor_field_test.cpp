@@ -214,5 +214,24 @@ TEST(TensorField, WrongArraysAreRefusedByName) {
   }
 }
 
+TEST(TensorField, GivesTheTensorOfEachVoxelAloneWhateverTheOrderOfItsPoints) {
+  const Mat3 sheared{Vec3{1.0, 0.0, 0.0}, Vec3{0.4, 1.0, 0.0}, Vec3{0.0, 0.3, -2.0}};
+  for (const Mat3& axes : {Mat3{0.5}, Mat3{-0.5}, 0.5 * quarter_turned(0.3), sheared}) {
+    const UniformTopology topology{kPoints, Vec3{-1.0, 0.5, 2.0}, axes};
+    const auto field = make_tensor_field(image_of(topology, linear_tensor), {.array = "D"}, "test");
+    ASSERT_TRUE(field->voxels());
+    EXPECT_EQ(field->voxels()->points, kPoints);
+    for (int i = 0; i < kPoints.x * kPoints.y * kPoints.z; ++i) {
+      const Index3 at{i % kPoints.x, i / kPoints.x % kPoints.y, i / kPoints.x / kPoints.y};
+      const TensorSample voxel = field->voxel(at);
+      ASSERT_EQ(voxel.status, SampleStatus::kOk);
+      EXPECT_LT(largest_difference(voxel.value, linear_tensor(topology.origin + topology.axes * Vec3(at))),
+                1e-12);
+    }
+    EXPECT_EQ(field->voxel({-1, 0, 0}).status, SampleStatus::kOutside);
+    EXPECT_EQ(field->voxel({0, kPoints.y, 0}).status, SampleStatus::kOutside);
+  }
+}
+
 }  // namespace
 }  // namespace palpate

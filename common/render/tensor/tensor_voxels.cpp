@@ -1,0 +1,97 @@
+#include "common/render/tensor/tensor_voxels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/field/tensor/diffusion_measures.h"
+#include "common/math/symmetric3.h"
+
+namespace palpate {
+namespace {
+
+/// @pre x is not NaN.
+std::uint8_t byte_of(double x) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(x, 0.0, 1.0)));
+}
+
+}  // namespace
+
+Rgb direction_color(const Vec3& direction) noexcept { return {glm::abs(direction)}; }
+
+Vec3 TensorVoxels::grid_coordinates(const Vec3& x) const noexcept {
+  // Cramer's rule on axes of unit length: voxels of 1e-30 must not underflow.
+  Mat3 unit{1.0};
+  Vec3 length{1.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& a = axes[axis];
+    const double scale =
+        power_of_two(binary_exponent(glm::max(std::abs(a.x), glm::max(std::abs(a.y), std::abs(a.z)))));
+    length[axis] = glm::length(a / scale) * scale;
+    unit[axis] = a / length[axis];
+  }
+  return (glm::inverse(unit) * (x - origin)) / length;
+}
+
+bool TensorVoxels::contains(const Vec3& g) const noexcept {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(g[axis] >= -0.5 && g[axis] <= points[axis] - 0.5)) return false;
+  }
+  return true;
+}
+
+bool TensorVoxels::shows(const Index3& voxel) const noexcept {
+  const auto row = static_cast<std::size_t>(points.x);
+  const auto line = static_cast<std::size_t>(voxel.y) +
+                    static_cast<std::size_t>(points.y) * static_cast<std::size_t>(voxel.z);
+  return directions[static_cast<std::size_t>(voxel.x) + row * line][3] != 0;
+}
+
+Box TensorVoxels::bounds() const noexcept {
+  Box box;
+  for (unsigned i = 0; i < 8; ++i) {
+    box.include(position({(i & 1U) != 0 ? points.x - 0.5 : -0.5, (i & 2U) != 0 ? points.y - 0.5 : -0.5,
+                          (i & 4U) != 0 ? points.z - 0.5 : -0.5}));
+  }
+  return box;
+}
+
+std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const TensorField> field,
+                                                       const std::string& file, int threads) {
+  if (!field->voxels()) {
+    throw input_error({file, "tensors", "do not stand on a uniform grid", "an image of evenly spaced voxels",
+                       "resample it first"});
+  }
+  auto image = std::make_shared<TensorVoxels>();
+  image->points = field->voxels()->points;
+  image->origin = field->voxels()->origin;
+  image->axes = field->voxels()->axes;
+  const Index3 n = image->points;
+  const auto row = static_cast<std::size_t>(n.x);
+  const std::size_t rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
+  image->directions.resize(row * rows);
+  image->anisotropies.resize(row * rows);
+  parallel_for(rows, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r) {
+      for (int i = 0; i < n.x; ++i) {
+        const auto y = static_cast<int>(r % static_cast<std::size_t>(n.y));
+        const auto z = static_cast<int>(r / static_cast<std::size_t>(n.y));
+        const TensorSample sample = field->voxel({i, y, z});
+        if (sample.status != SampleStatus::kOk) continue;
+        const SymmetricEigen eigen = symmetric_eigen(sample.value);
+        if (!(eigen.values[0] > 0.0)) continue;
+        const double anisotropy = fractional_anisotropy(eigen.values);
+        const Vec3 color = anisotropy * Vec3(direction_color(eigen.vectors[0]));
+        const std::size_t voxel = r * row + static_cast<std::size_t>(i);
+        image->directions[voxel] = {byte_of(color.r), byte_of(color.g), byte_of(color.b), 255};
+        image->anisotropies[voxel] = byte_of(anisotropy);
+      }
+    }
+  });
+  image->field = std::move(field);
+  return image;
+}
+
+}  // namespace palpate

@@ -1,0 +1,48 @@
+/// An image of diffusion tensors as slices and glyphs show it: the field, and a colour for each voxel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/field/tensor/tensor_field.h"
+#include "common/math/vec.h"
+#include "common/render/color_map.h"
+
+namespace palpate {
+
+/// |x| |y| |z| of a direction as red, green and blue: from left to right, back to front, feet to head.
+/// @pre a unit vector.
+[[nodiscard]] Rgb direction_color(const Vec3& direction) noexcept;
+
+/// Immutable where shared. Symbols.  g grid coordinates, whole numbers at the voxels' centres;
+/// x = origin + axes g data coordinates. A voxel reaches from g - 1/2 to g + 1/2.
+struct TensorVoxels {
+  std::shared_ptr<const TensorField> field;
+  Index3 points{0};
+  Vec3 origin{0.0};
+  Mat3 axes{1.0};  ///< columns: steps along i, j, k [data units]
+  /// For each voxel, i fastest: direction_color() of the main eigenvector times FA, 255 standing for one, and
+  /// 255 where there is a tensor that is not zero, else all 0.
+  std::vector<std::array<std::uint8_t, 4>> directions;
+  std::vector<std::uint8_t> anisotropies;  ///< FA, 255 for one
+
+  [[nodiscard]] Vec3 position(const Vec3& g) const noexcept { return origin + axes * g; }
+  [[nodiscard]] Vec3 grid_coordinates(const Vec3& x) const noexcept;
+  /// Whether g lies in a voxel.
+  [[nodiscard]] bool contains(const Vec3& g) const noexcept;
+  /// Whether a voxel has a tensor that shows. @pre it lies in the image.
+  [[nodiscard]] bool shows(const Index3& voxel) const noexcept;
+  /// Box around all voxels, data coordinates.
+  [[nodiscard]] Box bounds() const noexcept;
+};
+
+/// @param file for messages. @param threads 0: all cores; the image does not depend on it.
+/// @throws Error (bad input) where the field was not made from a uniform image.
+[[nodiscard]] std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const TensorField> field,
+                                                                     const std::string& file,
+                                                                     int threads = 0);
+
+}  // namespace palpate
