@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/app/haptic/linear_mode.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/isotropic_drag.h"
@@ -85,7 +86,8 @@ std::vector<HapticMode> flow_modes() {
       {"density", "dragged the more, the higher the scalar: the speed unless another is chosen",
        make_density},
       {kIsosurfaceMode, "stopped by surfaces of equal value, of the speed unless another scalar is chosen",
-       make_isosurface}};
+       make_isosurface},
+      linear_mode()};
 }
 
 }  // namespace palpate

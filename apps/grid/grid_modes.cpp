@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/app/haptic/linear_mode.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/force_field/force_field.h"
@@ -30,7 +31,8 @@ HapticChain make_density(const HapticScene& scene) {
 
 std::vector<HapticMode> grid_modes() {
   return {{"isosurface", "stopped by surfaces of equal value, which give when pushed hard", make_isosurface},
-          {"density", "dragged the more, the higher the value", make_density}};
+          {"density", "dragged the more, the higher the value", make_density},
+          linear_mode()};
 }
 
 }  // namespace palpate

@@ -60,14 +60,32 @@ bool read_value(std::string_view text, AxisRule& rule) noexcept {
   return found.has_value();
 }
 
+/// Reads the name of one of `count` values of an enumeration that count from zero.
+template <typename Enum>
+bool read_name(std::string_view text, int count, Enum& value) noexcept {
+  for (int i = 0; i < count; ++i) {
+    value = static_cast<Enum>(i);
+    if (text == name_of(value)) return true;
+  }
+  return false;
+}
+
 std::string value_text(IsosurfaceHold hold) { return std::string(name_of(hold)); }
 
 bool read_value(std::string_view text, IsosurfaceHold& hold) noexcept {
-  for (int i = 0; i < kIsosurfaceHoldCount; ++i) {
-    hold = static_cast<IsosurfaceHold>(i);
-    if (text == name_of(hold)) return true;
-  }
-  return false;
+  return read_name(text, kIsosurfaceHoldCount, hold);
+}
+
+std::string value_text(LinearReference reference) { return std::string(name_of(reference)); }
+
+bool read_value(std::string_view text, LinearReference& reference) noexcept {
+  return read_name(text, kLinearReferenceCount, reference);
+}
+
+std::string value_text(LinearMeasure measure) { return std::string(name_of(measure)); }
+
+bool read_value(std::string_view text, LinearMeasure& measure) noexcept {
+  return read_name(text, kLinearMeasureCount, measure);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/app/haptic/linear_mode.h"
 #include "common/base/version.h"
 
 namespace palpate {
@@ -258,6 +259,10 @@ std::string probe_json(const ProbeSummary& summary) {
     json["surface"] = name_of(surface.hold);
     json["depth_mm"] = 1e3 * surface.depth;
     json["snap_mm"] = 1e3 * surface.snap_distance;
+  }
+  if (summary.mode == kLinearMode) {
+    Json& linear = json["linear"] = Json::object();
+    for (const auto& [option, value] : linear_options(summary.settings.linear)) linear[option] = value;
   }
   if (!summary.device.empty()) json["device"] = summary.device;
   if (!summary.replay.empty()) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/app/haptic/linear_mode.h"
 #include "common/load/raw_layout.h"
 
 namespace palpate {
@@ -78,6 +79,7 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
+  LinearWords linear;          ///< mode linear
   double field_force = 1.0;    ///< [N] of the force-field modes
   double field_damping = 5.0;  ///< [N s/m], likewise
   std::string density_curve;   ///< haptic transfer function; empty: straight

@@ -1,13 +1,23 @@
 #include "common/app/cli/touch_command_line.h"
 
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 
 namespace palpate {
 namespace {
 
 constexpr const char* kGroup = "Touch";
+
+/// A check for one of the words of `type`, as the help shows them. CLI11 matches whole words.
+CLI::IsMember one_of(const std::string& type) {
+  std::vector<std::string> words;
+  for (const std::string_view word : split(type, '|')) words.emplace_back(word);
+  return CLI::IsMember(words);
+}
 
 void add_hold(SceneOptions& options, TouchOptions& touch) {
   options.add("--mode", touch.mode, "what the hand feels; an unknown word lists the modes", "NAME", kGroup);
@@ -73,12 +83,50 @@ void add_force_fields(SceneOptions& options, TouchOptions& touch) {
               "CURVE", kGroup);
 }
 
+void add_linear(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
+  LinearWords& linear = touch.linear;
+  const bool flow = kind == FieldKind::kVector;
+  // A volume alone has no flow: what would need one is not offered.
+  const std::string references = flow ? "auto|flow|gradient|curvature|axes" : "auto|gradient|curvature|axes";
+  options
+      .add("--reference", linear.reference,
+           std::string("linear: whose directions the axes are: ") +
+               (flow ? "the flow (auto), the gradient of the scalar" : "the gradient (auto), downwards") +
+               ", with the larger and smaller curvature of its isosurface, or the axes of the grid",
+           references, kGroup)
+      ->check(one_of(references));
+  options.add(
+      "--axes", linear.axes,
+      "linear: what each axis does: free, drag, unilateral (free outwards, dragged inwards), snap (in "
+      "steps) or fixed; default free,drag,drag",
+      "RULE,RULE,RULE", kGroup);
+  options.add("--tau", linear.tau,
+              "linear: distance in mm at which an axis gives, or the step of a snap: a number or a curve "
+              "M:MM,M:MM[,…][,smooth] of --measure, for all axes or three with '/' between; default 4",
+              "MM|CURVE", kGroup);
+  options.add("--kappa", linear.kappa,
+              "linear: part of --stiffness from 0 to 1, a number or a curve M:PART,…, as --tau; default 1",
+              "0..1|CURVE", kGroup);
+  const std::string measures = flow ? "value|gradient|speed" : "value|gradient";
+  options
+      .add("--measure", linear.measure,
+           std::string("what curves take, in data units: the value of the scalar (default), the size of its "
+                       "gradient") +
+               (flow ? ", or the speed" : ""),
+           measures, kGroup)
+      ->check(one_of(measures));
+  options.add("--friction", linear.friction,
+              "linear: how much --tau grows with what presses on fixed and unilateral axes; default 0", "X",
+              kGroup);
+}
+
 }  // namespace
 
 void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
   add_hold(options, touch);
   add_lines(options, touch);
   add_isosurface(options, touch, kind);
+  add_linear(options, touch, kind);
   add_force_fields(options, touch);
 }
 

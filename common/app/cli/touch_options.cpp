@@ -74,6 +74,7 @@ ChainSettings touch_settings(const TouchOptions& options) {
   settings.drag.threshold = kMetresPerMillimetre * options.drag;
   settings.isosurface = isosurface_settings(options);
   settings.ticks.stiffness = options.tick_stiffness;
+  settings.linear = linear_settings(options.linear);
   settings.force_field.strength = options.field_force;
   settings.force_field.damping = options.field_damping;
   if (!options.density_curve.empty()) {
@@ -116,11 +117,32 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 20> kRecorded{
-      "mode",        "workspace-scale", "stiffness",     "release",   "drag",
-      "ticks",       "tick-stiffness",  "speed-force",   "force-cap", "slew-cap",
-      "isovalue",    "surface",         "depth",         "snap",      "along-streamline",
-      "field-force", "field-damping",   "density-curve", "damping",   "passivity"};
+  constexpr std::array<std::string_view, 26> kRecorded{"mode",
+                                                       "workspace-scale",
+                                                       "stiffness",
+                                                       "release",
+                                                       "drag",
+                                                       "ticks",
+                                                       "tick-stiffness",
+                                                       "speed-force",
+                                                       "force-cap",
+                                                       "slew-cap",
+                                                       "isovalue",
+                                                       "surface",
+                                                       "depth",
+                                                       "snap",
+                                                       "along-streamline",
+                                                       "field-force",
+                                                       "field-damping",
+                                                       "density-curve",
+                                                       "damping",
+                                                       "passivity",
+                                                       "reference",
+                                                       "axes",
+                                                       "tau",
+                                                       "kappa",
+                                                       "measure",
+                                                       "friction"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

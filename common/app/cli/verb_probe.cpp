@@ -12,6 +12,7 @@
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/linear_mode.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
@@ -116,6 +117,13 @@ std::string summary_text(const ProbeSummary& summary) {
       text += (i > 0 ? ", " : " ") + short_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
     }
     text += "; lets through at " + short_number(1e3 * surface.depth) + " mm\n";
+  }
+  if (summary.mode == kLinearMode) {
+    text += "  linear    ";
+    for (const auto& [option, value] : linear_options(summary.settings.linear)) {
+      text.append(" ").append(option).append(" ").append(value);
+    }
+    text += "\n";
   }
   if (!summary.device.empty()) text += "  device     " + summary.device + ", simulated\n";
   if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
@@ -176,7 +177,8 @@ void ProbeSession::choose(const TouchChoice& choice) {
   if (choice == choice_) return;
   const TouchChoice before = std::exchange(choice_, choice);
   if (!servo_ || replay_) return;
-  if (choice.mode != before.mode || choice.ticks != before.ticks) {
+  if (choice.mode != before.mode || choice.ticks != before.ticks ||
+      choice.settings.linear.rebuilds(before.settings.linear)) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
     servo_->set_settings(chain_settings());
@@ -213,6 +215,7 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   }
   if (!isovalues.empty()) options.emplace_back("isovalue", isovalues);
   if (surface.along_streamline) options.emplace_back("along-streamline", "true");
+  for (auto& option : linear_options(settings.linear)) options.push_back(std::move(option));
   if (choice_.ticks) {
     const double interval = settings.ticks.interval;
     options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");

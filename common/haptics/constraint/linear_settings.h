@@ -3,13 +3,47 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
 
 #include "common/haptics/axis_rule.h"
 #include "common/haptics/transfer_function.h"
 
 namespace palpate {
 
-/// One axis. The measures that the transfer functions take are chosen where the constraint is made.
+/// Whose directions the axes are (reference_frame.h, scalar_frame.h).
+enum class LinearReference : std::uint8_t {
+  kAuto,       ///< the flow where there is one, else the gradient
+  kFlow,       ///< e_1 along the flow; the others are open
+  kGradient,   ///< e_1 down the gradient of the scalar; the others are open
+  kCurvature,  ///< e_1 as before, e_2 and e_3 along the larger and the smaller curvature of its isosurface
+  kAxes        ///< the axes of the data, those of its grid where that is turned
+};
+inline constexpr int kLinearReferenceCount = 5;
+[[nodiscard]] constexpr std::string_view name_of(LinearReference reference) noexcept {  ///< "curvature"
+  constexpr std::array<std::string_view, kLinearReferenceCount> kNames{"auto", "flow", "gradient",
+                                                                       "curvature", "axes"};
+  return kNames[static_cast<std::size_t>(reference)];
+}
+/// Whether e_2 and e_3 may be turned about e_1 at will, so that both have to hold alike.
+[[nodiscard]] constexpr bool leaves_axes_open(LinearReference reference) noexcept {
+  return reference != LinearReference::kCurvature && reference != LinearReference::kAxes;
+}
+
+/// What transfer functions take (measure.h).
+enum class LinearMeasure : std::uint8_t {
+  kValue,     ///< the scalar; of a flow its speed, unless another scalar was chosen
+  kGradient,  ///< the steepness of that
+  kSpeed      ///< of the flow
+};
+inline constexpr int kLinearMeasureCount = 3;
+[[nodiscard]] constexpr std::string_view name_of(LinearMeasure measure) noexcept {  ///< "gradient"
+  constexpr std::array<std::string_view, kLinearMeasureCount> kNames{"value", "gradient", "speed"};
+  return kNames[static_cast<std::size_t>(measure)];
+}
+
+/// One axis.
 struct LinearAxis {
   AxisRule rule = AxisRule::kFree;
   HapticTransferFunction kappa{1.0};  ///< stiffness factor, in [0, 1]
@@ -25,8 +59,11 @@ struct LinearAxis {
 
 struct LinearSettings {
   std::array<LinearAxis, 3> axes;  ///< free, all of them
-  double friction = 0.0;           ///< growth of drag thresholds with what presses, >= 0 (axis_rule.h)
-  double fade_distance = 0.002;    ///< way over which it lets go where the data ends [m], > 0
+  /// Both take effect when the chain is built.
+  LinearReference reference = LinearReference::kAuto;
+  LinearMeasure measure = LinearMeasure::kValue;
+  double friction = 0.0;         ///< growth of drag thresholds with what presses, >= 0 (axis_rule.h)
+  double fade_distance = 0.002;  ///< way over which it lets go where the data ends [m], > 0
 
   bool operator==(const LinearSettings&) const = default;
 
@@ -35,9 +72,16 @@ struct LinearSettings {
            std::isfinite(friction) && fade_distance > 0.0 && std::isfinite(fade_distance);
   }
 
+  /// Whether a constraint that was built for `other` has to be built anew.
+  [[nodiscard]] bool rebuilds(const LinearSettings& other) const noexcept {
+    return reference != other.reference || measure != other.measure;
+  }
+
   /// See ChainSettings::each().
   template <typename Self, typename Visit>
   static void each(Self& self, Visit&& visit) {
+    visit("linear.reference", self.reference);
+    visit("linear.measure", self.measure);
     visit("linear.1.rule", self.axes[0].rule);
     visit("linear.1.kappa", self.axes[0].kappa);
     visit("linear.1.tau", self.axes[0].tau);

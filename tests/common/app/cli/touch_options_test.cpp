@@ -53,6 +53,12 @@ TEST(TouchOptions, RefuseWhatNoChainCanUse) {
                                        {"--field-force", {"nan", "inf"}},
                                        {"--field-damping", {"-1", "nan", "inf"}},
                                        {"--density-curve", {"1:0,0:1", "0:0,1:2", "0:nan", "steep"}},
+                                       {"--reference", {"tensor"}},
+                                       {"--axes", {"free", "free,drag,stick"}},
+                                       {"--tau", {"-1", "nan", "0:1,0:2", "1/2"}},
+                                       {"--kappa", {"-0.5", "1.5", "nan", "1:0,0:1"}},
+                                       {"--measure", {"colour"}},
+                                       {"--friction", {"-1", "nan", "inf"}},
                                        {"--force-cap", {"-1", "0", "nan", "inf"}},
                                        {"--slew-cap", {"-1", "0", "nan", "inf"}},
                                        {"--workspace-scale", {"-1", "nan", "inf"}}}) {
@@ -72,6 +78,9 @@ TEST(TouchOptions, TakeWhatAChainCanUse) {
   EXPECT_EQ(refusal("--speed-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-damping", "0"), "");
+  EXPECT_EQ(refusal("--axes", "fixed,free,free"), "");
+  EXPECT_EQ(refusal("--tau", "0:0,0.4:2,smooth"), "");
+  EXPECT_EQ(refusal("--kappa", "0"), "");
   EXPECT_EQ(refusal("--density-curve", "0:0,0.4:0,0.6:1,smooth"), "");
 }
 
