@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -125,6 +126,38 @@ std::vector<std::uint32_t> joined(const std::vector<Place>& places, const Lattic
   return merge_points(positions, candidates, kSamePlace);
 }
 
+/// 1 and 2 at the points of faces that no other element shares: those where the third axis, which runs
+/// through the wall, begins (inner surface) and ends (outer surface). 0 elsewhere; rims count as surfaces.
+std::vector<double> surfaces_of(const std::vector<std::int64_t>& point_of, const Lattice& lattice,
+                                std::size_t elements, std::size_t points) {
+  const std::size_t n = lattice.side;
+  // A face between elements is known by the points at its corners, in whatever order.
+  using Face = std::array<std::int64_t, 4>;
+  const auto face_of = [&](std::size_t e, std::size_t k) {
+    const std::size_t base = e * lattice.count();
+    Face face{point_of[base + lattice.at(0, 0, k)], point_of[base + lattice.at(n - 1, 0, k)],
+              point_of[base + lattice.at(0, n - 1, k)], point_of[base + lattice.at(n - 1, n - 1, k)]};
+    std::sort(face.begin(), face.end());
+    return face;
+  };
+  std::map<Face, int> sharing;
+  for (std::size_t e = 0; e < elements; ++e) {
+    ++sharing[face_of(e, 0)];
+    ++sharing[face_of(e, n - 1)];
+  }
+  std::vector<double> tags(points, 0.0);
+  for (std::size_t e = 0; e < elements; ++e) {
+    for (const std::size_t k : {std::size_t{0}, n - 1}) {
+      if (sharing[face_of(e, k)] != 1) continue;
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i)
+          tags[static_cast<std::size_t>(point_of[e * lattice.count() + lattice.at(i, j, k)])] =
+              k == 0 ? 1.0 : 2.0;
+    }
+  }
+  return tags;
+}
+
 bool disagree(const Place& a, const Place& b) {
   for (int c = 0; c < 3; ++c)
     if (std::abs(std::remainder(a.angles[c] - b.angles[c], std::numbers::pi)) > kSameAngle) return true;
@@ -227,6 +260,8 @@ SampledModel sample(const Model& model, int refine, const std::string& file) {
     sampled.mesh.arrays.push_back(array_of("imbrication angle", 1, angles[1]));
     sampled.mesh.arrays.push_back(array_of("sheet angle", 1, angles[2]));
   }
+  sampled.mesh.arrays.push_back(
+      array_of("surface", 1, surfaces_of(point_of, lattice, shapes.size(), points)));
   sampled.mesh.arrays.push_back(
       make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
 

@@ -14,8 +14,9 @@ namespace palpate::ex {
 struct SampledModel {
   /// Hexahedra with their corners in VTK's order; those at collapsed edges name a point twice or more.
   /// Point arrays "fibre", "sheet", "normal" (unit vectors; NaN where an edge is collapsed), "fibre angle",
-  /// "imbrication angle", "sheet angle" [degrees]; cell array "element" (its number in the file). Models
-  /// without a fibre field have no point arrays.
+  /// "imbrication angle", "sheet angle" [degrees], "surface" (1 where the third axis of an element begins at
+  /// the border, the inner surface; 2 where it ends there; else 0); cell array "element" (its number in the
+  /// file). Models without a fibre field have no axes and angles.
   DataSet mesh;
   std::vector<std::string> notes;
 };

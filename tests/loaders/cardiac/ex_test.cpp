@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/field/grid/cell_split.h"
+#include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex_basis.h"
 #include "loaders/cardiac/ex_element.h"
 #include "loaders/cardiac/ex_mesh.h"
@@ -154,6 +155,28 @@ TEST(DogHeart, SampledElementsAreOnePieceWithUnitAxes) {
   EXPECT_LT(undefined, 10U);  // the collapsed edges of the apex
   // Far fewer than 120 elements with 27 places each would have, were they not joined.
   EXPECT_LT(fibre->tuples, 120U * 27U / 2U);
+}
+
+TEST(DogHeart, LayersRiseFromTheCavitiesOutwards) {
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  DataSet mesh = sample(heart(nodes), 3, "heart").mesh;
+  const DataArray* surface = mesh.find("surface", Association::kPoint);
+  ASSERT_NE(surface, nullptr);
+  std::array<int, 3> count{};
+  for (std::size_t p = 0; p < surface->tuples; ++p) ++count.at(static_cast<std::size_t>(surface->at(p)));
+  EXPECT_GT(count[0], 0);
+  EXPECT_GT(count[1], 500);
+  EXPECT_GT(count[2], 500);
+  const WallLayer layer = make_wall_layer(mesh, "heart");
+  EXPECT_LT(layer.residual, 1e-11);
+  // On folded tetrahedra of warped elements the maximum principle holds only nearly.
+  std::size_t between = 0;
+  for (std::size_t p = 0; p < layer.array.tuples; ++p) {
+    EXPECT_GT(layer.array.at(p), -0.02);
+    EXPECT_LT(layer.array.at(p), 1.02);
+    if (surface->at(p) == 0.0 && layer.array.at(p) > 0.1 && layer.array.at(p) < 0.9) ++between;
+  }
+  EXPECT_GT(between, static_cast<std::size_t>(count[0]) / 2);
 }
 
 /// One element of unit size: coordinates in `system`, its eight nodes' values, a fibre angle.

@@ -1,0 +1,29 @@
+/// A scalar that rises from the inner surface of a wall to the outer one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+
+namespace palpate {
+
+/// The array that make_wall_layer() makes.
+inline constexpr const char* kLayerArray = "layer";
+
+struct WallLayer {
+  DataArray array;                 ///< of the points of the mesh, named kLayerArray: 0 inner, 1 outer
+  std::vector<std::string> notes;  ///< which surfaces, how well it was solved
+  int iterations = 0;
+  double residual = 0.0;  ///< |b - A u| / |b| at the end
+};
+
+/// Solves Laplace's equation in the tetrahedra of `mesh` (as make_field_grid() splits it) with u = 0 on the
+/// inner and u = 1 on the outer surface (wall_surfaces.h) and no flux through the rest. Points of parts that
+/// touch no surface, or that no cell with a volume uses, are NaN. On obtuse tetrahedra u may leave [0, 1] a
+/// little.
+/// @throws Error (bad input) with `file` as find_wall_surfaces() and make_field_grid(); (work failed) where
+/// the iteration does not converge.
+[[nodiscard]] WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads = 0);
+
+}  // namespace palpate
