@@ -13,8 +13,11 @@
 /// there is a delay.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace palpate {
 
@@ -34,6 +37,11 @@ enum class StiffnessLimit : std::uint8_t {
   kEncoder,  ///< the second part of (2)
   kDelay     ///< (3)
 };
+[[nodiscard]] constexpr std::string_view name_of(StiffnessLimit limit) noexcept {  ///< "servo's hold"
+  constexpr std::array<std::string_view, 4> kNames{"stated for the device", "servo's hold", "encoder steps",
+                                                   "delay"};
+  return kNames[static_cast<std::size_t>(limit)];
+}
 
 struct StiffnessBound {
   double stiffness = 0.0;  ///< K_max [N/m], >= 0

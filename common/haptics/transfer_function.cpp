@@ -1,7 +1,9 @@
 #include "common/haptics/transfer_function.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "common/base/number_text.h"
 #include "common/base/text.h"
@@ -15,30 +17,39 @@ std::string quoted(std::string_view text) { return "'" + std::string(text.substr
 
 }  // namespace
 
-std::optional<std::string> HapticTransferFunction::read(std::string_view text,
-                                                        HapticTransferFunction& function, double unit) {
-  std::vector<std::string_view> words = split(text, ',');
+std::optional<std::string> HapticTransferFunction::make(std::span<const Knot> knots, bool smooth,
+                                                        HapticTransferFunction& function) {
+  if (knots.empty()) return "knots are expected, as in 0.2:1,0.6:4,smooth";
+  if (knots.size() > kMaxKnots) {
+    return "at most " + std::to_string(kMaxKnots) + " knots, found " + std::to_string(knots.size());
+  }
   HapticTransferFunction made;
-  made.smooth_ = trimmed(words.back()) == kSmooth;
-  if (made.smooth_) words.pop_back();
-  if (words.empty()) return "knots are expected, as in 0.2:1,0.6:4,smooth";
-  if (words.size() > kMaxKnots) {
-    return "at most " + std::to_string(kMaxKnots) + " knots, found " + std::to_string(words.size());
-  }
-  made.count_ = static_cast<std::uint32_t>(words.size());
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::size_t colon = words[i].find(':');
-    const bool bare = colon == std::string_view::npos;
-    const std::optional<double> measure = bare ? 0.0 : number(words[i].substr(0, colon));
-    const std::optional<double> value = number(bare ? words[i] : words[i].substr(colon + 1));
-    if (!measure || !value || (bare && words.size() > 1)) {
-      return quoted(words[i]) + (words.size() > 1 ? " is no knot, as 0.2:1 is" : " is no number");
-    }
-    made.knots_[i] = {*measure, *value * unit};
-  }
+  made.smooth_ = smooth;
+  made.count_ = static_cast<std::uint32_t>(knots.size());
+  std::copy(knots.begin(), knots.end(), made.knots_.begin());
   if (auto problem = made.problem()) return problem;
   function = made;
   return std::nullopt;
+}
+
+std::optional<std::string> HapticTransferFunction::read(std::string_view text,
+                                                        HapticTransferFunction& function, double unit) {
+  std::vector<std::string_view> words = split(text, ',');
+  const bool smooth = trimmed(words.back()) == kSmooth;
+  if (smooth) words.pop_back();
+  std::vector<Knot> knots;
+  knots.reserve(words.size());
+  for (const std::string_view word : words) {
+    const std::size_t colon = word.find(':');
+    const bool bare = colon == std::string_view::npos;
+    const std::optional<double> measure = bare ? 0.0 : number(word.substr(0, colon));
+    const std::optional<double> value = number(bare ? word : word.substr(colon + 1));
+    if (!measure || !value || (bare && words.size() > 1)) {
+      return quoted(word) + (words.size() > 1 ? " is no knot, as 0.2:1 is" : " is no number");
+    }
+    knots.push_back({*measure, *value * unit});
+  }
+  return make(knots, smooth, function);
 }
 
 /// What no transfer function may have.

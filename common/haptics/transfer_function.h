@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,9 @@ class HapticTransferFunction {
   /// Straight from one knot to the other. @pre low.measure < high.measure.
   HapticTransferFunction(Knot low, Knot high) noexcept : knots_{low, high}, count_(2) {}
 
+  /// From knots with rising measures. @return as read().
+  [[nodiscard]] static std::optional<std::string> make(std::span<const Knot> knots, bool smooth,
+                                                       HapticTransferFunction& function);
   /// Reads the grammar above; every y is multiplied by `unit` [SI], which options in millimetres make use of.
   /// @return what is wrong, in a few words; nothing where `function` has been read.
   [[nodiscard]] static std::optional<std::string> read(std::string_view text,
@@ -50,6 +54,8 @@ class HapticTransferFunction {
   /// The value at `measure`, which is not NaN. @rt Safe.
   [[nodiscard]] double operator()(double measure) const noexcept;
 
+  [[nodiscard]] std::span<const Knot> knots() const noexcept { return {knots_.data(), count_}; }
+  [[nodiscard]] bool smooth() const noexcept { return smooth_; }
   [[nodiscard]] bool constant() const noexcept { return count_ == 1; }
   [[nodiscard]] double lowest() const noexcept;   ///< value anywhere; NaN if a knot is
   [[nodiscard]] double highest() const noexcept;  ///< value anywhere; NaN if a knot is

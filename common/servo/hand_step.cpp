@@ -91,7 +91,9 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
   out.probe = last_sample_.position;
   out.buttons = last_sample_.buttons;
   out.chain = last_;
+  out.passivity_watched = watches(last_.links);
   out.passivity_damping = passivity_.damping();
+  out.passivity_energy = passivity_.energy();
   out.state = is_fault(out.cut) ? HoldState::kFault : last_.state;
   return out;
 }
@@ -114,10 +116,13 @@ double HandStepper::speed_to(const DeviceSample& sample) const noexcept {
   return glm::length((sample.position - last_sample_.position) / dt);
 }
 
+bool HandStepper::watches(int links) const noexcept {
+  return chain_ && links >= chain_->settings().passivity.from_links;
+}
+
 Vec3 HandStepper::controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept {
-  if (!chain_) return step.force;
+  if (!watches(step.links)) return step.force;
   const ChainSettings& settings = chain_->settings();
-  if (step.links < settings.passivity.from_links) return step.force;
   // What the springs can hold at most: no axis is stiffer than k.
   double stored = 0.0;
   Vec3 pulled = probe;

@@ -34,7 +34,9 @@ struct HandStep {
   Vec3 probe{0.0};            ///< [m] the last finite one
   std::uint32_t buttons = 0;  ///< of the last sample that made sense
   ChainStep chain;  ///< proxies, residual, force before controller and safety stage; on a fault the last ones
+  bool passivity_watched = false;      ///< whether the passivity controller is in use
   double passivity_damping = 0.0;      ///< of the passivity controller [N s/m]; 0: it had nothing to do
+  double passivity_energy = 0.0;       ///< that chain and arm have taken up, as its observer has it [J]
   Vec3 force{0.0};                     ///< [N] after the safety stage
   HoldState state = HoldState::kFree;  ///< the chain's, or kFault
   ForceCut cut = ForceCut::kNone;      ///< why the force is zero, if it was made so
@@ -77,6 +79,8 @@ class HandStepper {
   [[nodiscard]] ForceCut judge(const HandInput& input, double dt) const noexcept;
   /// The speed of the hand since the last sample that was used [m/s].
   [[nodiscard]] double speed_to(const DeviceSample& sample) const noexcept;
+  /// Whether the passivity controller looks after a chain of so many links.
+  [[nodiscard]] bool watches(int links) const noexcept;
   /// The force of the chain with the controller's damping, where that is in use. @param dt as in judge().
   [[nodiscard]] Vec3 controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept;
   void let_go() noexcept;

@@ -228,8 +228,9 @@ class VerbParser {
   }
 
   void add_operator() {
-    app_.add_option("--device", options_.device,
-                    "simulated[:DEVICE][,hand=relaxed|firm]: an arm and a hand that follow the path")
+    app_.add_option(
+            "--device", options_.device,
+            "simulated[:DEVICE][,hand=relaxed|firm][,button=N]: an arm and a hand that follow the path")
         ->type_name("D")
         ->group("Touch");
     add_rate();
@@ -245,7 +246,8 @@ class VerbParser {
     app_.add_option(
             "--device", options_.device,
             "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, or "
-            "simulated[:DEVICE][,hand=relaxed|firm], an arm and a hand that follow the mouse or wander")
+            "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
+            "wander")
         ->type_name("D")
         ->group("Touch");
     add_rate();

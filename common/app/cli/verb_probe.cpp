@@ -304,7 +304,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
   if (simulated) {
     summary.device = title_of(*simulated);
-    summary.limits.force_cap = std::min(summary.limits.force_cap, simulated->profile.peak_force);
+    summary.limits = simulated_limits(*simulated, summary.limits);
     simulated->limits = summary.limits;
   }
   (void)touch_settings(options.touch);

@@ -62,7 +62,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   touch.path = device_path(options.device);
   touch.simulated = simulated_option(options.device);
   if (touch.simulated) {
-    touch.limits.force_cap = std::min(touch.limits.force_cap, touch.simulated->profile.peak_force);
+    touch.limits = simulated_limits(*touch.simulated, touch.limits);
     context.console.note("simulated: " + title_of(*touch.simulated));
     const ChainSettings& settings = touch.choice.settings;
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),

@@ -191,6 +191,28 @@ std::string ProbeSession::stiffness_note() const {
                            choice_.settings.stiffness, choice_.settings.damping);
 }
 
+std::string ProbeSession::passive_limit() const {
+  if (!options_.simulated) return {};
+  const StiffnessBound bound =
+      stiffness_bound(wall_loop(options_.simulated->profile, options_.servo_rate), choice_.settings.damping);
+  return "passive up to " + short_number(bound.stiffness) + " N/m (" + std::string(name_of(bound.limit)) +
+         ")";
+}
+
+std::pair<double, double> ProbeSession::measure_range() const {
+  constexpr double kSteepPart = 0.125;  // of the diagonal
+  std::pair<double, double> values{0.0, open_.field ? open_.field->max_speed() : 0.0};
+  const LinearMeasure measure = choice_.settings.linear.measure;
+  if (measure != LinearMeasure::kSpeed && open_.scalar) {
+    values = {open_.scalar->lowest(), open_.scalar->highest()};
+  }
+  if (measure == LinearMeasure::kGradient && !open_.empty()) {
+    values = {0.0, (values.second - values.first) / (kSteepPart * open_.diagonal())};
+  }
+  if (!(values.first < values.second)) return {values.first, values.first + 1.0};  // one value everywhere
+  return values;
+}
+
 std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   if (!available()) return {};
   constexpr double kMillimetres = 1e3;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/app/haptic/chain_description.h"
@@ -99,7 +100,6 @@ class ProbeSession {
   bool set_field(std::shared_ptr<const VectorField> field, const std::string& name,
                  std::shared_ptr<const ScalarField> scalar = nullptr);
   /// Whether there is a flow, whose lines can be followed, kept and shown about the probe.
-  [[nodiscard]] bool has_flow() const noexcept { return open_.field != nullptr; }
 
   /// @name The hand
   /// @{
@@ -118,6 +118,13 @@ class ProbeSession {
   /// Where the stiffness is more than the device can show: one line that names the limit. Empty where it is
   /// not, and for devices that show no force.
   [[nodiscard]] std::string stiffness_note() const;
+  /// The stiffest wall that the device can show, "passive up to 200 N/m (hold of the servo)"; empty for
+  /// devices that show no force.
+  [[nodiscard]] std::string passive_limit() const;
+  /// Lowest and highest of what curves of mode `linear` take [data units]; 0 and 1 while there is no data.
+  /// Steepness up to that of all values within an eighth of the diagonal, which little exceeds.
+  [[nodiscard]] std::pair<double, double> measure_range() const;
+  [[nodiscard]] bool has_flow() const noexcept { return open_.field != nullptr; }
   /// The choice as options of the command line and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> options() const;
 

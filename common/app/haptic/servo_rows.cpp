@@ -38,6 +38,12 @@ std::vector<ServoRow> servo_rows(const ServoState& state) {
       {"overruns", std::to_string(statistics.overruns) + ", " +
                        counted(static_cast<std::size_t>(statistics.skipped), "tick") + " skipped"},
       {"update", spread(statistics.update)}};
+  if (state.hand.passivity_watched) {
+    constexpr double kMillijoules = 1e3;
+    rows.push_back({"passivity", short_number(kMillijoules * state.hand.passivity_energy) +
+                                     " mJ taken up, damped by " + short_number(state.hand.passivity_damping) +
+                                     " N s/m"});
+  }
   if (statistics.faults > 0) rows.push_back({"faults", std::to_string(statistics.faults)});
   if (statistics.stalls > 0) {
     rows.push_back({"stalls", std::to_string(statistics.stalls) + ", the device was stopped"});

@@ -13,8 +13,9 @@ struct ServoRow {
   std::string value;
 };
 
-/// Rate and what the system granted, jitter, overruns and cost of an update; faults and stalls where there
-/// were any. Nothing before the first tick.
+/// Rate and what the system granted, jitter, overruns and cost of an update; energy and damping of the
+/// passivity controller where that is in use, faults and stalls where there were any. Nothing before the
+/// first tick.
 [[nodiscard]] std::vector<ServoRow> servo_rows(const ServoState& state);
 
 }  // namespace palpate

@@ -11,6 +11,7 @@
 #include <imgui_stdlib.h>
 
 #include "common/app/haptic/servo_rows.h"
+#include "common/app/window/curve_panel.h"
 #include "common/app/window/readout_rows.h"
 #include "common/base/text.h"
 #include "common/render/probe_view.h"
@@ -116,6 +117,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   TouchChoice choice = session.choice();
   choose_mode(choice, session.modes());
   edit_settings(choice, session.modes()[choice.mode].name, session.has_flow());
+  edit_curves(choice, session.modes()[choice.mode].name, session);
   choose_looks(choice, half, session.has_flow());
   session.choose(choice);
   if (const std::string note = session.stiffness_note(); !note.empty())
@@ -180,6 +182,9 @@ void add_servo_rates(const ProbeSession& session, ReadoutRows& rows) {
   if (!session.available()) return;
   for (const ServoRow& row : servo_rows(session.readout().servo)) {
     rows.add(row.name.c_str(), "%s", row.value.c_str());
+  }
+  if (const std::string limit = session.passive_limit(); !limit.empty()) {
+    rows.add("stiffness", "%s", limit.c_str());
   }
 }
 

@@ -31,6 +31,11 @@ inline constexpr int kLinearReferenceCount = 5;
   return reference != LinearReference::kCurvature && reference != LinearReference::kAxes;
 }
 
+/// Whether it can be had of a flow alone.
+[[nodiscard]] constexpr bool needs_flow(LinearReference reference) noexcept {
+  return reference == LinearReference::kFlow;
+}
+
 /// What transfer functions take (measure.h).
 enum class LinearMeasure : std::uint8_t {
   kValue,     ///< the scalar; of a flow its speed, unless another scalar was chosen
@@ -41,6 +46,10 @@ inline constexpr int kLinearMeasureCount = 3;
 [[nodiscard]] constexpr std::string_view name_of(LinearMeasure measure) noexcept {  ///< "gradient"
   constexpr std::array<std::string_view, kLinearMeasureCount> kNames{"value", "gradient", "speed"};
   return kNames[static_cast<std::size_t>(measure)];
+}
+
+[[nodiscard]] constexpr bool needs_flow(LinearMeasure measure) noexcept {
+  return measure == LinearMeasure::kSpeed;
 }
 
 /// One axis.

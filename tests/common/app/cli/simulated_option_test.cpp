@@ -34,9 +34,40 @@ TEST(SimulatedOption, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(refusal("simulated:").find("known are"), std::string::npos);
   EXPECT_NE(refusal("simulated:falcon,hand=limp").find("known are relaxed, firm"), std::string::npos);
   EXPECT_EQ(refusal("simulated:falcon,premium3"),
-            "--device simulated:falcon,premium3: one device and one hand at most");
+            "--device simulated:falcon,premium3: one device, one hand and one button at most");
   EXPECT_EQ(refusal("simulated:hand=firm,hand=firm"),
-            "--device simulated:hand=firm,hand=firm: one device and one hand at most");
+            "--device simulated:hand=firm,hand=firm: one device, one hand and one button at most");
+}
+
+TEST(SimulatedOption, HoldsTheForceToTheSafeLimitsOfItsClass) {
+  const auto limits_of = [](const char* text, const DeviceLimits& asked) {
+    return simulated_limits(simulated_option(text).value(), asked);
+  };
+  const DeviceLimits gentle{.force_cap = 2.0, .slew_cap = 50.0};
+  const DeviceLimits strong{.force_cap = 100.0, .slew_cap = 1e4};
+  for (const char* device : {"simulated:premium3", "simulated:falcon", "simulated:ideal"}) {
+    const DeviceLimits limits = limits_of(device, gentle);
+    EXPECT_TRUE(limits.valid());
+    EXPECT_EQ(limits.force_cap, 2.0) << "what is asked for may be less";
+    EXPECT_EQ(limits.slew_cap, 50.0);
+    EXPECT_EQ(limits.start_ramp, 0.5);
+    EXPECT_EQ(limits.velocity_gate, 1.5);
+    EXPECT_TRUE(limits.latch_faults);
+    EXPECT_EQ(limits.enabling_button, DeviceLimits::kNoButton);
+    EXPECT_EQ(limits_of(device, strong).slew_cap, 200.0) << "but not more";
+  }
+  EXPECT_EQ(limits_of("simulated:falcon", strong).force_cap, 8.0);
+  EXPECT_EQ(limits_of("simulated:premium3", strong).force_cap, 22.0);
+  EXPECT_EQ(limits_of("simulated:premium3", strong).continuous_cap, 3.0);
+  EXPECT_EQ(limits_of("simulated:falcon,button=3", gentle).enabling_button, 3);
+}
+
+TEST(SimulatedOption, RefusesButtonsThatAreNone) {
+  for (const char* item : {"button=", "button=-1", "button=32", "button=0x1", "button=left"}) {
+    EXPECT_NE(refusal("simulated:" + std::string(item)).find("a button from 0 to 31"), std::string::npos)
+        << item;
+  }
+  EXPECT_NE(refusal("simulated:button=1,button=1").find("one button at most"), std::string::npos);
 }
 
 }  // namespace
