@@ -19,6 +19,7 @@
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/volume/volume_pass.h"
 
@@ -84,7 +85,7 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
   const PathView& q = b.probe->path;
   return a.lines == b.lines && a.style == b.style && a.camera == b.camera && same_box(a.bounds, b.bounds) &&
          a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
-         p.points == q.points && a.probe->style == b.probe->style &&
+         a.surfaces == b.surfaces && p.points == q.points && a.probe->style == b.probe->style &&
          a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
          same_tensors(a, b);
 }
@@ -122,6 +123,7 @@ struct SceneRenderer::State {
   LineSet lines, outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
+  std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<Overlay> overlay;
   Stopwatch since_draw;
@@ -233,6 +235,10 @@ struct SceneRenderer::State {
       tensors->draw(view, frame, transform, unit);
     }
     if (!is_transparent(view)) draw_lines(view, base, unit);
+    if (view.surfaces.empty() && !surfaces) return;
+    if (!surfaces) surfaces = std::make_unique<SurfacePass>();
+    surfaces->update(view.surfaces, frame);
+    surfaces->draw();
   }
 
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.

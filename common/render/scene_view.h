@@ -14,6 +14,7 @@
 #include "common/render/camera.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
+#include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
 #include "common/render/volume/volume_view.h"
 
@@ -36,6 +37,7 @@ struct SceneView {
   std::string subtitle;  ///< smaller, below it
   Camera camera;
   std::optional<ProbeView> probe;
+  std::vector<SurfaceView> surfaces;
   std::optional<VolumeView> volume;
   std::optional<TensorView> tensors;
   std::string volume_label;  ///< what its values are, for the colour bar

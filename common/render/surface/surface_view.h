@@ -1,0 +1,27 @@
+/// What a picture shows of isosurfaces, as plain data.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/render/color_map.h"
+#include "common/trace/isosurface_mesh.h"
+
+namespace palpate {
+
+struct SurfaceView {
+  std::shared_ptr<const IsosurfaceMesh> mesh;  ///< may be null
+  Rgb color{0.86F, 0.80F, 0.70F};
+  /// Share of a pixel's samples that it covers, in (0, 1].
+  double opacity = 1.0;
+
+  bool operator==(const SurfaceView&) const = default;
+};
+
+/// The surfaces of a set, as they are shown together: one alone opaque, several in colours of their own and
+/// half covering.
+/// @param meshes may be null each.
+[[nodiscard]] std::vector<SurfaceView> show_surfaces(
+    const std::vector<std::shared_ptr<const IsosurfaceMesh>>& meshes);
+
+}  // namespace palpate
