@@ -25,10 +25,13 @@ int main(int argc, char** argv) {
                                           {"grid probe --example blob --path path.csv --mode density --json",
                                            "another mode; the summary as JSON"}}),
                 volume_render_verb(
+                    grid_modes(),
                     {{"grid render tooth.nhdr --out tooth.png --size 1920x1080",
                       "colours and opacities from the histogram"},
                      {"grid render ct.nii.gz --transfer-function ct --camera 0,0,0,1 --out ct.png",
                       "Hounsfield units, seen from the back to the front"},
+                     {"grid render tooth.nhdr --isovalue 900 --path path.csv --out felt.png",
+                      "with a surface, and what a hand on that path has felt of it"},
                      {"grid render --example shells --transfer-function shells.csv --out shells.png",
                       "with a transfer function of your own"}}),
                 open_verb({{"grid tooth.nhdr", "a file in the window"},

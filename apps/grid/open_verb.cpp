@@ -25,7 +25,7 @@ ExitCode run_open(const Options& given, const VerbContext& context) {
   check_volume_options(options.volume);
   ProbeSessionOptions touch = window_touch(grid_modes(), options, context);
   if (!window_available() && nothing_named) {
-    return headless_tour(volume_render_verb({}), options, context,
+    return headless_tour(volume_render_verb(grid_modes(), {}), options, context,
                          "probe FILE --path path.csv --out log.csv");
   }
   if (options.common.explain) {

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "common/app/cli/felt_scalar.h"
+#include "common/app/cli/felt_surface_view.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/picture.h"
@@ -17,16 +18,13 @@ namespace {
 
 /// Adds what a hand on that path has felt.
 void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
-                const Options& options, Input& input, const std::shared_ptr<const VectorField>& field) {
+                const Options& options, const std::shared_ptr<const ScalarField>& scalar,
+                const std::shared_ptr<const VectorField>& field) {
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
-  HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
-                    options.common.threads};
-  if (!options.touch.scalar.empty()) {
-    scene.scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, nullptr);
-  }
+  const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
+                          options.common.threads, scalar};
   view.probe = probe_after(path, mode.make(scene), scene, touch_limits(options.touch), view.style.color_by);
   view.probe->reference_speed = reference_speed(view);
-  fade_lines(view);
 }
 
 SeedSpec view_seeds(const Options& options) {
@@ -68,10 +66,17 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
   const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
   drawn.view = make_line_view(input, *field, lines, options, style, aspect);
-  if (!options.path.empty()) {
-    show_probe(drawn.view, read_probe_path(options.path.string()), mode_of(modes, options), options, input,
-               field);
+  const HapticMode& mode = mode_of(modes, options);
+  const bool surfaces = wants_surfaces(options, mode.name);
+  std::shared_ptr<const ScalarField> scalar;
+  if (surfaces || (!options.path.empty() && !options.touch.scalar.empty())) {
+    scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
   }
+  if (surfaces) show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
+  if (!options.path.empty()) {
+    show_probe(drawn.view, read_probe_path(options.path.string()), mode, options, scalar, field);
+  }
+  if (surfaces || !options.path.empty()) fade_lines(drawn.view);
   return drawn;
 }
 
@@ -91,6 +96,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
                   (void)trace_options(given, "both");
                   if (!given.path.empty()) (void)read_probe_path(given.path.string());
                   (void)mode_of(modes, given);
+                  (void)touch_settings(given.touch);
                 },
             .use = use_of,
             .make = [&modes](Input& input, const Options& given, const VerbContext& where,

@@ -1,8 +1,12 @@
 #include <utility>
 
+#include "common/app/cli/felt_surface_view.h"
 #include "common/app/cli/picture.h"
+#include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/volume_scene.h"
+#include "common/app/haptic/probe_picture.h"
+#include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 
@@ -14,29 +18,64 @@ SceneUse use_of(const Options& options, const Input& input) {
   return {.verb = "render", .threads = resolve_threads(options.common.threads), .drawing = true};
 }
 
-DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+}
+
+/// Adds the surfaces that are felt, and what a hand on the path has felt, where they are asked for.
+void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const TangibleVolume& volume,
+                const Options& options, const VerbContext& context) {
+  const HapticMode& mode = mode_of(modes, options);
+  if (wants_surfaces(options, mode.name)) {
+    show_felt_surfaces(view, *volume.field, options.touch, &context.progress);
+  }
+  if (options.path.empty()) return;
+  const Workspace workspace = touch_workspace(options.touch, volume.field->diagonal(), volume.field->frame());
+  const HapticScene scene{nullptr, workspace, touch_settings(options.touch, nullptr, workspace),
+                          options.common.threads, volume.field};
+  view.probe = probe_after(read_probe_path(options.path.string()), mode.make(scene), scene,
+                           touch_limits(options.touch), view.style.color_by);
+}
+
+DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Options& options,
+                      const VerbContext& context, double aspect) {
   DrawnScene drawn;
-  const auto image = load_volume(input, &context.progress);
+  const bool touched = !options.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
+  const TangibleVolume volume = touched
+                                    ? load_tangible_volume(input, options.common.threads, &context.progress)
+                                    : TangibleVolume{load_volume(input, &context.progress), nullptr};
+  const auto& image = volume.image;
+  if (touched && !volume.field) {
+    throw input_error({input.title(), "", "is flat: it has no inside to be felt", "a volume", ""});
+  }
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, image, options, aspect);
+  if (touched) show_touch(drawn.view, modes, volume, options, context);
   return drawn;
 }
 
 }  // namespace
 
-Verb volume_render_verb(std::vector<UsageExample> examples) {
+Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the volume, with or without a display",
-          .groups = {.view = true, .out = true, .picture = true},
+          .groups = {.view = true, .touch = true, .path = true, .out = true, .picture = true},
           .examples = std::move(examples),
-          .run = [](const Options& options, const VerbContext& context) {
+          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
             const PictureMaker maker{
-                .check = [](const Options& given) { check_volume_options(given.volume); },
+                .check =
+                    [&modes](const Options& given) {
+                      check_volume_options(given.volume);
+                      if (!given.path.empty()) (void)read_probe_path(given.path.string());
+                      (void)mode_of(modes, given);
+                      (void)touch_settings(given.touch);
+                    },
                 .use = use_of,
-                .make = make_scene};
+                .make = [&modes](Input& input, const Options& given, const VerbContext& where,
+                                 double aspect) { return make_scene(modes, input, given, where, aspect); }};
             return draw_picture(maker, options, context);
           }};
 }

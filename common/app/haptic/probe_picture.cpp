@@ -34,9 +34,11 @@ ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const Hap
     taken->append(view.proxy, view.force);
   }
   view.path = PathView{taken, taken->size(), std::nullopt};
-  CellHint hint;
-  const VectorSample sample = scene.field->sample(view.proxy, hint);
-  if (sample.status == SampleStatus::kOk) view.velocity = sample.value;
+  if (scene.field) {
+    CellHint hint;
+    const VectorSample sample = scene.field->sample(view.proxy, hint);
+    if (sample.status == SampleStatus::kOk) view.velocity = sample.value;
+  }
   if (made.followed) {
     FollowedCurve curve(made.followed);
     curve.update(ball_interval(*scene.field, workspace), color_by);
