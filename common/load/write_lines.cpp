@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -14,20 +11,13 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
+#include "common/load/vtp_appendix.h"
+#include "common/load/write_tractogram.h"
 
 namespace palpate {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the binary formats are written little endian");
-
 using Columns = std::span<const PointColumn>;
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 std::size_t count_points(const std::vector<Line>& lines) {
   std::size_t points = 0;
@@ -44,21 +34,6 @@ std::string text_of(double value) {
 
 // ---- .vtp ----------------------------------------------------------------------------------------------
 
-/// One array of the appended data: its declaration says where its bytes begin.
-class Appendix {
- public:
-  std::string declare(const char* type, std::string_view name, int components, std::uint64_t bytes) {
-    std::string text = std::string("<DataArray type=\"") + type + "\" Name=\"" + std::string(name) +
-                       "\" NumberOfComponents=\"" + std::to_string(components) +
-                       "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-    offset_ += sizeof(std::uint64_t) + bytes;
-    return text;
-  }
-
- private:
-  std::uint64_t offset_ = 0;
-};
-
 /// VTK XML, PolyData, raw appended data (VTK File Formats, "XML File Formats"). `termination` is text; its
 /// number stands beside it since ParaView cannot colour by text.
 void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
@@ -68,7 +43,7 @@ void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns
   std::uint64_t words = 0;
   for (const Line& line : lines) words += name_of(line.end).size() + 1;
 
-  Appendix appendix;
+  VtpAppendix appendix;
   std::string head =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
@@ -142,126 +117,69 @@ float single(double value) {
   return narrow;
 }
 
-// ---- .tck ----------------------------------------------------------------------------------------------
-
-/// MRtrix3 tracks: a text header, then triplets of floats; NaN ends a track, infinity the file.
-/// https://mrtrix.readthedocs.io, "MRtrix Tracks file format".
-void write_tck(OutputFile& file, const std::vector<Line>& lines, Columns) {
-  const std::string start = "mrtrix tracks\ndatatype: Float32LE\ncount: " + std::to_string(lines.size()) +
-                            "\ntotal_count: " + std::to_string(lines.size()) + "\nfile: . ";
-  // The header names its own length, whose digits are part of it.
-  const std::string_view end = "\nEND\n";
-  std::size_t length = start.size() + end.size();
-  while (length != start.size() + end.size() + std::to_string(length).size()) {
-    length = start.size() + end.size() + std::to_string(length).size();
+/// `value` in single precision. @throws Error (work failed) where it does not fit.
+float single(double value) {
+  const auto narrow = static_cast<float>(value);
+  if (std::isfinite(value) && !std::isfinite(narrow)) {
+    throw work_error("a value of " + text_of(value) +
+                     " does not fit this format's single precision; write .vtp or .csv");
   }
-  file.write(start + std::to_string(length));
-  file.write(end);
-
-  const auto triplet = [&file](const std::array<float, 3>& x) { file.write(std::as_bytes(std::span(x))); };
-  for (const Line& line : lines) {
-    for (const LinePoint& point : line.points) {
-      triplet({single(point.position.x), single(point.position.y), single(point.position.z)});
-    }
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    triplet({kNan, kNan, kNan});
-  }
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  triplet({kInfinity, kInfinity, kInfinity});
+  return narrow;
 }
 
-// ---- .trk ----------------------------------------------------------------------------------------------
+// ---- .tck and .trk -------------------------------------------------------------------------------------
 
-/// Header of a TrackVis file, version 2: http://trackvis.org/docs/?subsect=fileformat. 1000 bytes.
-#pragma pack(push, 1)
-struct TrkHeader {
-  std::array<char, 6> id_string{'T', 'R', 'A', 'C', 'K', '\0'};
-  std::array<std::int16_t, 3> dim{};
-  std::array<float, 3> voxel_size{};
-  std::array<float, 3> origin{};
-  std::int16_t n_scalars = 0;
-  std::array<std::array<char, 20>, 10> scalar_name{};
-  std::int16_t n_properties = 0;
-  std::array<std::array<char, 20>, 10> property_name{};
-  std::array<std::array<float, 4>, 4> vox_to_ras{};
-  std::array<char, 444> reserved{};
-  std::array<char, 4> voxel_order{'R', 'A', 'S', '\0'};
-  std::array<char, 4> pad2{'R', 'A', 'S', '\0'};
-  std::array<float, 6> image_orientation_patient{1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
-  std::array<char, 2> pad1{};
-  std::array<std::uint8_t, 6> invert_and_swap{};
-  std::int32_t n_count = 0;
-  std::int32_t version = 2;
-  std::int32_t hdr_size = 1000;
-};
-#pragma pack(pop)
-static_assert(sizeof(TrkHeader) == 1000);
-
-void put_name(std::array<char, 20>& field, std::string_view name) {
-  std::copy_n(name.begin(), std::min(name.size(), field.size() - 1), field.begin());
-}
-
-/// Points in a .trk file are measured from the corner of voxel (0, 0, 0) along the voxel axes. The lines'
-/// own bounds stand in for an image: voxels of a power of two, so that `corner` costs no rounding of its own.
-struct TrkSpace {
-  double voxel = 1.0;
-  Vec3 corner{0.0};
-  Index3 dim{1};
-};
-
-TrkSpace trk_space(const std::vector<Line>& lines) {
+/// A stand-in for an image that holds the lines: voxels of a power of two, so that its corner costs no
+/// rounding of its own.
+TractogramImage image_around(const std::vector<Line>& lines) {
   Box bounds;
   for (const Line& line : lines) {
     for (const LinePoint& point : line.points) {
       if (is_finite(point.position)) bounds.include(point.position);
     }
   }
-  TrkSpace space;
-  if (bounds.empty()) return space;
+  TractogramImage image{.voxels = Index3{1}, .axes = Mat3{1.0}, .origin = Vec3{0.5}};
+  if (bounds.empty()) return image;
   const Vec3 size = bounds.size();
   const double longest = std::max({size.x, size.y, size.z});
   constexpr int kVoxelsLog2 = 8;
-  if (longest > 0.0) space.voxel = std::ldexp(1.0, std::ilogb(longest) + 1 - kVoxelsLog2);
-  space.corner = glm::floor(bounds.lower / space.voxel) * space.voxel;
+  const double voxel = longest > 0.0 ? std::ldexp(1.0, std::ilogb(longest) + 1 - kVoxelsLog2) : 1.0;
+  const Vec3 corner = glm::floor(bounds.lower / voxel) * voxel;
+  image.axes = Mat3{voxel};
+  image.origin = corner + Vec3{0.5 * voxel};
   for (int axis = 0; axis < 3; ++axis) {
-    space.dim[axis] =
-        static_cast<int>(std::floor((bounds.upper[axis] - space.corner[axis]) / space.voxel)) + 1;
+    image.voxels[axis] = static_cast<int>(std::floor((bounds.upper[axis] - corner[axis]) / voxel)) + 1;
   }
-  return space;
+  return image;
+}
+
+/// The lines in single precision, with the numbers of their points and why they end.
+Tractogram tractogram_of(const std::vector<Line>& lines) {
+  Tractogram packed;
+  packed.image = image_around(lines);
+  packed.of_points = {
+      {.name = "time", .values = {}}, {.name = "speed", .values = {}}, {.name = "error", .values = {}}};
+  packed.of_lines = {{.name = "termination", .values = {}}};
+  for (const Line& line : lines) {
+    for (const LinePoint& point : line.points) {
+      packed.points.emplace_back(single(point.position.x), single(point.position.y),
+                                 single(point.position.z));
+      packed.of_points[0].values.push_back(single(point.time));
+      packed.of_points[1].values.push_back(single(point.speed));
+      packed.of_points[2].values.push_back(single(point.error));
+    }
+    packed.starts.push_back(packed.points.size());
+    packed.of_lines[0].values.push_back(static_cast<float>(line.end));
+  }
+  return packed;
+}
+
+void write_tck(OutputFile& file, const std::vector<Line>& lines, Columns) {
+  write_tck(file, tractogram_of(lines));
 }
 
 void write_trk(OutputFile& file, const std::vector<Line>& lines, Columns) {
-  const TrkSpace space = trk_space(lines);
-  TrkHeader header;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<int>(axis);
-    header.dim[axis] = static_cast<std::int16_t>(space.dim[a]);
-    header.voxel_size[axis] = single(space.voxel);
-    header.vox_to_ras[axis][axis] = single(space.voxel);
-    header.vox_to_ras[axis][3] = single(space.corner[a] + 0.5 * space.voxel);  // the centre of voxel 0
-  }
-  header.vox_to_ras[3][3] = 1.0F;
-  header.n_scalars = 3;
-  put_name(header.scalar_name[0], "time");
-  put_name(header.scalar_name[1], "speed");
-  put_name(header.scalar_name[2], "error");
-  header.n_properties = 1;
-  put_name(header.property_name[0], "termination");
-  if (lines.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw work_error("too many lines for a .trk file; write .vtp or .csv");
-  }
-  header.n_count = static_cast<std::int32_t>(lines.size());
-  file.write(std::as_bytes(std::span(&header, 1)));
-
-  for (const Line& line : lines) {
-    file.write_number(static_cast<std::int32_t>(line.points.size()));
-    for (const LinePoint& point : line.points) {
-      const Vec3 x = point.position - space.corner;
-      for (const double value : {x.x, x.y, x.z, point.time, point.speed, point.error})
-        file.write_number(single(value));
-    }
-    file.write_number(static_cast<float>(line.end));
-  }
+  write_trk(file, tractogram_of(lines));
 }
 
 // ---- .csv ----------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 
 #include "common/app/cli/scene_options.h"
 #include "common/app/cli/touch_command_line.h"
+#include "common/app/cli/tract_command_line.h"
 #include "common/base/version.h"
 #include "common/scene/session.h"
 
@@ -78,6 +79,7 @@ class VerbParser {
     add_common();
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
+    if (verb.groups.tracts) add_tract_options(scene_options_, options_.tracts);
     if (verb.groups.view) add_view(explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();

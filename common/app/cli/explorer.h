@@ -36,6 +36,7 @@ struct VerbContext {
 struct VerbGroups {
   bool input = true;
   bool tracing = false;
+  bool tracts = false;  ///< seeds, regions and limits of tracts
   bool view = false;
   bool touch = false;
   bool path = false;    ///< --path

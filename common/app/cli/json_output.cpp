@@ -127,6 +127,52 @@ std::string trace_json(const TraceSummary& summary) {
   return text_of(json);
 }
 
+std::string tract_json(const TractSummary& summary) {
+  const TractResult& result = summary.result;
+  const TractOptions& options = summary.options;
+  const TractsDropped& dropped = result.dropped;
+  Json ends = Json::object();
+  for (int e = 0; e < kEndCount; ++e) {
+    ends[std::string(name_of(static_cast<End>(e)))] = result.end_counts[static_cast<std::size_t>(e)];
+  }
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+            {"seeds", summary.seeds},
+            {"lines", result.lines.line_count()},
+            {"points", result.lines.points.size()},
+            {"ends", ends},
+            {"dropped",
+             {{"seeds_outside", dropped.outside},
+              {"seeds_bad_data", dropped.bad_data},
+              {"seeds_below_cutoff", dropped.below_cutoff},
+              {"lines_too_short", dropped.too_short},
+              {"lines_not_included", dropped.not_included},
+              {"lines_excluded", dropped.excluded}}},
+            {"integrator", name_of(options.integrator)},
+            {"tolerance", options.tolerance},
+            {"measure", name_of(options.measure)},
+            {"cutoff", options.cutoff},
+            {"step", result.step},
+            {"max_angle", result.max_angle},
+            {"min_length", options.min_length},
+            {"max_length", result.max_length},
+            {"error_max", result.error_max},
+            {"threads", summary.threads},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_prepare", summary.seconds_prepare},
+            {"seconds_trace", result.seconds},
+            {"seconds_write", summary.seconds_write},
+            {"advice", summary.advice},
+            {"version", version()}};
+  if (!summary.failure.empty()) {
+    json["error"] = summary.failure;
+    json["exit"] = 1;
+  }
+  add_plan(json, summary.plan, summary.measured);
+  return text_of(json);
+}
+
 std::string info_json(const InfoSummary& summary) {
   const Input& input = *summary.input;
   Json json{{"input", input.title()}};

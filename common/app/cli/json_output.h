@@ -12,6 +12,7 @@ namespace palpate {
 [[nodiscard]] std::string error_json(const std::string& line, int exit_code);
 [[nodiscard]] std::string examples_json(const std::vector<ExampleInfo>& examples);
 [[nodiscard]] std::string trace_json(const TraceSummary& summary);
+[[nodiscard]] std::string tract_json(const TractSummary& summary);
 [[nodiscard]] std::string info_json(const InfoSummary& summary);
 [[nodiscard]] std::string render_json(const RenderSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);

@@ -47,6 +47,23 @@ struct TracingOptions {
   std::vector<std::string> stop_planes;  ///< nx,ny,nz,d: lines end where n.x = d
 };
 
+/// Where tracts start, where they go and where they end. Lengths in mm.
+struct TractTracingOptions {
+  std::string seeds;  ///< grammar of tract_request.h
+  int seeds_per_voxel = 1;
+  std::string integrator = "dp54";
+  double tolerance = 1e-4;
+  double step = 0.0;
+  std::string interpolation = "components";  ///< components, log
+  std::string measure = "fa";                ///< fa, cl
+  double cutoff = 0.2;
+  double max_angle = 0.0;  ///< [degrees]
+  double min_radius = 0.0;
+  double min_length = 0.0;
+  double max_length = 0.0;
+  std::vector<std::string> include, exclude, stop;  ///< regions; grammar of tract_request.h
+};
+
 /// How it is looked at.
 struct ViewOptions {
   std::string camera;  ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
@@ -91,6 +108,7 @@ struct Options {
   CommonOptions common;
   InputOptions input;
   TracingOptions tracing;
+  TractTracingOptions tracts;
   ViewOptions view;
   VolumeOptions volume;
   TouchOptions touch;

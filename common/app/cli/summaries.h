@@ -14,6 +14,7 @@
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
 #include "common/trace/trace.h"
+#include "common/trace/tract/trace_tracts.h"
 
 namespace palpate {
 
@@ -29,6 +30,23 @@ struct TraceSummary {
   double max_length = 0.0;  ///< data units, as applied
   int threads = 0;
   double seconds_load = 0.0;
+  double seconds_write = 0.0;
+  std::vector<std::string> advice;     ///< what to change
+  std::string failure;                 ///< why there is no line; empty where there is one
+  Needs plan;                          ///< with --explain
+  std::vector<MeasuredCost> measured;  ///< with --explain
+};
+
+struct TractSummary {
+  std::string input;
+  std::string field;
+  std::string output;  ///< empty: none
+  std::size_t seeds = 0;
+  TractOptions options;
+  TractResult result;  ///< lines included
+  int threads = 0;
+  double seconds_load = 0.0;
+  double seconds_prepare = 0.0;  ///< field, regions and seeds
   double seconds_write = 0.0;
   std::vector<std::string> advice;     ///< what to change
   std::string failure;                 ///< why there is no line; empty where there is one

@@ -13,6 +13,8 @@ namespace palpate {
 
 [[nodiscard]] Verb info_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb trace_verb(std::vector<UsageExample> examples);
+/// Of tensor fields: tracts.
+[[nodiscard]] Verb trace_tracts_verb(std::vector<UsageExample> examples);
 /// @param modes the program's, the default one first.
 [[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 /// The same of volumes.

@@ -219,33 +219,6 @@ double voxel_of(const TensorField& field) {
   return shortest * grid.frame.length_scale();
 }
 
-void check_options(const TractOptions& options) {
-  const auto refuse = [](const std::string& line) { throw usage_error(line); };
-  const auto not_negative = [&](double value, const char* what) {
-    if (!(value >= 0.0 && std::isfinite(value))) {
-      refuse(std::string(what) + ": a finite number, not below zero, is expected, found " +
-             short_number(value));
-    }
-  };
-  not_negative(options.step, "step");
-  not_negative(options.min_radius, "min radius");
-  not_negative(options.min_length, "min length");
-  not_negative(options.max_length, "max length");
-  if (!(options.cutoff >= 0.0 && options.cutoff <= 1.0)) {
-    refuse("cutoff lies between 0 and 1, found " + short_number(options.cutoff));
-  }
-  if (!(options.max_angle >= 0.0 && options.max_angle <= 90.0)) {
-    refuse("the largest angle lies between 0 and 90 degrees, found " + short_number(options.max_angle));
-  }
-  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
-    refuse("tolerance must lie between 0 and 1, found " + short_number(options.tolerance));
-  }
-  if (options.max_length > 0.0 && options.min_length > options.max_length) {
-    refuse("min length " + short_number(options.min_length) + " is above max length " +
-           short_number(options.max_length));
-  }
-}
-
 /// Joins the parts in the order of their seeds.
 void join(const std::vector<Part>& parts, TractResult& result) {
   std::size_t points = 0;
@@ -311,9 +284,36 @@ std::vector<Part> trace_with(const Tensors& tensors, const TensorField& field, s
 
 }  // namespace
 
+void check_tract_options(const TractOptions& options) {
+  const auto refuse = [](const std::string& line) { throw usage_error(line); };
+  const auto not_negative = [&](double value, const char* what) {
+    if (!(value >= 0.0 && std::isfinite(value))) {
+      refuse(std::string(what) + ": a finite number, not below zero, is expected, found " +
+             short_number(value));
+    }
+  };
+  not_negative(options.step, "step");
+  not_negative(options.min_radius, "min radius");
+  not_negative(options.min_length, "min length");
+  not_negative(options.max_length, "max length");
+  if (!(options.cutoff >= 0.0 && options.cutoff <= 1.0)) {
+    refuse("cutoff lies between 0 and 1, found " + short_number(options.cutoff));
+  }
+  if (!(options.max_angle >= 0.0 && options.max_angle <= 90.0)) {
+    refuse("the largest angle lies between 0 and 90 degrees, found " + short_number(options.max_angle));
+  }
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
+    refuse("tolerance must lie between 0 and 1, found " + short_number(options.tolerance));
+  }
+  if (options.max_length > 0.0 && options.min_length > options.max_length) {
+    refuse("min length " + short_number(options.min_length) + " is above max length " +
+           short_number(options.max_length));
+  }
+}
+
 TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, const TractOptions& options,
                          Progress* progress) {
-  check_options(options);
+  check_tract_options(options);
   const Stopwatch watch;
   if (progress != nullptr) progress->begin("tracing", seeds.size());
   TractResult result;

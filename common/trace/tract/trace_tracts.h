@@ -62,6 +62,9 @@ struct TractResult {
   double seconds = 0.0;
 };
 
+/// @throws Error (usage) for numbers that make no sense.
+void check_tract_options(const TractOptions& options);
+
 /// Traces from every seed (data coordinates), to both sides.
 /// Regions are tested at the points of the lines.
 /// @throws Error (usage) for options that make no sense; Cancelled.
