@@ -117,16 +117,6 @@ float single(double value) {
   return narrow;
 }
 
-/// `value` in single precision. @throws Error (work failed) where it does not fit.
-float single(double value) {
-  const auto narrow = static_cast<float>(value);
-  if (std::isfinite(value) && !std::isfinite(narrow)) {
-    throw work_error("a value of " + text_of(value) +
-                     " does not fit this format's single precision; write .vtp or .csv");
-  }
-  return narrow;
-}
-
 // ---- .tck and .trk -------------------------------------------------------------------------------------
 
 /// A stand-in for an image that holds the lines: voxels of a power of two, so that its corner costs no

@@ -22,7 +22,8 @@ Tractogram sample() {
   lines.of_lines = {{.name = "seed", .values = {}}};
   for (int l = 0; l < 4; ++l) {
     for (int p = 0; p < 2 + 3 * l; ++p) {
-      lines.points.emplace_back(-31.25F + 0.37F * static_cast<float>(p), 12.5F * std::sin(static_cast<float>(p + l)),
+      lines.points.emplace_back(-31.25F + 0.37F * static_cast<float>(p),
+                                12.5F * std::sin(static_cast<float>(p + l)),
                                 40.0F + static_cast<float>(l * p) / 3.0F);
       lines.of_points[0].values.push_back(0.1F * static_cast<float>(p));
       lines.of_points[1].values.push_back(1e-6F * static_cast<float>(l));
@@ -66,7 +67,8 @@ constexpr const char* kPython = "/usr/bin/python3";
 
 /// What nibabel reads: a row a point, "line x y z numbers".
 std::string read_script(const std::filesystem::path& file) {
-  return std::string(kPython) + " -c '\nimport nibabel, sys\nt = nibabel.streamlines.load(\"" + file.string() +
+  return std::string(kPython) + " -c '\nimport nibabel, sys\nt = nibabel.streamlines.load(\"" +
+         file.string() +
          "\").tractogram\n"
          "names = sorted(t.data_per_point.keys())\n"
          "print(len(t.streamlines), *names)\n"
