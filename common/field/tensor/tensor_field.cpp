@@ -66,10 +66,30 @@ Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
   return d;
 }
 
-/// Adds weight times the tensor.
-void add(Six& sum, double weight, const Six& tensor) noexcept {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * tensor[i];
-}
+/// The weighted mean of corners, of which some may have no tensor.
+class CornerMean {
+ public:
+  void add(double weight, const Six& tensor) noexcept {
+    if (!std::all_of(tensor.begin(), tensor.end(), [](double d) { return std::isfinite(d); })) {
+      missing_ += weight;
+      return;
+    }
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += weight * tensor[i];
+  }
+  /// NaN where those with a tensor do not weigh more than half.
+  [[nodiscard]] Six result() const noexcept {
+    Six mean = sum_;
+    if (missing_ > 0.0) {
+      const double scale = missing_ < 0.5 ? 1.0 / (1.0 - missing_) : std::numeric_limits<double>::quiet_NaN();
+      for (double& d : mean) d *= scale;
+    }
+    return mean;
+  }
+
+ private:
+  Six sum_{};
+  double missing_ = 0.0;
+};
 
 }  // namespace
 
@@ -106,7 +126,7 @@ TensorField::Six TensorField::stored(std::size_t point) const noexcept {
 
 TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexcept {
   const Vec3 x = frame().local_from_data(x_data);
-  Six mean{};
+  CornerMean mean;
   if (const BoxGrid* const box = grid_->box.get()) {
     Index3 cell;
     if (!box->locate(x, cell)) return {};
@@ -123,7 +143,7 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
                          static_cast<std::size_t>(n.x) *
                              (static_cast<std::size_t>(cell.y) + j +
                               static_cast<std::size_t>(n.y) * (static_cast<std::size_t>(cell.z) + k));
-      add(mean, weight[0][i] * weight[1][j] * weight[2][k], stored(point));
+      mean.add(weight[0][i] * weight[1][j] * weight[2][k], stored(point));
     }
   } else {
     const TetMesh& mesh = *grid_->tets;
@@ -132,13 +152,12 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     if (!mesh.locate(x, start, at)) return {};
     hint.cell = at.cell;
     const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(at.cell)];
-    for (int i = 0; i < 4; ++i) add(mean, at.b[i], stored(tet[static_cast<std::size_t>(i)]));
+    for (int i = 0; i < 4; ++i) mean.add(at.b[i], stored(tet[static_cast<std::size_t>(i)]));
   }
-  return sample_of(mean);
+  return sample_of(mean.result());
 }
 
 TensorSample TensorField::sample_of(const Six& numbers) const noexcept {
-  // A corner without a tensor is NaN in all of its numbers.
   if (!std::all_of(numbers.begin(), numbers.end(), [](double d) { return std::isfinite(d); })) {
     return {.status = SampleStatus::kBadData};
   }

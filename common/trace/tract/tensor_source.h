@@ -5,8 +5,12 @@
 /// give the same bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <emmintrin.h>
 
@@ -92,8 +96,9 @@ class UniformTensors {
     add(upper, edge(corner + step_y_ + step_z_, fx, z1y1));
     add(lower, upper);
     out = {lower.a[0], lower.a[1], lower.b[0], lower.b[1], lower.c[0], lower.c[1]};
-    // A corner without a tensor is NaN in all of its numbers; other numbers stay in range.
-    return std::isfinite(out.trace() + out.xy + out.xz + out.yz) ? SampleStatus::kOk : SampleStatus::kBadData;
+    // A corner without a tensor is NaN in some of its numbers; other numbers stay in range.
+    if (std::isfinite(out.trace() + out.xy + out.xz + out.yz)) return SampleStatus::kOk;
+    return without_missing(corner, {fx, fy, fz}, out);
   }
 
  private:
@@ -110,6 +115,23 @@ class UniformTensors {
     return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at))));
   }
   static __m128d two(const double* at) noexcept { return _mm_loadu_pd(at); }
+  /// The rule of TensorField::sample() for cells that lack some of their tensors.
+  [[nodiscard]] SampleStatus without_missing(const T* corner, const Vec3& f, Tensor6& out) const noexcept {
+    std::array<double, 6> sum{};
+    double there = 0.0;
+    for (unsigned c = 0; c < 8; ++c) {
+      const bool x = (c & 1U) != 0, y = (c & 2U) != 0, z = (c & 4U) != 0;
+      const T* const at = corner + (x ? 6 : 0) + (y ? step_y_ : 0) + (z ? step_z_ : 0);
+      if (!std::all_of(at, at + 6, [](T number) { return std::isfinite(number); })) continue;
+      const double weight = (x ? f.x : 1.0 - f.x) * (y ? f.y : 1.0 - f.y) * (z ? f.z : 1.0 - f.z);
+      there += weight;
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * static_cast<double>(at[i]);
+    }
+    if (!(there > 0.5)) return SampleStatus::kBadData;
+    const double scale = scale_ / there;
+    out = {scale * sum[0], scale * sum[1], scale * sum[2], scale * sum[3], scale * sum[4], scale * sum[5]};
+    return SampleStatus::kOk;
+  }
   /// The tensors at the ends of a cell's edge along x, weighted.
   static Six edge(const T* at, double fx, double weight) noexcept {
     const double second = weight * fx, first = weight - second;

@@ -1,0 +1,126 @@
+// `dtmri trace`, run as a user runs it.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
+
+namespace palpate::test {
+namespace {
+
+struct Point {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+class DtmriTrace : public ExplorerTest {
+ protected:
+  DtmriTrace() : ExplorerTest("dtmri") {}
+
+  /// The lines of a .csv file.
+  std::map<int, std::vector<Point>> lines(const std::string& file) const {
+    std::map<int, std::vector<Point>> result;
+    std::istringstream in(read_file(folder_.path(file)));
+    std::string row;
+    std::getline(in, row);
+    while (std::getline(in, row)) {
+      std::replace(row.begin(), row.end(), ',', ' ');
+      std::istringstream numbers(row);
+      int line = 0, point = 0;
+      Point x;
+      numbers >> line >> point >> x.x >> x.y >> x.z;
+      result[line].push_back(x);
+    }
+    return result;
+  }
+};
+
+TEST_F(DtmriTrace, FollowsTheHelixThroughNoise) {
+  // Radius 20 mm, pitch 24 mm, voxels of 2 mm, with noise: two turns stay near the centre line.
+  const double length = 2.0 * std::hypot(2.0 * M_PI * 20.0, 24.0);
+  const Json summary = json({"trace", "--example", "helix", "--seeds", "point:20,0,0", "--max-length",
+                             std::to_string(length), "--out", "helix.csv"});
+  EXPECT_EQ(summary["lines"], 1);
+  EXPECT_EQ(summary["seeds"], 1);
+  EXPECT_GT(summary["error_max"].get<double>(), 0.0);
+  const auto found = lines("helix.csv");
+  ASSERT_EQ(found.size(), 1U);
+  const std::vector<Point>& line = found.at(0);
+  EXPECT_EQ(summary["points"], line.size());
+  EXPECT_GT(line.back().z - line.front().z, 20.0);
+  for (const Point& x : line) {
+    // Distance from the helix of radius 20 through the seed, across its direction.
+    const double turn = std::atan2(x.y, x.x) / (2.0 * M_PI), climb = x.z / 24.0 - turn;
+    const double above = 24.0 * (climb - std::round(climb));
+    const double off =
+        std::hypot(std::hypot(x.x, x.y) - 20.0, above * 20.0 / std::hypot(20.0, 24.0 / (2.0 * M_PI)));
+    ASSERT_LT(off, 0.3 * 2.0) << x.x << " " << x.y << " " << x.z;
+  }
+}
+
+TEST_F(DtmriTrace, HonoursTheMeasurementFrameOfThePublicHelix) {
+  PALPATE_NEED_DATA(helix, "dtmri/helix-synthetic/helix-DTI.nhdr");
+  const Json summary =
+      json({"trace", helix.string(), "--seeds", "fa:0.5", "--min-radius", "20", "--out", "helix.csv"});
+  EXPECT_GT(summary["lines"].get<int>(), 100);
+  // A bundle about the z axis, 50 mm from it and once around: lines of the wrong frame leave it at once.
+  double longest = 0.0;
+  for (const auto& [number, line] : lines("helix.csv")) {
+    for (const Point& x : line) {
+      EXPECT_GT(std::hypot(x.x, x.y), 35.0);
+      EXPECT_LT(std::hypot(x.x, x.y), 65.0);
+    }
+    longest = std::max(longest, std::abs(line.back().z - line.front().z));
+  }
+  EXPECT_GT(longest, 120.0);
+}
+
+TEST_F(DtmriTrace, WritesTheSameBytesForAnyNumberOfThreads) {
+  for (const char* ending : {".tck", ".trk", ".vtp", ".csv"}) {
+    for (const char* threads : {"1", "3"}) {
+      const Json summary = json({"trace", "--example", "helix", "--seeds", "fa:0.6", "--seeds-per-voxel", "2",
+                                 "--threads", threads, "--out", std::string(threads) + ending});
+      EXPECT_GT(summary["lines"].get<int>(), 20);
+    }
+    EXPECT_EQ(read_file(folder_.path(std::string("1") + ending)),
+              read_file(folder_.path(std::string("3") + ending)));
+  }
+}
+
+TEST_F(DtmriTrace, CountsWhatRegionsDrop) {
+  const std::vector<std::string> base{"trace", "--example", "straight", "--seeds", "sphere:0,0,0,3"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return json(more, more.size() > base.size() && more[base.size()] == "--exclude" ? 1 : 0);
+  };
+  const Json all = with({});
+  EXPECT_GT(all["lines"].get<int>(), 3);
+  EXPECT_EQ(with({"--exclude", "sphere:0,0,0,10"})["dropped"]["lines_excluded"], all["lines"]);
+  EXPECT_EQ(with({"--include", "sphere:0,0,0,10"})["lines"], all["lines"]);
+  const Json stopped = with({"--stop", "sphere:16,8,16,8"});
+  EXPECT_EQ(stopped["ends"]["stopped_by_rule"], all["lines"]);
+}
+
+TEST_F(DtmriTrace, RefusesWhatItCannotDo) {
+  const auto refused = [this](std::vector<std::string> more, int exit_code, const std::string& word) {
+    more.insert(more.begin(), {"trace", "--example", "helix", "--out", "a.tck"});
+    const ProgramResult result = run(more);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  };
+  refused({}, 2, "--seeds");
+  refused({"--seeds", "fa:2"}, 2, "no voxel");
+  refused({"--seeds", "grid:2,2,2"}, 2, "sphere:x,y,z,r");
+  refused({"--seeds", "sphere:0,0,0,0"}, 2, "radius");
+  refused({"--seeds", "point:20,0,0", "--integrator", "rodas4"}, 2, "dp54");
+  refused({"--seeds", "point:20,0,0", "--measure", "md"}, 2, "fa, cl");
+  refused({"--seeds", "point:20,0,0", "--stop", "plane:1"}, 2, "mask:FILE");
+  refused({"--seeds", "point:20,0,0", "--include", "mask:none.nii"}, 3, "none.nii");
+  refused({"--seeds", "point:500,0,0"}, 1, "outside");
+  EXPECT_TRUE(files().empty());
+}
+
+}  // namespace
+}  // namespace palpate::test
