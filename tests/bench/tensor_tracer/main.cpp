@@ -1,0 +1,345 @@
+// Tracts beside tckgen -algorithm Tensor_Det of MRtrix3: same images, seeds, step and cuts, one thread each.
+//
+//   tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T]
+//
+// tckgen interpolates the signals and fits a tensor to their logarithms at every step; palpate interpolates
+// tensors that were fitted once (here by dwi2tensor, whose time is not counted on either side). Times are of
+// the processor, user and system, both with the writing of the .tck file; tckgen's are those above a run from
+// one voxel, which pays for its start. The lines are compared where both run: the share of tckgen's lines
+// whose points all lie within half a voxel of palpate's line from the same seed, for the first millimetres to
+// either side and for the whole. A third tracer with tckgen's own rule (signal_tensors.h) tells differences
+// of the method from errors.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/load/write_tractogram.h"
+#include "common/ode/tableau.h"
+#include "common/trace/tract/trace_tracts.h"
+#include "common/trace/tract/tract_walk.h"
+#include "tests/bench/tensor_tracer/nifti_image.h"
+#include "tests/bench/tensor_tracer/signal_tensors.h"
+
+namespace palpate::bench {
+namespace {
+
+constexpr double kStep = 0.3, kAngle = 45.0, kCutoff = 0.2, kMinLength = 1.0,
+                 kMaxLength = 300.0;  // mm, degrees
+constexpr double kHalfVoxel = 1.5;    // mm
+
+double processor_seconds(int who) {
+  rusage use{};
+  getrusage(who, &use);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(use.ru_utime) + seconds(use.ru_stime);
+}
+
+void shell(const std::string& command) {
+  if (std::system(command.c_str()) != 0) throw work_error("failed: " + command);
+}
+
+/// A line and the index of its seed's point.
+struct SeededLine {
+  std::vector<Vec3> points;
+  std::size_t seed = 0;
+};
+using LinesBySeed = std::map<std::size_t, SeededLine>;  // key: voxel
+
+std::vector<std::vector<Vec3>> read_tck(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t mark = bytes.find("file: . ");
+  std::size_t at = std::strtoul(bytes.c_str() + mark + 8, nullptr, 10);
+  std::vector<std::vector<Vec3>> lines(1);
+  for (; at + 12 <= bytes.size(); at += 12) {
+    std::array<float, 3> x{};
+    std::memcpy(x.data(), bytes.data() + at, 12);
+    if (std::isinf(x[0])) break;
+    if (std::isnan(x[0])) {
+      lines.emplace_back();
+    } else {
+      lines.back().emplace_back(x[0], x[1], x[2]);
+    }
+  }
+  lines.pop_back();
+  return lines;
+}
+
+/// Finds the seed of each line: the point that lies on the centre of a voxel.
+LinesBySeed by_seed(std::vector<std::vector<Vec3>> lines, const NiftiImage& image) {
+  const Mat3 to_voxels = glm::inverse(image.axes);
+  LinesBySeed result;
+  for (std::vector<Vec3>& line : lines) {
+    double least = HUGE_VAL;
+    std::size_t point = 0, voxel = 0;
+    for (std::size_t p = 0; p < line.size(); ++p) {
+      const Vec3 u = to_voxels * (line[p] - image.origin), center = glm::round(u);
+      if (glm::distance(u, center) >= least) continue;
+      least = glm::distance(u, center);
+      point = p;
+      voxel = image.index(Index3(center));
+    }
+    if (least < 1e-3) result[voxel] = {std::move(line), point};
+  }
+  return result;
+}
+
+/// The points from the seed on along one side, as far as `reach`.
+std::vector<Vec3> side_of(const SeededLine& line, int way, double reach) {
+  std::vector<Vec3> side{line.points[line.seed]};
+  double arc = 0.0;
+  for (std::ptrdiff_t p = static_cast<std::ptrdiff_t>(line.seed) + way;
+       p >= 0 && p < static_cast<std::ptrdiff_t>(line.points.size()) && arc < reach; p += way) {
+    side.push_back(line.points[static_cast<std::size_t>(p)]);
+    arc += glm::distance(side.back(), side[side.size() - 2]);
+  }
+  return side;
+}
+
+double distance_to(const std::vector<Vec3>& curve, const Vec3& x) {
+  double least = HUGE_VAL;
+  for (std::size_t p = 0; p + 1 < curve.size(); ++p) {
+    const Vec3 along = curve[p + 1] - curve[p];
+    const double square = glm::dot(along, along);
+    const double u = square > 0.0 ? std::clamp(glm::dot(x - curve[p], along) / square, 0.0, 1.0) : 0.0;
+    least = std::min(least, glm::distance(x, curve[p] + u * along));
+  }
+  return curve.size() > 1 ? least : glm::distance(x, curve[0]);
+}
+
+/// Part of `theirs` that lies within half a voxel of the line of `ours` from the same seed, for `reach` to
+/// either side, where both run.
+double agreement(const LinesBySeed& theirs, const LinesBySeed& ours, double reach) {
+  std::size_t agree = 0, compared = 0;
+  for (const auto& [voxel, line] : theirs) {
+    const auto other = ours.find(voxel);
+    if (other == ours.end()) continue;
+    ++compared;
+    std::array<std::vector<Vec3>, 2> own{side_of(other->second, -1, reach), side_of(other->second, 1, reach)};
+    // Which of their sides is which of ours: by the first step.
+    const auto first = [](const std::vector<Vec3>& side) {
+      return side.size() > 1 ? side[1] - side[0] : Vec3{0.0};
+    };
+    bool close = true;
+    for (const int way : {-1, 1}) {
+      const std::vector<Vec3> side = side_of(line, way, reach);
+      const bool forward = glm::dot(first(side), first(own[1]) - first(own[0])) >= 0.0;
+      const std::vector<Vec3>& mine = own[forward ? 1 : 0];
+      const std::size_t common = std::min(side.size(), mine.size());  // equal steps: where both run
+      for (std::size_t p = 0; p < common && close; ++p) close = distance_to(mine, side[p]) <= kHalfVoxel;
+    }
+    agree += close ? 1 : 0;
+  }
+  return compared == 0 ? 0.0 : static_cast<double>(agree) / static_cast<double>(compared);
+}
+
+LinesBySeed by_seed(const TractResult& result, const NiftiImage& image) {
+  std::vector<std::vector<Vec3>> lines;
+  for (std::size_t l = 0; l < result.lines.line_count(); ++l) {
+    const auto line = result.lines.line(l);
+    lines.emplace_back(line.begin(), line.end());
+  }
+  return by_seed(std::move(lines), image);
+}
+
+/// tckgen's own rule, by Euler steps.
+LinesBySeed signal_lines(const NiftiImage& signals, const std::vector<std::array<double, 4>>& gradients,
+                         const std::vector<Vec3>& seeds, const NiftiImage& image) {
+  TractWalk<SignalTensors, Euler> walk(SignalTensors(signals, gradients, 1.0), kStep, 1e-4);
+  std::vector<std::vector<Vec3>> lines;
+  for (const Vec3& seed : seeds) {
+    TractState start;
+    start.position = seed;
+    if (walk.sample(seed, start.tensor) != SampleStatus::kOk || fractional_anisotropy(start.tensor) < kCutoff)
+      continue;
+    const Vec3 along = symmetric_eigen(start.tensor.matrix()).vectors[0];
+    std::vector<Vec3> line{seed};
+    for (const double sign : {-1.0, 1.0}) {
+      std::reverse(line.begin(), line.end());
+      start.direction = sign * along;
+      walk.start(start);
+      TractState now, last = start;
+      for (double arc = kStep; arc < kMaxLength; arc += kStep, last = now) {
+        if (walk.advance_to(arc, now) != SampleStatus::kOk || fractional_anisotropy(now.tensor) < kCutoff ||
+            glm::dot(now.direction, last.direction) < std::cos(kAngle * M_PI / 180.0)) {
+          break;
+        }
+        line.push_back(now.position);
+      }
+    }
+    lines.push_back(std::move(line));
+  }
+  return by_seed(std::move(lines), image);
+}
+
+void print_agreement(const char* name, const LinesBySeed& theirs, const LinesBySeed& ours) {
+  std::printf("  %-34s", name);
+  for (const double reach : {3.0, 10.0, 30.0})
+    std::printf(" %5.1f %%", 100.0 * agreement(theirs, ours, reach));
+  std::printf(" %5.1f %%\n", 100.0 * agreement(theirs, ours, HUGE_VAL));
+}
+
+int run(const std::string& dwi, const std::string& bvec, const std::string& bval, double least_fa) {
+  if (std::system("command -v tckgen dwi2tensor mrconvert > /dev/null 2>&1") != 0) {
+    std::printf("skipped: MRtrix3 (tckgen) is not installed; it is the Debian package mrtrix3\n");
+    return 0;
+  }
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("palpate-tensor-bench-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  shell("mrconvert -quiet -force " + dwi + " -fslgrad " + bvec + " " + bval +
+        " -datatype float32le -strides 1,2,3,4 " + at("dwi.nii") + " -export_grad_mrtrix " + at("grad.txt"));
+  shell("dwi2tensor -quiet -force " + at("dwi.nii") + " -grad " + at("grad.txt") + " " + at("weighted.nii"));
+  shell("dwi2tensor -quiet -force -ols -iter 0 " + at("dwi.nii") + " -grad " + at("grad.txt") + " " +
+        at("plain.nii"));
+  const NiftiImage weighted = read_nifti(at("weighted.nii")), plain = read_nifti(at("plain.nii"));
+  const TensorChoice choice{.array = "D", .order = TensorOrder::kDiagonal};
+  const auto field = make_tensor_field(weighted.tensors(), choice, "weighted.nii", 1);
+  const auto unweighted = make_tensor_field(plain.tensors(), choice, "plain.nii", 1);
+
+  // Seeds: the centres of voxels of a head, which a mask names to tckgen.
+  const NiftiImage signals = read_nifti(at("dwi.nii"));
+  std::vector<std::array<double, 4>> gradients;
+  std::ifstream table(at("grad.txt"));
+  for (std::string row; std::getline(table, row);) {
+    std::istringstream numbers(row);
+    std::array<double, 4> g{};
+    if (numbers >> g[0] >> g[1] >> g[2] >> g[3]) gradients.push_back(g);
+  }
+  double brightest = 0.0;
+  for (std::size_t v = 0; v < signals.volume_size(); ++v) {
+    brightest = std::max(brightest, static_cast<double>(signals.values[v]));
+  }
+  std::vector<Vec3> seeds;
+  std::string mask = signals.bytes.substr(0, kNiftiData), one = mask;
+  std::vector<float> in_mask(signals.volume_size(), 0.0F), in_one = in_mask;
+  for (int k = 1; k + 1 < signals.voxels.z; ++k) {
+    for (int j = 1; j + 1 < signals.voxels.y; ++j) {
+      for (int i = 1; i + 1 < signals.voxels.x; ++i) {
+        const Index3 voxel{i, j, k};
+        const Vec3 x = signals.origin + signals.axes * Vec3(voxel);
+        CellHint hint;
+        const TensorSample sample = field->sample(x, hint);
+        if (sample.status != SampleStatus::kOk || signals.at(voxel, 0) < 0.1 * brightest) continue;
+        const double fa = fractional_anisotropy(symmetric_eigenvalues(sample.value));
+        if (fa < least_fa || fa > 0.95) continue;
+        in_mask[signals.index(voxel)] = 1.0F;
+        if (seeds.empty()) in_one[signals.index(voxel)] = 1.0F;
+        seeds.push_back(x);
+      }
+    }
+  }
+  const auto write_mask = [&](const std::string& file, std::string head, const std::vector<float>& values) {
+    const std::array<std::int16_t, 2> flat{3, 1};
+    std::memcpy(head.data() + 40, &flat[0], 2);  // three dimensions, one volume
+    std::memcpy(head.data() + 48, &flat[1], 2);
+    std::ofstream out(file, std::ios::binary);
+    out << head;
+    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(4 * values.size()));
+  };
+  write_mask(at("mask.nii"), mask, in_mask);
+  write_mask(at("one.nii"), one, in_one);
+
+  const auto tckgen = [&](const char* seed_mask, const char* out) {
+    std::ostringstream command;
+    command << "tckgen -quiet -force -nthreads 0 -algorithm Tensor_Det " << at("dwi.nii") << " -grad "
+            << at("grad.txt") << " -seed_grid_per_voxel " << at(seed_mask) << " 1 -select 0 -step " << kStep
+            << " -angle " << kAngle << " -cutoff " << kCutoff << " -minlength " << kMinLength
+            << " -maxlength " << kMaxLength << " " << at(out);
+    const double before = processor_seconds(RUSAGE_CHILDREN);
+    shell(command.str());
+    return processor_seconds(RUSAGE_CHILDREN) - before;
+  };
+  const double start = tckgen("one.nii", "one.tck");
+  const double peer = tckgen("mask.nii", "peer.tck") - start;
+  const LinesBySeed theirs = by_seed(read_tck(at("peer.tck")), signals);
+  const double count = static_cast<double>(seeds.size());
+  std::printf("%s: %zu seeds (FA above %g), step %g mm, cut-off %g, angle %g\n", dwi.c_str(), seeds.size(),
+              least_fa, kStep, kCutoff, kAngle);
+  std::printf("  %-34s %8.0f seeds/s, %zu lines (its start, %.2f s, left out)\n", "tckgen Tensor_Det",
+              count / peer, theirs.size(), start);
+
+  TractOptions options;
+  options.step = kStep;
+  options.max_angle = kAngle;
+  options.cutoff = kCutoff;
+  options.min_length = kMinLength;
+  options.max_length = kMaxLength;
+  options.threads = 1;
+  std::map<std::string, LinesBySeed> ours;
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kRk4, Integrator::kDp54}) {
+    options.integrator = integrator;
+    double best = HUGE_VAL;
+    TractResult result;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const double before = processor_seconds(RUSAGE_SELF);
+      result = trace_tracts(*field, seeds, options);
+      write_tractogram(at("ours.tck"), result.lines, true);
+      best = std::min(best, processor_seconds(RUSAGE_SELF) - before);
+    }
+    const std::string name(name_of(integrator));
+    std::printf("  palpate %-26s %8.0f seeds/s, %.1f times tckgen's; %zu lines, %.0f ns a point\n",
+                name.c_str(), count / best, peer / best, result.lines.line_count(),
+                1e9 * best / static_cast<double>(result.lines.points.size()));
+    ours[name] = by_seed(result, signals);
+  }
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    double best = HUGE_VAL;
+    for (int repeat = 0; repeat < 5; ++repeat)
+      best = std::min(best, trace_tracts(*field, seeds, options).seconds);
+    std::printf("  palpate dp54, %d thread%s %21.4f s by the clock, best of five\n", threads,
+                threads > 1 ? "s" : " ", best);
+  }
+
+  std::printf("lines within half a voxel, within      3 mm   10 mm   30 mm   whole\n");
+  options.threads = 1;
+  options.integrator = Integrator::kEuler;
+  print_agreement("palpate euler, weighted fit", theirs, ours["euler"]);
+  print_agreement("palpate dp54, weighted fit", theirs, ours["dp54"]);
+  print_agreement("palpate euler, plain fit", theirs,
+                  by_seed(trace_tracts(*unweighted, seeds, options), signals));
+  print_agreement("signals interpolated, euler", theirs, signal_lines(signals, gradients, seeds, signals));
+  std::filesystem::remove_all(folder);
+  return 0;
+}
+
+}  // namespace
+}  // namespace palpate::bench
+
+int main(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  double least_fa = 0.3;
+  if (words.size() >= 2 && words[words.size() - 2] == "--fa") {
+    least_fa = std::atof(words.back().c_str());
+    words.resize(words.size() - 2);
+  }
+  if (words.size() != 3) {
+    std::printf("usage: tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T]\n");
+    return 2;
+  }
+  try {
+    return palpate::bench::run(words[0], words[1], words[2], least_fa);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
