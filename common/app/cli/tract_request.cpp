@@ -48,12 +48,14 @@ std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, co
                                        int threads, Progress* progress) {
   std::vector<TractRegion> regions;
   for (const std::string& text : texts) {
+    std::string refusal = option;
+    refusal.append(" ").append(text).append(": ").append(kRegionGrammar);
     if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
-      regions.emplace_back(parse_sphere(numbers, option + " " + text + ": " + kRegionGrammar));
+      regions.emplace_back(parse_sphere(numbers, refusal));
     } else if (const auto file = after(text, "mask:"); !file.empty()) {
       regions.emplace_back(MaskRegion{read_mask(std::string(file), threads, progress).field});
     } else {
-      throw usage_error(option + " " + text + ": " + kRegionGrammar);
+      throw usage_error(refusal);
     }
   }
   return regions;
