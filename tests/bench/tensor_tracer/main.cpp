@@ -15,9 +15,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -63,8 +63,7 @@ struct SeededLine {
 using LinesBySeed = std::map<std::size_t, SeededLine>;  // key: voxel
 
 std::vector<std::vector<Vec3>> read_tck(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::string bytes = read_bytes(file);
   const std::size_t mark = bytes.find("file: . ");
   std::size_t at = std::strtoul(bytes.c_str() + mark + 8, nullptr, 10);
   std::vector<std::vector<Vec3>> lines(1);

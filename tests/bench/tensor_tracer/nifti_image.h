@@ -1,11 +1,13 @@
 /// Uncompressed single-precision NIfTI-1 files as MRtrix writes them: just enough for the benchmark.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,10 +54,15 @@ struct NiftiImage {
 
 constexpr std::size_t kNiftiData = 352;  ///< where the numbers begin in MRtrix's .nii files
 
+inline std::string read_bytes(const std::string& file) {
+  std::string bytes(std::filesystem::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
 inline NiftiImage read_nifti(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
   NiftiImage image;
-  image.bytes.assign(std::istreambuf_iterator<char>(in), {});
+  image.bytes = read_bytes(file);
   const auto number = [&]<typename T>(std::size_t at, T value) {
     if (at + sizeof(T) <= image.bytes.size()) std::memcpy(&value, image.bytes.data() + at, sizeof(T));
     return value;
