@@ -53,6 +53,15 @@ class SurfaceDescent {
         way = look(position, x);
       }
     }
+    if (way.found) {
+      // Somebody else may have left it beside a face, too.
+      Vec3 put = position;
+      put_on_faces(way.patch, off_faces(way.patch, position), put);
+      if (put != position) {
+        position = put;
+        way = look(position, x);
+      }
+    }
     for (;;) {
       if (!way.found) {
         fit.end = way.bad ? SurfaceEnd::kBadData : SurfaceEnd::kFlat;
@@ -98,6 +107,14 @@ class SurfaceDescent {
   }
   [[nodiscard]] static bool inside(const Patch& patch, const Vec3& p) noexcept {
     return glm::all(glm::greaterThanEqual(p, patch.lower)) && glm::all(glm::lessThanEqual(p, patch.upper));
+  }
+  /// The axes along which `p` lies on no face of the box.
+  [[nodiscard]] static unsigned off_faces(const Patch& patch, const Vec3& p) noexcept {
+    unsigned free = kAll;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (p[axis] == patch.lower[axis] || p[axis] == patch.upper[axis]) free = without(free, axis);
+    }
+    return free;
   }
   /// Whether `direction` leads out of the box by a face that `p` lies on.
   [[nodiscard]] static bool leaves(const Patch& patch, const Vec3& p, const Vec3& direction) noexcept {
@@ -307,21 +324,26 @@ class SurfaceDescent {
       if (!restore(patch, free, reach, to)) return false;
       if (inside(patch, to)) break;
     }
-    // A point beside a face to rounding is put on it, so that both boxes are asked.
+    put_on_faces(patch, free, to);
+    return true;
+  }
+
+  /// A point beside a face to rounding is put on it, so that both boxes are asked; a point of an edge beside
+  /// its end on the vertex, where the surface goes through that.
+  void put_on_faces(const Patch& patch, unsigned free, Vec3& p) const noexcept {
     constexpr double kOnFace = 0x1p-40;
     for (int axis = 0; axis < 3; ++axis) {
       if (!has(free, axis)) continue;
       const double width = patch.upper[axis] - patch.lower[axis];
-      const bool low = to[axis] - patch.lower[axis] < kOnFace * width;
-      if (!low && patch.upper[axis] - to[axis] >= kOnFace * width) continue;
-      Vec3 put = to;
+      const bool low = p[axis] - patch.lower[axis] < kOnFace * width;
+      if (!low && patch.upper[axis] - p[axis] >= kOnFace * width) continue;
+      Vec3 put = p;
       put[axis] = low ? patch.lower[axis] : patch.upper[axis];
       const unsigned rest = without(free, axis);
-      if (rest == 0 || !restore(patch, rest, width, put) || !inside(patch, put)) continue;
-      to = put;
+      if (!restore(patch, rest, width, put) || !inside(patch, put)) continue;
+      p = put;
       free = rest;
     }
-    return true;
   }
 
   /// Brings `p` to the level along its gradient within the free axes: Newton's steps (Ikits 2006, eq. 6.16),

@@ -54,6 +54,62 @@ TEST_F(SimulatedDeviceOnThePath, FollowsWithTheOperatorsLagAndRepeatsToTheBit) {
   EXPECT_NEAR(static_cast<double>(feel("simulated:ideal,hand=firm", slower).rows.size()), 1051.0, 2.0);
 }
 
+TEST_F(SimulatedDeviceOnThePath, StartsGentlyAndWithinTheLimitsOfItsClass) {
+  constexpr double kRamp = 0.5, kCap = 1.0, kSlew = 50.0;  // [s], [N], [N/s]
+  const ProbeLogText log = feel("simulated:premium3", {"--force-cap", "1", "--slew-cap", "50"});
+  Vec3 before{0.0};
+  double largest = 0.0;
+  for (std::size_t n = 0; n < log.rows.size(); ++n) {
+    const LogRow& row = log.rows[n];
+    const double force = glm::length(row.force);
+    ASSERT_LE(force, kCap * std::min(1.0, 0.001 * static_cast<double>(n) / kRamp) + 1e-9) << n;
+    // What grows or turns does so slowly; a drop may be immediate.
+    if (force >= glm::length(before)) {
+      ASSERT_LE(glm::distance(row.force, before), 0.001 * kSlew + 1e-9) << n;
+    }
+    before = row.force;
+    largest = std::max(largest, force);
+  }
+  EXPECT_GT(largest, 0.5);
+}
+
+TEST_F(SimulatedDeviceOnThePath, ThereIsForceOnlyWhileTheEnablingButtonIsHeld) {
+  std::string table = "t,x,y,z,b0\n";
+  for (const PathRow& row : path_) {
+    const bool held = row.time >= 0.5 && row.time < 1.5;
+    table += std::to_string(row.time) + ',' + std::to_string(row.position.x) + ',' +
+             std::to_string(row.position.y) + ',' + std::to_string(row.position.z) + (held ? ",1\n" : ",0\n");
+  }
+  folder_.write("path.csv", table);
+  const ProbeLogText log = feel("simulated:premium3,button=0");
+  constexpr double kFade = 0.06;  // [s] within which it has gone after the release, and a step
+  double held = 0.0;
+  for (const LogRow& row : log.rows) {
+    if (row.time < 0.5 || row.time > 1.5 + kFade) {
+      ASSERT_EQ(row.force, Vec3(0.0)) << row.time;
+    } else {
+      held = std::max(held, glm::length(row.force));
+    }
+  }
+  EXPECT_GT(held, 0.1);
+}
+
+TEST_F(SimulatedDeviceOnThePath, AHandThatWasTooFastGetsNoForceAnyMore) {
+  // A leap of 1.5 m. Before it the path takes 1.1 m/s at most.
+  for (std::size_t n = 1000; n < path_.size(); ++n) path_[n].position += Vec3{0.0, 3.0, 0.0};
+  folder_.write("path.csv", path_table(path_));
+  const ProbeLogText log = feel("simulated:ideal,hand=firm", {"--workspace-scale", "0.5"});
+  std::size_t first = 0;
+  while (first < log.rows.size() && log.rows[first].state != "fault") ++first;
+  ASSERT_LT(first, log.rows.size());
+  EXPECT_GT(first, 1000U);
+  for (std::size_t n = first; n < log.rows.size(); ++n) {
+    ASSERT_EQ(log.rows[n].force, Vec3(0.0)) << n;
+    ASSERT_EQ(log.rows[n].state, "fault") << n;
+  }
+  EXPECT_NE(last_.err.find("passed 1.5 m/s"), std::string::npos) << last_.err;
+}
+
 // What the line does to the hand shows in where the hand goes: a stiffer one holds it nearer.
 TEST_F(SimulatedDeviceOnThePath, GivesWayToTheLineThatHoldsIt) {
   const auto stretch = [&](const char* stiffness) {

@@ -132,6 +132,15 @@ std::string summary_text(const ProbeSummary& summary) {
   return text;
 }
 
+/// Why a step had no force, for the user.
+std::string reason_of(ForceCut cut, const DeviceLimits& limits) {
+  if (cut == ForceCut::kTooFast) {
+    return "the hand passed " + short_number(limits.velocity_gate) +
+           " m/s, the device's limit, and gets no force from there on";
+  }
+  return "a position that is not finite, or time that stands still or runs backwards";
+}
+
 /// Steps by hand, log and summary.
 class ProbeRun {
  public:
@@ -149,7 +158,10 @@ class ProbeRun {
     if (log_) log_->add(row, step, microseconds);
     times_.push_back(static_cast<float>(microseconds));
     ++summary_.states[static_cast<std::size_t>(step.state)];
-    if (step.state == HoldState::kFault && first_fault_ == 0) first_fault_ = summary_.steps + 1;
+    if (step.state == HoldState::kFault && first_fault_ == 0) {
+      first_fault_ = summary_.steps + 1;
+      first_cut_ = step.cut;
+    }
     summary_.max_force = std::max(summary_.max_force, glm::length(step.force));
     summary_.max_residual = std::max(summary_.max_residual, step.chain.residual / workspace_.scale());
     if (++summary_.steps % kStepsBetweenChecks == 0) context_.progress.check();
@@ -158,6 +170,7 @@ class ProbeRun {
 
   /// Counted from 1; 0: none.
   [[nodiscard]] std::size_t first_fault() const noexcept { return first_fault_; }
+  [[nodiscard]] ForceCut first_cut() const noexcept { return first_cut_; }
 
   void finish() {
     summary_.seconds_probe = watch_.seconds();
@@ -174,6 +187,7 @@ class ProbeRun {
   std::optional<ProbeLog> log_;
   std::vector<float> times_;
   std::size_t first_fault_ = 0;
+  ForceCut first_cut_ = ForceCut::kNone;
   Stopwatch watch_;
 };
 
@@ -386,8 +400,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (path.empty() && options.replay.empty()) console.note(options.path.string() + ": the path has no rows");
   if (run.first_fault() > 0) {
     console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +
-                 " without a force, the first is step " + std::to_string(run.first_fault()) +
-                 ": a position that is not finite, or time that stands still or runs backwards");
+                 " without a force, the first is step " + std::to_string(run.first_fault()) + ": " +
+                 reason_of(run.first_cut(), summary.limits));
   }
   if (file) {
     file->finish();
