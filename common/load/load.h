@@ -19,10 +19,18 @@
 
 namespace palpate {
 
+/// Asks for tensors, or for what tensors can be fitted to: a fourth axis of an image holds components, not
+/// time.
+struct DiffusionRequest {
+  std::filesystem::path bval;  ///< b-values; empty: those beside the image
+  std::filesystem::path bvec;  ///< gradient directions, likewise
+};
+
 struct LoadRequest {
   std::vector<std::filesystem::path> files;       ///< several: blocks to be joined, or a numbered time series
   std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file
   std::optional<RawLayout> raw;                   ///< the file holds voxels without a header
+  std::optional<DiffusionRequest> diffusion;
 };
 
 struct LoadLimits {

@@ -1,5 +1,7 @@
 #include "common/load/protocol.h"
 
+#include <utility>
+
 #include "common/load/block_json.h"
 #include "common/load/message_json.h"
 
@@ -35,6 +37,40 @@ RawLayout decode_raw(const json& object) {
   return raw;
 }
 
+json encode_diffusion(const DiffusionInfo& diffusion) {
+  json object{{"layout", static_cast<int>(diffusion.layout)}};
+  if (!diffusion.gradients) return object;
+  object["gradients"] = json::array();
+  for (std::size_t i = 0; i < diffusion.gradients->weightings.size(); ++i) {
+    const Vec3& g = diffusion.gradients->directions[i];
+    object["gradients"].push_back({diffusion.gradients->weightings[i], g.x, g.y, g.z});
+  }
+  return object;
+}
+
+DiffusionInfo decode_diffusion(const json& object) {
+  DiffusionInfo diffusion;
+  const std::uint64_t layout = count_at(object, "layout");
+  if (layout >= kTensorLayoutCount) malformed("unknown layout of tensors");
+  diffusion.layout = static_cast<TensorLayout>(layout);
+  if (!object.contains("gradients")) return diffusion;
+  const json& gradients = array_at(object, "gradients");
+  if (gradients.size() > kMostGradients) malformed("too many gradients");
+  GradientTable table;
+  for (const json& gradient : gradients) {
+    if (!gradient.is_array() || gradient.size() != 4) malformed("a gradient has not four numbers");
+    table.weightings.push_back(number_of(gradient[0], "gradients"));
+    table.directions.emplace_back(number_of(gradient[1], "gradients"), number_of(gradient[2], "gradients"),
+                                  number_of(gradient[3], "gradients"));
+    if (table.weightings.back() < 0.0) malformed("a negative b-value");
+    constexpr double kLongest = 1.001;  // unit, but for rounding
+    if (glm::length(table.directions.back()) > kLongest)
+      malformed("a gradient direction is not of unit length");
+  }
+  diffusion.gradients = std::move(table);
+  return diffusion;
+}
+
 }  // namespace
 
 std::string encode(const RequestMessage& request) {
@@ -46,6 +82,10 @@ std::string encode(const RequestMessage& request) {
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
     if (open->request.raw) message["raw"] = encode_raw(*open->request.raw);
+    if (const auto& diffusion = open->request.diffusion) {
+      message["diffusion"] = {{"bval", text_from_bytes(diffusion->bval.native())},
+                              {"bvec", text_from_bytes(diffusion->bvec.native())}};
+    }
   } else {
     const auto& read = std::get<ReadMessage>(request);
     message["request"] = "read";
@@ -67,6 +107,10 @@ RequestMessage decode_request(std::string_view text) {
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
     if (message.contains("raw")) open.request.raw = decode_raw(member(message, "raw"));
+    if (message.contains("diffusion")) {
+      const json& diffusion = member(message, "diffusion");
+      open.request.diffusion = DiffusionRequest{string_at(diffusion, "bval"), string_at(diffusion, "bvec")};
+    }
     return open;
   }
   if (request == "read") return ReadMessage{strings_at(message, "arrays"), count_at(message, "step")};
@@ -99,6 +143,7 @@ std::string encode_info(const FileInfo& info) {
               {"times", info.times},
               {"units", text_from_bytes(info.units)},
               {"anatomical", info.anatomical},
+              {"diffusion", encode_diffusion(info.diffusion)},
               {"notes", std::move(notes)},
               {"blocks", std::move(blocks)}}
       .dump();
@@ -119,6 +164,7 @@ FileInfo decode_info(std::string_view text) {
   info.notes = strings_at(answer, "notes");
   info.units = string_at(answer, "units");
   info.anatomical = bool_at(answer, "anatomical");
+  info.diffusion = decode_diffusion(member(answer, "diffusion"));
   for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
   for (const json& object : array_at(answer, "blocks")) {
     BlockInfo block;

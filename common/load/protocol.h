@@ -1,11 +1,11 @@
 /// Messages between an explorer and a helper program, as JSON. The frames they travel in: channel.h.
 ///
 /// Requests
-///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?}
+///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
-///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool,
+///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool, "diffusion": G,
 ///   "blocks": [{"name", "grid", "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"
@@ -17,6 +17,8 @@
 ///     | {"kind": "unstructured", "positions": A, "cells", "types": offset, "offsets": offset,
 ///        "connectivity": offset, "connectivity_count"}                                uint8, int64, int64
 ///   R = {"size": [i, j, k], "type", "big_endian": bool, "spacing", "origin", "skip": bytes}
+///   D = {"bval": path, "bvec": path}                                              empty: beside the file
+///   G = {"layout": n, "gradients": [[b, x, y, z]…]?}
 /// Offsets count bytes in the memory file of the answer. Names and paths are bytes, not text: each byte
 /// travels as the character of that number, so any of them comes back as it went.
 ///

@@ -110,6 +110,10 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
 void Input::open_files(Progress* progress) {
   LoadRequest request{.files = spec_.files, .solution = spec_.solution};
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
+  if (spec_.kind == FieldKind::kTensor) {
+    (void)parse_tensor_words(spec_.tensor);  // a misspelt option is refused first
+    request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};
+  }
   source_ = Source::open(request, {}, progress);
   arrays_ = source_->arrays();
   const auto& blocks = source_->info().blocks;
@@ -251,8 +255,10 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   std::vector<DataSet> blocks = read_timed(source.arrays, progress);
   const Stopwatch watch;
   if (progress) progress->begin("preparing the tensors", 0);
-  TensorImage image =
-      make_tensor_image(std::move(blocks), source, file()->diffusion, file_name(), threads, progress);
+  const std::string name = file_name();
+  TensorImage image = make_tensor_image(
+      std::move(blocks), {.source = source, .diffusion = file()->diffusion, .file = name, .measured = !made_},
+      parse_tensor_words(spec_.tensor), threads, progress);
   seconds_field_ = watch.seconds();
   return image;
 }

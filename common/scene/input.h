@@ -39,7 +39,8 @@ struct InputSpec {
   std::string field;                              ///< empty: the likeliest one
   std::string time = "first";                     ///< first, last or a time
   FieldKind kind = FieldKind::kVector;
-  RawWords raw;  ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
+  RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
+  TensorWords tensor;  ///< how tensors are read and fitted
 };
 
 /// A time step and whether it is the very one that was asked for.

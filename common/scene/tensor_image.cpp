@@ -1,34 +1,120 @@
 #include "common/scene/tensor_image.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/tensor/image_axes.h"
+#include "common/scene/fit_image.h"
+#include "common/scene/stored_tensors.h"
 
 namespace palpate {
 namespace {
 
-TensorOrder order_of(TensorLayout layout, int components) {
-  if (components == 9) return TensorOrder::kFull;
-  if (components == 7) return TensorOrder::kMask;
-  return layout == TensorLayout::kLower ? TensorOrder::kLower : TensorOrder::kRows;
+/// D becomes T D T^T at every point.
+void turn_tensors(const Mat3& turn, std::vector<float>& tensors) {
+  for (std::size_t at = 0; at + 6 <= tensors.size(); at += 6) {
+    float* const d = tensors.data() + at;
+    const Mat3 turned = turn * Mat3{Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}} *
+                        glm::transpose(turn);
+    const std::array<double, 6> six{turned[0][0], turned[1][0], turned[2][0],
+                                    turned[1][1], turned[2][1], turned[2][2]};
+    std::transform(six.begin(), six.end(), d, [](double value) { return static_cast<float>(value); });
+  }
+}
+
+DataArray array_of(std::vector<float> tensors) {
+  const auto values = std::make_shared<std::vector<float>>(std::move(tensors));
+  DataArray array;
+  array.name = "tensors";
+  array.components = 6;
+  array.tuples = values->size() / 6;
+  array.bytes = std::as_bytes(std::span(std::as_const(*values)));
+  array.owner = values;
+  return array;
+}
+
+/// The block that has all arrays of the source.
+DataSet block_of(std::vector<DataSet> blocks, const TensorInput& input) {
+  for (DataSet& block : blocks) {
+    const auto& names = input.source.arrays;
+    if (std::all_of(names.begin(), names.end(), [&block](const std::string& name) {
+          return block.find(name, Association::kPoint) != nullptr;
+        })) {
+      return std::move(block);
+    }
+  }
+  throw input_error({input.file, "", "no block has the arrays of '" + input.source.label + "'", "", ""});
+}
+
+const UniformTopology& uniform(const DataSet& block, const TensorInput& input) {
+  const auto* topology = std::get_if<UniformTopology>(&block.topology);
+  if (topology == nullptr) {
+    throw input_error(
+        {input.file, "", "'" + input.source.label + "' does not lie on a uniform grid", "an image", ""});
+  }
+  return *topology;
+}
+
+std::string turn_text(const AxisTurn& turn) {
+  return turn.words() + ": tensors turned along the image's axes, as asked for";
+}
+
+void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
+                         std::vector<std::string>& notes) {
+  if (!verdict.suspicious) return;
+  notes.push_back(
+      "WARNING: neighbouring main directions line up " + short_number(100.0 * (verdict.gain - 1.0)) +
+      " % better with the image's axes turned: the gradients may have a wrong axis; try " +
+      verdict.best.words() + (turn.is_identity() ? "" : " in addition to the turn that was asked for"));
 }
 
 }  // namespace
 
-TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorSource& source,
-                              const DiffusionInfo& diffusion, const std::string& file, int /*threads*/,
-                              Progress* progress) {
+TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& input,
+                              const TensorReading& reading, int threads, Progress* progress) {
   if (progress != nullptr) progress->check();
-  const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const DataSet& candidate) {
-    return candidate.find(source.arrays.front(), Association::kPoint) != nullptr;
-  });
-  if (block == blocks.end())
-    throw input_error({file, "", "array '" + source.arrays.front() + "' is missing", "", ""});
   TensorImage result;
-  result.image = std::move(*block);
-  const DataArray& array = *result.image.find(source.arrays.front(), Association::kPoint);
-  result.choice = {.array = array.name, .order = order_of(diffusion.layout, array.components)};
+  result.image = block_of(std::move(blocks), input);
+  const auto* const topology = std::get_if<UniformTopology>(&result.image.topology);
+  const bool as_stored =
+      input.source.kind == TensorSource::Kind::kArray && input.diffusion.layout == TensorLayout::kData;
+  if (as_stored && (!topology || (reading.turn.is_identity() && !input.measured))) {
+    const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
+    result.choice = {array.name, order_of_size(array.components), reading.interpolation};
+    return result;
+  }
+  const UniformTopology& grid = uniform(result.image, input);
+  std::vector<float> tensors;
+  if (input.source.kind == TensorSource::Kind::kSignals) {
+    const DataArray& signals = *result.image.find(kSignalArray, Association::kPoint);
+    result.fit = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
+                           result.notes, progress);
+    tensors = std::exchange(result.fit->tensors, {});
+  } else {
+    tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion.layout, reading.order,
+                                  threads, result.notes);
+  }
+  if (!reading.turn.is_identity()) {
+    const Mat3 image = image_axes(grid.axes);
+    turn_tensors(image * reading.turn.matrix() * glm::transpose(image), tensors);
+    result.notes.push_back(turn_text(reading.turn));
+  }
+  result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, threads);
+  warn_of_orientation(result.orientation, reading.turn, result.notes);
+  if (as_stored && reading.turn.is_identity()) {
+    // The file's own numbers, in their own precision.
+    const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
+    result.choice = {array.name, order_of_size(array.components), reading.interpolation};
+    return result;
+  }
+  result.image.arrays = {array_of(std::move(tensors))};
+  result.choice = {"tensors", TensorOrder::kRows, reading.interpolation};
   return result;
 }
 

@@ -1,265 +1,93 @@
 #include "loaders/nifti/nifti_loader.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <span>
+#include <deque>
 #include <utility>
-
-#include <nifti/nifti2_io.h>
-#include <nifti/znzlib.h>
+#include <vector>
 
 #include "common/base/error.h"
-#include "common/base/text.h"
 #include "common/load/volume_block.h"
-#include "loaders/nifti/nifti_check.h"
-#include "loaders/nifti/nifti_place.h"
+#include "loaders/nifti/fsl_gradients.h"
+#include "loaders/nifti/fsl_names.h"
+#include "loaders/nifti/nifti_file.h"
 
 namespace palpate {
 namespace {
-
-using ImagePtr = std::unique_ptr<nifti_image, void (*)(nifti_image*)>;
-
-/// What the header calls a voxel: numbers of a type, several where it is a colour.
-struct Voxel {
-  ScalarType type = ScalarType::kUint8;
-  int components = 1;
-};
-
-Voxel voxel_of(int datatype, const std::string& file) {
-  switch (datatype) {
-    case DT_UINT8:
-      return {ScalarType::kUint8};
-    case DT_INT8:
-      return {ScalarType::kInt8};
-    case DT_INT16:
-      return {ScalarType::kInt16};
-    case DT_UINT16:
-      return {ScalarType::kUint16};
-    case DT_INT32:
-      return {ScalarType::kInt32};
-    case DT_UINT32:
-      return {ScalarType::kUint32};
-    case DT_INT64:
-      return {ScalarType::kInt64};
-    case DT_UINT64:
-      return {ScalarType::kUint64};
-    case DT_FLOAT32:
-      return {ScalarType::kFloat32};
-    case DT_FLOAT64:
-      return {ScalarType::kFloat64};
-    case DT_RGB24:
-      return {ScalarType::kUint8, 3};
-    case DT_RGBA32:
-      return {ScalarType::kUint8, 4};
-    default:
-      throw input_error({file, "header", std::string("has values of type ") + nifti_datatype_string(datatype),
-                         "integers or floating-point numbers of at most 64 bits"});
-  }
-}
-
-bool is_vector_intent(int intent) {
-  return intent == NIFTI_INTENT_VECTOR || intent == NIFTI_INTENT_DISPVECT ||
-         intent == NIFTI_INTENT_RGB_VECTOR;
-}
-
-/// The voxels' file, closed at the end.
-class VoxelFile {
- public:
-  explicit VoxelFile(const nifti_image& image)
-      : file_(znzopen(image.iname, "rb", nifti_is_gzfile(image.iname))) {}
-  ~VoxelFile() {
-    if (!znz_isnull(file_)) znzclose(file_);
-  }
-  VoxelFile(const VoxelFile&) = delete;
-  VoxelFile& operator=(const VoxelFile&) = delete;
-
-  /// False where the file ends before.
-  bool read(std::uint64_t offset, std::span<std::byte> out) {
-    if (znz_isnull(file_) || znzseek(file_, static_cast<znz_off_t>(offset), SEEK_SET) < 0) return false;
-    return znzread(out.data(), 1, out.size(), file_) == out.size();
-  }
-
- private:
-  znzFile file_;
-};
 
 class NiftiLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
     if (request.files.size() > 1)
       throw input_error({request.files[1].string(), "", "is a second NIfTI file", "one file"});
-    file_ = request.files.front().string();
-    const NiftiClaims claims = check_nifti(file_);
-    nifti_set_debug_level(0);
-    // niftilib goes by the name.
-    const bool named = nifti_find_file_extension(file_.c_str()) != nullptr &&
-                       claims.packed == (nifti_is_gzfile(file_.c_str()) != 0);
-    if (!named) {
-      throw input_error(
-          {file_, "", claims.packed ? "is NIfTI packed by gzip, not named so" : "is NIfTI, not named so",
-           claims.packed ? "a name ending in .nii.gz" : "a name ending in .nii or .hdr", "rename it"});
-    }
-    image_.reset(nifti_image_read(file_.c_str(), 0));
-    if (!image_)
-      throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});
-    if (claims.pair) check_nifti_voxels(image_->iname, claims);
+    const std::string file = request.files.front().string();
+    files_.clear();
+    files_.emplace_back(file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime);
+    const NiftiFile& first = files_.front();
 
     FileInfo info;
     info.format = name_of(Format::kNifti);
-    NiftiPlace place = place_of(claims);
-    topology_ = place.topology;
-    info.anatomical = place.anatomical;
+    info.anatomical = first.anatomical();
     info.units = "coordinates in mm";
-    info.notes = std::move(place.notes);
-    describe_values(info);
-
-    info.blocks.push_back(describe_image(topology_, array_));
+    info.notes = first.notes();
+    info.times = first.times();
+    if (request.diffusion) describe_diffusion(file, *request.diffusion, info);
+    info.blocks.push_back(describe_image(first.topology(), first.array()));
+    for (std::size_t i = 1; i < files_.size(); ++i) info.blocks.front().arrays.push_back(files_[i].array());
     return info;
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
     DataSet block;
-    block.topology = topology_;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end())
-      block.arrays.push_back(values(static_cast<std::int64_t>(step)));
+    block.topology = files_.front().topology();
+    for (const NiftiFile& file : files_) {
+      if (std::find(names.begin(), names.end(), file.array().name) != names.end())
+        block.arrays.push_back(file.values(step, on_progress));
+    }
     std::vector<DataSet> blocks;
     blocks.push_back(std::move(block));
     return blocks;
   }
 
  private:
-  NiftiPlace place_of(const NiftiClaims& claims) const {
-    constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;
-    for (std::size_t axis = 1; axis < 4; ++axis) {
-      if (claims.size[axis] > kMostVoxels)
-        throw input_error({file_, "header", "has too many voxels along axis " + std::to_string(axis)});
+  /// Finds out whether the image holds signals with gradients, tensors, or one of FSL's eigen images.
+  void describe_diffusion(const std::string& file, const DiffusionRequest& request, FileInfo& info) {
+    NiftiFile& image = files_.front();
+    const int volumes = image.array().components;
+    info.diffusion.layout = image.symmetric_matrix() ? TensorLayout::kLower : TensorLayout::kUnstated;
+    if (const auto name = fsl_image_name(file)) {
+      image.rename(*name);
+      add_eigen_set(file, info);
+      return;
     }
-    for (std::size_t axis = 1; axis < 8; ++axis) {
-      if (image_->dim[axis] != claims.size[axis] && static_cast<std::int64_t>(axis) <= image_->dim[0])
-        throw input_error({file_, "header", "niftilib reads other sizes than it states"});
-    }
-    return place_nifti(*image_, file_);
-  }
-
-  /// Name and shape of the values, time steps, and what becomes of slope and intercept.
-  void describe_values(FileInfo& info) {
-    const nifti_image& image = *image_;
-    stored_ = voxel_of(image.datatype, file_);
-    const auto along = [&image](int axis) {
-      return image.dim[0] >= axis ? image.dim[axis] : std::int64_t{1};
-    };
-    if (along(6) > 1 || along(7) > 1)
-      throw input_error({file_, "header", "has more than five axes", "space, time and components"});
-    // Some writers put the components of a vector where time belongs, and say by the intent that they did.
-    const bool fourth = is_vector_intent(image.intent_code) && along(5) == 1 && along(4) == 3;
-    volumes_ = fourth ? along(4) : along(5);
-    steps_ = fourth ? 1 : along(4);
-    constexpr std::int64_t kMostComponents = 4096;
-    constexpr std::int64_t kMostSteps = 1'000'000;
-    if (volumes_ > kMostComponents || steps_ > kMostSteps)
-      throw input_error({file_, "header", "has too many values a voxel or time steps"});
-
-    array_.association = Association::kPoint;
-    array_.components = stored_.components * static_cast<int>(volumes_);
-    array_.tuples = static_cast<std::size_t>(image.nx) * static_cast<std::size_t>(image.ny) *
-                    static_cast<std::size_t>(image.nz);
-    array_.name = "scalars";
-    if (array_.components > 1) array_.name = volumes_ == 3 ? "vectors" : "components";
-    if (volumes_ == 3) info.notes.emplace_back("vectors as stored: the header does not say along which axes");
-    array_.type = stored_.type;
-    slope_ = image.scl_slope;
-    intercept_ = image.scl_inter;
-    scaled_ = slope_ != 0.0 && std::isfinite(slope_) && std::isfinite(intercept_) &&
-              !(slope_ == 1.0 && intercept_ == 0.0) && stored_.components == 1;
-    if (scaled_) {
-      const bool small = byte_size(stored_.type) <= 2 || stored_.type == ScalarType::kFloat32;
-      array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
-      info.notes.push_back("values are " + short_number(slope_) + " times the stored ones plus " +
-                           short_number(intercept_) + ", as the header says");
-    }
-    if (steps_ > 1) {
-      const double dt = image.dt > 0.0 && std::isfinite(image.dt) ? image.dt : 1.0;
-      const double start = std::isfinite(image.toffset) ? image.toffset : 0.0;
-      for (std::int64_t t = 0; t < steps_; ++t) info.times.push_back(start + dt * static_cast<double>(t));
+    const auto gradients = find_fsl_gradients(file, request);
+    if (gradients) {
+      info.diffusion.gradients = read_fsl_gradients(*gradients, static_cast<std::size_t>(volumes),
+                                                    image.topology().axes, info.notes);
+      image.rename(kSignalArray);
+    } else if (volumes == 6) {
+      image.rename("tensors");
+    } else if (volumes > 6) {
+      info.notes.push_back("no gradients beside the file (" + gradient_names(file) +
+                           "): no tensor can be fitted to its " + std::to_string(volumes) + " volumes");
     }
   }
 
-  /// The stored numbers of volume `index` (time step + steps * component), in this machine's byte order.
-  void read_volume(VoxelFile& file, std::int64_t index, std::span<std::byte> out) const {
-    const std::uint64_t at =
-        static_cast<std::uint64_t>(image_->iname_offset) + static_cast<std::uint64_t>(index) * out.size();
-    if (!file.read(at, out)) {
-      throw input_error({image_->iname, "", "ends before its last voxel, or cannot be unpacked", "",
-                         "the file may be truncated"});
-    }
-    if (image_->swapsize > 1 && image_->byteorder != nifti_short_order()) {
-      nifti_swap_Nbytes(static_cast<std::int64_t>(out.size()) / image_->swapsize, image_->swapsize,
-                        out.data());
-    }
-  }
-
-  DataArray values(std::int64_t step) const {
-    (void)check_nifti(file_);
-    const std::size_t bytes =
-        array_.tuples * byte_size(stored_.type) * static_cast<std::size_t>(stored_.components);
-    const auto stored = std::make_shared<std::vector<std::byte>>(bytes * static_cast<std::size_t>(volumes_));
-    VoxelFile file(*image_);
-    std::vector<std::byte> volume(volumes_ > 1 ? bytes : 0);
-    for (std::int64_t v = 0; v < volumes_; ++v) {
-      if (volumes_ == 1) {
-        read_volume(file, step, *stored);
-      } else {
-        read_volume(file, step + steps_ * v, volume);
-        interleave(volume, static_cast<std::size_t>(v), *stored);
+  /// The other eigenvectors, eigenvalues and measures that lie beside `file`, on the same grid.
+  void add_eigen_set(const std::string& file, FileInfo& info) {
+    for (const auto& [name, path] : fsl_images_beside(file)) {
+      NiftiFile other(path, FourthAxis::kComponents);
+      const UniformTopology& a = files_.front().topology();
+      const UniformTopology& b = other.topology();
+      if (a.points != b.points || a.origin != b.origin || a.axes != b.axes) {
+        info.notes.push_back(path + " lies on another grid, and is left out");
+        continue;
       }
-      if (on_progress) on_progress(static_cast<double>(v + 1) / static_cast<double>(volumes_));
+      other.rename(name);
+      files_.push_back(std::move(other));
     }
-    DataArray array;
-    array.name = array_.name;
-    array.components = array_.components;
-    array.tuples = array_.tuples;
-    array.type = stored_.type;
-    array.bytes = std::as_const(*stored);
-    array.owner = stored;
-    if (!scaled_) return array;
-    return array_.type == ScalarType::kFloat32 ? scaled<float>(array) : scaled<double>(array);
   }
 
-  /// Puts component `v` of every voxel where tuples want it.
-  void interleave(std::span<const std::byte> volume, std::size_t v, std::span<std::byte> out) const {
-    const std::size_t size = volume.size() / array_.tuples;
-    const std::size_t stride = size * static_cast<std::size_t>(volumes_);
-    for (std::size_t p = 0; p < array_.tuples; ++p)
-      std::memcpy(out.data() + p * stride + v * size, volume.data() + p * size, size);
-  }
-
-  template <typename T>
-  DataArray scaled(const DataArray& stored) const {
-    const auto values =
-        std::make_shared<std::vector<T>>(stored.tuples * static_cast<std::size_t>(stored.components));
-    std::size_t i = 0;
-    for (std::size_t p = 0; p < stored.tuples; ++p) {
-      for (int c = 0; c < stored.components; ++c)
-        (*values)[i++] = static_cast<T>(slope_ * stored.at(p, c) + intercept_);
-    }
-    DataArray array = stored;
-    array.type = array_.type;
-    array.bytes = std::as_bytes(std::span(std::as_const(*values)));
-    array.owner = values;
-    return array;
-  }
-
-  std::string file_;
-  ImagePtr image_{nullptr, nifti_image_free};
-  UniformTopology topology_;
-  ArrayInfo array_;
-  Voxel stored_;
-  std::int64_t volumes_ = 1;  ///< of a time step: one a component
-  std::int64_t steps_ = 1;
-  double slope_ = 1.0;
-  double intercept_ = 0.0;
-  bool scaled_ = false;
+  std::deque<NiftiFile> files_;  ///< one; several where FSL's images go together
 };
 
 }  // namespace

@@ -48,24 +48,6 @@ Six outer_product(const DataArray& array, std::size_t tuple) {
           v[1] * v[1] / square, v[1] * v[2] / square, v[2] * v[2] / square};
 }
 
-/// The tensor of a tuple; NaN where a mask says that there is none.
-Six read_tuple(const DataArray& array, std::size_t tuple, TensorOrder order) {
-  Six d{};
-  if (order == TensorOrder::kFull) {
-    const auto at = [&](int row, int column) { return array.at(tuple, 3 * row + column); };
-    const auto mean = [&](int row, int column) { return 0.5 * at(row, column) + 0.5 * at(column, row); };
-    return {at(0, 0), mean(0, 1), mean(0, 2), at(1, 1), mean(1, 2), at(2, 2)};
-  }
-  if (order == TensorOrder::kAxis) return outer_product(array, tuple);
-  if (order == TensorOrder::kMask && !(array.at(tuple, 0) >= 0.5)) {
-    d.fill(std::numeric_limits<double>::quiet_NaN());
-    return d;
-  }
-  const auto from = places(order);
-  for (std::size_t i = 0; i < d.size(); ++i) d[i] = array.at(tuple, from[i]);
-  return d;
-}
-
 /// The weighted mean of corners, of which some may have no tensor.
 class CornerMean {
  public:
@@ -104,6 +86,23 @@ int component_count(TensorOrder order) noexcept {
     default:
       return 6;
   }
+}
+
+std::array<double, 6> read_tensor(const DataArray& array, std::size_t tuple, TensorOrder order) noexcept {
+  Six d{};
+  if (order == TensorOrder::kFull) {
+    const auto at = [&](int row, int column) { return array.at(tuple, 3 * row + column); };
+    const auto mean = [&](int row, int column) { return 0.5 * at(row, column) + 0.5 * at(column, row); };
+    return {at(0, 0), mean(0, 1), mean(0, 2), at(1, 1), mean(1, 2), at(2, 2)};
+  }
+  if (order == TensorOrder::kAxis) return outer_product(array, tuple);
+  if (order == TensorOrder::kMask && !(array.at(tuple, 0) >= 0.5)) {
+    d.fill(std::numeric_limits<double>::quiet_NaN());
+    return d;
+  }
+  const auto from = places(order);
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = array.at(tuple, from[i]);
+  return d;
 }
 
 const Box& TensorField::bounds() const noexcept { return grid_->bounds; }
@@ -202,7 +201,7 @@ class TensorFieldBuilder {
     const bool use_double =
         logarithms || array.type != ScalarType::kFloat32 || choice.order == TensorOrder::kAxis;
     const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const Six d = read_tuple(*block.find(choice.array, choice.association), tuple, choice.order);
+      const Six d = read_tensor(*block.find(choice.array, choice.association), tuple, choice.order);
       std::copy(d.begin(), d.end(), out);
     };
     GatheredValues gathered =

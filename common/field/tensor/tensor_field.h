@@ -36,6 +36,11 @@ enum class TensorOrder : std::uint8_t {
 /// Numbers a tuple has.
 [[nodiscard]] int component_count(TensorOrder order) noexcept;
 
+/// xx xy xz yy yz zz of a tuple as stored, of all nine their symmetric part; NaN where a mask says that there
+/// is no tensor. @pre tuple < array.tuples, array.components == component_count(order).
+[[nodiscard]] std::array<double, 6> read_tensor(const DataArray& array, std::size_t tuple,
+                                                TensorOrder order) noexcept;
+
 enum class TensorInterpolation : std::uint8_t { kComponents, kLogEuclidean };
 
 struct TensorChoice {

@@ -27,4 +27,8 @@ Mat3 symmetric_exp(const Mat3& tensor) noexcept {
   return with_values(symmetric_eigen(tensor), [](double value) { return std::exp(value); });
 }
 
+Mat3 without_negative(const Mat3& tensor) noexcept {
+  return with_values(symmetric_eigen(tensor), [](double value) { return std::max(value, 0.0); });
+}
+
 }  // namespace palpate

@@ -11,4 +11,7 @@ namespace palpate {
 /// The exponential. @rt Safe.
 [[nodiscard]] Mat3 symmetric_exp(const Mat3& tensor) noexcept;
 
+/// The tensor with its eigenvalues below zero replaced by zero. @rt Safe.
+[[nodiscard]] Mat3 without_negative(const Mat3& tensor) noexcept;
+
 }  // namespace palpate

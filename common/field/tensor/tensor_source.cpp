@@ -1,17 +1,17 @@
 #include "common/field/tensor/tensor_source.h"
 
 #include <algorithm>
-#include <array>
 
 #include "common/base/error.h"
 
 namespace palpate {
 namespace {
 
-bool has_tensor_size(const ArrayInfo& array) {
-  constexpr std::array<int, 3> kSizes{6, 7, 9};
-  return array.association == Association::kPoint &&
-         std::find(kSizes.begin(), kSizes.end(), array.components) != kSizes.end();
+/// Seven and nine numbers are tensors only where the file says so much.
+bool has_tensor_size(const ArrayInfo& array, TensorLayout layout) {
+  if (array.association != Association::kPoint) return false;
+  if (layout != TensorLayout::kData) return array.components == 6;
+  return array.components == 6 || array.components == 7 || array.components == 9;
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ std::vector<TensorSource> tensor_sources(const std::vector<ArrayInfo>& arrays,
                            has(kSignalArray, static_cast<int>(diffusion.gradients->weightings.size()));
   std::vector<TensorSource> sources;
   for (const ArrayInfo& array : arrays) {
-    if (has_tensor_size(array) && array.name != kSignalArray)
+    if (has_tensor_size(array, diffusion.layout) && array.name != kSignalArray)
       sources.push_back({Kind::kArray, {array.name}, array.name});
   }
   const bool directions = has("V1", 3);

@@ -18,6 +18,7 @@ enum class TensorLayout : std::uint8_t {
   kLower,  ///< xx xy yy xz yz zz: NIfTI's symmetric-matrix intent, which leaves the axes open
   kUnstated  ///< neither order nor axes are stated by the file
 };
+inline constexpr int kTensorLayoutCount = 3;
 
 /// What a file says of diffusion, besides its arrays.
 struct DiffusionInfo {

@@ -1,0 +1,126 @@
+#include "common/field/tensor/foreground_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "common/base/check.h"
+#include "common/field/value_histogram.h"
+
+namespace palpate {
+namespace {
+
+/// The voxels of an image and their neighbours through faces.
+class Neighbours {
+ public:
+  explicit Neighbours(const Index3& points)
+      : size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
+              static_cast<std::size_t>(points.z)},
+        stride_{1, size_[0], size_[0] * size_[1]} {}
+
+  /// Calls `visit` for each neighbour; true where the voxel lies at the border of the image.
+  template <typename Visit>
+  bool each(std::size_t voxel, const Visit& visit) const {
+    bool border = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t i = voxel / stride_[axis] % size_[axis];
+      if (i > 0) visit(voxel - stride_[axis]);
+      if (i + 1 < size_[axis]) visit(voxel + stride_[axis]);
+      border = border || i == 0 || i + 1 == size_[axis];
+    }
+    return border;
+  }
+
+ private:
+  std::array<std::size_t, 3> size_;
+  std::array<std::size_t, 3> stride_;
+};
+
+/// Parts of equal value that hang together, found one after the other.
+class Parts {
+ public:
+  explicit Parts(const Index3& points, std::size_t voxels) : neighbours_(points), seen_(voxels, 0) {}
+
+  struct Part {
+    std::vector<std::size_t> voxels;
+    bool at_border = false;
+  };
+
+  /// The part of `start`; empty where it was found before.
+  Part take(std::size_t start, std::span<const std::uint8_t> mask) {
+    Part part;
+    if (seen_[start] != 0) return part;
+    seen_[start] = 1;
+    part.voxels.push_back(start);
+    for (std::size_t next = 0; next < part.voxels.size(); ++next) {
+      const bool border = neighbours_.each(part.voxels[next], [&](std::size_t other) {
+        if (seen_[other] != 0 || mask[other] != mask[start]) return;
+        seen_[other] = 1;
+        part.voxels.push_back(other);
+      });
+      part.at_border = part.at_border || border;
+    }
+    return part;
+  }
+
+ private:
+  Neighbours neighbours_;
+  std::vector<std::uint8_t> seen_;
+};
+
+double threshold_of(std::span<const float> values) {
+  constexpr std::size_t kBins = 1024;
+  constexpr double kBright = 0.98;
+  double lower = HUGE_VAL, upper = -HUGE_VAL;
+  for (const float value : values) {
+    if (!std::isfinite(value)) continue;
+    lower = std::min(lower, static_cast<double>(value));
+    upper = std::max(upper, static_cast<double>(value));
+  }
+  if (!(lower < upper)) return -HUGE_VAL;
+  const auto histogram_to = [&](double end) {
+    return count_values(
+        values.size(),
+        [&, end](std::size_t i) {
+          return std::isfinite(values[i]) ? std::min(static_cast<double>(values[i]), end) : std::nan("");
+        },
+        lower, end, kBins, 1);
+  };
+  const double bright = value_below_which(histogram_to(upper), kBright, lower);
+  return otsu_threshold(histogram_to(bright > lower ? bright : upper));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const Index3& points) {
+  PALPATE_CHECK(values.size() == static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
+                                     static_cast<std::size_t>(points.z));
+  const double threshold = threshold_of(values);
+  std::vector<std::uint8_t> bright(values.size());
+  std::transform(values.begin(), values.end(), bright.begin(), [threshold](float value) {
+    return static_cast<std::uint8_t>(std::isfinite(value) && static_cast<double>(value) > threshold ? 1 : 0);
+  });
+  std::vector<std::uint8_t> mask(values.size(), 0);
+  Parts parts(points, values.size());
+  std::vector<std::size_t> largest;
+  for (std::size_t voxel = 0; voxel < values.size(); ++voxel) {
+    if (bright[voxel] == 0) continue;
+    Parts::Part part = parts.take(voxel, bright);
+    if (part.voxels.size() > largest.size()) largest = std::move(part.voxels);
+  }
+  for (const std::size_t voxel : largest) mask[voxel] = 1;
+
+  Parts outside(points, values.size());
+  for (std::size_t voxel = 0; voxel < values.size(); ++voxel) {
+    if (mask[voxel] != 0) continue;
+    const Parts::Part part = outside.take(voxel, mask);
+    if (part.at_border) continue;
+    // Marked 2 until the end: parts are told apart by value.
+    for (const std::size_t hole : part.voxels) mask[hole] = 2;
+  }
+  for (std::uint8_t& value : mask) value = value != 0 ? 1 : 0;
+  return mask;
+}
+
+}  // namespace palpate

@@ -1,0 +1,29 @@
+/// Tensors as files store them, in whatever order and axes, brought into the axes of the coordinates.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/tensor/tensor_field.h"
+#include "common/field/tensor/tensor_source.h"
+#include "common/scene/tensor_words.h"
+
+namespace palpate {
+
+/// The order of tuples of that size where the file's layout is TensorLayout::kData.
+[[nodiscard]] TensorOrder order_of_size(int components) noexcept;
+
+/// xx xy xz yy yz zz of every point, NaN where there is no tensor (a mask, zeros only, not finite).
+///
+/// Of six numbers in an order that the file does not state, `order` says which it is. kAuto takes the order
+/// that makes the most tensors positive definite, and of equals the one whose main directions line up best.
+/// FSL's are along fsl_axes(), MRtrix's along those of the coordinates; for NIfTI's symmetric matrices the
+/// axes that make main directions line up best are taken: programs differ. Notes say what was taken and why.
+/// @param source of any kind but kSignals, whose arrays `image` has.
+[[nodiscard]] std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
+                                                     const TensorSource& source, TensorLayout layout,
+                                                     StoredOrder order, int threads,
+                                                     std::vector<std::string>& notes);
+
+}  // namespace palpate

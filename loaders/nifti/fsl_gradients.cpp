@@ -1,0 +1,159 @@
+#include "loaders/nifti/fsl_gradients.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+#include "common/field/tensor/image_axes.h"
+#include "common/load/sniff.h"
+#include "loaders/nifti/fsl_names.h"
+
+namespace palpate {
+namespace {
+
+/// Lines of numbers; blank lines are left out.
+using Table = std::vector<std::vector<double>>;
+
+Table read_table(const std::string& file) {
+  // A number and its blank for every volume and axis fit many times over.
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  const HeadOfFile head = read_head(file, kMostBytes);
+  if (head.file_size > kMostBytes)
+    throw input_error({file, "", "has " + bytes_text(head.file_size), "a short table of numbers", ""});
+  std::string text = head.bytes;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\t' || c == ',' || c == '\r' || c == ';'; }, ' ');
+  Table table;
+  std::size_t line_number = 0;
+  for (const std::string_view line : split(text, '\n')) {
+    ++line_number;
+    std::vector<double> numbers;
+    for (const std::string_view word : split(line, ' ')) {
+      if (word.empty()) continue;
+      const std::optional<double> value = number(word);
+      if (!value) {
+        throw input_error({file, "line " + std::to_string(line_number),
+                           "'" + std::string(word.substr(0, 40)) + "' is no number", "numbers", ""});
+      }
+      numbers.push_back(*value);
+    }
+    if (!numbers.empty()) table.push_back(std::move(numbers));
+  }
+  return table;
+}
+
+Error wrong_count(const std::string& file, const std::string& found, std::size_t volumes) {
+  return input_error({file, "", found, "one for each of the image's " + counted(volumes, "volume"),
+                      "is it the file of another image?"});
+}
+
+std::vector<double> read_weightings(const std::string& file, std::size_t volumes) {
+  std::vector<double> all;
+  for (const std::vector<double>& line : read_table(file)) all.insert(all.end(), line.begin(), line.end());
+  if (all.size() != volumes) throw wrong_count(file, "has " + counted(all.size(), "b-value"), volumes);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!std::isfinite(all[i]) || all[i] < 0.0) {
+      throw input_error({file, "b-value " + std::to_string(i + 1), "is " + short_number(all[i]),
+                         "a finite number, not below zero", ""});
+    }
+  }
+  return all;
+}
+
+std::vector<Vec3> read_directions(const std::string& file, std::size_t volumes) {
+  const Table table = read_table(file);
+  const auto all_have = [&table](std::size_t count) {
+    return std::all_of(table.begin(), table.end(),
+                       [count](const auto& line) { return line.size() == count; });
+  };
+  std::vector<Vec3> directions(volumes, Vec3{0.0});
+  const bool rows = table.size() == 3 && all_have(volumes);
+  if (!rows && !(table.size() == volumes && all_have(3))) {
+    std::string found = "has " + counted(table.size(), "line");
+    if (!table.empty()) found += " of " + counted(table.front().size(), "number");
+    throw input_error({file, "", found,
+                       "3 lines of " + std::to_string(volumes) + " numbers or " + std::to_string(volumes) +
+                           " lines of 3, one direction a volume",
+                       "is it the file of another image?"});
+  }
+  for (std::size_t i = 0; i < volumes; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      directions[i][static_cast<int>(axis)] = rows ? table[axis][i] : table[i][axis];
+  }
+  return directions;
+}
+
+/// The first of `names` that is a file in `folder`, or empty.
+std::string first_file(const std::filesystem::path& folder, const std::array<std::string, 3>& names) {
+  for (const std::string& name : names) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(folder / name, error)) return (folder / name).string();
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string gradient_names(const std::string& file) {
+  const std::string stem = nifti_stem(file);
+  return stem + ".bval, " + stem + ".bvec";
+}
+
+std::optional<FslGradientFiles> find_fsl_gradients(const std::string& file, const DiffusionRequest& request) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const std::string stem = nifti_stem(file);
+  FslGradientFiles files{request.bval.string(), request.bvec.string()};
+  if (files.weightings.empty())
+    files.weightings = first_file(folder, {stem + ".bval", stem + ".bvals", "bvals"});
+  if (files.directions.empty())
+    files.directions = first_file(folder, {stem + ".bvec", stem + ".bvecs", "bvecs"});
+  if (files.weightings.empty() && files.directions.empty()) return std::nullopt;
+  if (files.weightings.empty() || files.directions.empty()) {
+    const bool no_weightings = files.weightings.empty();
+    throw input_error({file, "",
+                       std::string("has gradient ") + (no_weightings ? "directions" : "weightings") + " (" +
+                           (no_weightings ? files.directions : files.weightings) + ") without " +
+                           (no_weightings ? "b-values" : "directions"),
+                       gradient_names(file), no_weightings ? "name them by --bval" : "name them by --bvec"});
+  }
+  return files;
+}
+
+GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes, const Mat3& axes,
+                                 std::vector<std::string>& notes) {
+  if (volumes > kMostGradients) throw wrong_count(files.weightings, "cannot be", kMostGradients);
+  GradientTable table{read_weightings(files.weightings, volumes), read_directions(files.directions, volumes)};
+  const Mat3 ras_from_fsl = fsl_axes(axes);
+  constexpr double kUnit = 0.01;  // lengths differ from one by rounding to two or more places
+  std::size_t not_unit = 0;
+  for (std::size_t i = 0; i < volumes; ++i) {
+    Vec3& g = table.directions[i];
+    if (!is_finite(g)) g = Vec3{0.0};  // what converters write where there is none
+    const double length = glm::length(g);
+    if (length == 0.0 || !std::isfinite(length)) {
+      g = Vec3{0.0};
+      constexpr double kSmall = 0.05;
+      if (table.weightings[i] > kSmall * table.largest_weighting()) {
+        throw input_error({files.directions, "direction " + std::to_string(i + 1), "is zero or no number",
+                           "a direction, for its b-value is " + short_number(table.weightings[i]), ""});
+      }
+      continue;
+    }
+    not_unit += std::abs(length - 1.0) > kUnit ? 1 : 0;
+    g = glm::normalize(ras_from_fsl * (g / length));
+  }
+  notes.push_back("gradients from " + files.weightings + " and " + files.directions +
+                  ", in the image's axes as FSL has them, turned into RAS" +
+                  (glm::determinant(axes) > 0.0 ? " (x turned around: the image is right-handed)" : ""));
+  if (not_unit > 0)
+    notes.push_back(counted(not_unit, "gradient direction") +
+                    " not of unit length: made so, b-values as stated");
+  return table;
+}
+
+}  // namespace palpate

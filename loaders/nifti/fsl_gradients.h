@@ -1,0 +1,38 @@
+/// Gradients as FSL writes them: a text file of b-values and one of directions (.bval, .bvec).
+///
+/// Directions are in the image's axes, the first one turned around where the image is right-handed
+/// (image_axes.h). They stand in three lines or in three columns; b-values on a line or one a line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/field/tensor/gradient_table.h"
+#include "common/load/load.h"
+
+namespace palpate {
+
+struct FslGradientFiles {
+  std::string weightings;  ///< .bval
+  std::string directions;  ///< .bvec
+};
+
+/// The files that `request` names, or those beside `file` whose names go with it: "NAME.bval", "NAME.bvals",
+/// or "bvals" in the same folder, and likewise the directions. None where there is no such pair.
+/// @throws Error (bad input) where one of the two is missing.
+[[nodiscard]] std::optional<FslGradientFiles> find_fsl_gradients(const std::string& file,
+                                                                 const DiffusionRequest& request);
+
+/// What find_fsl_gradients() looks for, for messages: "dwi.bval, dwi.bvec".
+[[nodiscard]] std::string gradient_names(const std::string& file);
+
+/// Reads both; directions come out in RAS, of unit length or zero.
+/// @param axes steps of the image in RAS along i, j, k, as columns.
+/// @param notes what was taken how.
+/// @throws Error (bad input) naming the file where it is no table of `volumes` numbers, or a weighted volume
+/// has no direction.
+[[nodiscard]] GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes,
+                                               const Mat3& axes, std::vector<std::string>& notes);
+
+}  // namespace palpate

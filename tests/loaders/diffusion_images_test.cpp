@@ -1,0 +1,239 @@
+// Diffusion-weighted and tensor images in NIfTI, as a scene reads them: gradients, orders, axes, and what is
+// wrong.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/math/symmetric3.h"
+#include "common/scene/input.h"
+#include "tests/loaders/nifti_fixture.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+/// Axes of an image: the columns are steps along i, j, k.
+const Mat3 kRightHanded{Vec3{2.0, 0.0, 0.0}, Vec3{0.0, 2.0, 0.0}, Vec3{0.0, 0.0, 2.0}};
+const Mat3 kLeftHanded{Vec3{-2.0, 0.0, 0.0}, Vec3{0.0, 2.0, 0.0}, Vec3{0.0, 0.0, 2.0}};
+
+Mat3 oblique() {
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  return Mat3{Vec3{c, s, 0.0}, Vec3{-s, c, 0.0}, Vec3{0.0, 0.0, 1.0}} * kRightHanded;
+}
+
+/// A float image of `volumes` volumes of 3 x 3 x 3 voxels; value(volume) everywhere.
+std::string image(int volumes, const Mat3& axes, const std::vector<double>& values, int intent = 0) {
+  NiftiHeader header{
+      .size = {3, 3, 3, volumes}, .datatype = 16, .sform_code = 1, .xyz_units = 2, .intent = intent};
+  for (int row = 0; row < 3; ++row) {
+    for (int axis = 0; axis < 3; ++axis)
+      header.srow[static_cast<std::size_t>(4 * row + axis)] = static_cast<float>(axes[axis][row]);
+  }
+  std::string bytes = header.version1() + std::string(4, '\0');
+  for (int v = 0; v < volumes; ++v) {
+    for (int p = 0; p < 27; ++p) put(bytes, static_cast<float>(values[static_cast<std::size_t>(v)]));
+  }
+  return bytes;
+}
+
+/// Directions in FSL's axes, b = 1000, after one volume without weighting.
+const std::vector<Vec3> kGradients{{1, 0, 0},     {0, 1, 0},     {0, 0, 1},     {0.6, 0.8, 0},
+                                   {0, 0.6, 0.8}, {0.8, 0, 0.6}, {0.6, -0.8, 0}};
+
+std::string bval_text(const char* first = "0") {
+  std::string text = first;
+  for (std::size_t i = 0; i < kGradients.size(); ++i) text += " 1000";
+  return text + "\n";
+}
+std::string bvec_rows(double scale = 1.0) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    text += "0";
+    for (const Vec3& g : kGradients) text += " " + std::to_string(scale * g[axis]);
+    text += "\n";
+  }
+  return text;
+}
+std::string bvec_columns() {
+  std::string text = "0 0 0\n";
+  for (const Vec3& g : kGradients)
+    text += std::to_string(g.x) + " " + std::to_string(g.y) + " " + std::to_string(g.z) + "\n";
+  return text;
+}
+
+/// Signals of a tensor whose main direction is `main`, in FSL's axes.
+std::vector<double> signals(const Vec3& main) {
+  const Mat3 d = Mat3{0.3e-3} + 1.4e-3 * glm::outerProduct(glm::normalize(main), glm::normalize(main));
+  std::vector<double> values{500.0};
+  for (const Vec3& g : kGradients) values.push_back(500.0 * std::exp(-1000.0 * glm::dot(g, d * g)));
+  return values;
+}
+
+Input open(const std::filesystem::path& file, const TensorWords& words = {}) {
+  InputSpec spec;
+  spec.files = {file};
+  spec.kind = FieldKind::kTensor;
+  spec.tensor = words;
+  return Input::open(spec);
+}
+
+/// The main direction at the first voxel, and its FA-like spread of eigenvalues.
+SymmetricEigen first_tensor(const std::filesystem::path& file, const TensorWords& words = {}) {
+  const TensorImage made = open(file, words).load_tensor_image(1);
+  const auto d = read_tensor(*made.image.find(made.choice.array, Association::kPoint), 0, made.choice.order);
+  return symmetric_eigen({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
+}
+
+std::string failure(const std::filesystem::path& file, const TensorWords& words = {}) {
+  try {
+    (void)open(file, words).load_tensor_image(1);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+double along(const SymmetricEigen& eigen, const Vec3& direction) {
+  return std::abs(glm::dot(eigen.vectors[0], glm::normalize(direction)));
+}
+
+TEST(DiffusionNifti, TurnsGradientsIntoRasByFslsRule) {
+  const TempFolder folder;
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_rows());
+  const Vec3 main{1.0, 2.0, 3.0};  // in FSL's axes
+  // Left-handed: FSL's axes are the image's own, and i runs to the left.
+  folder.write("dwi.nii", image(8, kLeftHanded, signals(main)));
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  // Right-handed: FSL turns x around.
+  folder.write("dwi.nii", image(8, kRightHanded, signals(main)));
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  folder.write("dwi.nii", image(8, oblique(), signals(main)));
+  const SymmetricEigen turned = first_tensor(folder.path("dwi.nii"));
+  EXPECT_NEAR(along(turned, 0.5 * oblique() * Vec3{-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  EXPECT_NEAR(turned.values[0], 1.7e-3, 1e-8);
+  EXPECT_NEAR(turned.values[2], 0.3e-3, 1e-8);
+}
+
+TEST(DiffusionNifti, ReadsRowsColumnsSmallWeightingsAndLengths) {
+  const TempFolder folder;
+  const Vec3 main{1.0, 0.2, 0.1};
+  folder.write("dwi.nii", image(8, kLeftHanded, signals(main)));
+  folder.write("dwi.bval", bval_text("5"));
+  folder.write("dwi.bvec", bvec_columns());
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 0.2, 0.1}), 1.0, 1e-6);
+  folder.write("dwi.bvec", bvec_rows(3.0));  // not of unit length
+  EXPECT_NEAR(first_tensor(folder.path("dwi.nii")).values[0], 1.7e-3, 1e-8);
+  folder.write("elsewhere.txt", bval_text());
+  TensorWords words;
+  words.bval = folder.path("elsewhere.txt");
+  words.flip = "i";
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {1.0, 0.2, 0.1}), 1.0, 1e-6);
+}
+
+TEST(DiffusionNifti, RefusesGradientsThatDoNotGoWithTheImage) {
+  const TempFolder folder;
+  const auto file = folder.write("dwi.nii", image(8, kLeftHanded, signals({1, 0, 0})));
+  EXPECT_NE(failure(file).find("--bval"), std::string::npos);  // none at all
+  folder.write("dwi.bval", bval_text());
+  EXPECT_NE(failure(file).find("without directions"), std::string::npos);
+  folder.write("dwi.bvec", bvec_rows());
+  EXPECT_EQ(failure(file), "");
+  folder.write("dwi.bval", "0 1000 1000 1000 1000 1000 1000\n");
+  EXPECT_NE(failure(file).find("7 b-values"), std::string::npos) << failure(file);
+  folder.write("dwi.bval", "0 0 0 0 0 0 0 0\n");
+  EXPECT_NE(failure(file).find("all b-values are zero"), std::string::npos) << failure(file);
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_columns() + "0 0 1\n");
+  EXPECT_NE(failure(file).find("9 lines"), std::string::npos) << failure(file);
+  folder.write("dwi.bvec", "0 a b\n");
+  EXPECT_NE(failure(file).find("'a' is no number"), std::string::npos) << failure(file);
+  folder.write("dwi.bvec", "0 1 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n");
+  EXPECT_NE(failure(file).find("direction 3"), std::string::npos) << failure(file);
+  // Five directions are too few.
+  folder.write("five.nii", image(6, kLeftHanded, signals({1, 0, 0})));
+  folder.write("five.bval", "0 1000 1000 1000 1000 1000\n");
+  folder.write("five.bvec", "0 1 0 0 .6 0\n0 0 1 0 .8 .6\n0 0 0 1 0 .8\n");
+  EXPECT_NE(failure(folder.path("five.nii")).find("of the 7 unknowns"), std::string::npos);
+  // A series of one volume.
+  folder.write("one.nii", image(1, kLeftHanded, {1.0}));
+  folder.write("one.bval", "0\n");
+  folder.write("one.bvec", "0\n0\n0\n");
+  EXPECT_NE(failure(folder.path("one.nii")).find("all b-values are zero"), std::string::npos);
+}
+
+TEST(TensorNifti, TellsFslsOrderFromMrtrixsAndHonoursTheAxesOfEach) {
+  const TempFolder folder;
+  // A main direction in FSL's axes, and the tensor in rows and with the diagonal first.
+  const Vec3 v = glm::normalize(Vec3{1.0, 2.0, 3.0});
+  const Mat3 d = Mat3{0.3e-3} + 1.4e-3 * glm::outerProduct(v, v);
+  const auto rows =
+      folder.write("fsl.nii", image(6, kLeftHanded, {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]}));
+  const auto diagonal = folder.write(
+      "mrtrix.nii", image(6, kLeftHanded, {d[0][0], d[1][1], d[2][2], d[1][0], d[2][0], d[2][1]}));
+  EXPECT_NEAR(along(first_tensor(rows), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  EXPECT_NEAR(along(first_tensor(diagonal), {1.0, 2.0, 3.0}), 1.0, 1e-6);
+  TensorWords words;
+  words.order = "mrtrix";
+  EXPECT_LT(first_tensor(rows, words).values[2], 0.0);  // told to, it reads it wrong
+  words.order = "word";
+  EXPECT_THROW((void)open(rows, words), Error);
+  // NIfTI's intent says that the matrix is a lower triangle.
+  constexpr int kSymmetricMatrix = 1005;
+  const auto lower = folder.write(
+      "nifti.nii",
+      image(6, kRightHanded, {d[0][0], d[1][0], d[1][1], d[2][0], d[2][1], d[2][2]}, kSymmetricMatrix));
+  EXPECT_NEAR(along(first_tensor(lower), {1.0, 2.0, 3.0}), 1.0, 1e-6);
+}
+
+TEST(EigenSet, PutsTensorsTogetherFromFslsImages) {
+  const TempFolder folder;
+  const Vec3 v1 = glm::normalize(Vec3{1.0, 1.0, 0.0}), v2{0.0, 0.0, 1.0}, v3 = glm::cross(v1, v2);
+  const auto write3 = [&](const char* name, const Vec3& v) {
+    return folder.write(name, image(3, kLeftHanded, {v.x, v.y, v.z}));
+  };
+  const auto v1_file = write3("dti_V1.nii", v1);
+  folder.write("dti_FA.nii", image(1, kLeftHanded, {0.5}));
+  const SymmetricEigen alone = first_tensor(v1_file);
+  EXPECT_NEAR(along(alone, {-1.0, 1.0, 0.0}), 1.0, 1e-6);
+  const Vec3 l = alone.values;
+  EXPECT_NEAR(std::sqrt(0.5 * (std::pow(l.x - l.y, 2) + std::pow(l.y - l.z, 2) + std::pow(l.z - l.x, 2)) /
+                        glm::dot(l, l)),
+              0.5, 1e-6);
+
+  (void)write3("dti_V2.nii", v2);
+  (void)write3("dti_V3.nii", v3);
+  folder.write("dti_L1.nii", image(1, kLeftHanded, {1.5e-3}));
+  folder.write("dti_L2.nii", image(1, kLeftHanded, {0.5e-3}));
+  const auto l3 = folder.write("dti_L3.nii", image(1, kLeftHanded, {0.2e-3}));
+  const SymmetricEigen whole = first_tensor(l3);  // any of them names the set
+  EXPECT_NEAR(along(whole, {-1.0, 1.0, 0.0}), 1.0, 1e-6);
+  EXPECT_NEAR(whole.values[1], 0.5e-3, 1e-8);
+}
+
+TEST(DiffusionNifti, FitsWhereTheMaskSays) {
+  const TempFolder folder;
+  const auto file = folder.write("dwi.nii", image(8, kLeftHanded, signals({1, 0, 0})));
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_rows());
+  std::string mask = image(1, kLeftHanded, {1.0});
+  put_at(mask, 352, 0.0F);  // not the first voxel
+  TensorWords words;
+  words.mask = folder.write("mask.nii", mask).string();
+  const TensorImage made = open(file, words).load_tensor_image(1);
+  ASSERT_TRUE(made.fit);
+  EXPECT_EQ(made.fit->fitted, 26U);
+  EXPECT_TRUE(std::isnan(made.image.arrays.front().at(0)));
+  EXPECT_FALSE(std::isnan(made.image.arrays.front().at(1)));
+  NiftiHeader other{.size = {2, 3, 3}, .datatype = 16};
+  words.mask = folder.write("other.nii", other.version1() + std::string(4 + 4 * 18, '\0')).string();
+  EXPECT_NE(failure(file, words).find("2 x 3 x 3"), std::string::npos) << failure(file, words);
+}
+
+}  // namespace
+}  // namespace palpate::test
