@@ -15,15 +15,16 @@ namespace palpate {
 
 /// The unit main eigenvector of `d` that makes an acute angle with `toward`. @pre `d` finite, of a size
 /// near one (so that products of six entries are in range), `toward` of unit length. @rt Safe.
-[[nodiscard]] inline Vec3 main_direction(const Tensor6& d, const Vec3& toward) noexcept {
+/// Inlined: called for every stage of every step, one waiting for the other.
+[[nodiscard, gnu::always_inline]] inline Vec3 main_direction(const Tensor6& d, const Vec3& toward) noexcept {
   constexpr int kMostSteps = 4;
-  constexpr double kTurnDone = 1e-7;  // squared sine of the last step's turn: what is left is its cube
+  constexpr double kTurnDone = 1e-6;  // squared sine of the last step's turn: what is left is its cube
   constexpr double kLeastGap = 1e-6;  // squared, of the eigenvalues' sum: below it two of them are one
   const double trace = d.trace();
   Vec3 v = toward;
   double length2 = 1.0;
+  double rho = glm::dot(v, d * v);
   for (int step = 0; step < kMostSteps; ++step) {
-    const double rho = glm::dot(v, d * v) / length2;
     // The adjugate of B = D - rho is the inverse but for a factor, and finite where B is singular.
     const double x = d.xx - rho, y = d.yy - rho, z = d.zz - rho;
     const Tensor6 adjugate{.xx = y * z - d.yz * d.yz,
@@ -37,7 +38,10 @@ namespace palpate {
     const bool settled = next2 * length2 - along * along < kTurnDone * next2 * length2;
     v = next;
     length2 = next2;
-    if (!settled) continue;
+    if (!settled) {
+      rho = glm::dot(v, d * v) / length2;
+      continue;
+    }
     // trace(adj B) = (l_2 - rho)(l_3 - rho) > 0: rho is an outer eigenvalue; 3 rho > trace: the upper one.
     if (!(adjugate.trace() > kLeastGap * trace * trace && 3.0 * rho > trace)) break;
     return v * ((glm::dot(v, toward) < 0.0 ? -1.0 : 1.0) / std::sqrt(length2));

@@ -132,8 +132,9 @@ class UniformTensors {
     out = {scale * sum[0], scale * sum[1], scale * sum[2], scale * sum[3], scale * sum[4], scale * sum[5]};
     return SampleStatus::kOk;
   }
-  /// The tensors at the ends of a cell's edge along x, weighted.
-  static Six edge(const T* at, double fx, double weight) noexcept {
+  /// The tensors at the ends of a cell's edge along x, weighted. Inlined: a call would pass six numbers
+  /// through memory, four times a sample.
+  [[gnu::always_inline]] static Six edge(const T* at, double fx, double weight) noexcept {
     const double second = weight * fx, first = weight - second;
     const __m128d w0{first, first}, w1{second, second};
     return {w0 * two(at) + w1 * two(at + 6), w0 * two(at + 2) + w1 * two(at + 8),
