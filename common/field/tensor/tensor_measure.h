@@ -1,0 +1,38 @@
+/// Images of what tensors measure: one number, a direction or a colour a voxel.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/tensor/tensor_field.h"
+
+namespace palpate {
+
+enum class TensorMeasure : std::uint8_t {
+  kFa,      ///< fractional anisotropy
+  kMd,      ///< mean diffusivity, in the tensor's unit
+  kLinear,  ///< c_l, and so on (diffusion_measures.h)
+  kPlanar,
+  kSpherical,
+  kMode,
+  kMainDirection,  ///< e_1, unit, in the data's axes; of its two signs the one whose largest component is
+                   ///< positive
+  kColor           ///< FA times |x|, |y|, |z| of e_1: red, green, blue
+};
+inline constexpr int kTensorMeasureCount = 8;
+
+/// "fa", "md", "cl", "cp", "cs", "mode", "v1", "color".
+[[nodiscard]] std::string_view name_of(TensorMeasure measure) noexcept;
+/// @throws Error (usage) that lists the known ones.
+[[nodiscard]] TensorMeasure measure_from_name(std::string_view name);
+/// 1, or 3 of directions and colours.
+[[nodiscard]] int component_count(TensorMeasure measure) noexcept;
+
+/// The measure at every point, NaN where there is no tensor; the same for any number of threads.
+/// @pre `image` has the array of `choice`.
+[[nodiscard]] std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice,
+                                                 TensorMeasure measure, int threads);
+
+}  // namespace palpate

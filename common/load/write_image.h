@@ -1,0 +1,41 @@
+/// Writers of images, chosen by the file's ending: .nii, .nii.gz (NIfTI-1), .nrrd. Written under a temporary
+/// name and renamed, so an output is never half a file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "common/field/data_set.h"
+
+namespace palpate {
+
+/// What the numbers of a voxel are, in the axes of the coordinates (RAS+ mm).
+enum class ImageContent : std::uint8_t {
+  kScalar,  ///< one number
+  kVector,  ///< three: a direction
+  kTensor,  ///< six: xx xy xz yy yz zz
+  kColor    ///< three in [0, 1]: red, green, blue; stored in a byte each
+};
+/// Numbers of a voxel.
+[[nodiscard]] int component_count(ImageContent content) noexcept;
+
+/// Along which axes, and in which order, NIfTI files hold directions and tensors: its header cannot say.
+enum class ImageConvention : std::uint8_t {
+  kMrtrix,  ///< the axes of the coordinates; xx yy zz xy xz yz
+  kFsl      ///< fsl_axes(); xx xy xz yy yz zz
+};
+
+/// Checks that `path` has a known ending, may be written, and does not exist unless `overwrite`; call it
+/// before the work starts.
+/// @throws Error (usage, or work failed where the folder cannot be written).
+void check_image_output(const std::filesystem::path& path, bool overwrite);
+
+/// Voxels that are not finite are written as zeros; in NRRD, tensors have a mask that is zero there.
+/// @param values of all points of `topology`, component_count() numbers each.
+/// @throws Error as check_image_output(); (work failed) where the disk refuses; (usage) where the image is
+/// too large for NIfTI-1 along an axis.
+void write_image(const std::filesystem::path& path, const UniformTopology& topology, ImageContent content,
+                 std::span<const float> values, ImageConvention convention, bool overwrite);
+
+}  // namespace palpate
