@@ -12,10 +12,13 @@
 #include "common/base/error.h"
 #include "common/load/volume_block.h"
 #include "loaders/nrrd/nrrd_check.h"
+#include "loaders/nrrd/nrrd_gradients.h"
 #include "loaders/nrrd/nrrd_tuples.h"
 
 namespace palpate {
 namespace {
+
+constexpr const char* kUnturned = "values are left in the measurement frame of the file";
 
 using NrrdPtr = std::unique_ptr<Nrrd, Nrrd* (*)(Nrrd*)>;
 
@@ -157,6 +160,7 @@ class NrrdLoader : public Loader {
     place(*nrrd, info.notes);
     info.anatomical = anatomical_;
     describe_values(*nrrd, info.notes);
+    if (request.diffusion) describe_gradients(*nrrd, info);
 
     info.blocks.push_back(describe_image(topology_, array_));
     return info;
@@ -234,7 +238,7 @@ class NrrdLoader : public Loader {
     array_.name = array_name(kind_);
     const bool has_frame = nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]);
     if (kind_ == TupleKind::kNumbers) {
-      if (has_frame) notes.emplace_back("values are left in the measurement frame of the file");
+      if (has_frame) notes.emplace_back(kUnturned);
       return;
     }
     // Component c of a vector lies along column c of the measurement frame, in the header's space.
@@ -248,6 +252,28 @@ class NrrdLoader : public Loader {
     notes.push_back(array_.name + " turned into RAS");
     const bool small = byte_size(stored_type_) <= 2 || stored_type_ == ScalarType::kFloat32;
     array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
+  }
+
+  /// Diffusion-weighted volumes with their gradients, where the header states them.
+  void describe_gradients(const Nrrd& nrrd, FileInfo& info) {
+    if (kind_ != TupleKind::kNumbers || !axes_.components) return;
+    const NrrdKeys keys = [&nrrd](const std::string& key) -> std::optional<std::string> {
+      char* const text = nrrdKeyValueGet(&nrrd, key.c_str());
+      if (text == nullptr) return std::nullopt;
+      std::string value(text);
+      std::free(text);
+      return value;
+    };
+    Mat3 frame{1.0};
+    for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
+      for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
+    }
+    for (int c = 0; c < 3; ++c) frame[c] *= signs_;
+    info.diffusion.gradients =
+        read_nrrd_gradients(keys, static_cast<std::size_t>(stored_components_), frame, file_, info.notes);
+    if (!info.diffusion.gradients) return;
+    array_.name = kSignalArray;
+    std::erase(info.notes, kUnturned);  // signals have no directions; their gradients were turned
   }
 
   DataArray values() const {

@@ -10,6 +10,7 @@
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"
 #include "tests/loaders/nifti_fixture.h"
+#include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -233,6 +234,53 @@ TEST(DiffusionNifti, FitsWhereTheMaskSays) {
   NiftiHeader other{.size = {2, 3, 3}, .datatype = 16};
   words.mask = folder.write("other.nii", other.version1() + std::string(4 + 4 * 18, '\0')).string();
   EXPECT_NE(failure(file, words).find("2 x 3 x 3"), std::string::npos) << failure(file, words);
+}
+
+TEST(DiffusionNrrd, FitsTheTensorsThatThePublicHelixHas) {
+  PALPATE_NEED_DATA(dwi, "dtmri/helix-synthetic/helix-DWI.nhdr");
+  PALPATE_NEED_DATA(dti, "dtmri/helix-synthetic/helix-DTI.nhdr");
+  TensorWords words;
+  words.mask = "none";
+  const TensorImage fitted = open(dwi, words).load_tensor_image(2), stored = open(dti).load_tensor_image(2);
+  std::size_t both = 0;
+  for (std::size_t p = 0; p < stored.image.point_count(); ++p) {
+    const auto tensor = [p](const TensorImage& made) {
+      const auto d =
+          read_tensor(*made.image.find(made.choice.array, Association::kPoint), p, made.choice.order);
+      return Mat3{Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
+    };
+    const Mat3 a = tensor(stored);
+    if (!std::isfinite(a[0][0])) continue;
+    const Mat3 b = tensor(fitted);
+    const SymmetricEigen eigen = symmetric_eigen(a);
+    if (!(eigen.values[1] < 0.7 * eigen.values[0])) continue;
+    ++both;
+    EXPECT_GT(std::abs(glm::dot(eigen.vectors[0], symmetric_eigen(b).vectors[0])), 0.999) << p;
+  }
+  EXPECT_GT(both, 200U);
+}
+
+TEST(DiffusionNrrd, RefusesGradientsThatDoNotGoWithTheVolumes) {
+  const TempFolder folder;
+  const auto header = [](const std::string& keys) {
+    return "NRRD0005\ntype: float\ndimension: 4\nspace: right-anterior-superior\nsizes: 7 2 2 2\n"
+           "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list space space space\n"
+           "endian: little\nencoding: raw\nspace origin: (0,0,0)\nmodality:=DWMRI\n" +
+           keys + "\n" + std::string(std::size_t{4} * 56, '\1');
+  };
+  const auto refused = [&](const std::string& keys) {
+    return failure(folder.write("dwi.nrrd", header(keys)));
+  };
+  EXPECT_NE(refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 0\n").find("DWMRI_gradient_0001"),
+            std::string::npos);
+  EXPECT_NE(refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 x\n").find("three finite numbers"),
+            std::string::npos);
+  EXPECT_NE(refused("DWMRI_b-value:=nan\n").find("DWMRI_b-value"), std::string::npos);
+  EXPECT_NE(
+      refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 0\nDWMRI_NEX_0000:=99\n").find("is no count"),
+      std::string::npos);
+  EXPECT_NE(refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 1\nDWMRI_NEX_0000:=7\n").find("unknowns"),
+            std::string::npos);
 }
 
 }  // namespace
