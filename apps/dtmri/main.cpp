@@ -1,4 +1,5 @@
 /// dtmri: images of diffusion tensors, seen and felt.
+#include "apps/dtmri/open_verb.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -9,7 +10,9 @@ int main(int argc, char** argv) {
       .kind = FieldKind::kTensor,
       .examples =
           {
+              {"dtmri helix-DTI.nhdr", "look at a file in the window"},
               {"dtmri info helix-DTI.nhdr", "what the file holds"},
+              {"dtmri render dwi.nii.gz --out dwi.png", "a picture, with or without a display"},
               {"dtmri trace helix-DTI.nhdr --seeds fa:0.5 --out tracts.tck",
                "tracts from every voxel of high FA"},
               {"dtmri --example list", "the built-in data sets"},
@@ -18,6 +21,16 @@ int main(int argc, char** argv) {
           {
               info_verb({{"dtmri info helix-DTI.nhdr", "grid, tensors, orientation, memory"},
                          {"dtmri info dwi.nii.gz --explain", "and what each verb would load"}}),
+              tensor_render_verb(
+                  {{"dtmri render helix-DTI.nhdr --out helix.png", "three slices, coloured by direction"},
+                   {"dtmri render dwi.nii.gz --slices -,-,20 --camera 0,90,0,1 --glyphs superquadric --out "
+                    "s.png",
+                    "an axial slice with glyphs, seen from above"},
+                   {"dtmri render tensors.nii.gz --color fa --voxels linear --out fa.png",
+                    "fractional anisotropy"}}),
+              open_verb({{"dtmri helix-DTI.nhdr", "a file in the window"},
+                         {"dtmri --example helix", "a built-in data set"},
+                         {"dtmri open --session dwi.palpate.toml", "what Ctrl+S saved"}}),
               trace_tracts_verb(
                   {{"dtmri trace helix-DTI.nhdr --seeds fa:0.5 --out tracts.tck",
                     "from the centre of every voxel whose FA is above one half"},
@@ -32,7 +45,6 @@ int main(int argc, char** argv) {
                    {"dtmri trace --example helix --seeds fa:0.6 --json --out helix.csv",
                     "a built-in image; the counts as JSON"}}),
           },
-      .default_verb = "info",
   };
   return run_explorer(dtmri, argc, argv);
 }

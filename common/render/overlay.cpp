@@ -285,12 +285,14 @@ void draw_volume_colors(const Pen& pen, const SceneView& view, float right, floa
 }
 
 // The colours of slices and glyphs.
-void draw_tensor_colors(const Pen& pen, const TensorView& tensors, float right, float middle, float length) {
+void draw_tensor_colors(const Pen& pen, const TensorView& tensors, bool anatomical, float right, float middle,
+                        float length) {
   if (tensors.color == TensorColor::kDirection) {
+    const std::array<const char*, 3> axes =
+        anatomical ? std::array<const char*, 3>{"left, right", "back, front", "feet, head"}
+                   : std::array<const char*, 3>{"x", "y", "z"};
     draw_legend(pen, "direction",
-                {{{1.0F, 0.1F, 0.1F}, "left, right"},
-                 {{0.1F, 1.0F, 0.1F}, "back, front"},
-                 {{0.1F, 0.1F, 1.0F}, "feet, head"}},
+                {{{1.0F, 0.1F, 0.1F}, axes[0]}, {{0.1F, 1.0F, 0.1F}, axes[1]}, {{0.1F, 0.1F, 1.0F}, axes[2]}},
                 right, middle);
     return;
   }
@@ -309,7 +311,8 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
     return;
   }
   if (view.tensors && !legend.has_lines) {
-    draw_tensor_colors(pen, *view.tensors, right, shows_path(view) ? 0.31F * h : 0.5F * h, 0.30F * h);
+    draw_tensor_colors(pen, *view.tensors, view.anatomical, right, shows_path(view) ? 0.31F * h : 0.5F * h,
+                       0.30F * h);
   }
   if (!shows_path(view)) {
     if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);

@@ -21,11 +21,10 @@ void main() {
   vec2 from_cross = abs(g - vec2(cross_at[u], cross_at[v])) / pixel;
   vec2 from_edge = min(g + 0.5, vec2(points[u], points[v]) - 0.5 - g) / pixel;
 
-  vec4 voxel = texture(voxels, (grid + 0.5) / points);
   float edge = coverage(min(from_edge.x, from_edge.y), border.w);
-  if (voxel.a < 0.5 && edge < 0.5) discard;
-  vec3 rgb = voxel.a < 0.5 ? border.rgb : brightness * voxel.rgb / voxel.a;
-  rgb = mix(rgb, border.rgb, edge);
-  float line = voxel.a < 0.5 ? 0.0 : coverage(min(from_cross.x, from_cross.y), cross_line.w);
+  vec4 voxel = texture(voxels, (grid + 0.5) / points);
+  if (voxel.a < 0.5) discard;
+  vec3 rgb = mix(brightness * voxel.rgb / voxel.a, border.rgb, edge);
+  float line = coverage(min(from_cross.x, from_cross.y), cross_line.w);
   color = vec4(mix(rgb, cross_line.rgb, 0.7 * line), 1.0);
 }

@@ -9,6 +9,12 @@ namespace {
 class Dtmri : public ExplorerTest {
  protected:
   Dtmri() : ExplorerTest("dtmri") {}
+
+  /// The compressed pixels: what stands before them names the command.
+  std::string pixels_of(const std::string& picture) const {
+    const std::string content = read_file(folder_.path(picture));
+    return content.substr(std::min(content.size(), content.find("IDAT")));
+  }
 };
 
 TEST_F(Dtmri, HelpsWithExamples) {
@@ -49,6 +55,49 @@ TEST_F(Dtmri, RefusesFilesWithoutTensorsAndUnknownFields) {
   const ProgramResult result = run({"info", "--field", "fibres", helix.string()});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("tensors"), std::string::npos) << result.err;
+}
+
+TEST_F(Dtmri, RendersSlicesAndGlyphs) {
+  const Json made = json({"render", "--example", "helix", "--out", "a.png", "--size", "160x120"});
+  EXPECT_EQ(made["voxels"], 41 * 41 * 41);
+  EXPECT_GT(made["frame_ms"].get<double>(), 0.0);
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--slices", "none"},
+        {"--slices", "-,-,0"},
+        {"--color", "fa", "--voxels", "linear"},
+        {"--glyphs", "superquadric", "--projection", "orthographic"}}) {
+    std::vector<std::string> arguments{"render", "--example", "helix",   "--out",
+                                       "b.png",  "--size",    "160x120", "-f"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    // Each shows something else.
+    EXPECT_NE(pixels_of("a.png"), pixels_of("b.png")) << more.front();
+  }
+}
+
+TEST_F(Dtmri, RefusesNonsenseBeforeItDraws) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--slices", "1,2"},
+                                               {"--slices", "nan,0,0"},
+                                               {"--slices", "1e9,0,0"},
+                                               {"--glyphs", "cubes"},
+                                               {"--color", "speed"},
+                                               {"--voxels", "cubic"}}) {
+    std::vector<std::string> arguments{"render", "--example", "helix", "--out", "a.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << more.front();
+    EXPECT_NE(result.err.find(more[1]), std::string::npos) << result.err;
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Dtmri, WithoutADisplayItDrawsAPictureOrSaysWhy) {
+  EXPECT_EQ(run({}).exit_code, 0);
+  EXPECT_EQ(files(), (std::vector<std::string>{"dtmri-tour.png"}));
+  const ProgramResult refused = run({"--example", "helix"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("render"), std::string::npos) << refused.err;
 }
 
 }  // namespace

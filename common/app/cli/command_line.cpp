@@ -200,6 +200,12 @@ class VerbParser {
           "azimuth,elevation,roll,zoom", group);
     if (kind == FieldKind::kScalar) {
       add_volume();
+      add_projection();
+      return;
+    }
+    if (kind == FieldKind::kTensor) {
+      add_tensors();
+      add_projection();
       return;
     }
     scene("--color", options_.view.color,
@@ -219,8 +225,31 @@ class VerbParser {
     scene("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", group);
     scene("--shading", volume.shading, "light surfaces by the gradient of the values: on (default) or off",
           "on|off", group);
-    scene("--projection", volume.projection, "perspective (default) or orthographic", "NAME", group)
+  }
+
+  void add_projection() {
+    const char* group = "View";
+    scene("--projection", options_.volume.projection, "perspective (default) or orthographic", "NAME", group)
         ->check(CLI::IsMember({"perspective", "orthographic"}));
+  }
+
+  void add_tensors() {
+    const char* group = "View";
+    TensorOptions& tensors = options_.tensors;
+    scene("--slices", tensors.slices,
+          "slices through the image: all (default: three through its middle), none, or where they lie on the "
+          "axes of the data, '-' for one that is left out",
+          "X,Y,Z|all|none", group);
+    scene("--color", tensors.color,
+          "colours of slices and glyphs: direction (default), that of the main eigenvector with left-right "
+          "red, back-front green and feet-head blue; or fa, fractional anisotropy",
+          "direction|fa", group);
+    scene("--glyphs", tensors.glyphs, "what stands for tensors on the slices; default none",
+          "none|ellipsoid|superquadric", group);
+    scene("--voxels", tensors.voxels,
+          "colours between the centres of voxels: nearest (default), each voxel has its own; or linear",
+          "nearest|linear", group)
+        ->check(CLI::IsMember({"nearest", "linear"}));
   }
 
   void add_path() {

@@ -75,6 +75,22 @@ std::vector<std::vector<Vec3>> box_outline(const Box& box, const LocalFrame& fra
 
 }  // namespace
 
+std::vector<std::vector<Vec3>> image_outline(const Vec3& origin, const Mat3& axes, const Vec3& lower,
+                                             const Vec3& upper) {
+  const auto corner = [&](unsigned c) {
+    const Vec3 g{(c & 1U) != 0 ? upper.x : lower.x, (c & 2U) != 0 ? upper.y : lower.y,
+                 (c & 4U) != 0 ? upper.z : lower.z};
+    return origin + axes * g;
+  };
+  std::vector<std::vector<Vec3>> edges;
+  for (unsigned c = 0; c < 8; ++c) {
+    for (const unsigned along : {1U, 2U, 4U}) {
+      if ((c & along) == 0) edges.push_back({corner(c), corner(c | along)});
+    }
+  }
+  return edges;
+}
+
 std::vector<std::vector<Vec3>> domain_outline(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) return tet_outline(*mesh, field.frame());
   if (field.box_grid() && field.frame().rotated)

@@ -13,4 +13,8 @@ namespace palpate {
 /// there are so many sharp edges that they would hide the lines.
 [[nodiscard]] std::vector<std::vector<Vec3>> domain_outline(const VectorField& field);
 
+/// The twelve edges of an image: from `lower` to `upper` in its grid coordinates g, at x = origin + axes g.
+[[nodiscard]] std::vector<std::vector<Vec3>> image_outline(const Vec3& origin, const Mat3& axes,
+                                                           const Vec3& lower, const Vec3& upper);
+
 }  // namespace palpate

@@ -78,6 +78,14 @@ struct VolumeOptions {
   std::string projection = "perspective";
 };
 
+/// How diffusion tensors are drawn.
+struct TensorOptions {
+  std::string slices = "all";       ///< grammar of parse_slices()
+  std::string color = "direction";  ///< name_of(TensorColor)
+  std::string glyphs = "none";      ///< name_of(GlyphShape)
+  std::string voxels = "nearest";   ///< nearest, linear: how colours go on between the centres of voxels
+};
+
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
   std::string mode;                ///< empty: the program's first one
@@ -111,6 +119,7 @@ struct Options {
   TractTracingOptions tracts;
   ViewOptions view;
   VolumeOptions volume;
+  TensorOptions tensors;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded

@@ -19,6 +19,8 @@ namespace palpate {
 [[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 /// The same of volumes.
 [[nodiscard]] Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
+/// The same of diffusion tensors.
+[[nodiscard]] Verb tensor_render_verb(std::vector<UsageExample> examples);
 /// @param modes the program's, the default one first.
 [[nodiscard]] Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 [[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/app/cli/domain_outline.h"
 #include "common/app/cli/line_view.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -14,24 +15,6 @@
 
 namespace palpate {
 namespace {
-
-/// The twelve edges of what is shown, turned as the image is.
-std::vector<std::vector<Vec3>> image_outline(const VolumeImage& image) {
-  const Vec3 lower = image.lower();
-  const Vec3 upper = image.upper();
-  const auto corner = [&](unsigned c) {
-    const Vec3 g{(c & 1U) != 0 ? upper.x : lower.x, (c & 2U) != 0 ? upper.y : lower.y,
-                 (c & 4U) != 0 ? upper.z : lower.z};
-    return image.origin + image.axes * g;
-  };
-  std::vector<std::vector<Vec3>> edges;
-  for (unsigned c = 0; c < 8; ++c) {
-    for (const unsigned along : {1U, 2U, 4U}) {
-      if ((c & along) == 0) edges.push_back({corner(c), corner(c | along)});
-    }
-  }
-  return edges;
-}
 
 /// What was read, and the image that is made of it.
 struct Voxels {
@@ -108,7 +91,7 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
                             const Options& options, double aspect) {
   SceneView view;
   view.bounds = image->bounds();
-  view.outline = image_outline(*image);
+  view.outline = image_outline(image->origin, image->axes, image->lower(), image->upper());
   view.title = input.title();
   const FileInfo* file = input.file();
   view.anatomical = file != nullptr && file->anatomical;

@@ -7,6 +7,7 @@ namespace palpate {
 
 std::span<const KeyBinding> key_bindings() noexcept {
   constexpr int kEscape = 256, kEnter = 257, kF12 = 301;
+  constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267;
   static constexpr std::array kBindings = std::to_array<KeyBinding>({
       {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
       {'K', 0, Command::kKeepLine, "K, Space", "keep the followed line"},
@@ -17,6 +18,12 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'Y', 0, Command::kLockY, "Y", "to the y axis"},
       {'Z', 0, Command::kLockZ, "Z", "to the z axis"},
       {kF12, 0, Command::kForceOff, "F12", "force off, at once and anywhere"},
+      {kRight, 0, Command::kSliceRight, "Left, Right", "move the sagittal slice of tensors"},
+      {kLeft, 0, Command::kSliceLeft, "", ""},
+      {kPageUp, 0, Command::kSliceFront, "PgUp, PgDn", "the coronal slice"},
+      {kPageDown, 0, Command::kSliceBack, "", ""},
+      {kUp, 0, Command::kSliceUp, "Up, Down", "the axial slice"},
+      {kDown, 0, Command::kSliceDown, "", ""},
       {'H', 0, Command::kHelp, "H", "this list"},
       {'F', 0, Command::kFullScreen, "F", "full screen"},
       {kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},

@@ -30,6 +30,12 @@ enum class Command : std::uint8_t {
   kLockY,
   kLockZ,
   kForceOff,
+  kSliceRight,  ///< the slice across x, one voxel
+  kSliceLeft,
+  kSliceFront,
+  kSliceBack,
+  kSliceUp,
+  kSliceDown,
   kMode1,  ///< and so on
   kMode2,
   kMode3,

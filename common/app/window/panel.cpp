@@ -11,6 +11,7 @@
 
 #include "common/app/window/keys.h"
 #include "common/app/window/readout_rows.h"
+#include "common/app/window/tensor_panel.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -219,6 +220,13 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume)
   ImGui::Checkbox("shading", &volume.shading);
 }
 
+void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors) {
+  section("TENSORS");
+  choose("field", state.settings.field, scene.info->fields);
+  draw_time(state, scene.info->times);
+  draw_tensor_panel(tensors, scene.info->anatomical);
+}
+
 void draw_line_look(LineStyle& style) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
   ImGui::SliderScalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
@@ -232,7 +240,7 @@ void draw_line_look(LineStyle& style) {
 
 void draw_look(SceneView& view, PanelActions& actions) {
   section("LOOK");
-  if (!view.volume) draw_line_look(view.style);
+  if (!view.volume && !view.tensors) draw_line_look(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
@@ -275,6 +283,7 @@ std::string status_text(const SceneState& scene) {
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
            short_number(image.highest) + "   loaded in " + short_number(scene.seconds_load) + " s";
   }
+  if (scene.tensors) return size_text(scene) + "   loaded in " + short_number(scene.seconds_load) + " s";
   std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
@@ -347,6 +356,8 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("middle drag", "pan");
     row("right drag, wheel", "zoom");
     row("drop files", "open them");
+    row("Ctrl, left drag", "put the crosshair of slices there");
+    row("Ctrl, wheel", "move the slice under the mouse");
     row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
     for (const KeyBinding& binding : key_bindings()) {
       if (*binding.name != '\0') row(binding.name, binding.what);
@@ -366,6 +377,7 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
     const float height = draw_probe_readout(*state.touch, left, top);
     if (height > 0.0F) top += height + 0.5F * em;
   }
+  if (state.tensor) top += draw_tensor_readout(*state.tensor, left, top) + 0.5F * em;
   if (!state.show_rates) return;
   ImGui::SetNextWindowPos({left, top});
   ImGui::SetNextWindowBgAlpha(0.7F);
@@ -398,8 +410,8 @@ WindowLayout layout(int width, int height, float text_height) {
 }
 
 std::string size_text(const SceneState& scene) {
-  if (!scene.volume) return counted(scene.lines->size(), "line");
-  const Index3& n = scene.volume->image->points;
+  if (!scene.volume && !scene.tensors) return counted(scene.lines->size(), "line");
+  const Index3& n = scene.volume ? scene.volume->image->points : scene.tensors->image->points;
   return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";
 }
 
@@ -419,6 +431,8 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     }
     if (state.scene->volume && view.volume) {
       draw_volume(state, *state.scene, *view.volume);
+    } else if (state.scene->tensors && view.tensors) {
+      draw_tensors(state, *state.scene, *view.tensors);
     } else {
       draw_lines(state, *state.scene);
       draw_color(state, *state.scene, view);

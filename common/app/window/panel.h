@@ -9,6 +9,7 @@
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
+#include "common/render/tensor/tensor_pick.h"
 
 namespace palpate {
 
@@ -29,6 +30,7 @@ struct PanelState {
   bool playing = false;
   ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
+  std::optional<TensorPick> tensor;         ///< under the mouse
   std::vector<InputFiles> recent;           ///< newest first
   std::string replay_verdict;               ///< that was said
   std::string lines_file = "followed.vtp";  ///< edited

@@ -19,6 +19,7 @@
 #include "common/app/window/gui.h"
 #include "common/app/window/keys.h"
 #include "common/app/window/panel.h"
+#include "common/app/window/slice_control.h"
 #include "common/app/window/touch_control.h"
 #include "common/app/window/user_settings.h"
 #include "common/app/window/view_control.h"
@@ -175,6 +176,7 @@ class Window {
     view_.title = scene_->info->name;
     view_.subtitle = scene_->settings.field + ", " + size_text(*scene_);
     adopt_volume();
+    adopt_tensors();
     const std::vector<double>& times = scene_->info->times;
     if (times.size() > 1 && scene_->settings.time_step < times.size()) {
       view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
@@ -204,6 +206,21 @@ class Window {
     if (!view_.volume || !before || job_kind_ != JobKind::kUpdate) return;
     view_.volume->shading = before->shading;
     view_.volume->samples_per_voxel = before->samples_per_voxel;
+  }
+
+  /// Likewise of tensors: another time step of an image keeps its slices.
+  void adopt_tensors() {
+    const std::optional<TensorView> before = std::exchange(view_.tensors, scene_->tensors);
+    if (!view_.tensors) return;
+    if (!before || job_kind_ != JobKind::kUpdate) {
+      view_.style.color_by = ColorBy::kDirection;
+      return;
+    }
+    const TensorVoxels& voxels = *view_.tensors->image;
+    TensorView kept = *before;
+    kept.image = view_.tensors->image;
+    if (!voxels.contains(voxels.grid_coordinates(kept.position))) kept.position = view_.tensors->position;
+    view_.tensors = std::move(kept);
   }
 
   /// The hand feels what the lines show.
@@ -276,6 +293,9 @@ class Window {
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
     state_.grabbed = touch_control_->grabbed();
+    const bool looking = view_.tensors && !control_.dragging() && !ImGui::GetIO().WantCaptureMouse;
+    state_.tensor =
+        looking ? slice_control_.under_mouse(picture_, view_.camera, *view_.tensors) : std::nullopt;
     const SceneSettings settings_before = state_.settings;
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
@@ -318,7 +338,8 @@ class Window {
       const bool of_panel =
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
       if (!of_panel &&
-          !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse)) {
+          !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
+          !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
       }
       // An open list takes Esc for itself.
@@ -347,6 +368,7 @@ class Window {
         break;
       case Command::kLetGo:
         control_.let_go();
+        slice_control_.let_go();
         touch_control_->let_go();
         state_.show_help = state_.playing = false;
         if (job_->running() && job_kind_ != JobKind::kStart) job_->cancel();
@@ -380,6 +402,7 @@ class Window {
   }
 
   void run_touch(Command command) {
+    if (view_.tensors && SliceControl::run(command, *view_.tensors)) return;
     if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
   }
 
@@ -450,7 +473,7 @@ class Window {
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
     // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
-    const bool moving = control_.dragging() || state_.playing;
+    const bool moving = control_.dragging() || slice_control_.dragging() || state_.playing;
     dirty_ = glfw_.take_damage() || dirty_;
     const SceneView picture = with_focus();
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
@@ -492,6 +515,7 @@ class Window {
   PanelState state_;
   SceneSettings requested_;  // of the last job
   ViewControl control_;
+  SliceControl slice_control_;
   std::optional<InputFiles> to_open_;
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]

@@ -73,6 +73,7 @@ struct SceneState {
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::optional<VolumeView> volume;                ///< in place of lines
+  std::optional<TensorView> tensors;               ///< likewise
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;

@@ -17,6 +17,34 @@ std::uint8_t byte_of(double x) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(x, 0.0, 1.0)));
 }
 
+Box box_around(const TensorVoxels& voxels, const Index3& first, const Index3& last) {
+  const Vec3 lower = Vec3(first) - 0.5, upper = Vec3(last) + 0.5;
+  Box box;
+  for (unsigned i = 0; i < 8; ++i) {
+    box.include(voxels.position({(i & 1U) != 0 ? upper.x : lower.x, (i & 2U) != 0 ? upper.y : lower.y,
+                                 (i & 4U) != 0 ? upper.z : lower.z}));
+  }
+  return box;
+}
+
+void find_shown(TensorVoxels& voxels) {
+  const Index3 n = voxels.points;
+  Index3 first = n, last{-1};
+  Index3 at{0};
+  for (at.z = 0; at.z < n.z; ++at.z) {
+    for (at.y = 0; at.y < n.y; ++at.y) {
+      for (at.x = 0; at.x < n.x; ++at.x) {
+        if (!voxels.shows(at)) continue;
+        first = glm::min(first, at);
+        last = glm::max(last, at);
+      }
+    }
+  }
+  const bool any = last.x >= 0;
+  voxels.first_shown = any ? first : Index3{0};
+  voxels.last_shown = any ? last : n - 1;
+}
+
 }  // namespace
 
 Rgb direction_color(const Vec3& direction) noexcept { return {glm::abs(direction)}; }
@@ -49,14 +77,8 @@ bool TensorVoxels::shows(const Index3& voxel) const noexcept {
   return directions[static_cast<std::size_t>(voxel.x) + row * line][3] != 0;
 }
 
-Box TensorVoxels::bounds() const noexcept {
-  Box box;
-  for (unsigned i = 0; i < 8; ++i) {
-    box.include(position({(i & 1U) != 0 ? points.x - 0.5 : -0.5, (i & 2U) != 0 ? points.y - 0.5 : -0.5,
-                          (i & 4U) != 0 ? points.z - 0.5 : -0.5}));
-  }
-  return box;
-}
+Box TensorVoxels::bounds() const noexcept { return box_around(*this, Index3{0}, points - 1); }
+Box TensorVoxels::shown_bounds() const noexcept { return box_around(*this, first_shown, last_shown); }
 
 std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const TensorField> field,
                                                        const std::string& file, int threads) {
@@ -90,6 +112,7 @@ std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const Ten
       }
     }
   });
+  find_shown(*image);
   image->field = std::move(field);
   return image;
 }

@@ -29,14 +29,18 @@ struct TensorVoxels {
   std::vector<std::array<std::uint8_t, 4>> directions;
   std::vector<std::uint8_t> anisotropies;  ///< FA, 255 for one
 
+  /// The voxels that show lie between these, both included; all of them where none shows.
+  Index3 first_shown{0}, last_shown{0};
+
   [[nodiscard]] Vec3 position(const Vec3& g) const noexcept { return origin + axes * g; }
   [[nodiscard]] Vec3 grid_coordinates(const Vec3& x) const noexcept;
   /// Whether g lies in a voxel.
   [[nodiscard]] bool contains(const Vec3& g) const noexcept;
   /// Whether a voxel has a tensor that shows. @pre it lies in the image.
   [[nodiscard]] bool shows(const Index3& voxel) const noexcept;
-  /// Box around all voxels, data coordinates.
+  /// Boxes around all voxels, and around those from first_shown to last_shown; data coordinates.
   [[nodiscard]] Box bounds() const noexcept;
+  [[nodiscard]] Box shown_bounds() const noexcept;
 };
 
 /// @param file for messages. @param threads 0: all cores; the image does not depend on it.

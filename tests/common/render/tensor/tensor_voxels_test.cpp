@@ -64,6 +64,19 @@ TEST(TensorVoxels, ZeroAndNegativeTensorsShowNothing) {
   }
 }
 
+TEST(TensorVoxels, KnowsWhereItsTensorsLie) {
+  const auto image = sampled_tensors(centred_lattice({6, 5, 4}, Mat3(1.0)), [](const Vec3& x) {
+    return x.x > 0.0 && x.y < 1.5 ? Mat3(1.0) : Mat3(0.0);
+  });
+  EXPECT_EQ(image->first_shown, Index3(3, 0, 0));
+  EXPECT_EQ(image->last_shown, Index3(5, 3, 3));
+  EXPECT_EQ(image->shown_bounds().lower, Vec3(0.0, -2.5, -2.0));
+  EXPECT_EQ(image->shown_bounds().upper, Vec3(3.0, 1.5, 2.0));
+  const auto nothing =
+      sampled_tensors(centred_lattice({6, 5, 4}, Mat3(1.0)), [](const Vec3&) { return Mat3(0.0); });
+  EXPECT_EQ(nothing->shown_bounds().upper, nothing->bounds().upper);
+}
+
 TEST(TensorVoxels, RefusesOtherGrids) {
   DataSet block;
   RectilinearTopology grid;

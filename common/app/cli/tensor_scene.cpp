@@ -1,0 +1,108 @@
+#include "common/app/cli/tensor_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/app/cli/domain_outline.h"
+#include "common/app/cli/line_view.h"
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+/// The middle of what shows, on the centre of a voxel.
+Vec3 middle_of(const TensorVoxels& voxels) {
+  const Index3 at = (voxels.first_shown + voxels.last_shown + 1) / 2;
+  return voxels.position(Vec3(at));
+}
+
+}  // namespace
+
+SliceChoice parse_slices(const std::string& text) {
+  if (text == "all") return {};
+  if (text == "none") return {.shown = {false, false, false}};
+  SliceChoice choice;
+  const std::vector<std::string_view> parts = split(text, ',');
+  bool good = parts.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis) {
+    choice.shown[axis] = parts[axis] != "-";
+    if (!choice.shown[axis]) continue;
+    choice.position[axis] = number(parts[axis]);
+    good = choice.position[axis] && std::isfinite(*choice.position[axis]);
+  }
+  if (!good) {
+    throw usage_error("--slices " + text +
+                      ": all, none, or a place on each axis is expected, such as 0,-12.5,30, with '-' for a "
+                      "slice that is left out");
+  }
+  return choice;
+}
+
+std::string slices_text(const TensorView& view) {
+  if (std::none_of(view.slices.begin(), view.slices.end(), [](bool shown) { return shown; })) return "none";
+  const std::array<int, 3> axes = slice_axes(view.image->axes);
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis > 0) text += ',';
+    const bool shown = view.slices[static_cast<std::size_t>(axes[axis])];
+    text += shown ? exact_number(view.position[static_cast<int>(axis)]) : "-";
+  }
+  return text;
+}
+
+void check_tensor_options(const TensorOptions& options) {
+  (void)parse_slices(options.slices);
+  (void)tensor_color_from_name(options.color);
+  (void)glyph_shape_from_name(options.glyphs);
+}
+
+TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const TensorOptions& options) {
+  const SliceChoice choice = parse_slices(options.slices);
+  TensorView view;
+  view.position = middle_of(*voxels);
+  const std::array<int, 3> axes = slice_axes(voxels->axes);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    view.slices[static_cast<std::size_t>(axes[axis])] = choice.shown[axis];
+    if (choice.position[axis]) view.position[static_cast<int>(axis)] = *choice.position[axis];
+  }
+  if (!voxels->contains(voxels->grid_coordinates(view.position))) {
+    const Box box = voxels->bounds();
+    const auto corner = [](const Vec3& x) {
+      return short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z);
+    };
+    throw usage_error("--slices " + options.slices + ": lies outside the image, which reaches from " +
+                      corner(box.lower) + " to " + corner(box.upper));
+  }
+  view.color = tensor_color_from_name(options.color);
+  view.glyphs = glyph_shape_from_name(options.glyphs);
+  view.smooth = options.voxels == "linear";
+  view.image = std::move(voxels);
+  return view;
+}
+
+SceneView make_tensor_scene(const Input& input, TensorView tensors, const Options& options, double aspect) {
+  const TensorVoxels& voxels = *tensors.image;
+  SceneView view;
+  view.bounds = voxels.shown_bounds();  // a head fills a part of its image
+  view.outline = image_outline(voxels.origin, voxels.axes, Vec3(voxels.first_shown) - 0.5,
+                               Vec3(voxels.last_shown) + 0.5);
+  view.title = input.title();
+  view.subtitle = input.field_label() + ", " + std::to_string(voxels.points.x) + " x " +
+                  std::to_string(voxels.points.y) + " x " + std::to_string(voxels.points.z) + " voxels";
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  const FileInfo* file = input.file();
+  view.anatomical = file != nullptr && file->anatomical;
+  view.camera = make_camera(
+      view.bounds, camera_angles(options.view.camera), aspect,
+      options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
+  view.style.color_by = ColorBy::kDirection;
+  view.tensors = std::move(tensors);
+  return view;
+}
+
+}  // namespace palpate

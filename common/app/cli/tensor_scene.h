@@ -1,0 +1,41 @@
+/// What the render verb and the window show of diffusion tensors: slices, glyphs, domain and labels.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/app/cli/options.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+
+namespace palpate {
+
+/// Which slices are shown and where, as `--slices` says.
+struct SliceChoice {
+  std::array<bool, 3> shown{true, true, true};      ///< sagittal, coronal, axial: across x, y, z
+  std::array<std::optional<double>, 3> position{};  ///< [data units]; absent: the middle of the image
+};
+
+/// "all", "none", or a place on each axis of the data with commas between; '-' in place of a number leaves
+/// the slice across that axis out.
+/// @throws Error (usage).
+[[nodiscard]] SliceChoice parse_slices(const std::string& text);
+/// The view's slices as `--slices` says them.
+[[nodiscard]] std::string slices_text(const TensorView& view);
+
+/// Checks what can be checked before anything is read. @throws Error (usage).
+void check_tensor_options(const TensorOptions& options);
+
+/// What the options say about `voxels`: slices through its middle where nothing else is said.
+/// @throws Error (usage).
+[[nodiscard]] TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels,
+                                          const TensorOptions& options);
+
+/// A scene of `tensors` seen by the camera that `options` name.
+/// @param aspect width / height of the picture.
+[[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorView tensors, const Options& options,
+                                          double aspect);
+
+}  // namespace palpate

@@ -1,0 +1,14 @@
+/// The part of the panel about slices and glyphs, and the numbers of the voxel under the mouse.
+#pragma once
+
+#include "common/render/tensor/tensor_pick.h"
+
+namespace palpate {
+
+/// @param anatomical the data's axes lead to the right, the front and up of a patient.
+void draw_tensor_panel(TensorView& view, bool anatomical);
+
+/// A small window with its upper left corner at `left`, `top` [pixels]. @return its height.
+float draw_tensor_readout(const TensorPick& pick, float left, float top);
+
+}  // namespace palpate
