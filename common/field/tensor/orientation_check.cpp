@@ -143,6 +143,12 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   constexpr double kClear = 1.03;
   OrientationVerdict verdict;
   if (directions.size() < kLeastVoxels) return verdict;
+  // Where voxels are long, the lines between neighbours crowd around their long axis and favour some turns.
+  constexpr double kMostUneven = 2.0;
+  const Vec3 steps{glm::length(topology.axes[0]), glm::length(topology.axes[1]),
+                   glm::length(topology.axes[2])};
+  if (std::max({steps.x, steps.y, steps.z}) > kMostUneven * std::min({steps.x, steps.y, steps.z}))
+    return verdict;
   const Mat3 image = image_axes(topology.axes);
   const std::vector<AxisTurn> turns = axis_turns();
   std::vector<Mat3> matrices;

@@ -62,7 +62,8 @@ struct OrientationVerdict {
   bool suspicious = false;  ///< the best turn is not the identity, by so much that it is no chance
 };
 
-/// Scores all turns along the image's axes.
+/// Scores all turns along the image's axes. Nothing is suspicious where fewer than 200 voxels count, or where
+/// the steps of the image differ by more than a factor of two.
 [[nodiscard]] OrientationVerdict check_orientation(const DirectionMap& directions,
                                                    const UniformTopology& topology, int threads);
 
