@@ -67,8 +67,9 @@ HapticChain make_isosurface(const HapticScene& scene) {
     made.followed = std::move(line);
   }
   const auto scalar = scalar_of(scene);
-  const Isovalues otherwise{{otsu_threshold(*scalar)}, 1};
-  links.push_back(std::make_unique<IsosurfaceConstraint>(scalar, scene.workspace, otherwise));
+  made.surfaces_of = scalar;
+  made.isovalues = {{otsu_threshold(*scalar)}, 1};
+  links.push_back(std::make_unique<IsosurfaceConstraint>(scalar, scene.workspace, made.isovalues));
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }

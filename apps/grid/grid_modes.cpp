@@ -21,7 +21,11 @@ HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
 
 HapticChain make_isosurface(const HapticScene& scene) {
   const Isovalues otherwise{{otsu_threshold(*scene.scalar)}, 1};
-  return single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise), scene);
+  HapticChain made =
+      single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise), scene);
+  made.surfaces_of = scene.scalar;
+  made.isovalues = otherwise;
+  return made;
 }
 HapticChain make_density(const HapticScene& scene) {
   return single(std::make_unique<DensityDrag>(scene.scalar, scene.workspace), scene);

@@ -3,13 +3,9 @@
 #include <cstddef>
 #include <variant>
 
-#include "common/field/value_histogram.h"
-
 namespace palpate {
-namespace {
 
-/// How many of the values at the points lie in each bin of the range, local values.
-ValueHistogram histogram(const ScalarField& field) {
+ValueHistogram value_histogram(const ScalarField& field) {
   constexpr std::size_t kBins = 1024;
   const double scale = field.value_scale();
   const double lowest = field.lowest() * scale;
@@ -31,12 +27,10 @@ ValueHistogram histogram(const ScalarField& field) {
       field.values().values);
 }
 
-}  // namespace
-
 double otsu_threshold(const ScalarField& field) {
   if (field.lowest() > field.highest()) return 0.0;
   if (!(field.local_range() > 0.0)) return field.lowest();
-  return otsu_threshold(histogram(field)) / field.value_scale();
+  return otsu_threshold(value_histogram(field)) / field.value_scale();
 }
 
 }  // namespace palpate

@@ -19,6 +19,10 @@ namespace palpate {
 struct HapticChain {
   std::unique_ptr<ProxyChain> chain;
   std::shared_ptr<const LiveLine> followed;  ///< null where the mode follows no line
+  /// Whose isosurfaces are felt, at ChainSettings::isosurface or where that has none at `isovalues`; null
+  /// where none are.
+  std::shared_ptr<const ScalarField> surfaces_of = nullptr;
+  Isovalues isovalues = {};
 };
 
 /// What a chain is built over.

@@ -94,6 +94,7 @@ bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std
   hint_ = scalar_hint_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
+  if (!surfaces_) surfaces_ = std::make_unique<FeltSurfaces>(wake_);
   clear_path();
   kept_.clear();
   last_drawn_.reset();
@@ -110,8 +111,9 @@ void ProbeSession::start_replay() {
   replay_ = std::make_unique<ReplaySource>(*std::exchange(options_.replay, std::nullopt),
                                            [this](const std::string& description) {
                                              HapticChain made = build(description);
-                                             replay_lines_.push_back(made.followed);
-                                             return std::move(made.chain);
+                                             std::unique_ptr<ProxyChain> chain = std::move(made.chain);
+                                             replay_chains_.push_back(std::move(made));
+                                             return chain;
                                            });
   servo_ = std::make_unique<ServoLoop>(*replay_, ServoOptions{.rate = options_.servo_rate});
 }
@@ -143,9 +145,7 @@ void ProbeSession::restart_chain() {
   const std::string description =
       describe_chain(options_.modes[choice_.mode].name, workspace().scale(), chain_settings(), open_.name);
   HapticChain made = build(description);
-  curve_.reset();
-  if (made.followed) curve_.emplace(made.followed);
-  felt_.clear();
+  follow_chain(made);
   if (servo_) {
     servo_->swap_chain(std::move(made.chain), description);
   } else {
@@ -155,9 +155,19 @@ void ProbeSession::restart_chain() {
   }
 }
 
+/// From now on what this chain follows and feels is drawn.
+void ProbeSession::follow_chain(const HapticChain& made) {
+  curve_.reset();
+  if (made.followed) curve_.emplace(made.followed);
+  surfaces_of_ = made.surfaces_of;
+  chain_isovalues_ = made.isovalues;
+  felt_.clear();
+}
+
 void ProbeSession::grab(double time, const Vec3& position) {
   if (!servo_ || replay_ || path_device_) return;
   target_ = position;
+  noted_.reset();
   mouse_->grab(time, workspace().workspace_from_data(position), 1);
 }
 
@@ -178,7 +188,8 @@ void ProbeSession::choose(const TouchChoice& choice) {
   const TouchChoice before = std::exchange(choice_, choice);
   if (!servo_ || replay_) return;
   if (choice.mode != before.mode || choice.ticks != before.ticks ||
-      choice.settings.linear.rebuilds(before.settings.linear)) {
+      choice.settings.linear.rebuilds(before.settings.linear) ||
+      choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
     servo_->set_settings(chain_settings());
@@ -268,6 +279,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   }
   read_out();
   ask_local(camera);
+  surfaces_->request(choice_.show_surface ? felt_levels() : FeltLevels{});
   describe(view);
 }
 
@@ -282,6 +294,7 @@ void ProbeSession::take(const HandStep& step) {
   if (!step.present) {
     path_->append(gap, 0.0);
     readout_.held = false;
+    held_before_ = false;
     return;
   }
   const Workspace workspace = this->workspace();
@@ -295,7 +308,11 @@ void ProbeSession::take(const HandStep& step) {
   if (on_line && other_line_) {
     felt_.clear();
     other_line_ = false;
+    // A line is popped over to when the next one holds; a surface is behind when it lets go.
+    if (held_before_ && !surfaces_of_) ++readout_.popped;
   }
+  if (surfaces_of_ && step.state == HoldState::kReleased) ++readout_.popped;
+  held_before_ = held_before_ || on_line;
   path_->append(on_line ? proxy : gap, force);
   const double spacing = kPathSpacing * open_.diagonal();
   if (!on_line) {
@@ -321,11 +338,13 @@ void ProbeSession::take(const HandStep& step) {
 void ProbeSession::follow_replayed_chain(std::uint64_t step) {
   const std::vector<RecordedChange>& changes = replay_->recording().changes;
   for (; next_change_ < changes.size() && changes[next_change_].step <= step; ++next_change_) {
-    const auto* chain = std::get_if<ChainChange>(&changes[next_change_].change);
-    if (chain == nullptr) continue;
-    curve_.reset();
-    if (const auto& line = replay_lines_[chain->chain]) curve_.emplace(line);
-    felt_.clear();
+    if (const auto* chain = std::get_if<ChainChange>(&changes[next_change_].change)) {
+      follow_chain(replay_chains_[chain->chain]);
+      const std::string& description = replay_->recording().chains[chain->chain];
+      replayed_isovalues_ = parse_chain(description).settings.isosurface.isovalues;
+    } else if (const auto* settings = std::get_if<ChainSettings>(&changes[next_change_].change)) {
+      replayed_isovalues_ = settings->isosurface.isovalues;
+    }
   }
 }
 
@@ -371,7 +390,9 @@ void ProbeSession::describe(ProbeView& view) const {
   view.force = readout_.force;
   view.force_cap = options_.limits.force_cap;
   view.velocity = readout_.held && readout_.sampled ? readout_.velocity : Vec3{0.0};
-  view.followed = curve_ ? last_drawn_ : nullptr;
+  // A hand outside the data follows nothing.
+  const bool outside = readout_.held && readout_.state == HoldState::kOutside;
+  view.followed = curve_ && !outside ? last_drawn_ : nullptr;
   view.path = choice_.show_path ? PathView{path_, path_->size(), std::nullopt} : PathView{};
   view.seeds = local_->drawn();
   view.kept = kept_.drawn();
@@ -382,15 +403,41 @@ bool ProbeSession::lively() const noexcept {
          (replay_ && !readout_.servo.replay_done);
 }
 
+FeltLevels ProbeSession::felt_levels() const {
+  if (!surfaces_of_) return {};
+  const Isovalues& chosen = replay_ ? replayed_isovalues_ : choice_.settings.isosurface.isovalues;
+  return {surfaces_of_, chosen.count > 0 ? chosen : chain_isovalues_};
+}
+
+FeltSurfaces::Made ProbeSession::surfaces() const {
+  return surfaces_ ? surfaces_->made() : FeltSurfaces::Made{};
+}
+
+std::optional<double> ProbeSession::surfaces_fraction() const {
+  return surfaces_ ? surfaces_->fraction() : std::nullopt;
+}
+
+void ProbeSession::note_line() {
+  noted_.reset();
+  if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
+  noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), felt_)};
+}
+
 ProbeSession::Keeping ProbeSession::keep_line() {
   if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
+  return keep(curve_->line(), forces_along(curve_->line(), felt_));
+}
+
+ProbeSession::Keeping ProbeSession::keep_noted_line() {
+  return noted_ && readout_.held ? keep(noted_->line, noted_->forces) : keep_line();
+}
+
+ProbeSession::Keeping ProbeSession::keep(const Line& line, std::vector<double> forces) {
   const std::vector<KeptLines::Entry>& kept = kept_.entries();
-  std::vector<double> forces = forces_along(curve_->line(), felt_);
-  if (!kept.empty() && same_points(*kept.back().line, curve_->line()) &&
-      same_forces(kept.back().forces, forces)) {
+  if (!kept.empty() && same_points(*kept.back().line, line) && same_forces(kept.back().forces, forces)) {
     return Keeping::kAlready;
   }
-  kept_.keep(curve_->line(), std::move(forces));
+  kept_.keep(line, std::move(forces));
   return Keeping::kKept;
 }
 

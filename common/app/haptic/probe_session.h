@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/followed_curve.h"
 #include "common/app/haptic/haptic_mode.h"
 #include "common/app/haptic/kept_lines.h"
@@ -36,7 +37,8 @@ struct TouchChoice {
   bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
   bool show_balls = true;
   bool show_path = true;
-  bool fade_rest = true;  ///< the scene's own lines step back while a hand is on the probe
+  bool show_surface = true;  ///< isosurfaces that are felt
+  bool fade_rest = true;     ///< the scene's own lines step back while a hand is on the probe
   SeedShape local = SeedShape::kNone;
 
   bool operator==(const TouchChoice&) const = default;
@@ -75,6 +77,7 @@ struct ProbeReadout {
   bool sampled = false;
   std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
   std::string scalar_name;       ///< empty where none is felt
+  int popped = 0;                ///< times that the hand has gone over to another line, or through a surface
   double residual = 0.0;
   double force = 0.0;    ///< [N]
   double stretch = 0.0;  ///< [mm]
@@ -135,9 +138,19 @@ class ProbeSession {
   /// Something moves without the user's doing: the line grows, a replay runs.
   [[nodiscard]] bool lively() const noexcept;
 
+  /// Which isosurfaces the mode feels now; of no field in modes that feel none.
+  [[nodiscard]] FeltLevels felt_levels() const;
+  /// What is drawn of them, unless it is switched off, and how far that is.
+  [[nodiscard]] FeltSurfaces::Made surfaces() const;
+  [[nodiscard]] std::optional<double> surfaces_fraction() const;
+
   enum class Keeping : std::uint8_t { kKept, kAlready, kNothing };
   /// Keeps the line that is followed, or was last, with the forces felt along it.
   Keeping keep_line();
+  /// Keeps instead the one that note_line() has noted, if the hand has not been let go since.
+  Keeping keep_noted_line();
+  /// Notes the line that is followed now, while the hand rests: on its way to a panel it may slip to others.
+  void note_line();
   /// Whether mouse and keys move the probe: not in a replay, nor with a path as the device.
   [[nodiscard]] bool by_mouse() const noexcept { return options_.path.empty() && !replaying(); }
   [[nodiscard]] KeptLines& kept() noexcept { return kept_; }
@@ -167,6 +180,8 @@ class ProbeSession {
   void read_out();
   void ask_local(const Camera& camera);
   void describe(ProbeView& view) const;
+  void follow_chain(const HapticChain& made);
+  Keeping keep(const Line& line, std::vector<double> forces);
 
   ProbeSessionOptions options_;
   std::function<void()> wake_;
@@ -178,6 +193,14 @@ class ProbeSession {
   std::shared_ptr<ProbePath> path_;
   std::vector<FeltForce> felt_;  ///< since the line was caught
   bool other_line_ = false;      ///< it was let go, or another one caught, since then
+  bool held_before_ = false;     ///< something has held this hand since it took the probe
+  struct NotedLine {
+    Line line;
+    std::vector<double> forces;
+  };
+  std::optional<NotedLine> noted_;
+  std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
+  Isovalues chain_isovalues_, replayed_isovalues_;
   KeptLines kept_;
   ProbeReadout readout_;
   CellHint hint_, scalar_hint_;
@@ -191,7 +214,8 @@ class ProbeSession {
   std::unique_ptr<SimulatedDevice> simulated_;  ///< led by either
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FaultRecorder> faults_;
-  std::vector<std::shared_ptr<const LiveLine>> replay_lines_;  ///< of the chains of the replay, in order
+  std::unique_ptr<FeltSurfaces> surfaces_;
+  std::vector<HapticChain> replay_chains_;  ///< what is drawn of the chains of the replay, in order
   std::unique_ptr<ReplaySource> replay_;
   std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the four above
 };

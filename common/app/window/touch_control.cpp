@@ -7,6 +7,8 @@ namespace palpate {
 namespace {
 
 constexpr int kLeftShift = 340, kRightShift = 344;
+/// A mouse that has not moved for so long rests [s].
+constexpr double kRest = 0.25;
 
 PictureSize size_of(const PictureArea& area) {
   return {static_cast<int>(area.width), static_cast<int>(area.height)};
@@ -48,7 +50,25 @@ void TouchControl::grab(const PictureArea& area, const SceneView& view, double t
   grabbed_ = true;
   waiting_ = false;
   axis_.reset();
-  session_.grab(time, start_of_probe(view, size_of(area), {x_ - area.left, y_ - area.top}));
+  session_.grab(time, start_of_hand(area, view));
+  moved_ = time;
+}
+
+/// On the nearest isosurface under the mouse in modes that feel some, else where the lines are.
+Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view) const {
+  const PicturePoint mouse{x_ - area.left, y_ - area.top};
+  if (const FeltLevels felt = session_.felt_levels(); felt.field) {
+    const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
+    const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
+    const Vec3 viewer =
+        view.camera.projection == Projection::kOrthographic ? middle + reach : eye(view.camera);
+    const Vec3 away =
+        view.camera.projection == Projection::kOrthographic
+            ? middle - reach
+            : viewer + (1.0 + view.bounds.diagonal() / distance(view.camera)) * 2.0 * (middle - viewer);
+    if (const auto place = first_surface_between(felt, viewer, away)) return *place;
+  }
+  return start_of_probe(view, size_of(area), mouse);
 }
 
 void TouchControl::let_go() noexcept {
@@ -68,6 +88,9 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       if (!grabbed_ || buttons_ > 0) return false;
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
+      // A mouse that rested means the line that it rested on: on to the panel it may be led over others.
+      if (time - moved_ > kRest) session_.note_line();
+      moved_ = time;
       session_.move(dragged(view.camera, size_of(area), start_of_move(view.camera), dx, dy, axis_));
       return true;
     }
@@ -149,7 +172,8 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
     case Command::kLockZ:
       return lock(2);
     case Command::kKeepLine:
-      switch (session_.keep_line()) {
+      // From the panel's button: the line on which the hand rested before it went there.
+      switch (area.contains(x_, y_) ? session_.keep_line() : session_.keep_noted_line()) {
         case ProbeSession::Keeping::kNothing:
           return grabbed_ ? "no line is followed here: move the probe to where the lines are"
                           : "no line is followed: grab the probe (G) and move it on to one";

@@ -34,6 +34,7 @@ class TouchControl {
 
  private:
   void grab(const PictureArea& area, const SceneView& view, double time);
+  [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
   [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
   std::string choose_mode(std::size_t mode);
 
@@ -44,6 +45,7 @@ class TouchControl {
   int buttons_ = 0;        ///< that are down: the camera's then
   std::optional<int> axis_;
   double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
+  double moved_ = 0.0;        ///< when it last moved the probe [s]
 };
 
 /// Where the probe starts when it is grabbed: on the line under the mouse, that of several which is in front;

@@ -12,6 +12,7 @@
 
 #include "common/app/haptic/servo_rows.h"
 #include "common/app/window/curve_panel.h"
+#include "common/app/window/isosurface_panel.h"
 #include "common/app/window/readout_rows.h"
 #include "common/base/text.h"
 #include "common/render/probe_view.h"
@@ -59,7 +60,8 @@ void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
   if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
 }
 
-void choose_looks(TouchChoice& choice, float half, bool flow) {
+void choose_looks(TouchChoice& choice, float half, bool flow, bool surfaces) {
+  if (surfaces) ImGui::Checkbox("show isosurface", &choice.show_surface);
   if (!flow) {
     ImGui::Checkbox("path", &choice.show_path);
     return;
@@ -118,7 +120,10 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   choose_mode(choice, session.modes());
   edit_settings(choice, session.modes()[choice.mode].name, session.has_flow());
   edit_curves(choice, session.modes()[choice.mode].name, session);
-  choose_looks(choice, half, session.has_flow());
+  const FeltLevels felt = session.felt_levels();
+  edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
+                   session.has_flow());
+  choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
   session.choose(choice);
   if (const std::string note = session.stiffness_note(); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());

@@ -307,6 +307,11 @@ class Window {
     if (actions.touch.keep) run_command(Command::kKeepLine);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
+    view_.surfaces = show_surfaces(touch_->surfaces().meshes);
+    if (const int popped = touch_->readout().popped; popped != told_popped_) {
+      if (popped > told_popped_) say(popped_words(), false);
+      told_popped_ = popped;
+    }
     if (touch_->readout().fault != told_fault_) {
       told_fault_ = touch_->readout().fault;
       say(told_fault_, true);
@@ -320,6 +325,11 @@ class Window {
     draw_picture(parts, width, height);
     gui_->end_frame();
     glfw_.events().clear();
+  }
+
+  [[nodiscard]] std::string popped_words() const {
+    if (touch_->felt_levels().field) return "popped through to the other side";
+    return "popped over to the next line";
   }
 
   // Panels first: what happens over them is not for the camera.
@@ -463,10 +473,12 @@ class Window {
     write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
   }
 
-  /// The view with the lines stepping back while a hand is on the probe.
+  /// The view with the lines stepping back while a hand is on the probe, and where lines are kept or
+  /// isosurfaces felt, which they would bury.
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
-    if (touch_->readout().held && touch_->choice().fade_rest) fade_lines(picture);
+    const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
+    if ((hand || !view_.surfaces.empty()) && touch_->choice().fade_rest) fade_lines(picture);
     return picture;
   }
 
@@ -522,6 +534,7 @@ class Window {
   std::vector<double> frame_ms_;
   std::filesystem::path saved_as_;  // the file of lines that this window has written: it may do so again
   std::string told_fault_;
+  int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;
   std::unique_ptr<TouchControl> touch_control_;
   JobKind job_kind_ = JobKind::kStart;

@@ -127,6 +127,46 @@ TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {
   EXPECT_EQ(again.view.probe->kept->size(), 1U);
 }
 
+TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentThere) {
+  constexpr double kKeepX = 72.0, kKeepY = 98.0 + 26.0 * 10;  // as in touch_panel_test.cpp
+  constexpr int kRested = 60;                                 // frames, half a second
+  grab();
+  last_ += kRested;
+  const auto script = options_.script;
+  const int last = last_;
+  key('K');
+  const WindowResult rested = run();
+  ASSERT_EQ(rested.view.probe->kept->size(), 1U);
+  options_.script = script;
+  last_ = last;
+  // Across other lines, fast.
+  constexpr int kSteps = 24;
+  const int begin = last_ + 1;
+  for (int i = 1; i <= kSteps; ++i) move_by(begin + i, -240.0 * i / kSteps, 60.0 * i / kSteps);
+  click(last_ + 1, kKeepX, kKeepY);
+  const WindowResult result = run();
+  EXPECT_NE(result.message.find("kept line 1"), std::string::npos) << result.message;
+  ASSERT_EQ(result.view.probe->kept->size(), 1U);
+  const Line &meant = *rested.view.probe->kept->front().line, &kept = *result.view.probe->kept->front().line;
+  const auto near = [&](const Line& line) {
+    double nearest = HUGE_VAL;
+    for (const LinePoint& p : line.points) {
+      nearest = std::min(nearest, glm::distance(p.position, meant.points[meant.points.size() / 2].position));
+    }
+    return nearest;
+  };
+  EXPECT_LT(near(kept), 0.02) << "that line, though it may have grown meanwhile";
+  EXPECT_GT(result.probe.popped, 0) << "there were others on the way";
+}
+
+TEST_F(TouchWindowTest, AWordIsSaidWhenTheProbePopsOver) {
+  grab();
+  lead_to(0.0, 80.0);
+  const WindowResult result = run();
+  EXPECT_GT(result.probe.popped, 0);
+  EXPECT_NE(result.message.find("popped over"), std::string::npos) << result.message;
+}
+
 TEST_F(TouchWindowTest, ThereMustBeALineToKeepAndOneToSave) {
   key('K');
   EXPECT_NE(run().message.find("no line is followed"), std::string::npos);

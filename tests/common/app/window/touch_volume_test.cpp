@@ -42,6 +42,9 @@ class BlobModel final : public WindowModel {
   }
 };
 
+/// Controls of isosurfaces [pixels].
+constexpr double kIsovalueY = 213.0, kSliderRight = 160.0, kAddX = 50.0, kAddY = 237.0;
+
 class TouchVolume : public TouchWindowTest {
  protected:
   void SetUp() override {
@@ -69,9 +72,9 @@ TEST_F(TouchVolume, TheHandIsOnTheProbeAndReadsTheScalar) {
 
 TEST_F(TouchVolume, TheWallHoldsTheProxyBackOnTheIsovalue) {
   grab();
-  // From outside the blobs back into them, where the wall is in the way.
-  lead_to(-250.0, 0.0);
-  lead_to(-60.0, 0.0);
+  // From the surface into it, by less than it gives.
+  at(next(), {.kind = InputKind::kWheel, .y = 1.0});
+  last_ += 3 * kPause;
   const WindowResult result = run();
   EXPECT_EQ(result.probe.state, HoldState::kHeld);
   EXPECT_GT(result.probe.force, 0.05);
@@ -79,6 +82,44 @@ TEST_F(TouchVolume, TheWallHoldsTheProxyBackOnTheIsovalue) {
   Progress progress;
   const auto felt = blob_.start(progress).felt_scalar;
   EXPECT_NEAR(*result.probe.scalar, otsu_threshold(*felt), 1e-6 * felt->highest());
+}
+
+TEST_F(TouchVolume, TheHandBeginsOnTheSurfaceThatIsDrawn) {
+  grab();
+  const WindowResult result = run();
+  ASSERT_EQ(result.view.surfaces.size(), 1U);
+  const auto& mesh = result.view.surfaces[0].mesh;
+  ASSERT_TRUE(mesh);
+  EXPECT_FALSE(mesh->triangles.empty());
+  Progress progress;
+  const auto felt = blob_.start(progress).felt_scalar;
+  EXPECT_EQ(mesh->level, otsu_threshold(*felt));
+  ASSERT_TRUE(result.probe.scalar);
+  EXPECT_NEAR(*result.probe.scalar, mesh->level, 1e-6 * felt->highest());
+}
+
+TEST_F(TouchVolume, AnotherIsovalueMovesTheSurface) {
+  click(next(), kSliderRight, kIsovalueY);
+  const WindowResult result = run();
+  ASSERT_EQ(result.view.surfaces.size(), 1U);
+  ASSERT_TRUE(result.view.surfaces[0].mesh);
+  Progress progress;
+  const auto felt = blob_.start(progress).felt_scalar;
+  EXPECT_GT(result.view.surfaces[0].mesh->level, 0.9 * felt->highest());
+}
+
+TEST_F(TouchVolume, SurfacesAreAddedAndSaved) {
+  click(next(), kAddX, kAddY);
+  last_ += 3 * kPause;
+  EXPECT_EQ(run().view.surfaces.size(), 2U);
+  key('S', kModifierControl);
+  const std::string saved = run().message;
+  EXPECT_NE(saved.find("isovalue="), std::string::npos) << saved;
+}
+
+TEST_F(TouchVolume, OtherModesShowNoSurface) {
+  key('2');
+  EXPECT_TRUE(run().view.surfaces.empty());
 }
 
 TEST_F(TouchVolume, AnotherModeIsFeltAfterItsKey) {
