@@ -1,4 +1,5 @@
 /// dtmri: images of diffusion tensors, seen and felt.
+#include "apps/dtmri/dtmri_modes.h"
 #include "apps/dtmri/open_verb.h"
 #include "common/app/cli/verbs.h"
 
@@ -15,6 +16,8 @@ int main(int argc, char** argv) {
               {"dtmri render dwi.nii.gz --out dwi.png", "a picture, with or without a display"},
               {"dtmri trace helix-DTI.nhdr --seeds fa:0.5 --out tracts.tck",
                "tracts from every voxel of high FA"},
+              {"dtmri probe tensor.nii.gz --path path.csv --tract tract.tck",
+               "trace by hand, without a window"},
               {"dtmri --example list", "the built-in data sets"},
           },
       .verbs =
@@ -44,6 +47,12 @@ int main(int argc, char** argv) {
                     "one tract with fixed steps, for ParaView"},
                    {"dtmri trace --example helix --seeds fa:0.6 --json --out helix.csv",
                     "a built-in image; the counts as JSON"}}),
+              probe_verb(dtmri_modes(),
+                         {{"dtmri probe tensor.nii.gz --path path.csv --tract tract.vtp",
+                           "feel along a recorded path and keep the way of the proxy"},
+                          {"dtmri probe --example helix --path path.csv --mode anisotropy-point "
+                           "--anisotropy-curve 0:0,0.3:6,smooth --out log.csv",
+                           "stops where diffusion is isotropic; with a curve of its own"}}),
           },
   };
   return run_explorer(dtmri, argc, argv);

@@ -83,6 +83,7 @@ class VerbParser {
     if (verb.groups.view) add_view(explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();
+    if (verb.groups.path && explorer.kind == FieldKind::kTensor) add_tract();
     if (verb.groups.hand) add_operator();
     if (verb.groups.record) add_record();
     if (verb.groups.replay) add_replay();
@@ -256,6 +257,15 @@ class VerbParser {
     app_.add_option("--path", options_.path, "table of the probe's path, header t,x,y,z[,b0]: one step a row")
         ->type_name("FILE.csv")
         ->group("Touch");
+  }
+
+  void add_tract() {
+    app_.add_option(
+            "--tract", options_.tract,
+            "write the way of the proxy as a tract: .tck, .trk, or .vtp and .csv, which hold force, cl, "
+            "cp and fa as well")
+        ->type_name("FILE")
+        ->group("Output");
   }
 
   void add_operator() {

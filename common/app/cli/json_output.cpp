@@ -310,6 +310,10 @@ std::string probe_json(const ProbeSummary& summary) {
     Json& linear = json["linear"] = Json::object();
     for (const auto& [option, value] : linear_options(summary.settings.linear)) linear[option] = value;
   }
+  if (!summary.tract.empty()) {
+    json["tract"] = summary.tract;
+    json["tracts"] = summary.tracts;
+  }
   if (!summary.device.empty()) json["device"] = summary.device;
   if (!summary.replay.empty()) {
     json["replay"] = summary.replay;

@@ -104,12 +104,13 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  LinearWords linear;          ///< mode linear
-  double field_force = 1.0;    ///< [N] of the force-field modes
-  double field_damping = 5.0;  ///< [N s/m], likewise
-  std::string density_curve;   ///< haptic transfer function; empty: straight
-  double force_cap = 4.0;      ///< [N]
-  double slew_cap = 200.0;     ///< [N/s]
+  LinearWords linear;            ///< mode linear
+  double field_force = 1.0;      ///< [N] of the force-field modes
+  double field_damping = 5.0;    ///< [N s/m], likewise
+  std::string density_curve;     ///< haptic transfer function; empty: straight
+  std::string anisotropy_curve;  ///< haptic transfer function [mm]; empty: that of AnisotropySettings
+  double force_cap = 4.0;        ///< [N]
+  double slew_cap = 200.0;       ///< [N/s]
 };
 
 struct Options {
@@ -126,6 +127,7 @@ struct Options {
   /// open: mouse, replay:FILE.csv or simulated…; probe: mouse, which stands for the path, or simulated…
   std::string device = "mouse";
   double rate = 1000.0;          ///< of the servo [Hz]
+  std::filesystem::path tract;   ///< probe: where the way of the proxy is saved as a line
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size = "1280x960";

@@ -120,10 +120,22 @@ void add_linear(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
               kGroup);
 }
 
+void add_anisotropy(SceneOptions& options, TouchOptions& touch) {
+  options.add(
+      "--anisotropy-curve", touch.anisotropy_curve,
+      "distance in mm at which the proxy follows across the main direction, by anisotropy from 0 to 1, "
+      "as A:MM,A:MM[,...][,smooth], from 0:0 on and never falling; default 0:0,1:8",
+      "CURVE", kGroup);
+}
+
 }  // namespace
 
 void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
   add_hold(options, touch);
+  if (kind == FieldKind::kTensor) {
+    add_anisotropy(options, touch);
+    return;
+  }
   add_lines(options, touch);
   add_isosurface(options, touch, kind);
   add_linear(options, touch, kind);

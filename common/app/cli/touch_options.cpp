@@ -82,6 +82,17 @@ ChainSettings touch_settings(const TouchOptions& options) {
     if (problem) throw usage_error("--density-curve: " + *problem);
     if (!settings.force_field.valid()) throw usage_error("--density-curve: parts from 0 to 1 are expected");
   }
+  if (!options.anisotropy_curve.empty()) {
+    const auto problem =
+        HapticTransferFunction::read(options.anisotropy_curve, settings.anisotropy.tau, kMetresPerMillimetre);
+    if (problem) throw usage_error("--anisotropy-curve: " + *problem);
+    if (!settings.anisotropy.valid()) {
+      throw usage_error(
+          "--anisotropy-curve: 0 mm at anisotropy 0, and never falling from there, is expected, "
+          "found '" +
+          options.anisotropy_curve + "'");
+    }
+  }
   if (wants_ticks(options) && options.ticks != "auto") {
     const char* const end = options.ticks.data() + options.ticks.size();
     const auto parsed = std::from_chars(options.ticks.data(), end, settings.ticks.interval);
@@ -117,7 +128,8 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 26> kRecorded{"mode",
+  constexpr std::array<std::string_view, 27> kRecorded{"anisotropy-curve",
+                                                       "mode",
                                                        "workspace-scale",
                                                        "stiffness",
                                                        "release",

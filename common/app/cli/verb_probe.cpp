@@ -7,18 +7,22 @@
 
 #include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/json_output.h"
+#include "common/app/cli/probe_log.h"
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
+#include "common/field/field_grid.h"
 #include "common/field/scalar_threshold.h"
+#include "common/load/write_lines.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
@@ -29,6 +33,7 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kStepsBetweenChecks = 4096;
+constexpr double kTractSpacing = 2e-4;  // diagonals, between points of a tract
 
 /// Processor time of this thread [us].
 double thread_microseconds() {
@@ -36,54 +41,6 @@ double thread_microseconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
-
-/// The log of the contract, one row a step.
-class ProbeLog {
- public:
-  ProbeLog(OutputFile& file, const Workspace& workspace, int links)
-      : file_(file), workspace_(workspace), links_(links) {
-    std::string header = "t,x,y,z,px,py,pz,fx,fy,fz,state,residual,us";
-    for (int i = 1; i <= links; ++i) {
-      for (const char* axis : {"x", "y", "z"}) {
-        header += ",p";
-        header += std::to_string(i) + axis;
-      }
-    }
-    file_.write(header + "\n");
-  }
-
-  void add(const PathRow& row, const HandStep& step, double microseconds) {
-    line_.clear();
-    line_ += exact_number(row.time);
-    add_vector(row.position);
-    add_vector(in_data(step.chain.proxy(step.probe), row, step));
-    add_vector(step.force);
-    (line_ += ',').append(name_of(step.state));
-    (line_ += ',') += exact_number(step.chain.residual / workspace_.scale());
-    (line_ += ',') += short_number(microseconds);
-    for (int i = 0; i < links_; ++i) {
-      const bool there = i < step.chain.links;
-      add_vector(in_data(there ? step.chain.proxies[static_cast<std::size_t>(i)] : step.probe, row, step));
-    }
-    line_ += '\n';
-    file_.write(line_);
-  }
-
- private:
-  /// A proxy that is the probe has the probe's very numbers.
-  [[nodiscard]] Vec3 in_data(const Vec3& proxy, const PathRow& row, const HandStep& step) const {
-    return proxy == step.probe && is_finite(row.position) ? row.position
-                                                          : workspace_.data_from_workspace(proxy);
-  }
-  void add_vector(const Vec3& v) {
-    for (int axis = 0; axis < 3; ++axis) (line_ += ',') += exact_number(v[axis]);
-  }
-
-  OutputFile& file_;
-  const Workspace& workspace_;
-  int links_;
-  std::string line_;
-};
 
 /// The value below which `part` of the sorted ones lie.
 double percentile(const std::vector<float>& sorted, double part) {
@@ -125,6 +82,7 @@ std::string summary_text(const ProbeSummary& summary) {
     }
     text += "\n";
   }
+  if (!summary.tract.empty()) text += "  tract      " + summary.tract + "\n";
   if (!summary.device.empty()) text += "  device     " + summary.device + ", simulated\n";
   if (!summary.replay.empty()) text += "  replay     " + summary.replay + "\n";
   text += "  step       " + short_number(summary.us_p50) + " us in the middle, 99 % below " +
@@ -147,7 +105,11 @@ class ProbeRun {
   ProbeRun(ProbeSummary& summary, const Workspace& workspace, const VerbContext& context)
       : summary_(summary), workspace_(workspace), context_(context) {}
 
-  void log_to(OutputFile& file, int links) { log_.emplace(file, workspace_, links); }
+  /// @param tensors as ProbeLog's.
+  void log_to(OutputFile& file, int links, const TensorField* tensors) {
+    log_.emplace(file, workspace_, links, tensors);
+  }
+  void draw_on(TractPen& pen) { pen_ = &pen; }
 
   /// Takes one step by `step`, and its time. @param row what stands in the log for where the probe was.
   template <class Step>
@@ -156,6 +118,7 @@ class ProbeRun {
     const HandStep step = make_step();
     const double microseconds = thread_microseconds() - before;
     if (log_) log_->add(row, step, microseconds);
+    if (pen_ != nullptr) draw(row, step);
     times_.push_back(static_cast<float>(microseconds));
     ++summary_.states[static_cast<std::size_t>(step.state)];
     if (step.state == HoldState::kFault && first_fault_ == 0) {
@@ -181,10 +144,19 @@ class ProbeRun {
   }
 
  private:
+  void draw(const PathRow& row, const HandStep& step) {
+    const bool held = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
+    if (!held || step.chain.jumped) pen_->lift();
+    if (!held) return;
+    const Vec3 proxy = ProbeLog::in_data(step.chain.proxy(step.probe), row, step, workspace_);
+    pen_->add(row.time, proxy, glm::length(step.force));
+  }
+
   ProbeSummary& summary_;
   const Workspace& workspace_;
   const VerbContext& context_;
   std::optional<ProbeLog> log_;
+  TractPen* pen_ = nullptr;
   std::vector<float> times_;
   std::size_t first_fault_ = 0;
   ForceCut first_cut_ = ForceCut::kNone;
@@ -250,6 +222,7 @@ void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun
 struct FeltInput {
   std::shared_ptr<const VectorField> field;
   std::shared_ptr<const ScalarField> scalar;
+  std::shared_ptr<const TensorField> tensor;
   std::string name;
   double diagonal = 0.0;
   const TetMesh* mesh = nullptr;
@@ -264,7 +237,13 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
     felt.mesh = field.tet_mesh();
     felt.notes = field.notes().lines;
   };
-  if (context.explorer.kind == FieldKind::kScalar) {
+  if (context.explorer.kind == FieldKind::kTensor) {
+    felt.tensor = input.load_tensor(options.common.threads, &context.progress);
+    felt.name = felt.tensor->name();
+    felt.diagonal = felt.tensor->bounds().diagonal();
+    felt.mesh = felt.tensor->grid()->tets.get();
+    felt.notes = felt.tensor->notes().lines;
+  } else if (context.explorer.kind == FieldKind::kScalar) {
     felt.scalar = input.load_scalar(options.common.threads, &context.progress);
     describe(*felt.scalar);
   } else {
@@ -302,7 +281,8 @@ void check_request(const Options& options) {
     throw usage_error("unknown device '" + options.device +
                       "'; probe knows simulated, besides the path itself");
   }
-  if (options.out.empty() && !options.common.json && !options.common.explain) {
+  if (!options.tract.empty()) check_line_output(options.tract, options.common.force);
+  if (options.out.empty() && options.tract.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
   }
   if (!options.out.empty()) check_output(options.out, options.common.force);
@@ -342,8 +322,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   }
   FeltInput felt = load_felt(input, options, context);
   for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
-  const Workspace workspace =
-      touch_workspace(options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get()));
+  const Workspace workspace = touch_workspace(
+      options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary);
   summary.input = input.title();
@@ -357,19 +337,24 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   std::optional<OutputFile> file;
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
+  std::optional<TractPen> pen;
+  if (!options.tract.empty()) {
+    pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
+    run.draw_on(*pen);
+  }
   if (recording) {
     // The fields of all examples have the same label.
     std::string label = input.field_label();
     if (input.spec().files.empty()) label.insert(0, input.title() + " ");
     const NamedField open{felt.field, field_key(label, input.time().step) + scalar_key(options.touch.scalar),
-                          felt.scalar};
+                          felt.scalar, felt.tensor};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
       links = std::max(links, made.chain->size());
       return std::move(made.chain);
     });
-    if (file) run.log_to(*file, links);
+    if (file) run.log_to(*file, links, felt.tensor.get());
     follow_recording(replay, workspace, run, context.progress);
     if (!replay.recording().chains.empty()) {
       const DescribedChain chain = parse_chain(replay.recording().chains.back());
@@ -383,9 +368,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     summary.replay = verdict_text(replay.verdict(), replay.recording());
     summary.replay_differs = replay.verdict().differs != 0;
   } else {
-    HapticChain haptics =
-        mode.make({felt.field, workspace, summary.settings, options.common.threads, felt.scalar});
-    if (file) run.log_to(*file, haptics.chain->size());
+    HapticChain haptics = mode.make(
+        {felt.field, workspace, summary.settings, options.common.threads, felt.scalar, felt.tensor});
+    if (file) run.log_to(*file, haptics.chain->size(), felt.tensor.get());
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (simulated) {
       const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),
@@ -406,6 +391,13 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (file) {
     file->finish();
     context.interrupt.keep(options.out);
+  }
+  if (pen) {
+    summary.tract = options.tract.string();
+    summary.tracts = save_tracts(options.tract, pen->tracts(), options.common.force);
+    if (summary.tracts == 0)
+      console.note(options.tract.string() + ": no tract, since nothing held the probe");
+    context.interrupt.keep(options.tract);
   }
   console.print(summary_text(summary));
   if (options.common.explain) console.print(measured_text(measured_costs(input, felt.mesh)));

@@ -16,15 +16,21 @@ namespace palpate {
 
 /// A field with the name that tells it from the others of its input.
 struct NamedField {
-  std::shared_ptr<const VectorField> field;  ///< null for a volume of scalars alone
+  std::shared_ptr<const VectorField> field;  ///< null for volumes of scalars and tensors
   std::string name;                          ///< field_key()
   std::shared_ptr<const ScalarField> scalar = nullptr;
+  std::shared_ptr<const TensorField> tensor = nullptr;
 
-  [[nodiscard]] bool empty() const noexcept { return !field && !scalar; }
+  [[nodiscard]] bool empty() const noexcept { return !field && !scalar && !tensor; }
   /// @name Of the fields that are there. @pre !empty()
   /// @{
-  [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_of(field.get(), scalar.get()); }
-  [[nodiscard]] const Box& bounds() const noexcept { return field ? field->bounds() : scalar->bounds(); }
+  [[nodiscard]] const LocalFrame& frame() const noexcept {
+    return frame_of(field.get(), scalar.get(), tensor.get());
+  }
+  [[nodiscard]] const Box& bounds() const noexcept {
+    if (tensor) return tensor->bounds();
+    return field ? field->bounds() : scalar->bounds();
+  }
   [[nodiscard]] double diagonal() const noexcept { return bounds().diagonal(); }
   /// @}
 };

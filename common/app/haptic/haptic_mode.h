@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/field/scalar_field.h"
+#include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/workspace.h"
@@ -27,16 +28,18 @@ struct HapticChain {
 
 /// What a chain is built over.
 struct HapticScene {
-  std::shared_ptr<const VectorField> field;  ///< null for a volume of scalars alone
+  std::shared_ptr<const VectorField> field;  ///< null for volumes of scalars and tensors
   Workspace workspace;
   ChainSettings settings;
   int threads = 0;                            ///< for the preparation; 0: all cores
   std::shared_ptr<const ScalarField> scalar;  ///< what modes of a scalar work on; null where there is none
+  std::shared_ptr<const TensorField> tensor = nullptr;  ///< of an image of tensors, else null
 };
 
-/// The frame of the fields that are there. @pre One of the two is.
-[[nodiscard]] inline const LocalFrame& frame_of(const VectorField* field,
-                                                const ScalarField* scalar) noexcept {
+/// The frame of the fields that are there. @pre One of them is.
+[[nodiscard]] inline const LocalFrame& frame_of(const VectorField* field, const ScalarField* scalar,
+                                                const TensorField* tensor) noexcept {
+  if (tensor != nullptr) return tensor->frame();
   return field != nullptr ? field->frame() : scalar->frame();
 }
 

@@ -237,7 +237,8 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
       {"speed-force", exact_number(settings.streamline.speed_force)},
       {"field-force", exact_number(settings.force_field.strength)},
       {"field-damping", exact_number(settings.force_field.damping)},
-      {"density-curve", settings.force_field.density.text()}};
+      {"density-curve", settings.force_field.density.text()},
+      {"anisotropy-curve", settings.anisotropy.tau.text(1.0 / kMillimetres)}};
   const IsosurfaceSettings& surface = settings.isosurface;
   options.emplace_back("surface", name_of(surface.hold));
   options.emplace_back("depth", exact_number(kMillimetres * surface.depth));

@@ -1,0 +1,13 @@
+/// The haptic modes of dtmri.
+#pragma once
+
+#include <vector>
+
+#include "common/app/haptic/haptic_mode.h"
+
+namespace palpate {
+
+/// The default one first.
+[[nodiscard]] std::vector<HapticMode> dtmri_modes();
+
+}  // namespace palpate

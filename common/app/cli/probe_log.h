@@ -1,0 +1,37 @@
+/// The log of `probe`: a table with one row a step (design contract: t,x,y,z,px,py,pz,fx,fy,fz,state,…).
+#pragma once
+
+#include <string>
+
+#include "common/base/output_file.h"
+#include "common/device/probe_path.h"
+#include "common/field/tensor/tensor_field.h"
+#include "common/haptics/workspace.h"
+#include "common/servo/hand_step.h"
+
+namespace palpate {
+
+class ProbeLog {
+ public:
+  /// @param tensors null, or what is measured at the proxy: columns force, cl, cp, cs and fa at the end.
+  ProbeLog(OutputFile& file, const Workspace& workspace, int links, const TensorField* tensors);
+
+  /// @param row where the probe was, data coordinates. @param microseconds the step took.
+  void add(const PathRow& row, const HandStep& step, double microseconds);
+
+  /// The proxy in data coordinates; one that is the probe has the probe's very numbers.
+  [[nodiscard]] static Vec3 in_data(const Vec3& proxy, const PathRow& row, const HandStep& step,
+                                    const Workspace& workspace);
+
+ private:
+  void add_vector(const Vec3& v);
+
+  OutputFile& file_;
+  const Workspace& workspace_;
+  int links_;
+  const TensorField* tensors_;
+  CellHint hint_;
+  std::string line_;
+};
+
+}  // namespace palpate
