@@ -1,5 +1,6 @@
 /// dtmri: images of diffusion tensors, seen and felt.
 #include "apps/dtmri/dtmri_modes.h"
+#include "apps/dtmri/image_verbs.h"
 #include "apps/dtmri/open_verb.h"
 #include "common/app/cli/verbs.h"
 
@@ -18,6 +19,8 @@ int main(int argc, char** argv) {
                "tracts from every voxel of high FA"},
               {"dtmri probe tensor.nii.gz --path path.csv --tract tract.tck",
                "trace by hand, without a window"},
+              {"dtmri fit dwi.nii.gz --out tensor.nii.gz", "tensors from diffusion-weighted volumes"},
+              {"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "images of what they measure"},
               {"dtmri --example list", "the built-in data sets"},
           },
       .verbs =
@@ -53,6 +56,13 @@ int main(int argc, char** argv) {
                           {"dtmri probe --example helix --path path.csv --mode anisotropy-point "
                            "--anisotropy-curve 0:0,0.3:6,smooth --out log.csv",
                            "stops where diffusion is isotropic; with a curve of its own"}}),
+              fit_verb(
+                  {{"dtmri fit dwi.nii.gz --out tensor.nii.gz", "b-values and gradients lie beside the file"},
+                   {"dtmri fit dwi.nii.gz --bval b.txt --bvec g.txt --mask brain.nii.gz --out tensor.nrrd",
+                    "or are named, and so is the mask"}}),
+              measure_verb({{"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "from tensors"},
+                            {"dtmri measure dwi.nii.gz --measure color --out color.nii.gz",
+                             "fitted first; main directions as colours"}}),
           },
   };
   return run_explorer(dtmri, argc, argv);

@@ -100,5 +100,31 @@ TEST_F(Dtmri, WithoutADisplayItDrawsAPictureOrSaysWhy) {
   EXPECT_NE(refused.err.find("render"), std::string::npos) << refused.err;
 }
 
+TEST_F(Dtmri, FitsTheHeadAndMeasuresWhatItWrote) {
+  PALPATE_NEED_DATA(dwi, "dtmri/brain-dwi/3000_DTI_PA-ortho_cl.nii.gz");
+  const Json fit = json({"fit", dwi.string(), "--out", "tensor.nii.gz"});
+  EXPECT_GT(fit["with_tensor"], 50'000);
+  EXPECT_EQ(fit["suggested_turn"], "");
+  const Json direct = json({"measure", dwi.string(), "--measure", "fa", "--out", "a.nii"});
+  const Json written = json({"measure", "tensor.nii.gz", "--out", "b.nii"});  // fa is the default
+  EXPECT_EQ(direct["with_tensor"], written["with_tensor"]);
+  EXPECT_EQ(read_file(folder_.path("a.nii")), read_file(folder_.path("b.nii")));
+
+  // A wrong axis is noticed, and the words that are suggested put it right.
+  const Json flipped = json({"fit", dwi.string(), "--flip", "j", "--out", "flipped.nii.gz"});
+  EXPECT_EQ(flipped["suggested_turn"], "--flip j");
+  EXPECT_EQ(json({"fit", "flipped.nii.gz", "--flip", "j", "--out", "back.nii.gz"})["suggested_turn"], "");
+}
+
+TEST_F(Dtmri, RefusesToWriteOverFilesAndUnknownMeasures) {
+  folder_.write("fa.nii", "precious");
+  EXPECT_EQ(run({"measure", "--example", "straight", "--out", "fa.nii"}).exit_code, 2);
+  EXPECT_EQ(read_file(folder_.path("fa.nii")), "precious");
+  EXPECT_EQ(run({"measure", "--example", "straight", "--measure", "x", "--out", "x.nii"}).exit_code, 2);
+  EXPECT_EQ(run({"measure", "--example", "straight", "--out", "x.png"}).exit_code, 2);
+  EXPECT_EQ(run({"fit", "--example", "straight"}).exit_code, 2);
+  EXPECT_EQ(run({"info", "--example", "straight", "--flip", "z"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace palpate::test

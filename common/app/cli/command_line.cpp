@@ -90,6 +90,8 @@ class VerbParser {
     if (verb.groups.out) add_out(verb);
     if (verb.groups.picture) add_picture();
     if (verb.groups.effort) add_effort();
+    if (verb.groups.image) add_image();
+    if (verb.groups.measure) add_measure();
   }
 
   [[nodiscard]] const SceneOptions& scene_options() const noexcept { return scene_options_; }
@@ -141,12 +143,43 @@ class VerbParser {
           "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
           "NAME", group);
     if (kind == FieldKind::kScalar) add_raw();
+    if (kind == FieldKind::kTensor) add_tensor_input();
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);
     app_.add_option("--session", options_.session,
                     "take files and options from a saved session; typed options win")
         ->type_name("FILE.toml")
         ->group(group);
+  }
+
+  void add_tensor_input() {
+    const char* group = "Tensors";
+    TensorWords& tensor = options_.input.tensor;
+    scene("--bval", tensor.bval, "b-values of diffusion-weighted volumes; default: beside FILE", "FILE",
+          group);
+    scene("--bvec", tensor.bvec, "their gradient directions, in FSL's image axes; default: beside FILE",
+          "FILE", group);
+    scene("--mask", tensor.mask,
+          "where tensors are fitted: auto (default, the foreground), none, or an image", "auto|none|FILE",
+          group);
+    scene("--fit", tensor.fit,
+          "least squares on the log signal: weighted (default, by the squared signal) or "
+          "ordinary",
+          "WORD", group);
+    scene("--negative", tensor.negative, "eigenvalues below zero of fitted tensors: keep (default) or zero",
+          "keep|zero", group);
+    scene("--tensor-order", tensor.order,
+          "what six volumes are: fsl, mrtrix, nifti, or auto (default), by what "
+          "makes tensors positive and smooth",
+          "WORD", group);
+    scene("--permute", tensor.permute,
+          "take components along the image's axes from others, jik: i and j swapped", "jik", group);
+    scene("--flip", tensor.flip, "turn around components along these of the image's axes i, j, k", "AXES",
+          group);
+    scene("--interpolation", tensor.interpolation,
+          "of tensors between voxels: components (default) or "
+          "log-euclidean",
+          "WORD", group);
   }
 
   void add_raw() {
@@ -318,6 +351,22 @@ class VerbParser {
         ->type_name("N")
         ->check(CLI::Range(0, 100000))
         ->group("View");
+  }
+
+  void add_image() {
+    app_.add_option(
+            "--convention", options_.convention,
+            "order and axes of tensors and directions in NIfTI: mrtrix (default: xx yy zz xy xz yz along "
+            "RAS) or fsl (xx xy xz yy yz zz along FSL's image axes)")
+        ->type_name("mrtrix|fsl")
+        ->group("Output");
+  }
+
+  void add_measure() {
+    app_.add_option("--measure", options_.measure,
+                    "fa (default), md, cl, cp, cs, mode, v1 (main direction) or color (of it, times fa)")
+        ->type_name("NAME")
+        ->group("Output");
   }
 
   void add_effort() {

@@ -46,6 +46,8 @@ struct VerbGroups {
   bool out = false;
   bool picture = false;  ///< --size, --repeat
   bool effort = false;   ///< --quick, --thorough
+  bool image = false;    ///< --convention of an image that is written
+  bool measure = false;  ///< --measure
 };
 
 struct Verb {

@@ -217,6 +217,26 @@ std::string info_json(const InfoSummary& summary) {
   return text_of(json);
 }
 
+std::string image_json(const ImageSummary& summary) {
+  const Json json{{"input", summary.input},
+                  {"field", summary.field},
+                  {"out", summary.output},
+                  {"what", summary.what},
+                  {"voxels", summary.voxels},
+                  {"with_tensor", summary.with_tensor},
+                  {"lifted", summary.lifted},
+                  {"unusable", summary.unusable},
+                  {"negative", summary.negative},
+                  {"suggested_turn", summary.turn},
+                  {"turn_gain", summary.gain},
+                  {"notes", summary.notes},
+                  {"seconds_load", summary.seconds_load},
+                  {"seconds_made", summary.seconds_made},
+                  {"seconds_write", summary.seconds_write},
+                  {"version", version()}};
+  return text_of(json);
+}
+
 std::string render_json(const RenderSummary& summary) {
   Json json{{"input", summary.input},
             {"field", summary.field},

@@ -11,6 +11,7 @@
 
 #include "common/app/haptic/linear_mode.h"
 #include "common/load/raw_layout.h"
+#include "common/scene/tensor_words.h"
 
 namespace palpate {
 
@@ -31,7 +32,8 @@ struct InputOptions {
   std::string example;
   std::string field;
   std::string time = "first";
-  RawWords raw;  ///< --raw-size and its like
+  RawWords raw;        ///< --raw-size and its like
+  TensorWords tensor;  ///< --bval, --tensor-order and their like
 };
 
 /// Where lines start and how they are traced.
@@ -133,6 +135,8 @@ struct Options {
   std::string size = "1280x960";
   int repeat = 0;  ///< render: frames to be timed after the first one
   std::string effort = "normal";
+  std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl
+  std::string measure = "fa";         ///< measure: name_of(TensorMeasure)
   std::filesystem::path session;
   /// Options that were given, by the command line or a session, and their text: what a session saves.
   std::vector<std::pair<std::string, std::string>> given;

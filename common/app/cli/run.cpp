@@ -30,8 +30,9 @@ void check_outputs(const Options& options) {
   const std::string device =
       options.device.starts_with(kReplay) ? options.device.substr(kReplay.size()) : std::string();
   for (const std::filesystem::path& input :
-       {options.path, options.replay, options.session, std::filesystem::path(options.tracing.seeds),
-        std::filesystem::path(device)}) {
+       {options.input.tensor.bval, options.input.tensor.bvec,
+        std::filesystem::path(options.input.tensor.mask), options.path, options.replay, options.session,
+        std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
     inputs.push_back(input);
   }
   for (const std::filesystem::path& output : {options.out, options.record}) {

@@ -120,6 +120,25 @@ struct OpenSummary {
   std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
 };
 
+/// An image that was written.
+struct ImageSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  std::string what;  ///< "fa"
+  std::size_t voxels = 0;
+  std::size_t with_tensor = 0;  ///< voxels
+  std::size_t lifted = 0;       ///< of a fit: counts of TensorFit
+  std::size_t unusable = 0;
+  std::size_t negative = 0;
+  std::string turn;  ///< that the orientation check suggests; empty: none
+  double gain = 1.0;
+  double seconds_load = 0.0;
+  double seconds_made = 0.0;
+  double seconds_write = 0.0;
+  std::vector<std::string> notes;
+};
+
 struct RenderSummary {
   std::string input;
   std::string field;
