@@ -56,8 +56,7 @@ struct TractTracingOptions {
   std::string integrator = "dp54";
   double tolerance = 1e-4;
   double step = 0.0;
-  std::string interpolation = "components";  ///< components, log
-  std::string measure = "fa";                ///< fa, cl
+  std::string measure = "fa";  ///< fa, cl
   double cutoff = 0.2;
   double max_angle = 0.0;  ///< [degrees]
   double min_radius = 0.0;

@@ -23,10 +23,6 @@ void add_tract_options(SceneOptions& options, TractTracingOptions& tracts) {
               group);
   options.add("--step", tracts.step, "between points in mm; default a quarter of the shortest voxel edge",
               "MM", group);
-  options
-      .add("--interpolation", tracts.interpolation,
-           "of tensors: components (default) or log, which is log-Euclidean", "NAME", group)
-      ->check(CLI::IsMember({"components", "log"}));
   options.add("--measure", tracts.measure, "of anisotropy that ends lines: fa (default) or cl", "NAME",
               group);
   options.add("--cutoff", tracts.cutoff, "lines end where the measure falls below it; default 0.2", "0..1",

@@ -22,7 +22,8 @@ StopRule stop_plane(const std::string& text) {
 }  // namespace
 
 InputSpec input_spec(const InputOptions& options, FieldKind kind) {
-  return {options.files, options.solution, options.example, options.field, options.time, kind, options.raw, options.tensor};
+  return {options.files, options.solution, options.example, options.field, options.time,
+          kind,          options.raw,      options.tensor};
 }
 
 bool list_examples(const Options& options, const VerbContext& context) {

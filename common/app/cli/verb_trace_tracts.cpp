@@ -135,11 +135,10 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
     console.print(plan_text(summary.plan));
   }
 
-  TensorImage image = input.load_tensor_image(threads, &context.progress);
+  const TensorImage image = input.load_tensor_image(threads, &context.progress);
   for (const std::string& note : image.notes) console.note(input.title() + ": " + note);
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   const Stopwatch prepare;
-  if (options.tracts.interpolation == "log") image.choice.interpolation = TensorInterpolation::kLogEuclidean;
   const auto field = make_tensor_field(image.image, image.choice, input.title(), threads);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   summary.field = input.field_label();
