@@ -11,11 +11,13 @@
 namespace palpate {
 namespace {
 
-/// The voxels of an image and their neighbours through faces.
+using Axes = std::array<bool, 3>;
+
+/// The voxels of an image and their neighbours through faces along some of its axes.
 class Neighbours {
  public:
-  explicit Neighbours(const Index3& points)
-      : size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
+  Neighbours(const Index3& points, const Axes& along)
+      : along_(along), size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
               static_cast<std::size_t>(points.z)},
         stride_{1, size_[0], size_[0] * size_[1]} {}
 
@@ -24,6 +26,7 @@ class Neighbours {
   bool each(std::size_t voxel, const Visit& visit) const {
     bool border = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!along_[axis]) continue;
       const std::size_t i = voxel / stride_[axis] % size_[axis];
       if (i > 0) visit(voxel - stride_[axis]);
       if (i + 1 < size_[axis]) visit(voxel + stride_[axis]);
@@ -33,6 +36,7 @@ class Neighbours {
   }
 
  private:
+  Axes along_;
   std::array<std::size_t, 3> size_;
   std::array<std::size_t, 3> stride_;
 };
@@ -40,7 +44,8 @@ class Neighbours {
 /// Parts of equal value that hang together, found one after the other.
 class Parts {
  public:
-  explicit Parts(const Index3& points, std::size_t voxels) : neighbours_(points), seen_(voxels, 0) {}
+  Parts(const Index3& points, std::size_t voxels, const Axes& along)
+      : neighbours_(points, along), seen_(voxels, 0) {}
 
   struct Part {
     std::vector<std::size_t> voxels;
@@ -91,6 +96,20 @@ double threshold_of(std::span<const float> values) {
   return otsu_threshold(histogram_to(bright > lower ? bright : upper));
 }
 
+/// Fills what is enclosed along `along`: parts of the background that do not reach the border of the image, or of
+/// its slices.
+void fill_holes(const Index3& points, const Axes& along, std::vector<std::uint8_t>& mask) {
+  Parts outside(points, mask.size(), along);
+  for (std::size_t voxel = 0; voxel < mask.size(); ++voxel) {
+    if (mask[voxel] != 0) continue;
+    const Parts::Part part = outside.take(voxel, mask);
+    if (part.at_border) continue;
+    // Marked 2 until the end: parts are told apart by value.
+    for (const std::size_t hole : part.voxels) mask[hole] = 2;
+  }
+  for (std::uint8_t& value : mask) value = value != 0 ? 1 : 0;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const Index3& points) {
@@ -102,7 +121,7 @@ std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const I
     return static_cast<std::uint8_t>(std::isfinite(value) && static_cast<double>(value) > threshold ? 1 : 0);
   });
   std::vector<std::uint8_t> mask(values.size(), 0);
-  Parts parts(points, values.size());
+  Parts parts(points, values.size(), {true, true, true});
   std::vector<std::size_t> largest;
   for (std::size_t voxel = 0; voxel < values.size(); ++voxel) {
     if (bright[voxel] == 0) continue;
@@ -110,16 +129,10 @@ std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const I
     if (part.voxels.size() > largest.size()) largest = std::move(part.voxels);
   }
   for (const std::size_t voxel : largest) mask[voxel] = 1;
-
-  Parts outside(points, values.size());
-  for (std::size_t voxel = 0; voxel < values.size(); ++voxel) {
-    if (mask[voxel] != 0) continue;
-    const Parts::Part part = outside.take(voxel, mask);
-    if (part.at_border) continue;
-    // Marked 2 until the end: parts are told apart by value.
-    for (const std::size_t hole : part.voxels) mask[hole] = 2;
-  }
-  for (std::uint8_t& value : mask) value = value != 0 ? 1 : 0;
+  // In a slice too: what is dark inside a head is open to the outside somewhere, through the base of the skull.
+  fill_holes(points, {true, true, true}, mask);
+  for (const Axes& slice : {Axes{true, true, false}, Axes{true, false, true}, Axes{false, true, true}})
+    fill_holes(points, slice, mask);
   return mask;
 }
 
