@@ -17,7 +17,8 @@ using Axes = std::array<bool, 3>;
 class Neighbours {
  public:
   Neighbours(const Index3& points, const Axes& along)
-      : along_(along), size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
+      : along_(along),
+        size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
               static_cast<std::size_t>(points.z)},
         stride_{1, size_[0], size_[0] * size_[1]} {}
 
@@ -96,8 +97,8 @@ double threshold_of(std::span<const float> values) {
   return otsu_threshold(histogram_to(bright > lower ? bright : upper));
 }
 
-/// Fills what is enclosed along `along`: parts of the background that do not reach the border of the image, or of
-/// its slices.
+/// Fills what is enclosed along `along`: parts of the background that do not reach the border of the image,
+/// or of its slices.
 void fill_holes(const Index3& points, const Axes& along, std::vector<std::uint8_t>& mask) {
   Parts outside(points, mask.size(), along);
   for (std::size_t voxel = 0; voxel < mask.size(); ++voxel) {
@@ -129,7 +130,8 @@ std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const I
     if (part.voxels.size() > largest.size()) largest = std::move(part.voxels);
   }
   for (const std::size_t voxel : largest) mask[voxel] = 1;
-  // In a slice too: what is dark inside a head is open to the outside somewhere, through the base of the skull.
+  // In a slice too: what is dark inside a head is open to the outside somewhere, through the base of the
+  // skull.
   fill_holes(points, {true, true, true}, mask);
   for (const Axes& slice : {Axes{true, true, false}, Axes{true, false, true}, Axes{false, true, true}})
     fill_holes(points, slice, mask);

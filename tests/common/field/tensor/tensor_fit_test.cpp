@@ -165,8 +165,9 @@ TEST(ForegroundMask, IsTheLargestBrightPartWithItsHolesFilled) {
       for (int i = 4; i < 15; ++i) at(i, j, k) = 100.0F;
     }
   }
-  at(9, 9, 9) = 0.0F;                   // a hole
-  at(1, 1, 1) = at(18, 18, 18) = 1e6F;  // bright specks
+  at(9, 9, 9) = 0.0F;                              // a hole
+  for (int k = 4; k < 9; ++k) at(6, 6, k) = 0.0F;  // one that is open below
+  at(1, 1, 1) = at(18, 18, 18) = 1e6F;             // bright specks
   at(10, 10, 10) = std::numeric_limits<float>::quiet_NaN();
   const std::vector<std::uint8_t> mask = foreground_mask(values, n);
   EXPECT_EQ(std::count(mask.begin(), mask.end(), 1), 11 * 11 * 11);
