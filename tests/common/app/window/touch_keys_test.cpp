@@ -218,9 +218,10 @@ TEST_F(TouchWindowTest, AxesLockTheProbe) {
     last_ = last;
     from_x_ = from_y_ = 0.0;
     key('X' + axis);
+    const std::string answer = run().message;
+    EXPECT_NE(answer.find(std::string("along ") + "xyz"[axis]), std::string::npos) << answer;
     lead_to(50.0, 40.0);
     const WindowResult result = run();
-    EXPECT_NE(result.message.find(std::string("along ") + "xyz"[axis]), std::string::npos) << result.message;
     for (int other = 0; other < 3; ++other) {
       const double way = std::abs(result.probe.probe[other] - start[other]);
       if (other == axis) {
