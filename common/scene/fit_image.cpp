@@ -37,6 +37,9 @@ std::vector<std::uint8_t> read_mask(const std::filesystem::path& file, const Uni
   request.files = {file};
   Source source = Source::open(request, {}, progress);
   const std::vector<ArrayInfo> arrays = source.arrays();
+  if (source.info().times.size() > 1)
+    throw input_error({file.string(), "", "has " + std::to_string(source.info().times.size()) + " volumes",
+                       "a mask of one", ""});
   if (arrays.empty() || arrays.front().components != 1)
     throw input_error({file.string(), "", "is no mask", "an image of one number a voxel", ""});
   const std::vector<DataSet> blocks = source.read({arrays.front().name}, 0, progress);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/tensor/image_axes.h"
 #include "common/field/tensor/orientation_check.h"
@@ -89,10 +90,15 @@ double coherence(const std::vector<float>& tensors, const UniformTopology& topol
 
 /// Tensors of six numbers whose order or axes the file leaves open.
 std::vector<float> read_unstated(const DataArray& array, const UniformTopology& topology, StoredOrder wanted,
-                                 int threads, std::vector<std::string>& notes) {
+                                 int threads, std::vector<std::string>& notes, const std::string& file) {
   std::array<double, 3> positive{};
   for (std::size_t r = 0; r < kReadings.size(); ++r) positive[r] = positive_part(array, kReadings[r].places);
   const double most = *std::max_element(positive.begin(), positive.end());
+  constexpr double kTensors = 0.5;
+  if (wanted == StoredOrder::kAuto && most < kTensors)
+    throw input_error(
+        {file, "", "has six volumes that are positive tensors in no known order", "tensors",
+         "name the gradients of a diffusion-weighted series (--bval, --bvec), or --tensor-order"});
   constexpr double kAsGood = 0.02;
   constexpr double kClear = 1.01;
   std::vector<float> best;
@@ -169,7 +175,8 @@ TensorOrder order_of_size(int components) noexcept {
 
 std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
                                        const TensorSource& source, TensorLayout layout, StoredOrder order,
-                                       int threads, std::vector<std::string>& notes) {
+                                       int threads, std::vector<std::string>& notes,
+                                       const std::string& file) {
   const std::string along =
       ", along FSL's image axes (the first turned around where the image is right-handed)";
   switch (source.kind) {
@@ -188,7 +195,7 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
   const DataArray& array = *image.find(source.arrays.front(), Association::kPoint);
   if (layout == TensorLayout::kData) return read_array(array, order_of_size(array.components), Mat3{1.0});
   if (order == StoredOrder::kAuto && layout == TensorLayout::kLower) order = StoredOrder::kNifti;
-  return read_unstated(array, topology, order, threads, notes);
+  return read_unstated(array, topology, order, threads, notes, file);
 }
 
 }  // namespace palpate

@@ -20,10 +20,13 @@ namespace palpate {
 /// that makes the most tensors positive definite, and of equals the one whose main directions line up best.
 /// FSL's are along fsl_axes(), MRtrix's along those of the coordinates; for NIfTI's symmetric matrices the
 /// axes that make main directions line up best are taken: programs differ. Notes say what was taken and why.
+/// @throws Error (bad input) with `file` where kAuto finds no order in which half of the tensors are
+/// positive.
 /// @param source of any kind but kSignals, whose arrays `image` has.
 [[nodiscard]] std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
                                                      const TensorSource& source, TensorLayout layout,
                                                      StoredOrder order, int threads,
-                                                     std::vector<std::string>& notes);
+                                                     std::vector<std::string>& notes,
+                                                     const std::string& file);
 
 }  // namespace palpate

@@ -98,7 +98,7 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     tensors = std::exchange(result.fit->tensors, {});
   } else {
     tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion.layout, reading.order,
-                                  threads, result.notes);
+                                  threads, result.notes, input.file);
   }
   if (!reading.turn.is_identity()) {
     const Mat3 image = image_axes(grid.axes);

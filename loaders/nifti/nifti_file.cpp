@@ -79,6 +79,19 @@ class VoxelFile {
     return znzread(out.data(), 1, out.size(), file_) == out.size();
   }
 
+  /// Reads on to the end, where gzip keeps its checksum, and closes the file. False where it is damaged or
+  /// cut off there.
+  bool ends_well() {
+    constexpr std::size_t kChunk = std::size_t{1} << 16U;
+    std::vector<std::byte> rest(kChunk);
+    std::size_t got = 0;
+    do {
+      got = znzread(rest.data(), 1, kChunk, file_);
+      if (got > kChunk) return false;  // znzlib's way to say -1
+    } while (got == kChunk);
+    return znzclose(file_) == 0;  // sets file_ to null
+  }
+
  private:
   znzFile file_;
 };
@@ -193,6 +206,9 @@ struct NiftiFile::Image {
       }
       if (on_progress) on_progress(static_cast<double>(v + 1) / static_cast<double>(volumes_));
     }
+    if (step + 1 == steps_ && !file.ends_well())
+      throw input_error(
+          {image_->iname, "", "holds gzip data that are damaged or cut off", "a whole file", ""});
     DataArray array;
     array.name = array_.name;
     array.components = array_.components;

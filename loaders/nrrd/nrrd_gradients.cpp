@@ -38,7 +38,10 @@ std::optional<GradientTable> read_nrrd_gradients(const NrrdKeys& keys, std::size
                                                  const Mat3& ras_from_gradient, const std::string& file,
                                                  std::vector<std::string>& notes) {
   const std::optional<std::string> weighting = keys("DWMRI_b-value");
-  if (!weighting) return std::nullopt;
+  if (!weighting) {
+    if (!keys(numbered("DWMRI_gradient", 0))) return std::nullopt;
+    throw input_error({file, "DWMRI_b-value", "is missing", "the b-value of the gradients", ""});
+  }
   const double b = number(*weighting).value_or(-1.0);
   if (!(b >= 0.0) || !std::isfinite(b)) {
     throw input_error({file, "DWMRI_b-value", "is '" + weighting->substr(0, 60) + "'",

@@ -245,6 +245,7 @@ class NrrdLoader : public Loader {
     for (int c = 0; c < 3 && has_frame; ++c) {
       for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
     }
+    check_frame(notes);
     for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
     array_.components = turned_size(kind_);
     turned_ = turn_ != Mat3{1.0} || array_.components != stored_components_;
@@ -252,6 +253,20 @@ class NrrdLoader : public Loader {
     notes.push_back(array_.name + " turned into RAS");
     const bool small = byte_size(stored_type_) <= 2 || stored_type_ == ScalarType::kFloat32;
     array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
+  }
+
+  /// Axes in one plane would flatten what is measured along them.
+  void check_frame(std::vector<std::string>& notes) const {
+    constexpr double kFlat = 1e-6, kTurned = 1e-3;
+    const double sides = glm::length(turn_[0]) * glm::length(turn_[1]) * glm::length(turn_[2]);
+    if (!(std::abs(glm::determinant(turn_)) > kFlat * sides))
+      throw input_error({file_, "measurement frame", "has axes in one plane", "three independent ones", ""});
+    const Mat3 product = glm::transpose(turn_) * turn_;
+    double off = 0.0;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r) off = std::max(off, std::abs(product[c][r] - (c == r ? 1.0 : 0.0)));
+    if (off > kTurned)
+      notes.emplace_back("the measurement frame is no rotation: lengths and angles change with it");
   }
 
   /// Diffusion-weighted volumes with their gradients, where the header states them.

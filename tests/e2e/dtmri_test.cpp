@@ -123,6 +123,12 @@ TEST_F(Dtmri, RefusesToWriteOverFilesAndUnknownMeasures) {
   EXPECT_EQ(run({"measure", "--example", "straight", "--measure", "x", "--out", "x.nii"}).exit_code, 2);
   EXPECT_EQ(run({"measure", "--example", "straight", "--out", "x.png"}).exit_code, 2);
   EXPECT_EQ(run({"fit", "--example", "straight"}).exit_code, 2);
+  folder_.write("path.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n");
+  EXPECT_EQ(
+      run({"probe", "--example", "straight", "--path", "path.csv", "--out", "a.csv", "--tract", "./a.csv"})
+          .exit_code,
+      2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("a.csv")));
   EXPECT_EQ(run({"info", "--example", "straight", "--flip", "z"}).exit_code, 2);
 }
 

@@ -275,6 +275,7 @@ TEST(DiffusionNrrd, RefusesGradientsThatDoNotGoWithTheVolumes) {
             std::string::npos);
   EXPECT_NE(refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 x\n").find("three finite numbers"),
             std::string::npos);
+  EXPECT_NE(refused("DWMRI_gradient_0000:=0 0 1\n").find("DWMRI_b-value"), std::string::npos);
   EXPECT_NE(refused("DWMRI_b-value:=nan\n").find("DWMRI_b-value"), std::string::npos);
   EXPECT_NE(
       refused("DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 0\nDWMRI_NEX_0000:=99\n").find("is no count"),

@@ -75,6 +75,25 @@ TEST(Nifti, VersionsPackingsAndPairsGiveTheSameVoxels) {
   }
 }
 
+TEST(Nifti, DamagedPackingIsRefusedThoughEveryVoxelIsThere) {
+  const test::TempFolder folder;
+  // Something follows the voxels, so that reading them does not come to the end.
+  const NiftiHeader header{.size = {2, 3, 4}, .datatype = 4};
+  std::string behind(std::size_t{1} << 19U, '\0');
+  std::uint32_t state = 1;
+  for (char& byte : behind) byte = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24U);
+  std::string packed = gzip(header.version1() + std::string(4, '\0') + counting<std::int16_t>(24) + behind);
+  packed[packed.size() - 8] ^= 1;  // its checksum
+  try {
+    Source source = Source::open({{folder.write("packed.nii.gz", packed)}, {}});
+    (void)read_block(source);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("damaged or cut off"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Nifti, PackedFilesMustBeNamedSo) {
   const test::TempFolder folder;
   const NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};

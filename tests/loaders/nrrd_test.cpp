@@ -160,6 +160,10 @@ TEST(Nrrd, TensorsAreTurnedIntoRasAndMasksAreKept) {
   // The frame's first axis lies along y, its second one along -x: xx and yy change places, xy its sign.
   EXPECT_EQ(read("right-anterior-superior", "measurement frame: (0,1,0) (-1,0,0) (0,0,1)\n"),
             (std::vector<double>{2.0, -0.25, -0.125, 1.0, 0.5, 3.0}));
+  for (const char* flat : {"(0,0,0) (0,0,0) (0,0,0)", "(1,0,0) (0,1,0) (1,1,0)"}) {
+    const std::string frame = std::string("measurement frame: ") + flat + "\n";
+    EXPECT_THROW((void)read("right-anterior-superior", frame), Error) << flat;
+  }
 }
 
 TEST(Nrrd, FullMatricesGiveTheirSymmetricPart) {

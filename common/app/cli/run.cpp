@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -35,7 +37,13 @@ void check_outputs(const Options& options) {
         std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
     inputs.push_back(input);
   }
-  for (const std::filesystem::path& output : {options.out, options.record}) {
+  const std::array<std::filesystem::path, 3> outputs{options.out, options.record, options.tract};
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const std::filesystem::path& output = outputs[o];
+    for (std::size_t other = 0; other < o; ++other) {
+      if (!output.empty() && output.lexically_normal() == outputs[other].lexically_normal())
+        throw usage_error(output.string() + " is named for two outputs; give each a name of its own");
+    }
     for (const std::filesystem::path& input : inputs) {
       std::error_code ignored;
       if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored)) {

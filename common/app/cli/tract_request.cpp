@@ -28,6 +28,9 @@ struct Mask {
 
 Mask read_mask(const std::string& file, int threads, Progress* progress) {
   Input input = Input::open({.files = {file}, .kind = FieldKind::kScalar}, progress);
+  if (input.times().size() > 1)
+    throw input_error(
+        {file, "", "has " + std::to_string(input.times().size()) + " volumes", "a mask of one", ""});
   const ScalarChoice choice = input.scalar_choice();
   const std::vector<DataSet> blocks = input.read_timed({choice.array}, progress);
   return {make_scalar_field(blocks, choice, file, threads), blocks.front()};

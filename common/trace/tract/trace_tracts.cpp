@@ -324,6 +324,11 @@ TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, 
   const double half_chord = std::min(0.5 * result.step / radius, std::numbers::sqrt2 / 2.0);
   result.max_angle = options.max_angle > 0.0 ? options.max_angle : 2.0 * std::asin(half_chord) / kRadians;
 
+  constexpr double kMostPoints = 1e6;  // of a line
+  if (result.max_length / result.step > kMostPoints)
+    throw usage_error("step " + short_number(result.step) + ": a line of up to " +
+                      short_number(result.max_length) +
+                      " would have more than a million points; take a longer step or a smaller max length");
   const double to_s = power_of_two(-field.frame().length_exponent);
   const Limits limits{.spacing = result.step * to_s,
                       .max_length = result.max_length * to_s,

@@ -293,6 +293,7 @@ TEST(TraceTracts, RefusesOptionsThatMakeNoSense) {
     EXPECT_THROW((void)trace_tracts(*field, {}, options), Error);
   };
   refused([](TractOptions& o) { o.step = -1.0; });
+  refused([](TractOptions& o) { o.step = 1e-9; });  // a line of too many points
   refused([](TractOptions& o) { o.cutoff = 1.5; });
   refused([](TractOptions& o) { o.max_angle = 120.0; });
   refused([](TractOptions& o) { o.tolerance = 0.0; });
