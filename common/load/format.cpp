@@ -20,6 +20,9 @@ std::string_view name_of(Format format) noexcept {
                                                                      "EX",
                                                                      "openCARP",
                                                                      "TetGen",
+                                                                     "MRtrix tracks",
+                                                                     "TrackVis tracks",
+                                                                     "TRX tracks",
                                                                      "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
@@ -42,6 +45,10 @@ std::string_view helper_of(Format format) noexcept {
     case Format::kCarp:
     case Format::kTetgen:
       return "palpate-load-cardiac";
+    case Format::kTck:
+    case Format::kTrk:
+    case Format::kTrx:
+      return "palpate-load-tract";
     case Format::kRaw:
       return "palpate-load-raw";
     default:

@@ -20,8 +20,14 @@
 namespace palpate {
 namespace {
 
+constexpr const char* kReadableFolder = "a file, or the folder of an OpenFOAM case or of TRX tracts";
+
+/// What the points of a TRX folder may be called.
+constexpr std::array kPositions{"positions.3.float16", "positions.3.float32", "positions.3.float64"};
+
 constexpr const char* kReadable =
-    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen file";
+    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen file, or "
+    "tracts (.tck, .trk, .trx)";
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -115,6 +121,13 @@ bool looks_like_nifti(std::string_view text) {
   return has(kMark1, '1') || has(kMark2, '2');
 }
 
+/// A zip file one of whose first members is one that every TRX file has.
+bool looks_like_trx(std::string_view text, std::string_view ending) {
+  if (!starts_with(text, "PK\3\4")) return false;
+  const auto has = [text](std::string_view name) { return text.find(name) != std::string_view::npos; };
+  return ending == ".trx" || has("header.json") || has("positions.3.float");
+}
+
 /// The ancestor of NIfTI has the same size of header and no mark.
 bool looks_like_analyze(std::string_view text, std::uint64_t file_size) {
   return file_size == 348 && (text.starts_with(std::string_view("\x5c\x01\0\0", 4)) ||
@@ -147,6 +160,13 @@ bool is_openfoam_case(const std::filesystem::path& folder) {
          std::filesystem::is_directory(folder / "constant", ignored);
 }
 
+bool is_trx_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / "header.json", ignored)) return false;
+  return std::any_of(kPositions.begin(), kPositions.end(),
+                     [&](const char* name) { return std::filesystem::exists(folder / name, ignored); });
+}
+
 }  // namespace
 
 Sniffed sniff(const FileHead& head) {
@@ -154,6 +174,10 @@ Sniffed sniff(const FileHead& head) {
   if (starts_with(text, "\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
   if (starts_with(text, "# vtk DataFile")) return {Format::kLegacyVtk, "", ""};
   if (starts_with(text, "NRRD000")) return {Format::kNrrd, "", ""};
+  if (starts_with(text, "mrtrix tracks")) return {Format::kTck, "", ""};
+  if (starts_with(text, std::string_view("TRACK\0", 6))) return {Format::kTrk, "", ""};
+  if (looks_like_trx(text, head.ending)) return {Format::kTrx, "", ""};
+  if (starts_with(text, "PK\3\4")) return {{}, "a zip file without tracts", "unpack it first"};
   if (looks_like_nifti(text)) return {Format::kNifti, "", ""};
   if (looks_like_analyze(text, head.file_size))
     return {{}, "an Analyze header, which does not say how its axes lie", "convert it to NIfTI"};
@@ -210,7 +234,7 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::
   }
   struct stat status {};
   if (::fstat(fd.get(), &status) != 0) refuse(path, std::string("cannot be read (") + errno_text() + ")");
-  if (S_ISDIR(status.st_mode)) refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
+  if (S_ISDIR(status.st_mode)) refuse(path, "is a folder", kReadableFolder);
   if (!S_ISREG(status.st_mode)) refuse(path, "is a pipe or device", "a regular file");
 
   HeadOfFile head;
@@ -239,7 +263,8 @@ Format find_format(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     if (is_openfoam_case(path)) return Format::kOpenFoam;
-    refuse(path, "is a folder", "a file, or the folder of an OpenFOAM case");
+    if (is_trx_folder(path)) return Format::kTrx;
+    refuse(path, "is a folder", kReadableFolder);
   }
   HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);
   std::string ending = lower_ending(path);

@@ -86,10 +86,11 @@ void write_vtp(OutputFile& file, const Tractogram& lines) {
     head += appendix.declare("Float32", column.name, 1, lines.line_count() * sizeof(float));
   }
   head += "</CellData>\n<Points>\n" + appendix.declare("Float32", "Points", 3, 3 * point_bytes);
-  head += "</Points>\n<Lines>\n" +
-          appendix.declare("Int64", "connectivity", 1, lines.points.size() * sizeof(std::int64_t)) +
-          appendix.declare("Int64", "offsets", 1, line_bytes) +
-          "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  // One statement an array: the operands of + may be evaluated in any order.
+  head += "</Points>\n<Lines>\n";
+  head += appendix.declare("Int64", "connectivity", 1, lines.points.size() * sizeof(std::int64_t));
+  head += appendix.declare("Int64", "offsets", 1, line_bytes);
+  head += "</Lines>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
   file.write(head);
   for (const auto& column : lines.of_points) write_array(file, column.values);
   for (const auto& column : lines.of_lines) write_array(file, column.values);

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/load/sniff.h"
-#include "loaders/vtk/mapped_file.h"
 #include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/xml_scan.h"
 

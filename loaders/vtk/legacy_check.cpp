@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "loaders/vtk/mapped_file.h"
+#include "common/base/mapped_file.h"
 
 namespace palpate {
 namespace {

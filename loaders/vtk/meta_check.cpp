@@ -11,9 +11,9 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/load/gzip_head.h"
 #include "common/load/sniff.h"
-#include "loaders/vtk/mapped_file.h"
 
 namespace palpate {
 namespace {

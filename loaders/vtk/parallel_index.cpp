@@ -5,7 +5,7 @@
 #include <set>
 
 #include "common/base/error.h"
-#include "loaders/vtk/mapped_file.h"
+#include "common/base/mapped_file.h"
 
 namespace palpate {
 namespace {

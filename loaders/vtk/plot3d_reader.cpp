@@ -7,9 +7,9 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/load/plot3d_layout.h"
 #include "common/load/sniff.h"
-#include "loaders/vtk/mapped_file.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"

@@ -14,8 +14,8 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/load/sniff.h"
-#include "loaders/vtk/mapped_file.h"
 #include "loaders/vtk/parallel_index.h"
 
 namespace palpate {

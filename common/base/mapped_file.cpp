@@ -1,4 +1,4 @@
-#include "loaders/vtk/mapped_file.h"
+#include "common/base/mapped_file.h"
 
 #include <cerrno>
 #include <cstring>
