@@ -9,17 +9,22 @@
 #include <cmath>
 
 #include "common/math/symmetric3.h"
+#include "common/trace/tract/main_direction_rule.h"
 #include "common/trace/tract/tensor6.h"
 
 namespace palpate {
+
+/// By Jacobi rotations, for whatever tensor. @rt Safe.
+[[nodiscard]] inline Vec3 rotated_main_direction(const Tensor6& d, const Vec3& toward) noexcept {
+  const Vec3 found = symmetric_eigen(d.matrix()).vectors[0];
+  return glm::dot(found, toward) < 0.0 ? -found : found;
+}
 
 /// The unit main eigenvector of `d` that makes an acute angle with `toward`. @pre `d` finite, of a size
 /// near one (so that products of six entries are in range), `toward` of unit length. @rt Safe.
 /// Inlined: called for every stage of every step, one waiting for the other.
 [[nodiscard, gnu::always_inline]] inline Vec3 main_direction(const Tensor6& d, const Vec3& toward) noexcept {
-  constexpr int kMostSteps = 4;
-  constexpr double kTurnDone = 1e-6;  // squared sine of the last step's turn: what is left is its cube
-  constexpr double kLeastGap = 1e-6;  // squared, of the eigenvalues' sum: below it two of them are one
+  using namespace direction_rule;
   const double trace = d.trace();
   Vec3 v = toward;
   double length2 = 1.0;
@@ -46,8 +51,7 @@ namespace palpate {
     if (!(adjugate.trace() > kLeastGap * trace * trace && 3.0 * rho > trace)) break;
     return v * ((glm::dot(v, toward) < 0.0 ? -1.0 : 1.0) / std::sqrt(length2));
   }
-  const Vec3 found = symmetric_eigen(d.matrix()).vectors[0];
-  return glm::dot(found, toward) < 0.0 ? -found : found;
+  return rotated_main_direction(d, toward);
 }
 
 }  // namespace palpate

@@ -24,20 +24,32 @@ struct Tensor6 {
   }
 };
 
-/// FA of a tensor; the same as fractional_anisotropy() of its eigenvalues, which a positive tensor does
-/// not need: FA^2 = 3/2 |dev D|^2 / |D|^2. @rt Safe.
-[[nodiscard]] inline double fractional_anisotropy(const Tensor6& d) noexcept {
+/// What FA is made of: FA^2 = 3/2 |dev D|^2 / |D|^2 does not need
+/// eigenvalues where none of them is below zero.
+struct AnisotropyParts {
+  bool positive = false;  ///< the tensor
+  double deviator = 0.0;  ///< 3/2 |dev D|^2
+  double all = 0.0;       ///< |D|^2
+};
+
+/// @rt Safe.
+[[nodiscard]] inline AnisotropyParts anisotropy_parts(const Tensor6& d) noexcept {
   const double minor = d.xx * d.yy - d.xy * d.xy;
   const double determinant =
       d.zz * minor - d.xx * d.yz * d.yz - d.yy * d.xz * d.xz + 2.0 * d.xy * d.xz * d.yz;
-  if (!(d.xx > 0.0 && minor > 0.0 && determinant > 0.0)) {
-    return fractional_anisotropy(symmetric_eigenvalues(d.matrix()));
-  }
   const double mean = d.trace() / 3.0;
   const double off = 2.0 * (d.xy * d.xy + d.xz * d.xz + d.yz * d.yz);
   const double x = d.xx - mean, y = d.yy - mean, z = d.zz - mean;
-  const double all = d.xx * d.xx + d.yy * d.yy + d.zz * d.zz + off;
-  return std::sqrt(1.5 * (x * x + y * y + z * z + off) / all);
+  return {.positive = d.xx > 0.0 && minor > 0.0 && determinant > 0.0,
+          .deviator = 1.5 * (x * x + y * y + z * z + off),
+          .all = d.xx * d.xx + d.yy * d.yy + d.zz * d.zz + off};
+}
+
+/// FA of a tensor; the same as fractional_anisotropy() of its eigenvalues. @rt Safe.
+[[nodiscard]] inline double fractional_anisotropy(const Tensor6& d) noexcept {
+  const AnisotropyParts parts = anisotropy_parts(d);
+  if (!parts.positive) return fractional_anisotropy(symmetric_eigenvalues(d.matrix()));
+  return std::sqrt(parts.deviator / parts.all);
 }
 
 /// What ends a tract where it falls below a cut-off.
@@ -50,6 +62,15 @@ enum class TractMeasure : std::uint8_t { kFa, kLinear };
 [[nodiscard]] inline double measure_of(TractMeasure measure, const Tensor6& d) noexcept {
   return measure == TractMeasure::kFa ? fractional_anisotropy(d)
                                       : anisotropy(symmetric_eigenvalues(d.matrix())).linear;
+}
+
+/// Whether the measure is `cutoff` or more; squares are compared where that will do. NaN is not. @rt Safe.
+[[nodiscard]] inline bool reaches(TractMeasure measure, const Tensor6& d, double cutoff) noexcept {
+  if (measure == TractMeasure::kFa) {
+    const AnisotropyParts parts = anisotropy_parts(d);
+    if (parts.positive) return parts.deviator >= cutoff * cutoff * parts.all;
+  }
+  return measure_of(measure, d) >= cutoff;
 }
 
 }  // namespace palpate

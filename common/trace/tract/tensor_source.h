@@ -9,13 +9,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
-
-#include <emmintrin.h>
 
 #include "common/field/field_grid.h"
 #include "common/field/tensor/tensor_field.h"
+#include "common/trace/tract/quad_kernel.h"
+#include "common/trace/tract/six_sum.h"
 #include "common/trace/tract/tensor6.h"
 
 namespace palpate {
@@ -58,96 +57,70 @@ template <typename T>
 class UniformTensors {
  public:
   /// @pre field.grid()->box, uniform; component-wise interpolation; values() of type T.
-  UniformTensors(const TensorField& field, std::span<const T> values) noexcept : values_(values.data()) {
+  UniformTensors(const TensorField& field, std::span<const T> values) noexcept {
     const FieldGrid& grid = *field.grid();
     const BoxGrid& box = *grid.box;
-    scale_ = TractScale::of(field).tensor;
-    rotation_ = grid.frame.rotation;
-    rotated_ = grid.frame.rotated;
+    grid_.values = values.data();
+    grid_.scale = TractScale::of(field).tensor;
+    grid_.rotated = grid.frame.rotated;
     for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      const Vec3& e = grid.frame.rotation[axis];
+      grid_.axes[a] = {e.x, e.y, e.z};
       const int last = box.points()[axis] - 1;
-      origin_[axis] = box.coordinate(axis, 0);
-      per_length_[axis] = last / (box.coordinate(axis, last) - origin_[axis]);
-      top_[axis] = last;
-      last_cell_[axis] = last - 1;
+      grid_.origin[a] = box.coordinate(axis, 0);
+      grid_.per_length[a] = last / (box.coordinate(axis, last) - grid_.origin[a]);
+      grid_.top[a] = last;
+      grid_.last_cell[a] = last - 1;
     }
-    step_y_ = std::size_t{6} * static_cast<std::size_t>(box.points().x);
-    step_z_ = step_y_ * static_cast<std::size_t>(box.points().y);
+    grid_.step_y = std::size_t{6} * static_cast<std::size_t>(box.points().x);
+    grid_.step_z = grid_.step_y * static_cast<std::size_t>(box.points().y);
   }
 
   void forget() noexcept {}
+  [[nodiscard]] const TensorGrid<T>& grid() const noexcept { return grid_; }
   [[nodiscard]] SampleStatus sample(const Vec3& x, Tensor6& out) const noexcept {
-    const Vec3 turned = rotated_ ? x * rotation_ : x;  // row vector times R is R^T times column
-    const Vec3 u = (turned - origin_) * per_length_;
-    if (!(u.x >= 0.0 && u.y >= 0.0 && u.z >= 0.0 && u.x <= top_.x && u.y <= top_.y && u.z <= top_.z)) {
-      return SampleStatus::kOutside;
+    std::array<double, 3> f{};
+    const T* corner = grid_.values;
+    const std::array<std::size_t, 3> steps{6, grid_.step_y, grid_.step_z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto& e = grid_.axes[a];
+      const double along = grid_.rotated ? e[0] * x.x + e[1] * x.y + e[2] * x.z : x[static_cast<int>(a)];
+      const double u = (along - grid_.origin[a]) * grid_.per_length[a];
+      if (!(u >= 0.0 && u <= grid_.top[a])) return SampleStatus::kOutside;
+      const int last = static_cast<int>(grid_.last_cell[a]);
+      const int cell = static_cast<int>(u) < last ? static_cast<int>(u) : last;
+      f[a] = u - cell;
+      corner += steps[a] * static_cast<std::size_t>(cell);
     }
-    const int i = least(static_cast<int>(u.x), last_cell_.x);
-    const int j = least(static_cast<int>(u.y), last_cell_.y);
-    const int k = least(static_cast<int>(u.z), last_cell_.z);
-    const T* const corner = values_ + std::size_t{6} * static_cast<std::size_t>(i) +
-                            step_y_ * static_cast<std::size_t>(j) + step_z_ * static_cast<std::size_t>(k);
-    const double fx = u.x - i, fy = u.y - j, fz = u.z - k;
-    const double z1 = scale_ * fz, z0 = scale_ - z1;
-    const double z0y1 = z0 * fy, z0y0 = z0 - z0y1, z1y1 = z1 * fy, z1y0 = z1 - z1y1;
-    // Two sums, so that additions need not wait for one another.
-    Six lower = edge(corner, fx, z0y0), upper = edge(corner + step_z_, fx, z1y0);
-    add(lower, edge(corner + step_y_, fx, z0y1));
-    add(upper, edge(corner + step_y_ + step_z_, fx, z1y1));
-    add(lower, upper);
-    out = {lower.a[0], lower.a[1], lower.b[0], lower.b[1], lower.c[0], lower.c[1]};
+    const std::array<double, 8> weights = corner_weights(grid_.scale, f[0], f[1], f[2]);
+    const Six sum = six_sum(corner, grid_.step_y, grid_.step_z, weights.data(), 1);
+    out = {sum.first[0], sum.first[1], sum.first[2], sum.first[3], sum.last[0], sum.last[1]};
     // A corner without a tensor is NaN in some of its numbers; other numbers stay in range.
     if (std::isfinite(out.trace() + out.xy + out.xz + out.yz)) return SampleStatus::kOk;
-    return without_missing(corner, {fx, fy, fz}, out);
+    return without_missing(corner, {f[0], f[1], f[2]}, out);
   }
 
  private:
-  struct Six {
-    __m128d a, b, c;
-  };
-  static int least(int x, int y) noexcept { return x < y ? x : y; }
-  static void add(Six& sum, const Six& more) noexcept {
-    sum.a += more.a;
-    sum.b += more.b;
-    sum.c += more.c;
-  }
-  static __m128d two(const float* at) noexcept {
-    return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(at))));
-  }
-  static __m128d two(const double* at) noexcept { return _mm_loadu_pd(at); }
   /// The rule of TensorField::sample() for cells that lack some of their tensors.
   [[nodiscard]] SampleStatus without_missing(const T* corner, const Vec3& f, Tensor6& out) const noexcept {
     std::array<double, 6> sum{};
     double there = 0.0;
     for (unsigned c = 0; c < 8; ++c) {
       const bool x = (c & 1U) != 0, y = (c & 2U) != 0, z = (c & 4U) != 0;
-      const T* const at = corner + (x ? 6 : 0) + (y ? step_y_ : 0) + (z ? step_z_ : 0);
+      const T* const at = corner + (x ? 6 : 0) + (y ? grid_.step_y : 0) + (z ? grid_.step_z : 0);
       if (!std::all_of(at, at + 6, [](T number) { return std::isfinite(number); })) continue;
       const double weight = (x ? f.x : 1.0 - f.x) * (y ? f.y : 1.0 - f.y) * (z ? f.z : 1.0 - f.z);
       there += weight;
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * static_cast<double>(at[i]);
     }
     if (!(there > 0.5)) return SampleStatus::kBadData;
-    const double scale = scale_ / there;
+    const double scale = grid_.scale / there;
     out = {scale * sum[0], scale * sum[1], scale * sum[2], scale * sum[3], scale * sum[4], scale * sum[5]};
     return SampleStatus::kOk;
   }
-  /// The tensors at the ends of a cell's edge along x, weighted. Inlined: a call would pass six numbers
-  /// through memory, four times a sample.
-  [[gnu::always_inline]] static Six edge(const T* at, double fx, double weight) noexcept {
-    const double second = weight * fx, first = weight - second;
-    const __m128d w0{first, first}, w1{second, second};
-    return {w0 * two(at) + w1 * two(at + 6), w0 * two(at + 2) + w1 * two(at + 8),
-            w0 * two(at + 4) + w1 * two(at + 10)};
-  }
 
-  const T* values_;
-  Mat3 rotation_{1.0};
-  bool rotated_ = false;
-  Vec3 origin_{0.0}, per_length_{1.0}, top_{0.0};
-  Index3 last_cell_{0};
-  std::size_t step_y_ = 0, step_z_ = 0;
-  double scale_ = 1.0;
+  TensorGrid<T> grid_;
 };
 
 }  // namespace palpate
