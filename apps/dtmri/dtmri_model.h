@@ -1,44 +1,27 @@
-/// What the window shows of diffusion tensors: opens inputs and makes their fields on its background thread.
+/// What the window shows of diffusion tensors: their slices, made on the window's background thread.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "common/app/cli/options.h"
-#include "common/app/window/window_model.h"
-#include "common/scene/input.h"
+#include "common/app/cli/input_model.h"
 
 namespace palpate {
 
-class DtmriModel final : public WindowModel {
+/// The scene of one tensor image, all but the user's settings.
+using DtmriContent = std::shared_ptr<const SceneState>;
+
+class DtmriModel final : public InputModel<DtmriContent> {
  public:
   DtmriModel(Options options, std::string program);
 
-  SceneState start(Progress& progress) override;
-  SceneState open(const InputFiles& files, Progress& progress) override;
-  SceneState update(const SceneSettings& settings, Progress& progress) override;
-  std::string save_session(const SceneSettings& settings, const SceneView& view,
-                           const std::vector<std::pair<std::string, std::string>>& touch) override;
-
  private:
-  /// An open input with the tensors that were read last.
-  struct Scene {
-    Input input;
-    SceneState shown;
-  };
-
-  /// Opens what `options` name and keeps it.
-  SceneState show(const Options& options, Progress& progress);
-  /// Reads the field that the input's spec names, and describes it.
-  [[nodiscard]] static SceneState read(Input& input, const Options& options, const SceneSettings& settings,
-                                       Progress& progress);
-
-  Options options_;
-  std::string program_;
-  std::optional<Scene> scene_;
+  [[nodiscard]] DtmriContent read(Input& input, const Options& options, Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const DtmriContent& content, const Options& options,
+                                   const SceneSettings& settings, const SceneState* before,
+                                   Progress& progress) const override;
+  void describe_session(Session& session, const InputSpec& spec, const Options& options,
+                        const SceneSettings& settings, const SceneView& view) const override;
 };
 
 }  // namespace palpate

@@ -4,60 +4,25 @@
 
 #include "apps/grid/grid_model.h"
 #include "apps/grid/grid_modes.h"
-#include "common/app/cli/line_view.h"
+#include "common/app/cli/verb_open.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/volume_scene.h"
-#include "common/app/cli/window_touch.h"
-#include "common/app/window/window.h"
-#include "common/base/parallel.h"
-#include "common/base/version.h"
-#include "common/scene/plan.h"
 
 namespace palpate {
-namespace {
-
-ExitCode run_open(const Options& given, const VerbContext& context) {
-  Options options = given;
-  if (list_examples(options, context)) return ExitCode::kDone;
-  const bool nothing_named = options.input.files.empty() && options.input.example.empty();
-  if (nothing_named) options.input.example = examples_of(FieldKind::kScalar).front().name;
-  const CameraAngles angles = camera_angles(options.view.camera);
-  check_volume_options(options.volume);
-  ProbeSessionOptions touch = window_touch(grid_modes(), options, context);
-  if (!window_available() && nothing_named) {
-    return headless_tour(volume_render_verb(grid_modes(), {}), options, context,
-                         "probe FILE --path path.csv --out log.csv");
-  }
-  if (options.common.explain) {
-    const Input input = open_input(options, context);
-    context.console.print(plan_text(plan_scene(input, {.verb = "open",
-                                                       .threads = resolve_threads(options.common.threads),
-                                                       .drawing = true,
-                                                       .window = true})));
-  }
-  if (!window_available()) refuse_window(options, context);
-  GridModel model(options, context.explorer.name);
-  WindowOptions window{.program = context.explorer.name,
-                       .angles = angles,
-                       .command_line = context.command_line,
-                       .version = version_text(context.explorer.name),
-                       .touch = std::move(touch),
-                       .stop_requested = [] { return InterruptGuard::interrupted(); }};
-  if (options.volume.projection == "orthographic") window.view.camera.projection = Projection::kOrthographic;
-  const WindowResult result =
-      run_user_window(model, std::move(window), [&](const std::string& line) { context.console.note(line); });
-  tell_of_touch(result, context);
-  return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
-}
-
-}  // namespace
 
 Verb open_verb(std::vector<UsageExample> examples) {
-  return {.name = "open",
-          .summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
-          .groups = {.view = true, .touch = true, .record = true, .replay = true},
-          .examples = std::move(examples),
-          .run = run_open};
+  return make_open_verb(
+      {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
+       .groups = {.view = true, .touch = true, .record = true, .replay = true},
+       .modes = grid_modes(),
+       .render = volume_render_verb(grid_modes(), {}),
+       .next = "probe FILE --path path.csv --out log.csv",
+       .check = [](const Options& options) { check_volume_options(options.volume); },
+       .use = [](const Input&, const Options&) { return SceneUse{}; },
+       .model = [](const Options& options,
+                   const std::string& program) { return std::make_unique<GridModel>(options, program); },
+       .style = style_projection},
+      std::move(examples));
 }
 
 }  // namespace palpate

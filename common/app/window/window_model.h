@@ -109,6 +109,9 @@ class WindowModel {
   /// @throws Error.
   virtual std::string save_session(const SceneSettings& settings, const SceneView& view,
                                    const std::vector<std::pair<std::string, std::string>>& touch) = 0;
+
+  /// A line on what the scene shown last took, for `--explain`; empty where nothing was or it is not known.
+  [[nodiscard]] virtual std::string measured() const { return {}; }
 };
 
 }  // namespace palpate

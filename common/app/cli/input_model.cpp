@@ -1,0 +1,39 @@
+#include "common/app/cli/input_model.h"
+
+#include "common/app/cli/line_view.h"
+
+namespace palpate {
+
+SceneInfo describe_open_input(const Input& input) {
+  SceneInfo info;
+  info.name = input.title();
+  for (const auto& path : input.spec().files) info.files.files.push_back(std::filesystem::absolute(path));
+  if (input.spec().solution) info.files.solution = std::filesystem::absolute(*input.spec().solution);
+  info.fields = input.fields();
+  if (const FileInfo* file = input.file()) {
+    info.facts.push_back(file->format);
+    info.times = file->times;
+  }
+  return info;
+}
+
+SceneState begin_state(const Input& input, const SceneSettings& settings) {
+  SceneState state;
+  state.settings = settings;
+  state.lines = std::make_shared<const std::vector<Line>>();
+  state.notes = input.notes();
+  state.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  return state;
+}
+
+void describe_camera(Session& session, const SceneView& view) {
+  const bool parallel = view.camera.projection == Projection::kOrthographic;
+  add_option(session, "projection", parallel ? "orthographic" : "perspective");
+  add_option(session, "camera", camera_text(view.camera, view.bounds, kSessionAspect));
+}
+
+void add_option(Session& session, const char* name, const std::string& value) {
+  if (!value.empty()) session.options.emplace_back(name, value);
+}
+
+}  // namespace palpate

@@ -1,0 +1,69 @@
+#include "common/app/cli/verb_open.h"
+
+#include <utility>
+
+#include "common/app/cli/line_view.h"
+#include "common/app/cli/verbs.h"
+#include "common/app/cli/window_touch.h"
+#include "common/app/window/window.h"
+#include "common/base/parallel.h"
+#include "common/base/version.h"
+
+namespace palpate {
+namespace {
+
+ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContext& context) {
+  Options options = given;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  const bool nothing_named = options.input.files.empty() && options.input.example.empty();
+  if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
+  const CameraAngles angles = camera_angles(options.view.camera);
+  verb.check(options);
+  const bool felt = !verb.modes.empty();
+  ProbeSessionOptions touch;
+  if (felt) touch = window_touch(verb.modes, options, context);
+  if (!window_available() && nothing_named) return headless_tour(verb.render, options, context, verb.next);
+  if (options.common.explain) {
+    const Input input = open_input(options, context);
+    SceneUse use = verb.use(input, options);
+    use.verb = "open";
+    use.threads = resolve_threads(options.common.threads);
+    use.drawing = true;
+    use.window = true;
+    context.console.print(plan_text(plan_scene(input, use)));
+  }
+  if (!window_available()) refuse_window(options, context);
+  const auto model = verb.model(options, context.explorer.name);
+  WindowOptions window{.program = context.explorer.name,
+                       .angles = angles,
+                       .command_line = context.command_line,
+                       .version = version_text(context.explorer.name),
+                       .touch = std::move(touch),
+                       .stop_requested = [] { return InterruptGuard::interrupted(); }};
+  verb.style(options, window.view);
+  const WindowResult result = run_user_window(*model, std::move(window),
+                                              [&](const std::string& line) { context.console.note(line); });
+  if (felt) tell_of_touch(result, context);
+  if (options.common.explain) context.console.print(model->measured());
+  return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples) {
+  const std::string summary = window.summary;
+  const VerbGroups groups = window.groups;
+  return {.name = "open",
+          .summary = summary,
+          .groups = groups,
+          .examples = std::move(examples),
+          .run = [window = std::move(window)](const Options& options, const VerbContext& context) {
+            return run_open(window, options, context);
+          }};
+}
+
+void style_projection(const Options& options, SceneView& view) {
+  if (options.volume.projection == "orthographic") view.camera.projection = Projection::kOrthographic;
+}
+
+}  // namespace palpate
