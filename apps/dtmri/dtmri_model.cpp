@@ -1,5 +1,6 @@
 #include "apps/dtmri/dtmri_model.h"
 
+#include "common/app/cli/lens_text.h"
 #include "common/app/cli/tensor_scene.h"
 
 namespace palpate {
@@ -18,6 +19,8 @@ DtmriContent DtmriModel::read(Input& input, const Options& options, Progress& pr
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, {});
   state.info = std::move(info);
+  state.lens = direction_lens(options.volume, *view.volume->image);
+  state.volume = std::move(view.volume);
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
   return std::make_shared<const SceneState>(std::move(state));
@@ -31,13 +34,22 @@ SceneState DtmriModel::present(Input& /*input*/, const DtmriContent& content, co
   return state;
 }
 
-void DtmriModel::describe_session(Session& session, const InputSpec& /*spec*/, const Options& /*options*/,
+void DtmriModel::describe_session(Session& session, const InputSpec& /*spec*/, const Options& options,
                                   const SceneSettings& /*settings*/, const SceneView& view) const {
   if (view.tensors) {
     add_option(session, "slices", slices_text(*view.tensors));
     add_option(session, "color", std::string(name_of(view.tensors->color)));
     add_option(session, "glyphs", std::string(name_of(view.tensors->glyphs)));
     add_option(session, "voxels", view.tensors->smooth ? "linear" : "nearest");
+  }
+  if (view.volume) {
+    const VolumeView& volume = *view.volume;
+    add_option(session, "volume", !volume.shown ? "none" : volume.colored ? "direction" : "fa");
+    add_option(session, "transfer-function", options.volume.transfer);
+    add_option(session, "focus-tf", options.volume.focus);
+    add_option(session, "lens", lenses_text(volume.lenses));
+    add_option(session, "samples", exact_number(volume.samples_per_voxel));
+    add_option(session, "shading", volume.shading ? "on" : "off");
   }
   describe_camera(session, view);
 }

@@ -15,7 +15,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
        .groups = {.view = true},
        .render = tensor_render_verb({}),
        .next = "info FILE",
-       .check = [](const Options& options) { check_tensor_options(options.tensors); },
+       .check = [](const Options& options) { check_tensor_options(options); },
        .use = [](const Input&, const Options&) { return SceneUse{}; },
        .model = [](const Options& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); },

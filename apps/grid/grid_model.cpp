@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/app/cli/lens_text.h"
+
 namespace palpate {
 
 GridModel::GridModel(Options options, std::string program)
@@ -13,6 +15,7 @@ TangibleVolume GridModel::read(Input& input, const Options& options, Progress& p
 
 void GridModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
   settings.transfer = options.volume.transfer;
+  settings.focus = options.volume.focus;
 }
 
 SceneState GridModel::present(Input& input, const TangibleVolume& volume, const Options& options,
@@ -20,6 +23,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
                               Progress& /*progress*/) const {
   Options with = options;
   with.volume.transfer = settings.transfer;
+  with.volume.focus = settings.focus;
   SceneView view = make_volume_scene(input, volume.image, with, 1.0);
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->bounds = view.bounds;
@@ -27,6 +31,9 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, settings);
   state.info = std::move(info);
+  state.lens.transfer = focus_transfer_of(settings.focus, *volume.image, options.common.threads);
+  state.lens.samples_per_voxel = view.volume->samples_per_voxel;
+  state.lens.shading = view.volume->shading;
   state.volume = std::move(view.volume);
   state.felt_scalar = volume.field;
   // Another time step of a field keeps its colours, or a film would flicker.
@@ -45,7 +52,9 @@ void GridModel::describe_session(Session& session, const InputSpec& spec, const 
   add_option(session, "raw-origin", spec.raw.origin);
   add_option(session, "raw-skip", spec.raw.skip);
   add_option(session, "transfer-function", settings.transfer);
+  add_option(session, "focus-tf", settings.focus);
   if (view.volume) {
+    add_option(session, "lens", lenses_text(view.volume->lenses));
     add_option(session, "samples", exact_number(view.volume->samples_per_voxel));
     add_option(session, "shading", view.volume->shading ? "on" : "off");
   }

@@ -9,6 +9,7 @@
 
 #include "common/base/csv_reader.h"
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -17,6 +18,14 @@ namespace {
 constexpr std::size_t kMostPoints = 65536;  // more than the values of most data: such a file is a mistake
 constexpr std::string_view kWhat =
     "a transfer function: a table with the header value,red,green,blue,opacity";
+constexpr std::string_view kWords = "points:";
+constexpr std::size_t kNumbers = 5;  // of a point
+
+std::string row_of(const ColorPoint& point) {
+  std::string row = exact_number(point.value);
+  for (int c = 0; c < 3; ++c) row += "," + exact_number(static_cast<double>(point.color[c]));
+  return row + "," + exact_number(point.opacity);
+}
 
 }  // namespace
 
@@ -59,12 +68,38 @@ ColorTransfer read_color_transfer(const std::string& file, double lower, double 
 
 std::string color_transfer_text(const ColorTransfer& transfer) {
   std::string text = "value,red,green,blue,opacity\n";
-  for (const ColorPoint& p : transfer.points()) {
-    text += exact_number(p.value);
-    for (int c = 0; c < 3; ++c) text += "," + exact_number(static_cast<double>(p.color[c]));
-    text += "," + exact_number(p.opacity) + "\n";
-  }
+  for (const ColorPoint& point : transfer.points()) text += row_of(point) + "\n";
   return text;
+}
+
+std::string transfer_words(const ColorTransfer& transfer) {
+  std::string words(kWords);
+  for (const ColorPoint& point : transfer.points()) {
+    if (words.size() > kWords.size()) words += '/';
+    words += row_of(point);
+  }
+  return words;
+}
+
+std::optional<ColorTransfer> transfer_from_words(const std::string& text) {
+  if (!text.starts_with(kWords)) return std::nullopt;
+  std::vector<ColorPoint> points;
+  for (const std::string_view row : split(std::string_view(text).substr(kWords.size()), '/')) {
+    std::vector<double> numbers;
+    for (const std::string_view part : split(row, ',')) {
+      const auto value = number(part);
+      if (!value) break;
+      numbers.push_back(*value);
+    }
+    if (numbers.size() != kNumbers || points.size() >= kMostPoints) {
+      throw usage_error(
+          "'" + std::string(row) +
+          "' is no point of a transfer function: value,red,green,blue,opacity is expected, with "
+          "'/' between points");
+    }
+    points.push_back({numbers[0], Vec3f(numbers[1], numbers[2], numbers[3]), numbers[4]});
+  }
+  return ColorTransfer(std::move(points));
 }
 
 }  // namespace palpate

@@ -9,6 +9,7 @@
 /// in place of `value`, 0 and 1 stand for the lowest and highest value of the data.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/field/color_transfer.h"
@@ -21,5 +22,12 @@ namespace palpate {
 
 /// The text of a file that gives the same function back, bit by bit.
 [[nodiscard]] std::string color_transfer_text(const ColorTransfer& transfer);
+
+/// The function on one line, as options and sessions have it: "points:V,R,G,B,A/V,R,G,B,A/…", the same
+/// numbers with '/' between points. @pre it has a point.
+[[nodiscard]] std::string transfer_words(const ColorTransfer& transfer);
+/// What transfer_words() wrote; absent where `text` does not begin with "points:".
+/// @throws Error (usage) for points that are none.
+[[nodiscard]] std::optional<ColorTransfer> transfer_from_words(const std::string& text);
 
 }  // namespace palpate

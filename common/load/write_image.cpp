@@ -19,14 +19,15 @@
 namespace palpate {
 namespace {
 
-enum class Ending : std::uint8_t { kNifti, kPackedNifti, kNrrd };
+enum class Ending : std::uint8_t { kNifti, kPackedNifti, kNrrd, kVti };
 
 Ending ending_of(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (name.ends_with(".nii")) return Ending::kNifti;
   if (name.ends_with(".nii.gz")) return Ending::kPackedNifti;
   if (name.ends_with(".nrrd")) return Ending::kNrrd;
-  throw usage_error(path.string() + ": an image's name ends in .nii, .nii.gz or .nrrd");
+  if (name.ends_with(".vti")) return Ending::kVti;
+  throw usage_error(path.string() + ": an image's name ends in .nii, .nii.gz, .nrrd or .vti");
 }
 
 /// Writes bytes as they are or through gzip, whose header carries no time: the same image, the same file.
@@ -239,6 +240,67 @@ void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent conten
   sink.write({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)});
 }
 
+/// VTK XML, ImageData, raw appended data. Its Direction has the unit axes as columns.
+std::string vti_head(const UniformTopology& topology, ImageContent content) {
+  std::string extent, spacing, direction, name;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string blank = axis > 0 ? " " : "";
+    extent += blank + "0 " + std::to_string(topology.points[axis] - 1);
+    spacing += blank + exact_number(glm::length(topology.axes[axis]));
+  }
+  for (int row = 0; row < 3; ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      direction += (direction.empty() ? "" : " ") +
+                   exact_number(topology.axes[axis][row] / glm::length(topology.axes[axis]));
+    }
+  }
+  const bool colors = content == ImageContent::kColor;
+  const char* role = content == ImageContent::kTensor   ? "Tensors"
+                     : content == ImageContent::kVector ? "Vectors"
+                                                        : "Scalars";
+  name = content == ImageContent::kTensor   ? "tensors"
+         : content == ImageContent::kVector ? "vectors"
+                                            : "scalars";
+  return "<?xml version=\"1.0\"?>\n"
+         "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+         "<ImageData WholeExtent=\"" +
+         extent + "\" Origin=\"" + exact_number(topology.origin.x) + " " + exact_number(topology.origin.y) +
+         " " + exact_number(topology.origin.z) + "\" Spacing=\"" + spacing + "\" Direction=\"" + direction +
+         "\">\n<Piece Extent=\"" + extent + "\">\n<PointData " + role + "=\"" + name +
+         "\">\n<DataArray type=\"" + (colors ? "UInt8" : "Float32") + "\" Name=\"" + name +
+         "\" NumberOfComponents=\"" + std::to_string(component_count(content)) +
+         "\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n</ImageData>\n"
+         "<AppendedData encoding=\"raw\">\n_";
+}
+
+void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content,
+               std::span<const float> values) {
+  sink.write(vti_head(topology, content));
+  std::string bytes;
+  if (content == ImageContent::kColor) {
+    bytes.resize(values.size());
+    std::transform(values.begin(), values.end(), bytes.begin(),
+                   [](float v) { return static_cast<char>(color_byte(v)); });
+  } else {
+    std::vector<float> numbers(values.begin(), values.end());
+    if (content == ImageContent::kTensor) {
+      // VTK counts xx yy zz xy yz xz.
+      for (std::size_t v = 0; v < numbers.size(); v += 6) {
+        const std::array<float, 6> rows{values[v],     values[v + 1], values[v + 2],
+                                        values[v + 3], values[v + 4], values[v + 5]};
+        const std::array<std::size_t, 6> order{0, 3, 5, 1, 4, 2};
+        for (std::size_t c = 0; c < 6; ++c) numbers[v + c] = rows[order[c]];
+      }
+    }
+    std::transform(numbers.begin(), numbers.end(), numbers.begin(), finite_or_zero);
+    bytes.assign(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
+  }
+  const std::uint64_t size = bytes.size();
+  sink.write({reinterpret_cast<const char*>(&size), sizeof size});
+  sink.write(bytes);
+  sink.write("\n</AppendedData>\n</VTKFile>\n");
+}
+
 }  // namespace
 
 int component_count(ImageContent content) noexcept {
@@ -266,12 +328,15 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
   const Ending ending = ending_of(path);
   constexpr int kMostNifti = 32767;
   const Index3& n = topology.points;
-  if (ending != Ending::kNrrd && std::max({n.x, n.y, n.z}) > kMostNifti)
+  const bool nifti = ending == Ending::kNifti || ending == Ending::kPackedNifti;
+  if (nifti && std::max({n.x, n.y, n.z}) > kMostNifti)
     throw usage_error(path.string() +
                       ": too many voxels along an axis for NIfTI-1; take a name ending in .nrrd");
   Sink sink(path, overwrite, ending == Ending::kPackedNifti);
   if (ending == Ending::kNrrd) {
     write_nrrd(sink, topology, content, values);
+  } else if (ending == Ending::kVti) {
+    write_vti(sink, topology, content, values);
   } else {
     write_nifti(sink, topology, content, values, convention);
   }

@@ -1,4 +1,5 @@
-/// Writers of images, chosen by the file's ending: .nii, .nii.gz (NIfTI-1), .nrrd. Written under a temporary
+/// Writers of images, chosen by the file's ending: .nii, .nii.gz (NIfTI-1), .nrrd, .vti
+/// (VTK XML ImageData, coordinates as they are). Written under a temporary
 /// name and renamed, so an output is never half a file.
 #pragma once
 

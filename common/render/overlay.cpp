@@ -284,16 +284,20 @@ void draw_volume_colors(const Pen& pen, const SceneView& view, float right, floa
     pen.list().AddLine(place(i), place(i + 1), pen.faint_ink(), std::max(1.0F, em / 12.0F));
 }
 
+void draw_directions(const Pen& pen, bool anatomical, float right, float middle) {
+  const std::array<const char*, 3> axes =
+      anatomical ? std::array<const char*, 3>{"left, right", "back, front", "feet, head"}
+                 : std::array<const char*, 3>{"x", "y", "z"};
+  draw_legend(pen, "direction",
+              {{{1.0F, 0.1F, 0.1F}, axes[0]}, {{0.1F, 1.0F, 0.1F}, axes[1]}, {{0.1F, 0.1F, 1.0F}, axes[2]}},
+              right, middle);
+}
+
 // The colours of slices and glyphs.
 void draw_tensor_colors(const Pen& pen, const TensorView& tensors, bool anatomical, float right, float middle,
                         float length) {
   if (tensors.color == TensorColor::kDirection) {
-    const std::array<const char*, 3> axes =
-        anatomical ? std::array<const char*, 3>{"left, right", "back, front", "feet, head"}
-                   : std::array<const char*, 3>{"x", "y", "z"};
-    draw_legend(pen, "direction",
-                {{{1.0F, 0.1F, 0.1F}, axes[0]}, {{0.1F, 1.0F, 0.1F}, axes[1]}, {{0.1F, 0.1F, 1.0F}, axes[2]}},
-                right, middle);
+    draw_directions(pen, anatomical, right, middle);
     return;
   }
   const std::array<Rgb, 2> greys{Rgb(0.0F), Rgb(1.0F)};
@@ -306,8 +310,11 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
   const float em = pen.text_height(), h = static_cast<float>(height);
   // Room for the letter of the right border.
   const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
-  if (view.volume) {
-    draw_volume_colors(pen, view, right, 0.5F * h, 0.46F * h);
+  if (view.volume && view.volume->shown) {
+    // Directions have no scale: their legend stands above that of the volume.
+    const bool both = has_colored_parts(*view.volume);
+    if (both) draw_directions(pen, view.anatomical, right, 0.2F * h);
+    draw_volume_colors(pen, view, right, (both ? 0.6F : 0.5F) * h, 0.46F * h);
     return;
   }
   if (view.tensors && !legend.has_lines) {

@@ -90,6 +90,8 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
          same_tensors(a, b);
 }
 
+bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
+
 bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0; }
 
 // The range of a followed line's values where no other lines set one.
@@ -257,7 +259,7 @@ struct SceneRenderer::State {
     target.bind_still();
     if (other_path || !still || !same_still_part(*still, view)) {
       draw_still_part(view, base, unit, transform);
-      if (view.volume) draw_volume(view);
+      if (shows_volume(view)) draw_volume(view);
       still = view;
       still_path = 0;
     }
@@ -303,7 +305,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   } else {
     s.target.bind_scene();
     s.draw_still_part(view, base, unit, transform);
-    if (view.volume) s.draw_volume(view);
+    if (shows_volume(view)) s.draw_volume(view);
   }
   if (is_transparent(view)) s.draw_lines(view, base, unit);
 

@@ -32,6 +32,10 @@ vec4 short_stretch(float front, float back, float first_layer, float stretch) {
 }
 
 void gather(vec4 seen, Ray ray, vec4 part, float middle, inout vec4 gathered) {
+#ifdef COLORED
+  // Opacities stay those of the table; the colour is that of the stretch's middle.
+  if (part.w > 1.5) seen.rgb = seen.a * texture(colors, (ray.start + middle * ray.speed + 0.5) / volume.points.xyz).rgb;
+#endif
 #ifdef SHADED
   if (part.z > 0.5) seen.rgb = shaded(seen, ray, middle);
 #endif

@@ -5,7 +5,7 @@ const int kMostLenses = 8;
 const int kMostPlanes = 32;
 
 // A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
-// voxel, z 1 shaded, w 1 cut away.
+// voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.
 layout(std140, binding = 1) uniform Volume {
   mat4 grid_from_scene;
   vec4 lower;         // xyz: corner of the volume, g; w: number at the first entry of a table
@@ -22,4 +22,7 @@ layout(binding = 1) uniform sampler2DArray tables;   // associated colour and op
 layout(binding = 2) uniform usampler3D empty_bricks; // distances in bricks, one map after another along z
 layout(binding = 3) uniform sampler2D opaque_depth;
 layout(binding = 4) uniform sampler2D tiles;  // volume/tiles.vert
+#ifdef COLORED
+layout(binding = 5) uniform sampler3D colors;  // of the voxels, not associated
+#endif
 layout(location = 0) uniform bool has_opaque_depth;

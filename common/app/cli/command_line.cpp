@@ -92,6 +92,8 @@ class VerbParser {
     if (verb.groups.effort) add_effort();
     if (verb.groups.image) add_image();
     if (verb.groups.measure) add_measure();
+    if (verb.groups.slice) add_slice();
+    if (verb.groups.part) add_part();
   }
 
   [[nodiscard]] const SceneOptions& scene_options() const noexcept { return scene_options_; }
@@ -111,6 +113,16 @@ class VerbParser {
   CLI::Option* scene(const std::string& name, T& value, const std::string& text, const std::string& type,
                      const std::string& group) {
     return scene_options_.add(name, value, text, type, group);
+  }
+
+  /// One that may be repeated; a session has its values with ';' between.
+  void several(const std::string& name, std::vector<std::string>& values, const std::string& text,
+               const std::string& type, const std::string& group) {
+    scene(name, values, text, type, group)
+        ->delimiter(';')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);  // or it would swallow the FILE behind it
   }
 
   void add_common() {
@@ -220,12 +232,8 @@ class VerbParser {
     scene("--max-time", tracing.max_time, "longest time along a line, in data units", "TIME", group);
     scene("--max-steps", tracing.max_steps, "most steps of a line; default 1000000", "N", group)
         ->check(CLI::PositiveNumber);
-    scene("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated",
-          "nx,ny,nz,d", group)
-        ->delimiter(';')
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);  // or it would swallow the FILE behind it
+    several("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated",
+            "nx,ny,nz,d", group);
   }
 
   void add_view(FieldKind kind) {
@@ -239,6 +247,7 @@ class VerbParser {
     }
     if (kind == FieldKind::kTensor) {
       add_tensors();
+      add_tensor_volume();
       add_projection();
       return;
     }
@@ -251,14 +260,52 @@ class VerbParser {
 
   void add_volume() {
     const char* group = "View";
-    VolumeOptions& volume = options_.volume;
-    scene("--transfer-function", volume.transfer,
+    scene("--transfer-function,--context-tf", options_.volume.transfer,
           "which colour and opacity values have: density, mr, ct, or a file with the header "
           "value,red,green,blue,opacity; without it one is made from the histogram",
           "NAME|FILE", group);
+    add_lenses("the same inside lenses; without it the denser half of what is seen outside");
+    add_rays();
+  }
+
+  void add_tensor_volume() {
+    const char* group = "View";
+    scene("--volume", options_.tensors.volume,
+          "fractional anisotropy as a volume: none, fa (grey) or direction (coloured by the main "
+          "eigenvector); default auto: fa with --lens or --clip, else none",
+          "auto|none|fa|direction", group)
+        ->check(CLI::IsMember({"auto", "none", "fa", "direction"}));
+    scene(
+        "--transfer-function,--context-tf", options_.volume.transfer,
+        "of that volume, as a file with the header value,red,green,blue,opacity, value being FA; default: a "
+        "faint veil",
+        "FILE", group);
+    add_lenses(
+        "inside lenses, where colours are those of directions and it says how opaque FA is; default: solid "
+        "from an FA of 0.4 on");
+    add_rays();
+  }
+
+  void add_rays() {
+    const char* group = "View";
+    VolumeOptions& volume = options_.volume;
     scene("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", group);
     scene("--shading", volume.shading, "light surfaces by the gradient of the values: on (default) or off",
           "on|off", group);
+  }
+
+  void add_lenses(const char* focus) {
+    const char* group = "View";
+    VolumeOptions& volume = options_.volume;
+    several(
+        "--lens", volume.lenses,
+        "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
+        "cylinder:x,y,z,x,y,z,r or halfspace:nx,ny,nz,d (where n.x > d); ',cut' behind it cuts it away; may "
+        "be repeated, the first one wins",
+        "SHAPE", group);
+    scene("--focus-tf", volume.focus, focus, "NAME|FILE", group);
+    several("--clip,--plane", volume.clips, "cut away what lies where n.x > d; may be repeated", "nx,ny,nz,d",
+            group);
   }
 
   void add_projection() {
@@ -367,6 +414,32 @@ class VerbParser {
                     "fa (default), md, cl, cp, cs, mode, v1 (main direction) or color (of it, times fa)")
         ->type_name("NAME")
         ->group("Output");
+  }
+
+  void add_slice() {
+    const char* group = "Slice";
+    SliceOptions& slice = options_.slice;
+    app_.add_option("--plane", slice.plane,
+                    "axial (default), coronal or sagittal through the middle, or with a place on z, y or x "
+                    "behind it, as in axial:20; or nx,ny,nz,d for n.x = d, with n to the viewer")
+        ->type_name("PLANE")
+        ->group(group);
+    app_.add_option("--spacing", slice.spacing, "of pixels in data units; default: that of the voxels")
+        ->type_name("D")
+        ->group(group);
+    app_.add_option(
+            "--window", slice.window,
+            "values from black to white in a .png; default: up to all but the brightest two hundredth")
+        ->type_name("W")
+        ->group(group);
+    app_.add_option("--level", slice.level, "value in the middle of them")->type_name("L")->group(group);
+  }
+
+  void add_part() {
+    app_.add_option("--box", options_.slice.box,
+                    "keep what lies in a box, in data units: two opposite corners; default: all")
+        ->type_name("x,y,z,x,y,z")
+        ->group("Part");
   }
 
   void add_effort() {

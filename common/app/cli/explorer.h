@@ -48,6 +48,8 @@ struct VerbGroups {
   bool effort = false;   ///< --quick, --thorough
   bool image = false;    ///< --convention of an image that is written
   bool measure = false;  ///< --measure
+  bool slice = false;    ///< --plane and how a slice is written
+  bool part = false;     ///< --box of a volume
 };
 
 struct Verb {

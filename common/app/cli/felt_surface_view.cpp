@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/app/cli/touch_options.h"
+#include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/haptic_mode.h"
 #include "common/base/text.h"
 #include "common/field/scalar_threshold.h"
@@ -16,8 +17,8 @@ bool wants_surfaces(const Options& options, const std::string& mode) {
   return !options.touch.isovalues.empty() || (felt && mode == kIsosurfaceMode);
 }
 
-void show_felt_surfaces(SceneView& view, const ScalarField& field, const TouchOptions& options,
-                        Progress* progress) {
+std::string show_felt_surfaces(SceneView& view, const ScalarField& field, const TouchOptions& options,
+                               Progress* progress) {
   constexpr std::size_t kMostTriangles = 4'000'000;
   Isovalues isovalues = touch_settings(options).isosurface.isovalues;
   if (isovalues.count == 0) isovalues = {{otsu_threshold(field)}, 1};
@@ -31,6 +32,7 @@ void show_felt_surfaces(SceneView& view, const ScalarField& field, const TouchOp
   }
   view.surfaces = show_surfaces(meshes);
   view.subtitle += (meshes.size() > 1 ? ", isosurfaces of " : ", isosurface of ") + field.name() + words;
+  return beyond_values(field, isovalues);
 }
 
 }  // namespace palpate

@@ -16,8 +16,9 @@ namespace palpate {
 
 /// Adds the isosurfaces of `field` that `--isovalue` names, or the one that parts its values best, and names
 /// them in the subtitle.
+/// @return what the user should know, on one line; empty: nothing.
 /// @throws Error (usage), (work failed) where a surface is too large to be drawn; Cancelled.
-void show_felt_surfaces(SceneView& view, const ScalarField& field, const TouchOptions& options,
-                        Progress* progress);
+[[nodiscard]] std::string show_felt_surfaces(SceneView& view, const ScalarField& field,
+                                             const TouchOptions& options, Progress* progress);
 
 }  // namespace palpate

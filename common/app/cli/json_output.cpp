@@ -237,6 +237,27 @@ std::string image_json(const ImageSummary& summary) {
   return text_of(json);
 }
 
+std::string lattice_json(const LatticeSummary& summary) {
+  const auto list = [](const Vec3& v) { return Json{v.x, v.y, v.z}; };
+  const UniformTopology& lattice = summary.lattice;
+  const Json json{{"input", summary.input},
+                  {"field", summary.field},
+                  {"out", summary.output},
+                  {"size", {lattice.points.x, lattice.points.y, lattice.points.z}},
+                  {"origin", list(lattice.origin)},
+                  {"axes", {list(lattice.axes[0]), list(lattice.axes[1]), list(lattice.axes[2])}},
+                  {"right", summary.right},
+                  {"up", summary.up},
+                  {"outside", summary.outside},
+                  {"range", {summary.lowest, summary.highest}},
+                  {"window", summary.window},
+                  {"level", summary.level},
+                  {"seconds_load", summary.seconds_load},
+                  {"seconds_made", summary.seconds_made},
+                  {"version", version()}};
+  return text_of(json);
+}
+
 std::string render_json(const RenderSummary& summary) {
   Json json{{"input", summary.input},
             {"field", summary.field},

@@ -73,10 +73,21 @@ struct ViewOptions {
 
 /// How a volume is drawn.
 struct VolumeOptions {
-  std::string transfer;  ///< preset or file; empty: from the histogram of the values
-  double samples = 4.0;  ///< per voxel along a ray
-  bool shading = true;   ///< Phong
+  std::string transfer;  ///< color_transfer_of(); empty: from the histogram of the values
+  std::string focus;     ///< likewise inside lenses; empty: the denser half of what the context shows
+  std::vector<std::string> lenses;  ///< grammar of parse_lens()
+  std::vector<std::string> clips;   ///< nx,ny,nz,d: what lies where n.x > d is cut away
+  double samples = 4.0;             ///< per voxel along a ray
+  bool shading = true;              ///< Phong
   std::string projection = "perspective";
+};
+
+/// A slice that is written, or a part of a volume.
+struct SliceOptions {
+  std::string plane = "axial";  ///< grammar of parse_plane()
+  double spacing = 0.0;         ///< of its pixels [data units]; 0: that of the voxels
+  std::optional<double> window, level;
+  std::string box;  ///< x,y,z,x,y,z: the part of a volume that is kept; empty: all of it
 };
 
 /// How diffusion tensors are drawn.
@@ -85,6 +96,7 @@ struct TensorOptions {
   std::string color = "direction";  ///< name_of(TensorColor)
   std::string glyphs = "none";      ///< name_of(GlyphShape)
   std::string voxels = "nearest";   ///< nearest, linear: how colours go on between the centres of voxels
+  std::string volume = "auto";      ///< auto: with a lens; none, fa, direction: of what is outside lenses
 };
 
 /// What the hand feels, and how the workspace lies over the data.
@@ -121,6 +133,7 @@ struct Options {
   TractTracingOptions tracts;
   ViewOptions view;
   VolumeOptions volume;
+  SliceOptions slice;
   TensorOptions tensors;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path

@@ -71,7 +71,7 @@ double difference(const Image& image, const Image& fine, int oversampling) {
 
 /// Lines against more samples a pixel, volumes against more samples along the rays.
 void measure_error(const SceneView& view, const Image& image, RenderSummary& summary) {
-  if (view.volume) {
+  if (view.volume && view.volume->shown) {
     constexpr double kFiner = 4.0;
     SceneView finer = view;
     finer.volume->samples_per_voxel *= kFiner;

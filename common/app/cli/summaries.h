@@ -139,6 +139,20 @@ struct ImageSummary {
   std::vector<std::string> notes;
 };
 
+/// A slice or a part of a volume that was written.
+struct LatticeSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  UniformTopology lattice;
+  std::string right, up;  ///< what lies there in a slice, in words; empty for a volume
+  std::size_t outside = 0;
+  double lowest = 0.0, highest = 0.0;  ///< of the data
+  double window = 0.0, level = 0.0;    ///< of a picture
+  double seconds_load = 0.0;
+  double seconds_made = 0.0;
+};
+
 struct RenderSummary {
   std::string input;
   std::string field;

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "common/app/cli/domain_outline.h"
+#include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/volume_scene.h"
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/base/text.h"
@@ -55,10 +57,37 @@ std::string slices_text(const TensorView& view) {
   return text;
 }
 
-void check_tensor_options(const TensorOptions& options) {
-  (void)parse_slices(options.slices);
-  (void)tensor_color_from_name(options.color);
-  (void)glyph_shape_from_name(options.glyphs);
+void check_tensor_options(const Options& options) {
+  (void)parse_slices(options.tensors.slices);
+  (void)tensor_color_from_name(options.tensors.color);
+  (void)glyph_shape_from_name(options.tensors.glyphs);
+  check_volume_options(options.volume);
+}
+
+Lens direction_lens(const VolumeOptions& options, const VolumeImage& image) {
+  Lens lens;
+  lens.transfer = options.focus.empty() ? anisotropy_body() : focus_transfer_of(options.focus, image, 0);
+  lens.samples_per_voxel = options.samples;
+  lens.shading = options.shading;
+  lens.colored = true;
+  return lens;
+}
+
+VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const Options& options) {
+  const VolumeOptions& with = options.volume;
+  VolumeView volume;
+  volume.image = make_anisotropy_volume(std::move(voxels));
+  volume.colored = options.tensors.volume == "direction";
+  volume.transfer = !with.transfer.empty() ? color_transfer_of(with.transfer, *volume.image, 0)
+                    : volume.colored       ? anisotropy_body()
+                                           : anisotropy_veil();
+  volume.samples_per_voxel = with.samples;
+  volume.shading = with.shading;
+  const Lens model = direction_lens(with, *volume.image);
+  volume.lenses = make_lenses(with, model.transfer);
+  for (Lens& lens : volume.lenses) lens.colored = !lens.cut;
+  volume.shown = options.tensors.volume == "auto" ? !volume.lenses.empty() : options.tensors.volume != "none";
+  return volume;
 }
 
 TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const TensorOptions& options) {
@@ -101,6 +130,8 @@ SceneView make_tensor_scene(const Input& input, TensorView tensors, const Option
       view.bounds, camera_angles(options.view.camera), aspect,
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
   view.style.color_by = ColorBy::kDirection;
+  view.volume = make_tensor_volume(tensors.image, options);
+  view.volume_label = "FA";
   view.tensors = std::move(tensors);
   return view;
 }

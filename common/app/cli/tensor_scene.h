@@ -8,6 +8,7 @@
 
 #include "common/app/cli/options.h"
 #include "common/render/scene_view.h"
+#include "common/render/tensor/tensor_volume.h"
 #include "common/scene/input.h"
 
 namespace palpate {
@@ -25,8 +26,17 @@ struct SliceChoice {
 /// The view's slices as `--slices` says them.
 [[nodiscard]] std::string slices_text(const TensorView& view);
 
-/// Checks what can be checked before anything is read. @throws Error (usage).
-void check_tensor_options(const TensorOptions& options);
+/// Checks what can be checked before anything is read. @throws Error (usage), (bad input) for a transfer
+/// function.
+void check_tensor_options(const Options& options);
+
+/// How a lens shows the directions in it: solid, or as `--focus-tf` says. @throws Error (bad input).
+[[nodiscard]] Lens direction_lens(const VolumeOptions& options, const VolumeImage& image);
+
+/// Anisotropy as a volume with the lenses of the options, shown if they ask for it.
+/// @throws Error (bad input) for a transfer function.
+[[nodiscard]] VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels,
+                                            const Options& options);
 
 /// What the options say about `voxels`: slices through its middle where nothing else is said.
 /// @throws Error (usage).

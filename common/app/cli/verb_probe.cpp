@@ -14,6 +14,7 @@
 #include "common/app/cli/verbs.h"
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/drawn_tract.h"
+#include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
@@ -258,11 +259,13 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
 }
 
 /// Settles what isosurfaces are felt where nothing was said, so that the summary can state it.
-void settle_isosurfaces(FeltInput& felt, ProbeSummary& summary) {
+void settle_isosurfaces(FeltInput& felt, ProbeSummary& summary, const Console& console) {
   if (!felt.scalar) felt.scalar = make_speed_field(felt.field);
   Isovalues& isovalues = summary.settings.isosurface.isovalues;
   if (isovalues.count == 0) isovalues = {{otsu_threshold(*felt.scalar)}, 1};
   summary.scalar = felt.scalar->name();
+  const std::string beyond = beyond_values(*felt.scalar, isovalues);
+  if (!beyond.empty()) console.note(beyond);
 }
 
 /// What can be refused before any work is done.
@@ -325,7 +328,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   const Workspace workspace = touch_workspace(
       options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
-  if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary);
+  if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
   summary.input = input.title();
   summary.field = felt.name;
   summary.mode = mode.name;

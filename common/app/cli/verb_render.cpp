@@ -72,7 +72,10 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   if (surfaces || (!options.path.empty() && !options.touch.scalar.empty())) {
     scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
   }
-  if (surfaces) show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
+  if (surfaces) {
+    const std::string note = show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
+    if (!note.empty()) context.console.note(note);
+  }
   if (!options.path.empty()) {
     show_probe(drawn.view, read_probe_path(options.path.string()), mode, options, scalar, field);
   }

@@ -36,10 +36,9 @@ Verb tensor_render_verb(std::vector<UsageExample> examples) {
           .groups = {.view = true, .out = true, .picture = true},
           .examples = std::move(examples),
           .run = [](const Options& options, const VerbContext& context) {
-            const PictureMaker maker{
-                .check = [](const Options& given) { check_tensor_options(given.tensors); },
-                .use = use_of,
-                .make = make_scene};
+            const PictureMaker maker{.check = [](const Options& given) { check_tensor_options(given); },
+                                     .use = use_of,
+                                     .make = make_scene};
             return draw_picture(maker, options, context);
           }};
 }

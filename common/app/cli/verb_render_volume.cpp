@@ -27,7 +27,8 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
                 const Options& options, const VerbContext& context) {
   const HapticMode& mode = mode_of(modes, options);
   if (wants_surfaces(options, mode.name)) {
-    show_felt_surfaces(view, *volume.field, options.touch, &context.progress);
+    const std::string note = show_felt_surfaces(view, *volume.field, options.touch, &context.progress);
+    if (!note.empty()) context.console.note(note);
   }
   if (options.path.empty()) return;
   const Workspace workspace = touch_workspace(options.touch, volume.field->diagonal(), volume.field->frame());

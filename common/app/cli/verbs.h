@@ -19,6 +19,10 @@ namespace palpate {
 [[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 /// The same of volumes.
 [[nodiscard]] Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
+/// A slice of a volume, as a picture or an image.
+[[nodiscard]] Verb slice_verb(std::vector<UsageExample> examples);
+/// A part of a volume, cut by a box and planes, as a picture or an image.
+[[nodiscard]] Verb clip_verb(std::vector<UsageExample> examples);
 /// The same of diffusion tensors.
 [[nodiscard]] Verb tensor_render_verb(std::vector<UsageExample> examples);
 /// @param modes the program's, the default one first.

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "common/app/cli/domain_outline.h"
+#include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -34,24 +37,23 @@ Voxels read_voxels(Input& input, Progress* progress) {
   return voxels;
 }
 
-}  // namespace
-
-ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
-  if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
+ValueHistogram histogram_of(const VolumeImage& image, double lower, int threads) {
   constexpr std::size_t kBins = 1024;
+  return count_values(
+      image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, image.highest, kBins,
+      threads);
+}
+
+/// The preset for densities from `lower` to the value that only the brightest of those from `threshold` on
+/// pass.
+ColorTransfer density_from(const ValueHistogram& histogram, double lower, double threshold) {
   constexpr double kBrightest = 0.995;
-  const ValueHistogram histogram = count_values(
-      image.point_count(), [&image](std::size_t i) { return image.value(i); }, image.lowest, image.highest,
-      kBins, threads);
-  const double threshold = otsu_threshold(histogram);
-  // From halfway up to the threshold on, so that what lies just above it is not lost.
-  const double lower = 0.5 * mean_below(histogram, threshold) + 0.5 * threshold;
   const double upper = std::max(lower, value_below_which(histogram, kBrightest, threshold));
   return make_color_transfer(ColorPreset::kDensity, lower, upper);
 }
 
-ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
-  if (name.empty()) return default_color_transfer(image, threads);
+ColorTransfer named_transfer(const std::string& name, const VolumeImage& image) {
+  if (auto transfer = transfer_from_words(name)) return *transfer;
   const bool values = image.lowest <= image.highest;
   const double lower = values ? image.lowest : 0.0;
   const double upper = values ? image.highest : 0.0;
@@ -60,21 +62,66 @@ ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& imag
   return make_color_transfer(color_preset_from_name(name), lower, upper);
 }
 
-void check_volume_options(const VolumeOptions& options) {
-  constexpr double kMostSamples = 64.0;
-  if (!(options.samples > 0.0 && options.samples <= kMostSamples))
-    throw usage_error("--samples: a number above 0 and at most 64 is expected");
-  const std::string& name = options.transfer;
+void check_transfer(const std::string& name) {
   std::error_code ignored;
-  if (name.empty() || std::filesystem::exists(name, ignored)) return;
+  if (name.empty() || transfer_from_words(name) || std::filesystem::exists(name, ignored)) return;
   // A word is a preset; what looks like a path was meant as one.
   if (name.find_first_of("./") != std::string::npos)
     throw input_error({name, "", "no such file", "a transfer function", ""});
   (void)color_preset_from_name(name);
 }
 
+}  // namespace
+
+ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
+  if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
+  const ValueHistogram histogram = histogram_of(image, image.lowest, threads);
+  const double threshold = otsu_threshold(histogram);
+  // From halfway up to the threshold on, so that what lies just above it is not lost.
+  return density_from(histogram, 0.5 * mean_below(histogram, threshold) + 0.5 * threshold, threshold);
+}
+
+ColorTransfer default_focus_transfer(const VolumeImage& image, int threads) {
+  if (image.lowest > image.highest) return {};
+  const double threshold = otsu_threshold(histogram_of(image, image.lowest, threads));
+  const ValueHistogram dense = histogram_of(image, threshold, threads);
+  const double denser = otsu_threshold(dense);
+  return density_from(dense, denser, denser);
+}
+
+ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  return name.empty() ? default_color_transfer(image, threads) : named_transfer(name, image);
+}
+
+ColorTransfer focus_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  return name.empty() ? default_focus_transfer(image, threads) : named_transfer(name, image);
+}
+
+void check_volume_options(const VolumeOptions& options) {
+  constexpr double kMostSamples = 64.0;
+  if (!(options.samples > 0.0 && options.samples <= kMostSamples))
+    throw usage_error("--samples: a number above 0 and at most 64 is expected");
+  check_transfer(options.transfer);
+  check_transfer(options.focus);
+  (void)make_lenses(options, std::nullopt);
+}
+
 std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
   return read_voxels(input, progress).image;
+}
+
+DataSet load_volume_block(Input& input, Progress* progress) {
+  const Voxels voxels = read_voxels(input, progress);  // which refuses what is no volume
+  DataSet block = volume_source(voxels.blocks, voxels.choice, voxels.file);
+  if (block.visible.empty()) return block;
+  const DataArray& array = block.arrays.front();
+  std::vector<double> values(array.tuples);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = block.visible[i] != 0 ? array.at(i) : std::numeric_limits<double>::quiet_NaN();
+  }
+  block.arrays = {make_array(array.name, Association::kPoint, 1, values)};
+  block.visible.clear();
+  return block;
 }
 
 TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress) {
@@ -106,6 +153,10 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
   volume.transfer = color_transfer_of(options.volume.transfer, *image, options.common.threads);
   volume.samples_per_voxel = options.volume.samples;
   volume.shading = options.volume.shading;
+  if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
+    volume.lenses =
+        make_lenses(options.volume, focus_transfer_of(options.volume.focus, *image, options.common.threads));
+  }
   volume.image = std::move(image);
   view.volume = std::move(volume);
   return view;

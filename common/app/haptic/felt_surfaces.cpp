@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/field/scalar_threshold.h"
 
 namespace palpate {
@@ -68,6 +69,23 @@ std::optional<Vec3> first_surface_between(const FeltLevels& felt, const Vec3& fr
   return std::nullopt;
 }
 
+std::string beyond_values(const ScalarField& field, const Isovalues& isovalues) {
+  std::string words;
+  int count = 0;
+  for (int i = 0; i < isovalues.count; ++i) {
+    const double level = isovalues.value[static_cast<std::size_t>(i)];
+    if (level >= field.lowest() && level <= field.highest()) continue;
+    words += (count++ > 0 ? ", " : "") + short_number(level);
+  }
+  if (count == 0) return {};
+  return (count > 1 ? "isovalues " : "isovalue ") + words + (count > 1 ? " lie" : " lies") +
+         " outside the values of " + field.name() +
+         (field.lowest() > field.highest()
+              ? ", none of which is finite"
+              : ", " + short_number(field.lowest()) + " to " + short_number(field.highest())) +
+         ": no surface there";
+}
+
 FeltSurfaces::FeltSurfaces(std::function<void()> wake)
     : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -121,6 +139,7 @@ FeltSurfaces::Made FeltSurfaces::make(const FeltLevels& felt, const Made& before
       made.problem = error.what();
     }
   }
+  if (made.problem.empty()) made.problem = beyond_values(*felt.field, felt.isovalues);
   return made;
 }
 

@@ -33,6 +33,9 @@ struct FeltLevels {
 [[nodiscard]] std::optional<Vec3> first_surface_between(const FeltLevels& felt, const Vec3& from,
                                                         const Vec3& to);
 
+/// Says which isovalues lie outside the values of `field`, where no surface is; empty where none does.
+[[nodiscard]] std::string beyond_values(const ScalarField& field, const Isovalues& isovalues);
+
 class FeltSurfaces {
  public:
   /// @param wake called on the thread that makes them when there is something new.

@@ -30,6 +30,10 @@ enum class Command : std::uint8_t {
   kLockY,
   kLockZ,
   kForceOff,
+  kLens,  ///< a lens that the mouse moves
+  kLensSmaller,
+  kLensLarger,
+  kVolume,      ///< shows or hides the volume
   kSliceRight,  ///< the slice across x, one voxel
   kSliceLeft,
   kSliceFront,

@@ -10,6 +10,7 @@
 #include <imgui_stdlib.h>
 
 #include "common/app/window/keys.h"
+#include "common/app/window/lens_panel.h"
 #include "common/app/window/readout_rows.h"
 #include "common/app/window/tensor_panel.h"
 #include "common/base/text.h"
@@ -205,6 +206,13 @@ void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   }
 }
 
+void draw_rays(VolumeView& volume) {
+  constexpr double kFewest = 0.5, kMost = 16.0;
+  ImGui::SliderScalar("samples a voxel", ImGuiDataType_Double, &volume.samples_per_voxel, &kFewest, &kMost,
+                      "%.1f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::Checkbox("shading", &volume.shading);
+}
+
 void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume) {
   section("VOLUME");
   choose("field", state.settings.field, scene.info->fields);
@@ -214,10 +222,13 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume)
   std::string transfer = state.settings.transfer.empty() ? kAutomatic : state.settings.transfer;
   if (choose("colours", transfer, kWords))
     state.settings.transfer = transfer == kAutomatic ? std::string() : transfer;
-  constexpr double kFewest = 0.5, kMost = 16.0;
-  ImGui::SliderScalar("samples a voxel", ImGuiDataType_Double, &volume.samples_per_voxel, &kFewest, &kMost,
-                      "%.1f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  ImGui::Checkbox("shading", &volume.shading);
+  draw_rays(volume);
+  section("LENSES");
+  static const std::string kDenser = "denser half";
+  static const std::vector<std::string> kFocusWords{kDenser, "density", "mr", "ct"};
+  std::string focus = state.settings.focus.empty() ? kDenser : state.settings.focus;
+  if (choose("inside", focus, kFocusWords)) state.settings.focus = focus == kDenser ? std::string() : focus;
+  draw_lens_panel(volume, scene.lens, scene.info->bounds);
 }
 
 void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors) {
@@ -225,6 +236,15 @@ void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensor
   choose("field", state.settings.field, scene.info->fields);
   draw_time(state, scene.info->times);
   draw_tensor_panel(tensors, scene.info->anatomical);
+}
+
+void draw_anisotropy(const SceneState& scene, VolumeView& volume) {
+  section("ANISOTROPY AS A VOLUME");
+  ImGui::Checkbox("volume", &volume.shown);
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  ImGui::Checkbox("in colour", &volume.colored);
+  draw_rays(volume);
+  draw_lens_panel(volume, scene.lens, scene.info->bounds);
 }
 
 void draw_line_look(LineStyle& style) {
@@ -278,7 +298,7 @@ void draw_job(const Progress& job, PanelActions& actions) {
 }
 
 std::string status_text(const SceneState& scene) {
-  if (scene.volume) {
+  if (scene.volume && !scene.tensors) {
     const VolumeImage& image = *scene.volume->image;
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
            short_number(image.highest) + "   loaded in " + short_number(scene.seconds_load) + " s";
@@ -356,6 +376,7 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("middle drag", "pan");
     row("right drag, wheel", "zoom");
     row("drop files", "open them");
+    row("wheel", "while a lens follows the mouse: its size; with Ctrl along the view");
     row("Ctrl, left drag", "put the crosshair of slices there");
     row("Ctrl, wheel", "move the slice under the mouse");
     row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
@@ -429,10 +450,11 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       section("TOUCH");
       actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file);
     }
-    if (state.scene->volume && view.volume) {
-      draw_volume(state, *state.scene, *view.volume);
-    } else if (state.scene->tensors && view.tensors) {
+    if (state.scene->tensors && view.tensors) {
       draw_tensors(state, *state.scene, *view.tensors);
+      if (view.volume) draw_anisotropy(*state.scene, *view.volume);
+    } else if (state.scene->volume && view.volume) {
+      draw_volume(state, *state.scene, *view.volume);
     } else {
       draw_lines(state, *state.scene);
       draw_color(state, *state.scene, view);

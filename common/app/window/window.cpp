@@ -18,6 +18,7 @@
 #include "common/app/window/glfw_window.h"
 #include "common/app/window/gui.h"
 #include "common/app/window/keys.h"
+#include "common/app/window/lens_control.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/slice_control.h"
 #include "common/app/window/touch_control.h"
@@ -41,6 +42,8 @@ constexpr double kPatience = 0.4;
 constexpr double kSlowFrame = 60.0, kCoarsest = 0.35;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
+// A lens that has not moved for so long stands still: its picture is drawn sharp [s].
+constexpr double kLensRest = 0.3;
 
 class Window {
  public:
@@ -202,10 +205,15 @@ class Window {
   void adopt_volume() {
     const std::optional<VolumeView> before = std::exchange(view_.volume, scene_->volume);
     view_.anatomical = scene_->info->anatomical;
-    view_.volume_label = scene_->settings.field;
+    view_.volume_label = scene_->tensors ? "FA" : scene_->settings.field;
     if (!view_.volume || !before || job_kind_ != JobKind::kUpdate) return;
     view_.volume->shading = before->shading;
     view_.volume->samples_per_voxel = before->samples_per_voxel;
+    view_.volume->shown = before->shown;
+    view_.volume->lenses = before->lenses;
+    for (Lens& lens : view_.volume->lenses) {
+      if (!lens.cut) lens.transfer = scene_->lens.transfer;
+    }
   }
 
   /// Likewise of tensors: another time step of an image keeps its slices.
@@ -349,6 +357,7 @@ class Window {
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
       if (!of_panel &&
           !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
+          !handle_lens(event, parts.picture) &&
           !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
       }
@@ -357,6 +366,12 @@ class Window {
           command == Command::kLetGo && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
       if (command && !io.WantTextInput && !of_list && command != Command::kForceOff) run_command(*command);
     }
+  }
+
+  bool handle_lens(const InputEvent& event, const PictureArea& area) {
+    if (!view_.volume) return false;
+    if (lens_control_.followed()) lens_moved_ = glfwGetTime();
+    return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
   }
 
   void run_command(Command command) {
@@ -379,6 +394,7 @@ class Window {
       case Command::kLetGo:
         control_.let_go();
         slice_control_.let_go();
+        lens_control_.let_go();
         touch_control_->let_go();
         state_.show_help = state_.playing = false;
         if (job_->running() && job_kind_ != JobKind::kStart) job_->cancel();
@@ -386,6 +402,14 @@ class Window {
         break;
       case Command::kQuit:
         glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+        break;
+      case Command::kVolume:
+        if (view_.volume) view_.volume->shown = !view_.volume->shown;
+        break;
+      case Command::kLens:
+      case Command::kLensSmaller:
+      case Command::kLensLarger:
+        run_lens(command);
         break;
       case Command::kColorBar:
         view_.show_color_bar = !view_.show_color_bar;
@@ -409,6 +433,12 @@ class Window {
       default:
         run_touch(command);
     }
+  }
+
+  void run_lens(Command command) {
+    if (!scene_ || !view_.volume) return;
+    say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
+    lens_moved_ = glfwGetTime();
   }
 
   void run_touch(Command command) {
@@ -485,7 +515,8 @@ class Window {
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
     // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
-    const bool moving = control_.dragging() || slice_control_.dragging() || state_.playing;
+    const bool moving = control_.dragging() || slice_control_.dragging() || state_.playing ||
+                        glfwGetTime() - lens_moved_ < kLensRest;
     dirty_ = glfw_.take_damage() || dirty_;
     const SceneView picture = with_focus();
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
@@ -528,6 +559,8 @@ class Window {
   SceneSettings requested_;  // of the last job
   ViewControl control_;
   SliceControl slice_control_;
+  LensControl lens_control_;
+  double lens_moved_ = -1.0;  // [s]
   std::optional<InputFiles> to_open_;
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]

@@ -44,6 +44,7 @@ struct SceneSettings {
   std::uint64_t random_seed = 1;
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
   std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
+  std::string focus;        ///< of lenses, as --focus-tf; empty: the model's own
 
   bool operator==(const SceneSettings&) const = default;
 };
@@ -73,7 +74,8 @@ struct SceneState {
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::optional<VolumeView> volume;                ///< in place of lines
-  std::optional<TensorView> tensors;               ///< likewise
+  std::optional<TensorView> tensors;               ///< likewise, also with a volume
+  Lens lens;                                       ///< how a new lens shows what is in it; its shape is none
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;

@@ -107,4 +107,35 @@ ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces) {
   return shape;
 }
 
+Vec3 center_of(const ConvexShape& shape, const Vec3& near) noexcept {
+  Vec3 center = shape.quadric ? shape.quadric->center : near;
+  const auto& faces = shape.half_spaces;
+  const auto room = [&](const ConvexShape::HalfSpace& h) { return h.offset - glm::dot(h.outward, center); };
+  if (faces.size() == 1) return center + room(faces[0]) * faces[0].outward;
+  // Opposite faces stand in pairs; halfway between each pair.
+  for (std::size_t i = 0; i + 1 < faces.size(); i += 2) {
+    center += 0.5 * (room(faces[i]) - room(faces[i + 1])) * faces[i].outward;
+  }
+  return center;
+}
+
+ConvexShape moved(ConvexShape shape, const Vec3& shift) noexcept {
+  if (shape.quadric) shape.quadric->center += shift;
+  for (ConvexShape::HalfSpace& h : shape.half_spaces) h.offset += glm::dot(h.outward, shift);
+  return shape;
+}
+
+ConvexShape scaled(ConvexShape shape, double factor) noexcept {
+  const Vec3 center = center_of(shape, Vec3(0.0));
+  if (shape.quadric) {
+    shape.quadric->unit_from_data /= factor;
+    shape.quadric->center = center + factor * (shape.quadric->center - center);
+  }
+  for (ConvexShape::HalfSpace& h : shape.half_spaces) {
+    const double at_center = glm::dot(h.outward, center);
+    h.offset = at_center + factor * (h.offset - at_center);
+  }
+  return shape;
+}
+
 }  // namespace palpate

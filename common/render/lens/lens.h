@@ -57,6 +57,14 @@ struct LineInterval {
 /// The tetrahedron, pyramid or other polyhedron that half-spaces enclose; normals need not be unit.
 [[nodiscard]] ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces);
 
+/// The middle of a shape that make_sphere(), make_box() or make_cylinder() made; of a half-space the point of
+/// its border nearest to `near`.
+[[nodiscard]] Vec3 center_of(const ConvexShape& shape, const Vec3& near) noexcept;
+/// The shape moved by `shift` [data units].
+[[nodiscard]] ConvexShape moved(ConvexShape shape, const Vec3& shift) noexcept;
+/// The shape grown about center_of(); half-spaces have no size. @pre finite, factor > 0.
+[[nodiscard]] ConvexShape scaled(ConvexShape shape, double factor) noexcept;
+
 inline constexpr std::size_t kMostLenses = 8;
 inline constexpr std::size_t kMostHalfSpaces = 32;  ///< of one lens
 
@@ -65,7 +73,8 @@ struct Lens {
   std::optional<ColorTransfer> transfer;  ///< absent: that of the context
   double samples_per_voxel = 4.0;         ///< > 0
   bool shading = true;
-  bool cut = false;  ///< cut away: nothing is drawn inside
+  bool cut = false;      ///< cut away: nothing is drawn inside
+  bool colored = false;  ///< colours are those of the voxels; the transfer function gives opacities alone
 
   bool operator==(const Lens&) const = default;
 };

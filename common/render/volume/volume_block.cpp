@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
@@ -17,9 +18,13 @@ double largest_number(ScalarType type) {
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
 
-glm::vec4 part_of(int transfer, double samples, bool shaded, bool cut) {
-  return {transfer, samples, shaded ? 1.0F : 0.0F, cut ? 1.0F : 0.0F};
+enum class Content : std::uint8_t { kTransfer, kCut, kColored };
+
+glm::vec4 part_of(int transfer, double samples, bool shaded, Content content) {
+  return {transfer, samples, shaded ? 1.0F : 0.0F, static_cast<float>(content)};
 }
+
+Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
 
 }  // namespace
 
@@ -89,12 +94,13 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, c
   block.lengths = {steps.longest * to_scene / (steps.layers - 1), steps.layers,
                    view.stop_where_opaque ? kOpaque : 2.0F, 0.0F};
 
-  block.parts[0] = part_of(0, view.samples_per_voxel, view.shading, false);
+  block.parts[0] = part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored));
   int transfers = 1;
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     const Lens& lens = view.lenses[i];
     const int transfer = lens.transfer ? transfers++ : 0;
-    block.parts[i + 1] = part_of(transfer, lens.samples_per_voxel, lens.shading, lens.cut);
+    block.parts[i + 1] = part_of(transfer, lens.samples_per_voxel, lens.shading,
+                                 lens.cut ? Content::kCut : content_of(lens.colored));
   }
   block.lens_count.x = static_cast<int>(view.lenses.size());
   return block;

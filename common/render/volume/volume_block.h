@@ -36,7 +36,8 @@ struct NumberRange {
 struct VolumeBlock {
   glm::mat4 grid_from_scene{1.0F};
   glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, lengths{1.0F};
-  std::array<glm::vec4, 1 + kMostLenses> parts{};  ///< transfer function, samples a voxel, shaded, cut away
+  std::array<glm::vec4, 1 + kMostLenses>
+      parts{};  ///< transfer function, samples a voxel, shaded, 1 cut away or 2 coloured
   glm::ivec4 lens_count{0};
 };
 

@@ -5,10 +5,13 @@
 /// it. A cell with a value that is not finite at one of its corners shows nothing.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/field/data_set.h"
 #include "common/math/vec.h"
@@ -23,7 +26,10 @@ struct VolumeImage {
   ScalarType type = ScalarType::kFloat32;  ///< kUint8, kUint16 or kFloat32
   std::span<const std::byte> bytes;        ///< points.x * points.y * points.z numbers, x fastest
   std::shared_ptr<const void> owner;       ///< keeps `bytes` alive
-  double scale = 1.0;                      ///< value = offset + scale * number
+  /// A colour for each point, sRGB with an unused fourth byte, for parts that are drawn in it
+  /// (Lens::colored), trilinear between points; null: none.
+  std::shared_ptr<const std::vector<std::array<std::uint8_t, 4>>> colors;
+  double scale = 1.0;  ///< value = offset + scale * number
   double offset = 0.0;
   double lowest = 0.0;  ///< of the finite values; lowest > highest where there are none
   double highest = -1.0;

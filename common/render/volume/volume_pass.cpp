@@ -25,15 +25,19 @@ namespace palpate {
 namespace {
 
 // Bindings and locations of shaders/volume/.
-enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4 };
+enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4, kColors = 5 };
 enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
 constexpr GLint kHasOpaqueDepth = 0;
 
-enum class Variant : std::uint8_t { kPlain, kShaded, kLenses };
-constexpr std::array<const char*, 3> kFragments{"volume/volume.frag", "volume/shaded.frag",
-                                                "volume/lenses.frag"};
+enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored };
+constexpr std::array<const char*, 4> kFragments{"volume/volume.frag", "volume/shaded.frag",
+                                                "volume/lenses.frag", "volume/colored.frag"};
+
+/// Whether the shader is told of lenses, be there none.
+bool knows_lenses(Variant variant) { return variant == Variant::kLenses || variant == Variant::kColored; }
 
 Variant variant_of(const VolumeView& view) {
+  if (has_colored_parts(view)) return Variant::kColored;
   if (!view.lenses.empty()) return Variant::kLenses;
   return view.shading ? Variant::kShaded : Variant::kPlain;
 }
@@ -50,6 +54,12 @@ void set_sampling(const GlTexture& texture, GLint filter, GLint border = GL_CLAM
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
     glTextureParameteri(texture.name(), wrap, border);
   }
+}
+
+void set_voxel_sampling(const GlTexture& texture) {
+  // One voxel beyond the border, as far as gradients reach, mirroring is the same as clamping. It keeps a
+  // software rasteriser (llvmpipe) from interpolating 8-bit voxels in 8 bits, which is up to 6/255 off.
+  set_sampling(texture, GL_LINEAR, GL_MIRROR_CLAMP_TO_EDGE);
 }
 
 struct VoxelFormat {
@@ -82,9 +92,17 @@ GlTexture upload_voxels(const VolumeImage& image) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage3D(texture.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RED, format.type, image.bytes.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  // One voxel beyond the border, as far as gradients reach, mirroring is the same as clamping. It keeps a
-  // software rasteriser (llvmpipe) from interpolating 8-bit voxels in 8 bits, which is up to 6/255 off.
-  set_sampling(texture, GL_LINEAR, GL_MIRROR_CLAMP_TO_EDGE);
+  set_voxel_sampling(texture);
+  return texture;
+}
+
+GlTexture upload_colors(const VolumeImage& image) {
+  const Index3 n = image.points;
+  GlTexture texture = make_texture(GL_TEXTURE_3D);
+  glTextureStorage3D(texture.name(), 1, GL_RGBA8, n.x, n.y, n.z);
+  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_UNSIGNED_BYTE,
+                      image.colors->data());
+  set_voxel_sampling(texture);
   return texture;
 }
 
@@ -121,7 +139,7 @@ GlBuffer make_block_buffer(const BlockType& block) {
 struct VolumePass::State {
   std::array<GlProgram, kFragments.size()> programs;
   GlVertexArray no_vertices = make_vertex_array();
-  GlTexture voxels, tables, empty_bricks;
+  GlTexture voxels, colors, tables, empty_bricks;
   GlBuffer volume_block, lens_block;
   Cost cost;
 
@@ -139,8 +157,16 @@ struct VolumePass::State {
     voxels = upload_voxels(*view.image);
     ranges = brick_ranges(*view.image);
     image = view.image;
+    colors = GlTexture();
     key = {};
     cost.voxel_bytes = image->bytes.size();
+  }
+
+  void update_colors(const VolumeView& view) {
+    if (colors || !has_colored_parts(view)) return;
+    PALPATE_CHECK(image->colors->size() == image->point_count());
+    colors = upload_colors(*image);
+    cost.voxel_bytes += image->colors->size() * sizeof(image->colors->front());
   }
 
   void update_tables(const VolumeView& view) {
@@ -213,12 +239,13 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
   State& s = *state_;
   s.update_image(view);
+  s.update_colors(view);
   s.update_tables(view);
   s.update_program(view);
   s.frame = frame;
   s.skip_empty = view.skip_empty;
   s.volume_block = make_block_buffer(make_volume_block(view, frame, s.ranges.bricks));
-  if (s.variant == Variant::kLenses) s.lens_block = make_block_buffer(make_lens_block(view, frame));
+  if (knows_lenses(s.variant)) s.lens_block = make_block_buffer(make_lens_block(view, frame));
 }
 
 void VolumePass::draw(std::uint32_t opaque_depth) {
@@ -230,10 +257,11 @@ void VolumePass::draw(std::uint32_t opaque_depth) {
   }
   glUseProgram(s.programs[static_cast<std::size_t>(s.variant)].name());
   glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, s.volume_block.name());
-  if (s.variant == Variant::kLenses) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, s.lens_block.name());
+  if (knows_lenses(s.variant)) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, s.lens_block.name());
   glBindTextureUnit(kVoxels, s.voxels.name());
   glBindTextureUnit(kTables, s.tables.name());
   glBindTextureUnit(kEmptyBricks, s.empty_bricks.name());
+  if (s.variant == Variant::kColored) glBindTextureUnit(kColors, s.colors.name());
   glBindTextureUnit(kOpaqueDepth, opaque_depth);
   glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
 

@@ -1,12 +1,21 @@
 #include "common/render/volume/volume_view.h"
 
+#include <algorithm>
+
 namespace palpate {
 
 bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.opacity_length == b.opacity_length &&
          a.samples_per_voxel == b.samples_per_voxel && a.shading == b.shading && a.lenses == b.lenses &&
-         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
-         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque;
+         a.colored == b.colored && a.shown == b.shown && a.table_entries == b.table_entries &&
+         a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
+         a.stop_where_opaque == b.stop_where_opaque;
+}
+
+bool has_colored_parts(const VolumeView& view) noexcept {
+  if (view.image == nullptr || !view.image->colors) return false;
+  return view.colored ||
+         std::any_of(view.lenses.begin(), view.lenses.end(), [](const Lens& lens) { return lens.colored; });
 }
 
 double opacity_length_of(const VolumeView& view) noexcept {

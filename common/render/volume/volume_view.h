@@ -18,7 +18,9 @@ struct VolumeView {
   double opacity_length = 0.0;
   double samples_per_voxel = 4.0;  ///< > 0, along the ray, outside lenses
   bool shading = true;             ///< Phong, with gradients of the values as normals
-  std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
+  bool colored = false;            ///< as Lens::colored, outside lenses
+  bool shown = true;
+  std::vector<Lens> lenses;  ///< the first wins; at most kMostLenses
 
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;
@@ -29,6 +31,9 @@ struct VolumeView {
 
 /// Whether both give the same picture; images count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
+
+/// Whether some part takes its colours from the voxels; never where these have none.
+[[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
 
 /// Length in data units that `view` uses for its opacities.
 [[nodiscard]] double opacity_length_of(const VolumeView& view) noexcept;

@@ -89,7 +89,7 @@ TEST(WriteImage, NumbersComeBackAndMissingOnesAreZero) {
   std::vector<float> values(kVoxels);
   for (std::size_t p = 0; p < kVoxels; ++p) values[p] = 0.01F * static_cast<float>(p);
   values[7] = kNaN;
-  for (const char* name : {"fa.nii", "fa.nii.gz", "fa.nrrd"}) {
+  for (const char* name : {"fa.nii", "fa.nii.gz", "fa.nrrd", "fa.vti"}) {
     write_image(folder.path(name), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
                 false);
     Input input = open(folder.path(name), FieldKind::kScalar);

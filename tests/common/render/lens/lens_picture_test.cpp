@@ -1,7 +1,11 @@
 // Pictures of volumes with lenses, against the brute-force integrator and against pictures without.
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -174,6 +178,86 @@ TEST(LensPicture, HoldsAsManyLensesAsThereMayBe) {
     view.lenses.push_back(lens);
   }
   expect_agreement(picture, view, camera_of(view), "eight lenses");
+}
+
+/// The view with `color(x)` at each of its points.
+template <typename Color>
+VolumeView with_colors(VolumeView view, const Color& color) {
+  auto image = std::make_shared<VolumeImage>(*view.image);
+  std::vector<std::array<std::uint8_t, 4>> colors;
+  const Index3 n = image->points;
+  for (int z = 0; z < n.z; ++z) {
+    for (int y = 0; y < n.y; ++y) {
+      for (int x = 0; x < n.x; ++x) colors.push_back(color(image->origin + image->axes * Vec3(x, y, z)));
+    }
+  }
+  image->colors = std::make_shared<const std::vector<std::array<std::uint8_t, 4>>>(std::move(colors));
+  view.image = std::move(image);
+  return view;
+}
+
+// A transfer function of one colour and voxels of that colour are the same picture, lit or not, and the
+// opacities are those of the transfer function.
+TEST(LensPicture, VoxelsOfOneColourLookLikeATransferFunctionOfThatColour) {
+  const Vec3f tone(0.2F, 0.6F, 1.0F);
+  const auto in_tone = [&](std::vector<ColorPoint> points) {
+    for (ColorPoint& point : points) point.color = tone;
+    return ColorTransfer(std::move(points));
+  };
+  VolumePicture picture(kSize, kSize);
+  // In the lens without light, outside it with light.
+  for (const bool lit : {false, true}) {
+    VolumeView view = with_colors(plain_view(), [](const Vec3&) {
+      return std::array<std::uint8_t, 4>{51, 153, 255, 0};
+    });
+    Lens lens{make_sphere({0.1, -0.2, 0.2}, 0.6)};
+    lens.transfer = focus_colors();
+    lens.shading = view.shading = lit;
+    view.lenses = {lens};
+    VolumeView toned = view;
+    if (lit) {
+      view.colored = true;
+      toned.transfer = in_tone(view.transfer.points());
+    } else {
+      view.lenses[0].colored = true;
+      toned.lenses[0].transfer = in_tone(lens.transfer->points());
+    }
+    const FloatImage by_voxels = picture.draw(view, camera_of(view));
+    EXPECT_LE(worst_difference(by_voxels, picture.draw(toned, camera_of(toned))), 1.0 / 255.0);
+    view.colored = view.lenses[0].colored = false;
+    EXPECT_GT(worst_difference(by_voxels, picture.draw(view, camera_of(view))), 0.1) << "colours do nothing";
+  }
+}
+
+// Along x the voxels go from black to red: half of it in the middle, whatever lies around.
+TEST(LensPicture, ColoursAreThoseOfThePlace) {
+  VolumeView view = with_colors(plain_view(), [](const Vec3& x) {
+    return std::array<std::uint8_t, 4>{static_cast<std::uint8_t>(std::lround(127.5 * (1.0 + x.x))), 0, 0, 0};
+  });
+  view.transfer = ColorTransfer({{-10.0, Vec3f(1.0F), 0.9}});
+  view.shading = false;
+  view.colored = true;
+  VolumePicture picture(kSize, kSize);
+  const Camera camera = camera_of(view, {.azimuth = 0.0, .elevation = 0.0}, Projection::kOrthographic);
+  const FloatImage image = picture.draw(view, camera);
+  for (const int x : {20, 40, 60}) {
+    const double place = (x + 0.5 - 0.5 * kSize) * camera.view_height / kSize;
+    if (std::abs(place) > 0.95) continue;
+    EXPECT_NEAR(image.at(x, kSize / 2)[0], 0.5 * (1.0 + place), 0.01) << x;
+    EXPECT_EQ(image.at(x, kSize / 2)[1], 0.0);
+  }
+}
+
+TEST(LensPicture, ColoursCostNothingWhereNoPartAsksForThem) {
+  VolumePicture picture(16, 16);
+  VolumeView view = with_colors(plain_view(), [](const Vec3&) { return std::array<std::uint8_t, 4>{}; });
+  (void)picture.draw(view, camera_of(view));
+  const std::uint64_t plain = picture.cost().voxel_bytes;
+  const int programs = picture.cost().programs;
+  view.colored = true;
+  (void)picture.draw(view, camera_of(view));
+  EXPECT_EQ(picture.cost().voxel_bytes, plain + 4 * view.image->point_count());
+  EXPECT_EQ(picture.cost().programs, programs + 1);
 }
 
 }  // namespace

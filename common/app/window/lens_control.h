@@ -1,0 +1,43 @@
+/// What mouse and keys do to the lenses of a volume. A key begins a lens under the mouse, or takes up the
+/// last one; it follows the mouse in the plane through its middle that the camera faces, the wheel changes
+/// its size, with Ctrl it moves it along the view, and a click or the key leaves it there. Plain arithmetic,
+/// no window.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "common/app/window/input_event.h"
+#include "common/app/window/keys.h"
+#include "common/app/window/view_control.h"
+#include "common/render/camera.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+/// A ball about `center` to begin with, a sixth of the longest side of `bounds` in radius, that shows what is
+/// in it as `model` does.
+[[nodiscard]] Lens new_lens(const Lens& model, const Vec3& center, const Box& bounds);
+
+class LensControl {
+ public:
+  /// @param bounds of the scene, which limit sizes. @return whether the event was for a lens.
+  bool handle(const InputEvent& event, const PictureArea& area, const Camera& camera, const Box& bounds,
+              VolumeView& view);
+  /// kLens, kLensSmaller and kLensLarger. @param model of a new lens. @return what to tell the user.
+  std::string run(Command command, const PictureArea& area, const Camera& camera, const Box& bounds,
+                  const Lens& model, VolumeView& view);
+  /// The lens that follows the mouse.
+  [[nodiscard]] std::optional<std::size_t> followed() const noexcept { return followed_; }
+  void let_go() noexcept { followed_.reset(); }
+
+ private:
+  void follow_mouse(const PictureArea& area, const Camera& camera, Lens& lens) const;
+
+  double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
+  bool control_ = false;      ///< the key is held
+  std::optional<std::size_t> followed_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,64 @@
+#include "common/app/window/lens_panel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include <imgui.h>
+
+#include "common/app/window/lens_control.h"
+
+namespace palpate {
+namespace {
+
+const char* kind_of(const ConvexShape& shape) {
+  if (shape.quadric) return shape.half_spaces.empty() ? "sphere" : "cylinder";
+  return shape.half_spaces.size() == 1 ? "half-space" : "box";
+}
+
+/// How far a lens reaches from its middle along x; a half-space has no size.
+std::optional<double> reach_of(const ConvexShape& shape) {
+  if (!shape.quadric && shape.half_spaces.size() == 1) return std::nullopt;
+  const LineInterval inside = clip_line(shape, center_of(shape, Vec3(0.0)), Vec3(1.0, 0.0, 0.0));
+  return inside.last > 0.0 ? std::optional(inside.last) : std::nullopt;
+}
+
+/// @return whether the lens is to go.
+bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
+  if (const auto reach = reach_of(lens.shape)) {
+    constexpr double kLeast = 1e-3, kMost = 1.0;  // diagonals
+    const double least = kLeast * bounds.diagonal(), most = kMost * bounds.diagonal();
+    double wanted = *reach;
+    if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g",
+                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+      lens.shape = scaled(lens.shape, wanted / *reach);
+    }
+    ImGui::SameLine();
+  }
+  ImGui::TextUnformatted(kind_of(lens.shape));
+  if (ImGui::Checkbox("cut away", &lens.cut) && !lens.cut) {
+    lens.transfer = model.transfer;
+    lens.colored = model.colored;
+  }
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  return ImGui::SmallButton("remove");
+}
+
+}  // namespace
+
+void draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < view.lenses.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (draw_lens(view.lenses[i], model, bounds)) gone = i;
+    ImGui::PopID();
+  }
+  if (gone) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(*gone));
+  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ lens")) {
+    view.lenses.push_back(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball in the middle; L moves it with the mouse");
+}
+
+}  // namespace palpate

@@ -1,0 +1,205 @@
+#include "common/field/grid/image_resample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "common/base/check.h"
+#include "common/base/parallel.h"
+#include "common/math/power_of_two.h"
+
+namespace palpate {
+namespace {
+
+// Points this near to a border, in voxels, are on it: a slice of the outermost layer is not outside.
+constexpr double kRounding = 1e-6;
+
+/// g of x. Exponents first: spacings may be tiny.
+class GridFromData {
+ public:
+  explicit GridFromData(const UniformTopology& image) : origin_(image.origin) {
+    double largest = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(image.axes[c][r]));
+    }
+    unit_ = power_of_two(-binary_exponent(largest));
+    inverse_ = glm::inverse(image.axes * unit_);
+  }
+  [[nodiscard]] Vec3 point(const Vec3& x) const { return inverse_ * ((x - origin_) * unit_); }
+  [[nodiscard]] Vec3 direction(const Vec3& v) const { return inverse_ * (v * unit_); }
+
+ private:
+  Mat3 inverse_{1.0};
+  Vec3 origin_;
+  double unit_ = 1.0;
+};
+
+double length_of(const Vec3& v) {
+  const double unit = power_of_two(binary_exponent(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})));
+  return glm::length(v / unit) * unit;
+}
+
+/// The step of the image along `direction`, where that is one of its axes; else its shortest step.
+double step_along(const UniformTopology& image, const Vec3& direction) {
+  constexpr double kParallel = 1.0 - 1e-9;
+  double shortest = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = length_of(image.axes[axis]);
+    if (std::abs(glm::dot(image.axes[axis] / step, direction)) >= kParallel) return step;
+    shortest = std::min(shortest, step);
+  }
+  return shortest;
+}
+
+/// Where the plane meets the edges of the box of all points.
+std::vector<Vec3> meeting_points(const UniformTopology& image, const ImagePlane& plane) {
+  const Vec3 last(image.points - 1);
+  std::vector<Vec3> met;
+  double size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) size = std::max(size, last[axis] * length_of(image.axes[axis]));
+  const double near = kRounding * size;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    for (unsigned corner = 0; corner < 4; ++corner) {
+      Vec3 g{0.0};
+      g[b] = (corner & 1U) != 0 ? last[b] : 0.0;
+      g[c] = (corner & 2U) != 0 ? last[c] : 0.0;
+      const Vec3 from = image.origin + image.axes * g;
+      const Vec3 along = image.axes[axis] * last[axis];
+      const double below = plane.offset - glm::dot(plane.normal, from);
+      const double rise = glm::dot(plane.normal, along);
+      // An edge in the plane meets it at both ends, which other edges may not.
+      if (std::abs(below) <= near && std::abs(rise) <= near) {
+        met.push_back(from);
+        met.push_back(from + along);
+      } else if (below * (rise > 0.0 ? 1.0 : -1.0) >= -near &&
+                 (below - rise) * (rise > 0.0 ? 1.0 : -1.0) <= near) {
+        met.push_back(from + std::clamp(below / rise, 0.0, 1.0) * along);
+      }
+    }
+  }
+  return met;
+}
+
+}  // namespace
+
+std::optional<UniformTopology> plane_lattice(const UniformTopology& image, const ImagePlane& plane,
+                                             std::optional<double> spacing) {
+  constexpr double kSteep = 0.9;
+  const Vec3 up = std::abs(plane.normal.z) > kSteep ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, 1.0);
+  const Vec3 u = glm::normalize(glm::cross(up, plane.normal));
+  const Vec3 v = glm::cross(plane.normal, u);
+  const std::vector<Vec3> met = meeting_points(image, plane);
+  if (met.empty()) return std::nullopt;
+  double low_u = HUGE_VAL, high_u = -HUGE_VAL, low_v = HUGE_VAL, high_v = -HUGE_VAL;
+  for (const Vec3& x : met) {
+    low_u = std::min(low_u, glm::dot(u, x)), high_u = std::max(high_u, glm::dot(u, x));
+    low_v = std::min(low_v, glm::dot(v, x)), high_v = std::max(high_v, glm::dot(v, x));
+  }
+  const double step_u = spacing.value_or(step_along(image, u)),
+               step_v = spacing.value_or(step_along(image, v));
+  constexpr double kMostPoints = 1e9;
+  const auto points = [&](double extent, double step) {
+    return static_cast<int>(std::min(kMostPoints, std::floor(extent / step + kRounding))) + 1;
+  };
+  UniformTopology lattice;
+  lattice.points = {points(high_u - low_u, step_u), points(high_v - low_v, step_v), 1};
+  lattice.origin = low_u * u + low_v * v + plane.offset * plane.normal;
+  lattice.axes = Mat3(step_u * u, step_v * v, step_along(image, plane.normal) * plane.normal);
+  return lattice;
+}
+
+std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) {
+  const GridFromData grid(image);
+  Box reach;
+  for (unsigned i = 0; i < 8; ++i) {
+    reach.include(
+        grid.point({(i & 1U) != 0 ? box.upper.x : box.lower.x, (i & 2U) != 0 ? box.upper.y : box.lower.y,
+                    (i & 4U) != 0 ? box.upper.z : box.lower.z}));
+  }
+  IndexBox part;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = image.points[axis] - 1;
+    const double from = std::max(0.0, std::ceil(reach.lower[axis] - kRounding));
+    const double to = std::min(last, std::floor(reach.upper[axis] + kRounding));
+    if (!(from <= to)) return std::nullopt;
+    part.first[axis] = static_cast<int>(from);
+    part.last[axis] = static_cast<int>(to);
+  }
+  return part;
+}
+
+UniformTopology part_of(const UniformTopology& image, const IndexBox& part) noexcept {
+  return {part.points(), image.origin + image.axes * Vec3(part.first), image.axes};
+}
+
+ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
+                        const UniformTopology& lattice, float filler, int threads) {
+  const Index3 n = image.points, m = lattice.points;
+  const auto count = [](const Index3& p) {
+    return static_cast<std::size_t>(p.x) * static_cast<std::size_t>(p.y) * static_cast<std::size_t>(p.z);
+  };
+  PALPATE_CHECK(values.tuples == count(n) && component >= 0 && component < values.components);
+  const GridFromData grid(image);
+  const Vec3 start = grid.point(lattice.origin);
+  const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
+                  grid.direction(lattice.axes[2]));
+  const auto at = [&](const Index3& p) {
+    return values.at(
+        static_cast<std::size_t>(p.x) +
+            static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(p.y) +
+                                             static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z)),
+        component);
+  };
+  // NaN outside, and where a voxel that counts has no value.
+  const auto sample = [&](Vec3 g) {
+    Index3 low{0};
+    Vec3 part{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double last = n[axis] - 1;
+      if (!(g[axis] >= -kRounding && g[axis] <= last + kRounding)) return std::nan("");
+      g[axis] = std::clamp(g[axis], 0.0, last);
+      // On a point the others have no say.
+      if (std::abs(g[axis] - std::round(g[axis])) <= kRounding) g[axis] = std::round(g[axis]);
+      low[axis] = static_cast<int>(std::floor(g[axis]));
+      part[axis] = g[axis] - low[axis];
+    }
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Index3 p = low;
+      double weight = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool far = ((corner >> static_cast<unsigned>(axis)) & 1U) != 0;
+        weight *= far ? part[axis] : 1.0 - part[axis];
+        p[axis] += far ? 1 : 0;
+      }
+      if (weight > 0.0) sum += weight * at(p);
+    }
+    return sum;
+  };
+
+  ResampledImage result;
+  result.values.assign(count(m), filler);
+  const auto row = static_cast<std::size_t>(m.x);
+  const std::size_t rows = row > 0 ? result.values.size() / row : 0;
+  std::vector<std::size_t> outside(rows, 0);
+  parallel_for(rows, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r) {
+      const auto j = static_cast<int>(r % static_cast<std::size_t>(m.y));
+      const auto k = static_cast<int>(r / static_cast<std::size_t>(m.y));
+      for (int i = 0; i < m.x; ++i) {
+        const double value = sample(start + step * Vec3(i, j, k));
+        if (std::isfinite(value)) {
+          result.values[r * row + static_cast<std::size_t>(i)] = static_cast<float>(value);
+        } else {
+          ++outside[r];
+        }
+      }
+    }
+  });
+  for (const std::size_t some : outside) result.outside += some;
+  return result;
+}
+
+}  // namespace palpate

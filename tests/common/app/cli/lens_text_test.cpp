@@ -1,0 +1,94 @@
+#include "common/app/cli/lens_text.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+
+namespace palpate {
+namespace {
+
+// Membership decides whether the words mean the shape: x in the ball is |x - c| <= r and so on.
+TEST(LensText, MeansTheShapesThatItNames) {
+  const Lens sphere = parse_lens("sphere:1,2,3,0.5"), box = parse_lens("box:2,0,0,1,4,8");
+  const Lens cylinder = parse_lens("cylinder:0,0,0,0,0,4,1.5"), half = parse_lens("halfspace:0,0,2,3");
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1.0, 9.0);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 x(place(random), place(random), place(random));
+    ASSERT_EQ(sphere.shape.contains(x), glm::distance(x, Vec3(1.0, 2.0, 3.0)) <= 0.5);
+    ASSERT_EQ(box.shape.contains(x),
+              x.x >= 1.0 && x.x <= 2.0 && x.y >= 0.0 && x.y <= 4.0 && x.z >= 0.0 && x.z <= 8.0);
+    ASSERT_EQ(cylinder.shape.contains(x), std::hypot(x.x, x.y) <= 1.5 && x.z >= 0.0 && x.z <= 4.0);
+    ASSERT_EQ(half.shape.contains(x), x.z >= 1.5);
+  }
+  EXPECT_FALSE(sphere.cut);
+  EXPECT_TRUE(parse_lens("halfspace:0,0,1,3,cut").cut);
+  EXPECT_FALSE(sphere.transfer);
+}
+
+TEST(LensText, GivesTheWordsBack) {
+  for (const std::string text :
+       {"sphere:1,-2,3,0.5", "box:-1,0,0.25,2,4,8", "cylinder:1,0,0,1,0,4,2,cut", "halfspace:0,0,1,-3,cut"}) {
+    EXPECT_EQ(lens_text(parse_lens(text)), text);
+  }
+  EXPECT_EQ(lenses_text({parse_lens("sphere:1,2,3,4"), parse_lens("halfspace:1,0,0,2,cut")}),
+            "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
+  const Lens oblique = parse_lens("cylinder:0.1,0.2,0.3,1,2,-3,0.7");
+  const Lens again = parse_lens(*lens_text(oblique));
+  EXPECT_NEAR(glm::distance(center_of(oblique.shape, {}), center_of(again.shape, {})), 0.0, 1e-14);
+  EXPECT_NEAR(again.shape.quadric->unit_from_data[0][0], oblique.shape.quadric->unit_from_data[0][0], 1e-14);
+}
+
+TEST(LensText, StaysTheSameShapeWhenMovedAndScaled) {
+  const auto changed = [](const std::string& text) {
+    Lens lens = parse_lens(text);
+    lens.shape = scaled(moved(lens.shape, {1.0, 2.0, 4.0}), 2.0);
+    return *lens_text(lens);
+  };
+  EXPECT_EQ(changed("sphere:1,2,3,4"), "sphere:2,4,7,8");
+  EXPECT_EQ(changed("box:0,0,0,2,4,8"), "box:0,0,0,4,8,16");
+  EXPECT_EQ(changed("cylinder:0,0,0,0,0,4,1"), "cylinder:1,2,2,1,2,10,2");
+  EXPECT_EQ(changed("halfspace:0,0,1,3"), "halfspace:0,0,1,7");
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)parse_lens(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(LensText, RefusesWhatIsNoLens) {
+  for (const std::string text :
+       {"", "sphere", "ball:1,2,3,4", "sphere:1,2,3", "sphere:1,2,3,4,5", "sphere:1,2,x,4",
+        "sphere:1,2,3,nan", "sphere:1,2,3,0", "sphere:1,2,3,-1", "box:0,0,0,1,1,0", "cylinder:1,1,1,1,1,1,2",
+        "cylinder:0,0,0,1,0,0,0", "halfspace:0,0,0,1", "halfspace:inf,0,0,1", "sphere:1,2,3,4,cut,cut"}) {
+    EXPECT_NE(refusal(text).find("--lens " + text), std::string::npos) << text << ": " << refusal(text);
+  }
+}
+
+TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
+  VolumeOptions options;
+  options.lenses = {"sphere:0,0,0,1", "sphere:0,0,0,2,cut"};
+  options.clips = {"0,0,1,5"};
+  options.shading = false;
+  const ColorTransfer focus = make_color_transfer(ColorPreset::kMr, 0.0, 1.0);
+  const std::vector<Lens> lenses = make_lenses(options, focus);
+  ASSERT_EQ(lenses.size(), 3U);
+  EXPECT_EQ(lenses_text(lenses), "halfspace:0,0,1,5,cut;sphere:0,0,0,2,cut;sphere:0,0,0,1");
+  EXPECT_FALSE(lenses[0].transfer || lenses[1].transfer);
+  EXPECT_EQ(lenses[2].transfer, focus);
+  EXPECT_FALSE(lenses[2].shading);
+  options.clips.assign(kMostLenses, "0,0,1,5");
+  EXPECT_THROW((void)make_lenses(options, focus), Error);
+}
+
+}  // namespace
+}  // namespace palpate

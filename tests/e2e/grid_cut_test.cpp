@@ -1,0 +1,225 @@
+// Lenses, slices and parts of volumes, as a user of `grid` asks for them.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <stb_image.h>
+
+#include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
+
+namespace palpate::test {
+namespace {
+
+/// A picture in memory.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;
+
+  [[nodiscard]] const unsigned char* at(int x, int y) const {
+    return rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * width + x);
+  }
+};
+
+Picture read_picture(const std::filesystem::path& file) {
+  Picture picture;
+  int channels = 0;
+  unsigned char* pixels = stbi_load(file.c_str(), &picture.width, &picture.height, &channels, 3);
+  if (pixels == nullptr) return picture;
+  picture.rgb.assign(pixels, pixels + std::ptrdiff_t{3} * picture.width * picture.height);
+  stbi_image_free(pixels);
+  return picture;
+}
+
+/// Share of pixels that differ by more than a hair.
+double difference(const Picture& a, const Picture& b) {
+  if (a.rgb.size() != b.rgb.size() || a.rgb.empty()) return -1.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
+    bool differs = false;
+    for (std::size_t c = i; c < i + 3; ++c) differs = differs || std::abs(a.rgb[c] - b.rgb[c]) > 3;
+    count += differs ? 1 : 0;
+  }
+  return static_cast<double>(count) / static_cast<double>(a.rgb.size() / 3);
+}
+
+class GridCut : public ExplorerTest {
+ protected:
+  GridCut() : ExplorerTest("grid") {}
+
+  Picture render(const std::string& name, const std::vector<std::string>& more,
+                 const std::string& verb = "render") {
+    std::vector<std::string> arguments{verb, "--example", "shells",  "--size",    "96x96", "--out",
+                                       name, "--camera",  "0,0,0,1", "--samples", "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_picture(folder_.path(name));
+  }
+};
+
+TEST_F(GridCut, ALensChangesThePictureWhereItLies) {
+  const Json info = json({"info", "--example", "shells"});
+  const auto& lower = info["blocks"][0]["bounds"]["lower"];
+  const auto& upper = info["blocks"][0]["bounds"]["upper"];
+  const double middle = 0.5 * (lower[0].get<double>() + upper[0].get<double>());
+  const double size = upper[0].get<double>() - lower[0].get<double>();
+  const auto place = [&](double part) { return std::to_string(middle + part * size); };
+  const std::string center = place(0) + "," + place(0) + "," + place(0);
+  const Picture plain = render("plain.png", {});
+  folder_.write("white.csv", "fraction,red,green,blue,opacity\n0,1,1,1,0.9\n1,1,1,1,0.9\n");
+  const Picture lens = render("lens.png", {"--lens", "sphere:" + center + "," + std::to_string(0.25 * size),
+                                           "--focus-tf", "white.csv", "--shading", "off"});
+  // White in the middle, nothing else at the border.
+  const unsigned char* seen = lens.at(48, 48);
+  EXPECT_GT(std::min({seen[0], seen[1], seen[2]}), 200);
+  const Picture unlit = render("unlit.png", {"--shading", "off"});
+  EXPECT_GT(difference(unlit, lens), 0.05);
+  EXPECT_LT(difference(unlit, lens), 0.5);
+  // A lens beside the volume is none; one that cuts all of it away leaves nothing.
+  EXPECT_LE(difference(plain, render("beside.png", {"--lens", "sphere:1e6,0,0,1"})), 0.001);
+  const std::string below = std::to_string(lower[2].get<double>() - 1.0);
+  const Picture gone = render("gone.png", {"--lens", "halfspace:0,0,1," + below + ",cut"});
+  const Picture clipped = render("clipped.png", {"--clip", "0,0,1," + below});
+  EXPECT_EQ(gone.rgb, clipped.rgb);
+  EXPECT_GT(difference(plain, gone), 0.1);
+  // The verb is the same picture.
+  EXPECT_EQ(render("verb.png", {"--plane", "0,0,1," + below}, "clip").rgb, clipped.rgb);
+}
+
+TEST_F(GridCut, TakesTransferFunctionsAsPointsAndRefusesNonsenseInOneLine) {
+  const Picture file = [&] {
+    folder_.write("a.csv", "value,red,green,blue,opacity\n0,0,0,0,0\n255,1,0.5,0.25,0.5\n");
+    return render("file.png", {"--context-tf", "a.csv"});
+  }();
+  EXPECT_EQ(render("points.png", {"--transfer-function", "points:0,0,0,0,0/255,1,0.5,0.25,0.5"}).rgb,
+            file.rgb);
+
+  const auto refused = [this](const std::vector<std::string>& more, int exit_code, const std::string& word) {
+    std::vector<std::string> arguments{"render", "--example", "voxel", "--size", "32x32", "--out", "b.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("b.png")));
+  };
+  refused({"--lens", "ball:0,0,0,1"}, 2, "--lens ball:0,0,0,1");
+  refused({"--lens", "sphere:0,0,0,nan"}, 2, "nan");
+  refused({"--lens", "sphere:0,0,0,-1"}, 2, "radius");
+  refused({"--clip", "0,0,0,1"}, 2, "--clip 0,0,0,1");
+  refused({"--lens", "sphere:0,0,0,1", "--focus-tf", "rainbow"}, 2, "density");
+  refused({"--focus-tf", "lost.csv"}, 3, "lost.csv");
+  refused({"--focus-tf", "points:0,1,2"}, 2, "0,1,2");
+  refused({"--focus-tf", "points:0,1,1,1,7"}, 2, "opacity");
+}
+
+TEST_F(GridCut, SlicesShowVoxelsInTheirPlaces) {
+  // Voxels 0 to 23 of 2 x 3 x 4, steps 1, 2, 3.
+  std::string voxels;
+  for (int i = 0; i < 24; ++i) voxels += static_cast<char>(i);
+  folder_.write("a_2x3x4_uint8.raw", voxels);
+  const std::vector<std::string> input{"a_2x3x4_uint8.raw", "--raw-size", "2x3x4", "--raw-type", "uint8",
+                                       "--raw-spacing",     "1,2,3"};
+  const auto slice = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"slice"};
+    arguments.insert(arguments.end(), input.begin(), input.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json(arguments);
+  };
+  const Json axial = slice({"--plane", "axial:3", "--out", "axial.vti"});
+  EXPECT_EQ(axial["size"], Json({2, 3, 1}));
+  EXPECT_EQ(axial["origin"], Json({0.0, 0.0, 3.0}));
+  EXPECT_EQ(axial["right"], "+x");
+  EXPECT_EQ(axial["up"], "+y");
+  EXPECT_EQ(axial["outside"], 0);
+  // The image opens again: the second layer, 6 to 11, where it was.
+  const Json again = json({"info", "axial.vti"});
+  EXPECT_EQ(again["arrays"][0]["ranges"][0], Json({6.0, 11.0}));
+  EXPECT_EQ(again["blocks"][0]["bounds"]["lower"], Json({0.0, 0.0, 3.0}));
+  const Json coronal = slice({"--plane", "coronal", "--out", "c.nii"});
+  EXPECT_EQ(coronal["size"], Json({2, 4, 1}));
+  EXPECT_EQ(coronal["up"], "+z");
+  // Square pixels in a picture: 2 x 4 voxels of 1 x 3 are 2 x 10; 4 is black, 22 white.
+  (void)slice({"--plane", "sagittal:1", "--out", "s.png", "--window", "18", "--level", "14"});
+  const Picture picture = read_picture(folder_.path("s.png"));
+  EXPECT_EQ(picture.width, 3);
+  EXPECT_EQ(picture.height, 5);
+  EXPECT_EQ(picture.at(0, 4)[0], 0);  // y = 0, z = 0: 1, below black
+  EXPECT_EQ(picture.at(2, 0)[0],
+            std::lround(255.0 * (21.0 - 5.0) / 18.0));  // y = 4, z = 8: between 17 and 23
+
+  const auto refused = [&](const std::vector<std::string>& more, int exit_code, const std::string& word) {
+    std::vector<std::string> arguments{"slice", "--example", "voxel"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  };
+  refused({"--plane", "oblique", "--out", "x.png"}, 2, "axial");
+  refused({"--plane", "axial:1e9", "--out", "x.png"}, 2, "passes by");
+  refused({"--plane", "0,0,0,1", "--out", "x.png"}, 2, "--plane");
+  refused({"--spacing", "1e-9", "--out", "x.png"}, 2, "--spacing");
+  refused({"--window", "0", "--out", "x.png"}, 2, "--window");
+  refused({"--out", "x.gif"}, 2, ".nii.gz");
+  refused({}, 2, "--out");
+}
+
+TEST_F(GridCut, PartsAreWrittenInTheirPlacesAndOpenAgain) {
+  std::string voxels;
+  for (int i = 0; i < 60; ++i) voxels += static_cast<char>(i);
+  folder_.write("a_3x4x5_uint8.raw", voxels);
+  for (const std::string name : {"part.nii.gz", "part.nrrd", "part.vti"}) {
+    const Json part =
+        json({"clip", "a_3x4x5_uint8.raw", "--raw-size", "3x4x5", "--raw-type", "uint8", "--raw-spacing",
+              "1,2,3", "--box", "0.5,1,3,9,4,9", "--plane", "0,0,1,6.5", "--out", name});
+    EXPECT_EQ(part["size"], Json({2, 2, 3}));
+    EXPECT_EQ(part["origin"], Json({1.0, 2.0, 3.0}));
+    EXPECT_EQ(part["outside"], 4);  // the layer z = 9
+    // The first voxel that is kept is (1, 1, 1): 1 + 3 + 12 = 16; the last one (2, 2, 2).
+    const Json info = json({"info", name});
+    EXPECT_EQ(info["range"], Json({16.0, 32.0})) << name;
+    EXPECT_EQ(info["blocks"][0]["size"], Json({2, 2, 3})) << name;
+    EXPECT_EQ(info["blocks"][0]["bounds"]["lower"], Json({1.0, 2.0, 3.0})) << name;
+    EXPECT_EQ(info["blocks"][0]["bounds"]["upper"], Json({2.0, 4.0, 9.0})) << name;
+  }
+  EXPECT_EQ(run({"clip", "--example", "voxel", "--out", "x.nrrd"}).exit_code, 2);
+  EXPECT_EQ(run({"clip", "--example", "voxel", "--box", "1e9,0,0,2e9,1,1", "--out", "x.nrrd"}).exit_code, 2);
+  EXPECT_EQ(run({"clip", "--example", "voxel", "--box", "1,2,3", "--out", "x.nrrd"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x.nrrd")));
+}
+
+TEST_F(GridCut, ACoronalSliceOfARealHeadHasItsRightOnTheRight) {
+  PALPATE_NEED_DATA(head, "grid/head-mr/avg152T1_RL_nifti.nii.gz");
+  const Json slice = json({"slice", head.string(), "--plane", "coronal:-20", "--out", "slice.nii.gz"});
+  EXPECT_EQ(slice["size"], Json({91, 91, 1}));
+  EXPECT_EQ(slice["origin"], Json({-90.0, -20.0, -72.0}));
+  EXPECT_EQ(slice["right"], "right");
+  EXPECT_EQ(slice["up"], "head");
+  const Json part = json({"clip", head.string(), "--box", "-41,-61,-1,41,21,51", "--out", "part.nrrd"});
+  const Json info = json({"info", "part.nrrd"});
+  EXPECT_EQ(info["blocks"][0]["bounds"]["lower"], Json({-40.0, -60.0, 0.0}));
+  EXPECT_EQ(info["blocks"][0]["bounds"]["upper"], Json({40.0, 20.0, 50.0}));
+  EXPECT_EQ(info["space"], "RAS");
+  EXPECT_EQ(part["size"], Json({41, 41, 26}));
+}
+
+TEST_F(GridCut, SaysThatNoSurfaceIsWhereNoValueIs) {
+  const std::vector<std::string> arguments{"render", "--example", "shells",  "--size",    "16x16",
+                                           "--out",  "a.png",     "--force", "--isovalue"};
+  const auto noted = [&](const std::string& isovalues) {
+    std::vector<std::string> all = arguments;
+    all.push_back(isovalues);
+    const ProgramResult result = run(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err.find("outside the values of scalars") != std::string::npos;
+  };
+  EXPECT_TRUE(noted("5000"));
+  EXPECT_TRUE(noted("-5000,100"));
+  EXPECT_FALSE(noted("100"));
+}
+
+}  // namespace
+}  // namespace palpate::test
