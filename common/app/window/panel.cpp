@@ -213,22 +213,33 @@ void draw_rays(VolumeView& volume) {
   ImGui::Checkbox("shading", &volume.shading);
 }
 
-void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume) {
+/// What lenses that do not cut show; that of new ones where there are none.
+ColorTransfer focus_of(const VolumeView& volume, const SceneState& scene) {
+  for (const Lens& lens : volume.lenses) {
+    if (lens.transfer && !lens.cut) return *lens.transfer;
+  }
+  return scene.lens.transfer.value_or(ColorTransfer());
+}
+
+void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions) {
   section("VOLUME");
   choose("field", state.settings.field, scene.info->fields);
   draw_time(state, scene.info->times);
-  static const std::string kAutomatic = "from the histogram";
-  static const std::vector<std::string> kWords{kAutomatic, "density", "mr", "ct"};
-  std::string transfer = state.settings.transfer.empty() ? kAutomatic : state.settings.transfer;
-  if (choose("colours", transfer, kWords))
-    state.settings.transfer = transfer == kAutomatic ? std::string() : transfer;
+  const ValueHistogram* const histogram = state.histogram.of(volume.image);
+  actions.save_transfer |= choose_transfer("colours", "from the histogram", state.settings.transfer,
+                                           volume.transfer, *volume.image, histogram, state.transfer_file);
   draw_rays(volume);
   section("LENSES");
-  static const std::string kDenser = "denser half";
-  static const std::vector<std::string> kFocusWords{kDenser, "density", "mr", "ct"};
-  std::string focus = state.settings.focus.empty() ? kDenser : state.settings.focus;
-  if (choose("inside", focus, kFocusWords)) state.settings.focus = focus == kDenser ? std::string() : focus;
   draw_lens_panel(volume, scene.lens, scene.info->bounds);
+  if (volume.lenses.empty()) return;
+  ColorTransfer focus = focus_of(volume, scene);
+  const ColorTransfer before = focus;
+  actions.save_focus |= choose_transfer("inside", "denser half", state.settings.focus, focus, *volume.image,
+                                        histogram, state.focus_file);
+  if (focus == before) return;
+  for (Lens& lens : volume.lenses) {
+    if (!lens.cut) lens.transfer = focus;
+  }
 }
 
 void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors) {
@@ -454,7 +465,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       draw_tensors(state, *state.scene, *view.tensors);
       if (view.volume) draw_anisotropy(*state.scene, *view.volume);
     } else if (state.scene->volume && view.volume) {
-      draw_volume(state, *state.scene, *view.volume);
+      draw_volume(state, *state.scene, *view.volume, actions);
     } else {
       draw_lines(state, *state.scene);
       draw_color(state, *state.scene, view);

@@ -6,6 +6,7 @@
 
 #include "common/app/window/seed_choice.h"
 #include "common/app/window/touch_panel.h"
+#include "common/app/window/transfer_panel.h"
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
@@ -30,10 +31,12 @@ struct PanelState {
   bool playing = false;
   ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
-  std::optional<TensorPick> tensor;         ///< under the mouse
-  std::vector<InputFiles> recent;           ///< newest first
-  std::string replay_verdict;               ///< that was said
-  std::string lines_file = "followed.vtp";  ///< edited
+  std::optional<TensorPick> tensor;                                      ///< under the mouse
+  std::vector<InputFiles> recent;                                        ///< newest first
+  std::string replay_verdict;                                            ///< that was said
+  std::string lines_file = "followed.vtp";                               ///< edited
+  std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
+  KeptHistogram histogram;                                               ///< of the volume
 };
 
 /// What the user asked for in this frame.
@@ -43,6 +46,8 @@ struct PanelActions {
   bool save_picture = false;
   bool save_session = false;
   std::optional<InputFiles> open;  ///< one of the recent inputs
+  bool save_transfer = false;      ///< that of the context to PanelState::transfer_file
+  bool save_focus = false;         ///< that of new lenses to PanelState::focus_file
   TouchActions touch;
 };
 

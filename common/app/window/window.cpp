@@ -26,7 +26,9 @@
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/field/color_transfer_file.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
@@ -311,6 +313,14 @@ class Window {
     if (actions.open) to_open_ = actions.open;
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
+    if (actions.save_transfer && view_.volume) {
+      attempt([this] { return save_transfer(state_.transfer_file, view_.volume->transfer); });
+    }
+    if (actions.save_focus && scene_) {
+      attempt([this] {
+        return save_transfer(state_.focus_file, scene_->lens.transfer.value_or(ColorTransfer()));
+      });
+    }
     if (actions.touch.grab) run_command(Command::kGrab);
     if (actions.touch.keep) run_command(Command::kKeepLine);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
@@ -458,6 +468,16 @@ class Window {
     touch_->kept().save(path, path == saved_as_);
     saved_as_ = path;
     state_.lines_file = path.lexically_proximate(folder).string();
+    return path.string();
+  }
+
+  /// A transfer function as a table, in the folder of pictures unless `name` says another one; never over a
+  /// file that is there.
+  [[nodiscard]] std::string save_transfer(const std::string& name, const ColorTransfer& transfer) const {
+    const std::filesystem::path path = std::filesystem::absolute(options_.picture_folder) / name;
+    OutputFile file(path, false);
+    file.write(color_transfer_text(transfer));
+    file.finish();
     return path.string();
   }
 

@@ -1,0 +1,40 @@
+/// The editor of a colour transfer function: its points over the histogram of the values.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "common/app/window/transfer_edit.h"
+#include "common/field/value_histogram.h"
+#include "common/render/volume/volume_image.h"
+
+namespace palpate {
+
+/// The histogram of the volume that was asked for last, counted once: of all its voxels, or where they are
+/// more than two million of as many, evenly taken, so that a frame hardly waits for it.
+class KeptHistogram {
+ public:
+  /// @pre not null. @return null where no value is finite.
+  [[nodiscard]] const ValueHistogram* of(const std::shared_ptr<const VolumeImage>& image);
+
+ private:
+  std::shared_ptr<const VolumeImage> image_;
+  ValueHistogram histogram_;
+};
+
+/// Chooses between what `words` may be (those of --transfer-function; empty: `automatic`) and lets the points
+/// be edited; what is edited goes into `words` and `transfer` alike.
+/// @param file name for the text field below, from which a function is loaded and to which it is saved.
+/// @return whether it is to be saved now.
+[[nodiscard]] bool choose_transfer(const char* label, const char* automatic, std::string& words,
+                                   ColorTransfer& transfer, const VolumeImage& image,
+                                   const ValueHistogram* histogram, std::string& file);
+
+/// Points are dragged; a double click adds one, a right click takes one out; the one that was touched last
+/// has its colour below.
+/// @param id apart from other editors of the panel. @param histogram may be null.
+/// @return whether `transfer` changed.
+bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,
+                          ColorTransfer& transfer);
+
+}  // namespace palpate
