@@ -325,7 +325,9 @@ class Window {
     if (actions.touch.keep) run_command(Command::kKeepLine);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
-    view_.surfaces = show_surfaces(touch_->surfaces().meshes);
+    // Surfaces are solid: they would hide what is in a lens.
+    const bool lenses = view_.volume && view_.volume->shown && !view_.volume->lenses.empty();
+    view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_->surfaces().meshes);
     if (const int popped = touch_->readout().popped; popped != told_popped_) {
       if (popped > told_popped_) say(popped_words(), false);
       told_popped_ = popped;

@@ -8,6 +8,7 @@
 #include "common/app/window/panel.h"
 #include "common/app/window/window.h"
 #include "common/field/analytic/volume_examples.h"
+#include "common/field/color_transfer_file.h"
 
 namespace palpate {
 namespace {
@@ -88,6 +89,47 @@ TEST_F(VolumeWindow, SavesTheViewOfTheVolume) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(result.message, "saved voxel.toml");
   EXPECT_EQ(model_.samples_saved, VolumeView{}.samples_per_voxel);
+}
+
+TEST_F(VolumeWindow, PutsALensUnderTheMouseThatTheWheelMakesLarger) {
+  options_.frames = 16;
+  options_.script = {{2, {.kind = InputKind::kMove, .x = 460.0, .y = 200.0}},
+                     {3, {.kind = InputKind::kKeyDown, .key = 'L'}},
+                     {4, {.kind = InputKind::kMove, .x = 480.0, .y = 210.0}},
+                     {5, {.kind = InputKind::kWheel, .y = 1.0}},
+                     {6, {.kind = InputKind::kPress}},
+                     {7, {.kind = InputKind::kRelease}},
+                     {8, {.kind = InputKind::kMove, .x = 500.0, .y = 300.0}}};
+  const WindowResult result = run_window(model_, options_);
+  ASSERT_EQ(result.view.volume->lenses.size(), 1U);
+  const ConvexShape& shape = result.view.volume->lenses[0].shape;
+  const Vec3 center = center_of(shape, Vec3(0.0));
+  // The picture begins right of the panel: project() counts from there.
+  const WindowLayout parts = layout(640, 480, 14.0F);
+  const Vec3 shown = project(result.view.camera, center, static_cast<int>(parts.picture.width),
+                             static_cast<int>(parts.picture.height));
+  EXPECT_NEAR(shown.x + parts.picture.left, 480.0, 1.5);
+  EXPECT_NEAR(shown.y, 210.0, 1.5);
+  EXPECT_GT(clip_line(shape, center, Vec3(1.0, 0.0, 0.0)).last, 1.05 * result.view.bounds.size().x / 6.0);
+}
+
+// The fourth of the preset's points, dragged up in the editor: an own function, which the model is asked for.
+TEST_F(VolumeWindow, EditsTheTransferFunctionOverTheHistogram) {
+  options_.frames = 20;
+  options_.script = {{3, {.kind = InputKind::kMove, .x = 166.0, .y = 242.0}},
+                     {5, {.kind = InputKind::kPress}},
+                     {6, {.kind = InputKind::kMove, .x = 168.0, .y = 220.0}},
+                     {7, {.kind = InputKind::kMove, .x = 170.0, .y = 190.0}},
+                     {9, {.kind = InputKind::kRelease}}};
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_TRUE(result.settings.transfer.starts_with("points:")) << result.settings.transfer;
+  EXPECT_GT(model_.updated, 0);
+  const auto edited = transfer_from_words(result.settings.transfer);
+  ASSERT_TRUE(edited);
+  const ColorTransfer preset = make_color_transfer(ColorPreset::kDensity, 0.0, 255.0);
+  ASSERT_EQ(edited->points().size(), preset.points().size());
+  EXPECT_GT(edited->points()[3].opacity, preset.points()[3].opacity + 0.3);
+  EXPECT_EQ(edited->points()[2], preset.points()[2]);
 }
 
 TEST(SizeText, CountsLinesOrVoxels) {
