@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                "trace by hand, without a window"},
               {"dtmri fit dwi.nii.gz --out tensor.nii.gz", "tensors from diffusion-weighted volumes"},
               {"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "images of what they measure"},
+              {"dtmri report dwi.nii.gz --out report", "how far to trust directions and tracts"},
               {"dtmri --example list", "the built-in data sets"},
           },
       .verbs =
@@ -63,6 +64,11 @@ int main(int argc, char** argv) {
               measure_verb({{"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "from tensors"},
                             {"dtmri measure dwi.nii.gz --measure color --out color.nii.gz",
                              "fitted first; main directions as colours"}}),
+              tensor_report_verb(
+                  {{"dtmri report dwi.nii.gz --out report",
+                    "a page: directions against b-value and noise at these gradients, tracts against time"},
+                   {"dtmri report --example helix --quick --out report",
+                    "without a file, in a few seconds"}}),
           },
   };
   return run_explorer(dtmri, argc, argv);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/report/constraint_sweep.h"
@@ -13,6 +14,7 @@
 
 namespace palpate {
 
+/// A part without rows is neither on the page nor in the folder: each program's report has what concerns it.
 struct Report {
   std::string title;  ///< "flow: carotid.vtk"
   std::string command_line;
@@ -50,7 +52,11 @@ void write_report(const Report& report, const std::filesystem::path& folder, boo
 /// Force error of the constraint's update, and distance of its proxy from the line, against its time.
 [[nodiscard]] std::string constraint_force_plot(const Report& report);
 [[nodiscard]] std::string constraint_distance_plot(const Report& report);
-/// The part of the page that is about the constraint.
+/// Whether the folder holds that file.
+[[nodiscard]] bool in_folder(const Report& report, std::string_view file);
+/// The part of the page that is about integrators of streamlines; empty without rows.
+[[nodiscard]] std::string sweep_section(const Sweep& sweep);
+/// The part of the page that is about the constraint; empty without rows.
 [[nodiscard]] std::string constraint_section(const ConstraintSweep& sweep);
 /// @}
 

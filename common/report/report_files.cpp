@@ -23,7 +23,8 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      // of sections
      "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
      "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
-     "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg"});
+     "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg", "fit_angle.svg",
+     "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -52,6 +53,13 @@ void write_file(const fs::path& path, const std::string& text) {
 }
 
 }  // namespace
+
+bool in_folder(const Report& report, std::string_view file) {
+  if (file.starts_with("work_precision") || file == "stated_error.svg") return !report.sweep.rows.empty();
+  if (file.starts_with("constraint")) return !report.constraint.rows.empty();
+  if (file == "stability.csv") return !report.stability.empty();
+  return file == "index.html" || file == "report.json";
+}
 
 std::string work_precision_csv(const Report& report) {
   std::string out =
@@ -139,13 +147,16 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
   try {
     write_file(temporary / "index.html", report_page(report));
     write_file(temporary / "report.json", report_json(report));
-    write_file(temporary / "work_precision.csv", work_precision_csv(report));
-    write_file(temporary / "stability.csv", stability_csv(report));
-    write_file(temporary / "work_precision.svg", work_precision_plot(report));
-    write_file(temporary / "stated_error.svg", honesty_plot(report));
-    write_file(temporary / "constraint.csv", constraint_csv(report));
-    write_file(temporary / "constraint_force.svg", constraint_force_plot(report));
-    write_file(temporary / "constraint_distance.svg", constraint_distance_plot(report));
+    const auto write_part = [&](const char* name, std::string (*made)(const Report&)) {
+      if (in_folder(report, name)) write_file(temporary / name, made(report));
+    };
+    write_part("work_precision.csv", work_precision_csv);
+    write_part("stability.csv", stability_csv);
+    write_part("work_precision.svg", work_precision_plot);
+    write_part("stated_error.svg", honesty_plot);
+    write_part("constraint.csv", constraint_csv);
+    write_part("constraint_force.svg", constraint_force_plot);
+    write_part("constraint_distance.svg", constraint_distance_plot);
     for (const ReportSection& section : report.sections) {
       for (const ReportPlot& plot : section.plots) {
         PALPATE_CHECK(std::find(kFiles.begin(), kFiles.end(), plot.file) != kFiles.end());

@@ -54,29 +54,30 @@ std::string report_json(const Report& report) {
                      {"meaning", c.meaning}});
   }
   const Machine& machine = report.machine;
-  const Json root{{"machine",
-                   {{"processor", machine.processor},
-                    {"cores", machine.cores},
-                    {"memory_bytes", machine.memory_bytes},
-                    {"system", machine.system},
-                    {"build", machine.build},
-                    {"version", machine.version}}},
-                  {"command_line", report.command_line},
-                  {"scene", report.scene},
-                  {"reference",
-                   {{"method", report.sweep.reference},
-                    {"independent_method", report.sweep.second},
-                    {"agreement", comparison(report.sweep.agreement)}}},
-                  {"threads", report.sweep.threads},
-                  {"seeds", report.sweep.seeds},
-                  {"seeds_outside", report.sweep.seeds_outside},
-                  {"lines_compared", report.sweep.reference_lines.size()},
-                  {"lines_ending_inside", report.sweep.lines_inside},
-                  {"max_length", report.sweep.max_length},
-                  {"work_precision", rows},
-                  {"measurements", measurements},
-                  {"stability", cases},
-                  {"seconds", report.seconds}};
+  Json root{{"machine",
+             {{"processor", machine.processor},
+              {"cores", machine.cores},
+              {"memory_bytes", machine.memory_bytes},
+              {"system", machine.system},
+              {"build", machine.build},
+              {"version", machine.version}}},
+            {"command_line", report.command_line},
+            {"scene", report.scene}};
+  if (const Sweep& sweep = report.sweep; !sweep.rows.empty()) {
+    root["reference"] = {{"method", sweep.reference},
+                         {"independent_method", sweep.second},
+                         {"agreement", comparison(sweep.agreement)}};
+    root["threads"] = sweep.threads;
+    root["seeds"] = sweep.seeds;
+    root["seeds_outside"] = sweep.seeds_outside;
+    root["lines_compared"] = sweep.reference_lines.size();
+    root["lines_ending_inside"] = sweep.lines_inside;
+    root["max_length"] = sweep.max_length;
+  }
+  root["work_precision"] = rows;
+  root["measurements"] = measurements;
+  root["stability"] = cases;
+  root["seconds"] = report.seconds;
   return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -116,6 +116,24 @@ TEST_F(Dtmri, FitsTheHeadAndMeasuresWhatItWrote) {
   EXPECT_EQ(json({"fit", "flipped.nii.gz", "--flip", "j", "--out", "back.nii.gz"})["suggested_turn"], "");
 }
 
+TEST_F(Dtmri, ReportsOnExamplesAndAtTheGradientsOfAFile) {
+  const Json made = json({"report", "--example", "helix", "--quick", "--out", "r"});
+  EXPECT_GT(made["work_precision_rows"], 50);
+  const Json report = Json::parse(read_file(folder_.path("r/report.json")));
+  EXPECT_FALSE(report["machine"]["processor"].get<std::string>().empty());
+  EXPECT_FALSE(report.contains("reference"));  // of streamlines
+  EXPECT_EQ(run({"report", "--example", "helix", "--quick", "--out", "r"}).exit_code, 2);
+  EXPECT_EQ(run({"report", "--example", "helix", "--quick", "--out", "r", "--force"}).exit_code, 0);
+  EXPECT_EQ(run({"report", "--example", "helix", "--quick"}).exit_code, 2);
+  EXPECT_EQ(run({"report", "none.nii", "--quick", "--out", "s"}).exit_code, 3);
+  EXPECT_EQ(files(), std::vector<std::string>{"r"});
+  PALPATE_NEED_DATA(dwi, "dtmri/brain-dwi/3000_DTI_PA-ortho_cl.nii.gz");
+  (void)json({"report", dwi.string(), "--quick", "--out", "head"});
+  EXPECT_NE(read_file(folder_.path("head/index.html"))
+                .find("13 volumes, 1 of them without weighting, b up to 1500"),
+            std::string::npos);
+}
+
 TEST_F(Dtmri, RefusesToWriteOverFilesAndUnknownMeasures) {
   folder_.write("fa.nii", "precious");
   EXPECT_EQ(run({"measure", "--example", "straight", "--out", "fa.nii"}).exit_code, 2);

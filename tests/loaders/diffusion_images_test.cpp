@@ -152,6 +152,8 @@ TEST(DiffusionNifti, RefusesGradientsThatDoNotGoWithTheImage) {
   folder.write("dwi.bval", bval_text());
   folder.write("dwi.bvec", bvec_columns() + "0 0 1\n");
   EXPECT_NE(failure(file).find("9 lines"), std::string::npos) << failure(file);
+  folder.write("dwi.bvec", "0 1 0 0 .6 0 .8\n0 0 1 0 .8 .6 0\n0 0 0 1 0 .8 .6\n");  // rows, one short
+  EXPECT_NE(failure(file).find("7"), std::string::npos) << failure(file);
   folder.write("dwi.bvec", "0 a b\n");
   EXPECT_NE(failure(file).find("'a' is no number"), std::string::npos) << failure(file);
   folder.write("dwi.bvec", "0 1 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n");

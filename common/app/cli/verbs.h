@@ -28,6 +28,8 @@ namespace palpate {
 /// @param modes the program's, the default one first.
 [[nodiscard]] Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 [[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);
+/// The same of diffusion tensors.
+[[nodiscard]] Verb tensor_report_verb(std::vector<UsageExample> examples);
 
 /// @name What the verbs share
 /// @{

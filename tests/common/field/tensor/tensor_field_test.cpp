@@ -138,6 +138,32 @@ TEST(TensorField, LogarithmsInterpolateGeometrically) {
   }
 }
 
+// Between equal tensors that are turned against each other, the logarithm of the determinant is interpolated
+// linearly, that is, not at all (Arsigny et al. 2006); a mean of components swells.
+TEST(TensorField, LogarithmsDoNotSwellAndComponentsDo) {
+  const UniformTopology topology = plain_topology();
+  const auto tensor = [&](const Vec3& x) {
+    const Mat3 axes = quarter_turned(1.3 * std::sin(2.0 * x.x + x.y - 0.7 * x.z));
+    return axes * Mat3{Vec3{1.7, 0, 0}, Vec3{0, 0.4, 0}, Vec3{0, 0, 0.2}} * glm::transpose(axes);
+  };
+  const DataSet image = image_of(topology, tensor);
+  const auto plain = make_tensor_field(image, {.array = "D"}, "made");
+  const auto logs =
+      make_tensor_field(image, {.array = "D", .interpolation = TensorInterpolation::kLogEuclidean}, "made");
+  constexpr double kDeterminant = 1.7 * 0.4 * 0.2;
+  std::mt19937_64 random(5);
+  CellHint hint;
+  double swollen = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 x = point_in(topology, random);
+    EXPECT_NEAR(glm::determinant(logs->sample(x, hint).value), kDeterminant, 1e-12);
+    const double determinant = glm::determinant(plain->sample(x, hint).value);
+    EXPECT_GT(determinant, (1.0 - 1e-12) * kDeterminant);
+    swollen = std::max(swollen, determinant / kDeterminant);
+  }
+  EXPECT_GT(swollen, 1.3);
+}
+
 TEST(TensorField, LogarithmsKeepTensorsPositiveWhereFitsAreNot) {
   const UniformTopology topology = plain_topology();
   const auto tensor = [](const Vec3& x) {

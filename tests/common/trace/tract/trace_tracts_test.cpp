@@ -285,6 +285,42 @@ TEST(TraceTracts, ReachesTheBorderAndHolesWhenStepsAreControlled) {
   EXPECT_EQ(result.dropped.bad_data, 1U);
 }
 
+// A bundle along x through voxels (y = 4, 8, 12, 16) that hold no direction: nothing starts there, lines end
+// before them, and no number is lost on the way.
+TEST(TraceTracts, DefinesWhatZeroNegativeIsotropicAndMissingTensorsGive) {
+  const UniformTopology image{{21, 21, 5}, Vec3{0.0, 0.0, -2.0}, Mat3{1.0}};
+  const auto odd = [](double y) -> Mat3 {
+    if (y == 4.0) return Mat3{0.0};
+    if (y == 8.0) return Mat3{Vec3{-0.5, 0.0, 0.0}, Vec3{0.0, -0.5, 0.0}, Vec3{0.0, 0.0, -0.5}};
+    if (y == 12.0) return Mat3{0.7};
+    return Mat3{std::nan("")};
+  };
+  const auto field = tensor_field(image, [&](const Vec3& x) {
+    const bool is_odd = x.x >= 10.0 && x.x <= 12.0 && std::fmod(x.y, 4.0) == 0.0 && x.y > 0.0 && x.y < 20.0;
+    return is_odd ? odd(x.y) : tensor_along({1.0, 0.0, 0.0});
+  });
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kRk4, Integrator::kDp54}) {
+    TractOptions options;
+    options.integrator = integrator;
+    const std::vector<Vec3> inside{{11.0, 4.0, 0.0}, {11.0, 8.0, 0.0}, {11.0, 12.0, 0.0}, {11.0, 16.0, 0.0}};
+    const TractResult none = trace_tracts(*field, inside, options);
+    EXPECT_EQ(none.lines.line_count(), 0U);
+    EXPECT_EQ(none.dropped.below_cutoff, 3U);
+    EXPECT_EQ(none.dropped.bad_data, 1U);
+
+    const std::vector<Vec3> before{{3.0, 4.0, 0.0}, {3.0, 8.0, 0.0}, {3.0, 12.0, 0.0}, {3.0, 16.0, 0.0}};
+    const TractResult result = trace_tracts(*field, before, options);
+    ASSERT_EQ(result.lines.line_count(), 4U);
+    for (std::size_t l = 0; l < 4; ++l) {
+      EXPECT_EQ(result.ends[l][1], l == 3 ? End::kBadData : End::kBelowCutoff) << l;
+      const auto line = result.lines.line(l);
+      EXPECT_GT(line.back().x, 9.0F);
+      EXPECT_LT(line.back().x, 10.01F);
+      for (const Vec3f& x : line) ASSERT_TRUE(is_finite(Vec3{x}));
+    }
+  }
+}
+
 TEST(TraceTracts, RefusesOptionsThatMakeNoSense) {
   const auto field = one_cell(TensorInterpolation::kComponents);
   const auto refused = [&](auto set) {

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/field/tensor/tensor_fit.h"
+#include "common/report/fit_errors.h"
+#include "common/report/report.h"
+#include "common/report/tract_errors.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kSpreadGradients = 30;  ///< where the data have none
+
+std::string results_text(const Report& report, const std::filesystem::path& out) {
+  std::string text = report.title + " -> " + (out / "index.html").string() + "\n";
+  for (const StabilityCase& c : report.stability) {
+    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
+            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
+  }
+  return text;
+}
+
+template <class Items>
+void append(Items&& from, Items& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+ExitCode run_tensor_report(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.out.empty()) throw usage_error("report needs a folder to make: try --out report");
+  const Effort effort = effort_from_name(options.effort);
+  check_report_folder(options.out, options.common.force);
+
+  const Stopwatch watch;
+  const int threads = options.common.threads;
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  if (options.common.explain) {
+    console.print(plan_text(
+        plan_scene(input, {.verb = "report", .tracing = true, .threads = resolve_threads(threads)})));
+  }
+  const auto& gradients = input.file()->diffusion.gradients;
+  const bool own = gradients && gradient_problem(*gradients).empty();
+  TensorImage image = input.load_tensor_image(threads, &context.progress);
+
+  Report report;
+  report.title = context.explorer.name + ": " + input.title();
+  report.command_line = context.command_line;
+  report.machine = this_machine();
+  report.scene.push_back(input.choice_sentence());
+  report.scene.insert(report.scene.end(), image.notes.begin(), image.notes.end());
+  report.scene.push_back("Opening it took " + short_number(input.seconds_open() + input.seconds_read()) +
+                         " s" + (image.fit ? ", with the fit." : "."));
+
+  FitErrors fit = run_fit_errors(own ? *gradients : spread_gradients(kSpreadGradients), effort, threads,
+                                 &context.progress);
+  fit.made_up = !own;
+  report.sections.push_back(fit_errors_section(fit));
+  append(fit_error_cases(fit), report.stability);
+  const std::vector<TractErrors> tracts = run_tract_errors(effort, &context.progress);
+  report.sections.push_back(tract_errors_section(tracts));
+  append(tract_error_cases(tracts), report.stability);
+  report.seconds = watch.seconds();
+
+  context.interrupt.unfinished(unfinished_report_folder(options.out));
+  write_report(report, options.out, options.common.force);
+  context.interrupt.keep(options.out);
+  std::size_t failed = 0, rows = 0;
+  for (const StabilityCase& c : report.stability) failed += c.row.holds ? 0 : 1;
+  for (const ReportSection& section : report.sections) rows += section.work_precision.size();
+  console.print(results_text(report, options.out));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, nullptr)));
+  console.print_json(report_summary_json(options.out.string(), rows, failed, report.seconds));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb tensor_report_verb(std::vector<UsageExample> examples) {
+  return {.name = "report",
+          .summary = "measure what noise, weighting, step and time do to directions and tracts",
+          .groups = {.out = true, .effort = true},
+          .examples = std::move(examples),
+          .run = run_tensor_report};
+}
+
+}  // namespace palpate
