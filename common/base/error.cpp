@@ -1,5 +1,7 @@
 #include "common/base/error.h"
 
+#include "common/base/printable.h"
+
 namespace palpate {
 
 Error input_error(const InputProblem& problem) {
@@ -13,7 +15,7 @@ Error input_error(const InputProblem& problem) {
   append(": ", problem.found);
   if (!problem.expected.empty()) append("; ", "expected " + problem.expected);
   append("; ", problem.remedy);
-  return {ExitCode::kBadInput, line};
+  return {ExitCode::kBadInput, printable(line)};
 }
 
 Error usage_error(const std::string& line) { return {ExitCode::kUsage, line}; }

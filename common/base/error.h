@@ -29,7 +29,7 @@ class Error : public std::runtime_error {
 };
 
 /// A file that is missing or malformed. The line reads `file: place: found; expected …; remedy`; empty
-/// parts are left out.
+/// parts are left out. What files and users wrote into it is shown as printable() does.
 struct InputProblem {
   std::string file;      ///< the path as the user gave it
   std::string place;     ///< line number, byte offset, array or block name

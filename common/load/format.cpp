@@ -5,25 +5,16 @@
 namespace palpate {
 
 std::string_view name_of(Format format) noexcept {
-  static constexpr std::array<std::string_view, kFormatCount> kNames{"legacy VTK",
-                                                                     "VTK XML",
-                                                                     "VTK multi-block",
-                                                                     "VTK XML in pieces",
-                                                                     "VTK time series",
-                                                                     "PLOT3D",
-                                                                     "EnSight",
-                                                                     "Exodus II",
-                                                                     "OpenFOAM",
-                                                                     "NRRD",
-                                                                     "NIfTI",
-                                                                     "MetaImage",
-                                                                     "EX",
-                                                                     "openCARP",
-                                                                     "TetGen",
-                                                                     "MRtrix tracks",
-                                                                     "TrackVis tracks",
-                                                                     "TRX tracks",
-                                                                     "raw voxels"};
+  static constexpr std::array<std::string_view, kFormatCount> kNames{"legacy VTK",      "VTK XML",
+                                                                     "VTK multi-block", "VTK XML in pieces",
+                                                                     "VTK time series", "PLOT3D",
+                                                                     "EnSight",         "Exodus II",
+                                                                     "OpenFOAM",        "NRRD",
+                                                                     "NIfTI",           "MetaImage",
+                                                                     "MRtrix image",    "EX",
+                                                                     "openCARP",        "TetGen",
+                                                                     "MRtrix tracks",   "TrackVis tracks",
+                                                                     "TRX tracks",      "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -41,6 +32,8 @@ std::string_view helper_of(Format format) noexcept {
       return "palpate-load-nifti";
     case Format::kMetaImage:
       return "palpate-load-meta";
+    case Format::kMrtrixImage:
+      return "palpate-load-mif";
     case Format::kEx:
     case Format::kCarp:
     case Format::kTetgen:

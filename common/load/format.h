@@ -18,16 +18,17 @@ enum class Format : std::uint8_t {
   kOpenFoam,
   kNrrd,
   kNifti,
-  kMetaImage,  ///< .mha, .mhd
-  kEx,         ///< .exnode, .exelem: finite element models of CMISS and OpenCMISS
-  kCarp,       ///< openCARP: .pts, .elem, .lon
-  kTetgen,     ///< TetGen and Chaste: .node, .ele, .ortho, .axi
-  kTck,        ///< MRtrix tracks
-  kTrk,        ///< TrackVis
-  kTrx,        ///< tractograms as a folder or zip file
-  kRaw         ///< voxels without a header: never found by content
+  kMetaImage,    ///< .mha, .mhd
+  kMrtrixImage,  ///< .mif, .mih
+  kEx,           ///< .exnode, .exelem: finite element models of CMISS and OpenCMISS
+  kCarp,         ///< openCARP: .pts, .elem, .lon
+  kTetgen,       ///< TetGen and Chaste: .node, .ele, .ortho, .axi
+  kTck,          ///< MRtrix tracks
+  kTrk,          ///< TrackVis
+  kTrx,          ///< tractograms as a folder or zip file
+  kRaw           ///< voxels without a header: never found by content
 };
-inline constexpr int kFormatCount = 19;
+inline constexpr int kFormatCount = 20;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

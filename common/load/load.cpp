@@ -42,8 +42,8 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
   const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
                      format == Format::kParaviewSeries || format == Format::kEnsight ||
                      format == Format::kOpenFoam || format == Format::kNrrd || format == Format::kNifti ||
-                     format == Format::kMetaImage || format == Format::kEx || format == Format::kCarp ||
-                     format == Format::kTetgen ||
+                     format == Format::kMetaImage || format == Format::kMrtrixImage ||
+                     format == Format::kEx || format == Format::kCarp || format == Format::kTetgen ||
                      (format == Format::kTrx && std::filesystem::is_directory(request.files.front()));
   if (!index) return bytes;
   std::filesystem::path folder = request.files.front();

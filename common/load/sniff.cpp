@@ -26,7 +26,8 @@ constexpr const char* kReadableFolder = "a file, or the folder of an OpenFOAM ca
 constexpr std::array kPositions{"positions.3.float16", "positions.3.float32", "positions.3.float64"};
 
 constexpr const char* kReadable =
-    "a VTK, NRRD, NIfTI, MetaImage, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen file, or "
+    "a VTK, NRRD, NIfTI, MetaImage, MRtrix, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen "
+    "file, or "
     "tracts (.tck, .trk, .trx)";
 
 bool starts_with(std::string_view text, std::string_view start) {
@@ -174,6 +175,7 @@ Sniffed sniff(const FileHead& head) {
   if (starts_with(text, "\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
   if (starts_with(text, "# vtk DataFile")) return {Format::kLegacyVtk, "", ""};
   if (starts_with(text, "NRRD000")) return {Format::kNrrd, "", ""};
+  if (starts_with(text, "mrtrix image")) return {Format::kMrtrixImage, "", ""};
   if (starts_with(text, "mrtrix tracks")) return {Format::kTck, "", ""};
   if (starts_with(text, std::string_view("TRACK\0", 6))) return {Format::kTrk, "", ""};
   if (looks_like_trx(text, head.ending)) return {Format::kTrx, "", ""};
@@ -283,8 +285,11 @@ Format find_format(const std::filesystem::path& path) {
   }
   const Sniffed sniffed = sniff(
       {std::as_bytes(std::span(head.bytes)), std::as_bytes(std::span(head.tail)), head.file_size, ending});
-  const bool unpacks = sniffed.format == Format::kNifti || sniffed.format == Format::kEx ||
-                       sniffed.format == Format::kCarp || sniffed.format == Format::kTetgen;
+  if (packed && head.bytes.empty())
+    refuse(path, "a gzip file of which nothing can be unpacked", "", "it may be cut off or damaged");
+  const bool unpacks = sniffed.format == Format::kNifti || sniffed.format == Format::kMrtrixImage ||
+                       sniffed.format == Format::kEx || sniffed.format == Format::kCarp ||
+                       sniffed.format == Format::kTetgen;
   if (packed && !unpacks) {
     refuse(path,
            "a gzip file" + (sniffed.format ? " of " + std::string(name_of(*sniffed.format)) : std::string()),

@@ -168,8 +168,15 @@ void write_tck(OutputFile& file, const std::vector<Line>& lines, Columns) {
   write_tck(file, tractogram_of(lines));
 }
 
-void write_trk(OutputFile& file, const std::vector<Line>& lines, Columns) {
-  write_trk(file, tractogram_of(lines));
+void write_trk(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
+  Tractogram packed = tractogram_of(lines);
+  for (const PointColumn& column : columns) {
+    auto& values =
+        packed.of_points.emplace_back(Tractogram::Column{.name = column.name, .values = {}}).values;
+    values.reserve(column.values.size());
+    for (const double value : column.values) values.push_back(single(value));
+  }
+  write_trk(file, packed);
 }
 
 // ---- .csv ----------------------------------------------------------------------------------------------

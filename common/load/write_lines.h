@@ -22,7 +22,8 @@ struct PointColumn {
   std::vector<double> values;  ///< of all points, line after line
 };
 
-/// @param columns written by .vtp (point arrays) and .csv; .tck and .trk have no place for them.
+/// @param columns written by .vtp (point arrays), .trk (scalars, seven at most besides time, speed and error)
+/// and .csv; .tck has no place for them.
 /// @throws Error as check_line_output(); (work failed) where the disk refuses.
 void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,
                  std::span<const PointColumn> columns = {});

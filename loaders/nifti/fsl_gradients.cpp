@@ -76,6 +76,13 @@ std::vector<Vec3> read_directions(const std::string& file, std::size_t volumes) 
   if (!rows && !(table.size() == volumes && all_have(3))) {
     std::string found = "has " + counted(table.size(), "line");
     if (!table.empty()) found += " of " + counted(table.front().size(), "number");
+    const auto ragged = std::find_if(table.begin(), table.end(), [&table](const auto& line) {
+      return line.size() != table.front().size();
+    });
+    if (ragged != table.end()) {
+      found = "line " + std::to_string(ragged - table.begin() + 1) + " has " +
+              counted(ragged->size(), "number") + ", the first " + std::to_string(table.front().size());
+    }
     throw input_error({file, "", found,
                        "3 lines of " + std::to_string(volumes) + " numbers or " + std::to_string(volumes) +
                            " lines of 3, one direction a volume",

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,9 +19,8 @@ namespace {
 class NiftiLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
-    if (request.files.size() > 1)
-      throw input_error({request.files[1].string(), "", "is a second NIfTI file", "one file"});
     const std::string file = request.files.front().string();
+    check_others(request);
     files_.clear();
     files_.emplace_back(file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime);
     const NiftiFile& first = files_.front();
@@ -49,6 +50,23 @@ class NiftiLoader : public Loader {
   }
 
  private:
+  /// Several files are one input where they are FSL's images of one set, which come along by themselves.
+  static void check_others(const LoadRequest& request) {
+    const std::string first = request.files.front().string();
+    std::vector<std::pair<std::string, std::string>> set;
+    if (request.diffusion && fsl_image_name(first)) set = fsl_images_beside(first);
+    for (std::size_t f = 1; f < request.files.size(); ++f) {
+      const bool known = std::any_of(set.begin(), set.end(), [&](const auto& image) {
+        std::error_code ignored;
+        return std::filesystem::equivalent(image.second, request.files[f], ignored);
+      });
+      if (!known) {
+        throw input_error({request.files[f].string(), "", "is a second NIfTI file", "one file",
+                           "of tensors, V1, V2, V3, L1, L2, L3 and FA of one name are read together"});
+      }
+    }
+  }
+
   /// Finds out whether the image holds signals with gradients, tensors, or one of FSL's eigen images.
   void describe_diffusion(const std::string& file, const DiffusionRequest& request, FileInfo& info) {
     NiftiFile& image = files_.front();

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/file_numbers.h"
 #include "common/base/text.h"
 #include "common/load/trk_header.h"
-#include "loaders/tract/file_numbers.h"
 
 namespace palpate {
 namespace {

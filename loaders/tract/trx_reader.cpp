@@ -15,9 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/file_numbers.h"
 #include "common/base/mapped_file.h"
 #include "common/base/text.h"
-#include "loaders/tract/file_numbers.h"
 #include "loaders/tract/zip_archive.h"
 
 namespace palpate {

@@ -7,8 +7,8 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/file_numbers.h"
 #include "common/load/gzip_head.h"
-#include "loaders/tract/file_numbers.h"
 
 namespace palpate {
 namespace {

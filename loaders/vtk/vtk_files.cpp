@@ -1,7 +1,11 @@
 #include "loaders/vtk/vtk_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>
@@ -33,17 +37,46 @@ struct OpenFile {
   vtkSmartPointer<vtkDataObject> legacy;
 };
 
+constexpr int kSymmetric = 6;  ///< numbers of a symmetric tensor
+
+/// VTK's order of a symmetric tensor, xx yy zz xy yz xz, becomes that of TensorLayout::kData, xx xy xz yy yz
+/// zz.
+DataArray in_rows(const DataArray& array) {
+  static constexpr std::array<std::size_t, kSymmetric> kFrom{0, 3, 5, 1, 4, 2};
+  const std::size_t size = byte_size(array.type);
+  const auto bytes = std::make_shared<std::vector<std::byte>>(array.bytes.size());
+  for (std::size_t t = 0; t < array.tuples; ++t) {
+    for (std::size_t c = 0; c < kFrom.size(); ++c) {
+      const auto from = array.bytes.subspan((kSymmetric * t + kFrom[c]) * size, size);
+      std::copy(from.begin(), from.end(),
+                bytes->begin() + static_cast<std::ptrdiff_t>((kSymmetric * t + c) * size));
+    }
+  }
+  DataArray ordered = array;
+  ordered.bytes = std::as_const(*bytes);
+  ordered.owner = bytes;
+  return ordered;
+}
+
 class VtkFiles : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format format) override {
     FileInfo info;
     info.format = name_of(format);
     arrange(request, format, info.notes);
+    tensors_ = request.diffusion.has_value();
     if (steps_.size() > 1) {
       for (const FileStep& step : steps_) info.times.push_back(step.time);
     }
     std::string why = "holds no data";
     for (const FilePiece& piece : steps_.front().pieces) describe(piece, info, why);
+    for (const BlockInfo& block : info.blocks) {
+      for (const ArrayInfo& array : block.arrays) {
+        if (!tensors_ || array.components != kSymmetric) continue;
+        info.notes.push_back("array '" + array.name +
+                             "': six numbers taken as a tensor in VTK's order (xx yy zz xy yz xz)");
+      }
+    }
     if (info.blocks.empty()) throw input_error({request.files.front().string(), "", why, "a volume"});
     has_volume_ = std::any_of(info.blocks.begin(), info.blocks.end(),
                               [](const BlockInfo& block) { return block.not_volume.empty(); });
@@ -77,6 +110,9 @@ class VtkFiles : public Loader {
           continue;
         }
         blocks.push_back(convert_block(block.data, name_of_block(pieces[p], block), wanted, file));
+        for (DataArray& array : blocks.back().arrays) {
+          if (tensors_ && array.components == kSymmetric) array = in_rows(array);
+        }
       }
       if (on_progress) on_progress(static_cast<double>(p + 1) / static_cast<double>(pieces.size()));
     }
@@ -164,6 +200,7 @@ class VtkFiles : public Loader {
 
   VtkErrors errors_;
   std::vector<FileStep> steps_;
+  bool tensors_ = false;    ///< asked for: arrays of six numbers are symmetric tensors
   bool has_volume_ = true;  ///< of the first step: then what is no volume is left out
   std::size_t open_step_ = 0;
   std::map<std::string, OpenFile> open_files_;

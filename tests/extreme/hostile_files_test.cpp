@@ -10,8 +10,10 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/load/load.h"
+#include "common/load/trk_header.h"
 #include "tests/loaders/case_fixtures.h"
 #include "tests/loaders/nifti_fixture.h"
+#include "tests/loaders/tract_fixture.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -120,6 +122,31 @@ std::string meta_image() {
          floats(27);
 }
 
+std::string tck() {
+  return test::tck_header("Float32LE") + test::tck_points<float>(test::sample_tracts(), false);
+}
+
+std::string trk() {
+  TrkHeader header;
+  header.dim = {4, 5, 6};
+  header.voxel_size = {2.0F, 2.0F, 2.0F};
+  for (std::size_t axis = 0; axis < 4; ++axis) header.vox_to_ras[axis][axis] = axis < 3 ? 2.0F : 1.0F;
+  header.n_count = 2;
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
+  for (const std::int32_t points : {2, 3}) {
+    test::put_number(bytes, points);
+    bytes += floats(3 * static_cast<std::size_t>(points));
+  }
+  return bytes;
+}
+
+std::string trx() { return test::zip(test::trx_members(test::sample_tracts(), true), true); }
+
+std::string mif() {
+  return "mrtrix image\ndim: 3,3,3\nvox: 2,2,2\nlayout: +0,-1,+2\ndatatype: Float32LE\nfile: . 100\nEND\n" +
+         std::string(12, '\0') + floats(27);
+}
+
 std::string plot3d_grid() {
   std::string file;
   for (int axis = 0; axis < 3; ++axis) file += std::string("\3\0\0\0", 4);
@@ -141,6 +168,10 @@ std::vector<Sample> samples() {
           {"a.nrrd", nrrd(), 0, ""},
           {"a.nii", nifti(), 0, ""},
           {"a.mha", meta_image(), 0, ""},
+          {"a.tck", tck(), 0, ""},
+          {"a.trk", trk(), 0, ""},
+          {"a.trx", trx(), 0, ""},
+          {"a.mif", mif(), 0, ""},
           {"a.xyz", plot3d_grid(), 0, ""}};
 }
 
@@ -247,6 +278,18 @@ TEST(HostileFiles, ClaimedSizesOfTwoToTheFortyAreRefused) {
   refuse(".mha", replaced(meta_image(), "NDims = 3", "NDims = 100"));
   refuse(".mha", replaced(meta_image(), "ElementDataFile",
                           "CompressedData = True\nCompressedDataSize = " + huge + "\nElementDataFile"));
+  refuse(".tck", replaced(tck(), "file: . 0", "file: . " + huge));
+  refuse(".trk",
+         replaced(trk(), std::string("\2\0\0\0\2\0\0\0", 8), std::string("\xff\xff\xff\x7f\2\0\0\0", 8)));
+  refuse(".trk", replaced(trk(), std::string("\3\0\0\0", 4), std::string("\0\0\0\x40", 4)));
+  auto members = test::trx_members(test::sample_tracts(), true);
+  members[0].second = replaced(members[0].second, "\"NB_VERTICES\": 26", "\"NB_VERTICES\": " + huge);
+  refuse(".trx", test::zip(members, false));
+  members[0].second = replaced(members[0].second, "\"NB_STREAMLINES\": 4", "\"NB_STREAMLINES\": " + huge);
+  refuse(".trx", test::zip(members, true));
+  refuse(".mif", replaced(mif(), "dim: 3,3,3", "dim: " + huge + ",3,3"));
+  refuse(".mif", replaced(mif(), "dim: 3,3,3", "dim: 1048576,1048576,1048576"));
+  refuse(".mif", replaced(mif(), "file: . 100", "file: . " + huge));
   refuse(".xyz", std::string("\0\0\x10\0\0\0\x10\0\0\0\x10\0", 12) + floats(81));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "common/base/error.h"
 #include "common/load/serve.h"
@@ -12,14 +13,19 @@
 namespace palpate::test {
 
 /// @param make makes the loader; @param mine says whether it is the one for a format.
+/// @param diffusion whether tensors are asked for.
 template <typename Make, typename Mine>
-int read_everything(const std::uint8_t* data, std::size_t size, const Make& make, const Mine& mine) {
+int read_everything(const std::uint8_t* data, std::size_t size, const Make& make, const Mine& mine,
+                    const std::optional<DiffusionRequest>& diffusion = {}) {
   const MemoryPath input(data, size);
   try {
     const Format format = find_format(input.path());
     if (!mine(format)) return 0;
     const auto loader = make();
-    const FileInfo info = loader->open({{input.path()}, {}}, format);
+    LoadRequest request;
+    request.files = {input.path()};
+    request.diffusion = diffusion;
+    const FileInfo info = loader->open(request, format);
     std::vector<std::string> names;
     for (const BlockInfo& block : info.blocks) {
       for (const ArrayInfo& array : block.arrays) names.push_back(array.name);

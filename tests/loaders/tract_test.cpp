@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/trk_header.h"
+#include "common/load/write_lines.h"
 #include "common/load/write_tractogram.h"
 #include "tests/loaders/tract_fixture.h"
 #include "tests/support/temp_folder.h"
@@ -159,6 +160,21 @@ TEST(ReadTractogram, ReadsTrackVisFilesOfTheOtherByteOrder) {
   const Tractogram lines = read_tractogram(folder.path("big.trk")).lines;
   ASSERT_EQ(lines.points.size(), 1U);
   EXPECT_EQ(lines.points[0], Vec3f(2.0F, 4.0F, 6.0F));  // a corner lies half a voxel before a centre
+}
+
+TEST(ReadTractogram, KeepsTheNumbersOfAProbedTract) {
+  const TempFolder folder;
+  Line line;
+  for (int p = 0; p < 3; ++p) line.points.push_back({.position = Vec3{1.0 * p, 2.0, 3.0}, .time = 0.5 * p});
+  const std::vector<PointColumn> columns{{.name = "force", .values = {0.25, 0.5, 0.75}},
+                                         {.name = "fa", .values = {0.7, 0.8, 0.9}}};
+  for (const char* name : {"probed.trk", "probed.vtp"}) {
+    write_lines(folder.path(name), {line}, false, columns);
+    const Tractogram read = read_tractogram(folder.path(name)).lines;
+    EXPECT_EQ(column(read.of_points, "force"), (std::vector<float>{0.25F, 0.5F, 0.75F})) << name;
+    EXPECT_EQ(column(read.of_points, "fa"), (std::vector<float>{0.7F, 0.8F, 0.9F})) << name;
+    EXPECT_EQ(column(read.of_points, "time"), (std::vector<float>{0.0F, 0.5F, 1.0F})) << name;
+  }
 }
 
 /// A file's bytes and what its error must say.

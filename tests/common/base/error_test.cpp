@@ -25,5 +25,10 @@ TEST(Error, CancelledCarriesTheShellsCodeForAnInterrupt) {
   EXPECT_EQ(static_cast<int>(Cancelled().code()), 130);
 }
 
+TEST(InputError, ShowsControlCharactersOfFilesAsText) {
+  const Error error = input_error({"a\nb.vtk", "array '\x1b[31m'", "is r\xc3\xa4tselhaft\x7f", "", ""});
+  EXPECT_STREQ(error.what(), "a\\x0ab.vtk: array '\\x1b[31m': is r\xc3\xa4tselhaft\\x7f");
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -240,12 +240,10 @@ TEST(WriteLines, ColumnsStandBesideThePoints) {
   }
   EXPECT_EQ(row_number, count + 1);
 
-  for (const char* name : {"a.tck", "a.trk"}) {
-    write_lines(folder.path(name), written, false, columns);
-    const auto plain = folder.path(std::string("plain") + name);
-    write_lines(plain, written, false);
-    EXPECT_EQ(test::read_file(folder.path(name)), test::read_file(plain)) << "no room for them in " << name;
-  }
+  // A .tck file has no room for them; what .trk holds is read back by loaders/tract_test.
+  write_lines(folder.path("a.tck"), written, false, columns);
+  write_lines(folder.path("plain.tck"), written, false);
+  EXPECT_EQ(test::read_file(folder.path("a.tck")), test::read_file(folder.path("plain.tck")));
 }
 
 ExitCode code_of(const std::function<void()>& work) {

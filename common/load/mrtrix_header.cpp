@@ -1,0 +1,63 @@
+#include "common/load/mrtrix_header.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+
+namespace palpate {
+
+const std::string* MrtrixHeader::find(std::string_view key) const noexcept {
+  const auto found =
+      std::find_if(entries.rbegin(), entries.rend(), [key](const auto& entry) { return entry.first == key; });
+  return found == entries.rend() ? nullptr : &found->second;
+}
+
+std::vector<std::string> MrtrixHeader::all(std::string_view key) const {
+  std::vector<std::string> values;
+  for (const auto& [name, value] : entries) {
+    if (name == key) values.push_back(value);
+  }
+  return values;
+}
+
+MrtrixHeader read_mrtrix_header(const std::string& file, std::string_view bytes, std::string_view mark) {
+  if (!bytes.starts_with(mark))
+    throw input_error({file, "byte 0", "does not begin as it should", std::string(mark), ""});
+  MrtrixHeader header;
+  std::size_t at = bytes.find('\n');
+  while (at != std::string_view::npos) {
+    const std::size_t next = bytes.find('\n', at + 1);
+    if (next == std::string_view::npos) break;
+    const std::string_view line = trimmed(bytes.substr(at + 1, next - at - 1));
+    at = next;
+    if (line == "END") {
+      header.end = next + 1;
+      return header;
+    }
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos) continue;
+    header.entries.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  }
+  throw input_error({file, "header", "has no END", "", "the file may be damaged or cut off"});
+}
+
+MrtrixNumber parse_mrtrix_number(std::string_view datatype) {
+  MrtrixNumber number{std::string(datatype), false};
+  std::transform(number.type.begin(), number.type.end(), number.type.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  number.big_endian = number.type.ends_with("be");
+  if (number.big_endian || number.type.ends_with("le")) number.type.resize(number.type.size() - 2);
+  return number;
+}
+
+std::optional<std::uint64_t> parse_count(std::string_view text) {
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return count;
+}
+
+}  // namespace palpate

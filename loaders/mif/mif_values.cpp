@@ -1,0 +1,146 @@
+#include "loaders/mif/mif_values.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/file_numbers.h"
+#include "common/base/mapped_file.h"
+#include "common/load/gzip_head.h"
+
+namespace palpate {
+namespace {
+
+/// Steps in the file, in numbers, from one voxel to the next along each axis, and where voxel (0, 0, 0) of
+/// the first volume stands.
+struct Strides {
+  std::array<std::int64_t, 4> step{};
+  std::int64_t first = 0;
+};
+
+Strides strides_of(const MifHeader& header) {
+  Strides strides;
+  std::int64_t step = 1;
+  for (int rank = 0; rank < static_cast<int>(header.axes.size()); ++rank) {
+    for (std::size_t axis = 0; axis < header.axes.size(); ++axis) {
+      if (header.axes[axis].rank != rank) continue;
+      const auto size = static_cast<std::int64_t>(header.axes[axis].size);
+      strides.step[axis] = header.axes[axis].backwards ? -step : step;
+      if (header.axes[axis].backwards) strides.first += step * (size - 1);
+      step *= size;
+    }
+  }
+  return strides;
+}
+
+/// Walks through the voxels, i fastest, and hands the index of each number in the file to `put`.
+template <typename Put>
+void for_each_number(const MifHeader& header, const std::vector<std::uint64_t>& volumes,
+                     const std::function<void(double)>& on_progress, const Put& put) {
+  const Strides strides = strides_of(header);
+  const Index3 n = header.topology.points;
+  std::size_t next = 0;
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) {
+        const std::int64_t voxel =
+            strides.first + i * strides.step[0] + j * strides.step[1] + k * strides.step[2];
+        for (const std::uint64_t volume : volumes)
+          put(next++, static_cast<std::size_t>(voxel + static_cast<std::int64_t>(volume) * strides.step[3]));
+      }
+    }
+    if (on_progress) on_progress(static_cast<double>(k + 1) / n.z);
+  }
+}
+
+template <typename T>
+DataArray array_of(std::shared_ptr<std::vector<T>> values, ScalarType type, std::size_t components) {
+  DataArray array;
+  array.type = type;
+  array.components = static_cast<int>(components);
+  array.tuples = values->size() / components;
+  array.bytes = std::as_bytes(std::span(std::as_const(*values)));
+  array.owner = std::move(values);
+  return array;
+}
+
+/// Calls `use` with a value of the type that is stored.
+template <typename Use>
+DataArray with_type(ScalarType type, const Use& use) {
+  switch (type) {
+    case ScalarType::kInt8:
+      return use(std::int8_t{});
+    case ScalarType::kUint8:
+      return use(std::uint8_t{});
+    case ScalarType::kInt16:
+      return use(std::int16_t{});
+    case ScalarType::kUint16:
+      return use(std::uint16_t{});
+    case ScalarType::kInt32:
+      return use(std::int32_t{});
+    case ScalarType::kUint32:
+      return use(std::uint32_t{});
+    case ScalarType::kInt64:
+      return use(std::int64_t{});
+    case ScalarType::kUint64:
+      return use(std::uint64_t{});
+    case ScalarType::kFloat32:
+      return use(float{});
+    case ScalarType::kFloat64:
+      break;
+  }
+  return use(double{});
+}
+
+}  // namespace
+
+ScalarType value_type(const MifHeader& header) noexcept {
+  if (!header.type) return ScalarType::kUint8;
+  const bool scaled = header.offset != 0.0 || header.scale != 1.0;
+  return scaled ? ScalarType::kFloat32 : *header.type;
+}
+
+DataArray read_mif_values(const MifHeader& header, const std::vector<std::uint64_t>& volumes,
+                          const std::function<void(double)>& on_progress) {
+  const MappedFile mapped(header.data_file);
+  const std::uint64_t wanted = header.data_at + header.data_bytes();
+  std::string unpacked;
+  if (header.packed) unpacked = gzip_head(mapped.text(), wanted);
+  std::string_view bytes = header.packed ? std::string_view(unpacked) : mapped.text();
+  if (bytes.size() < wanted) {
+    throw input_error({header.data_file, "", "ends after " + std::to_string(bytes.size()) + " bytes",
+                       std::to_string(wanted), "the file may be cut off"});
+  }
+  bytes = bytes.substr(header.data_at);
+  const std::size_t count = header.voxels() * volumes.size();
+
+  if (!header.type) {
+    auto values = std::make_shared<std::vector<std::uint8_t>>(count);
+    for_each_number(header, volumes, on_progress, [&](std::size_t to, std::size_t from) {
+      (*values)[to] =
+          static_cast<std::uint8_t>(static_cast<unsigned char>(bytes[from / 8]) >> (7 - from % 8) & 1U);
+    });
+    return array_of(std::move(values), ScalarType::kUint8, volumes.size());
+  }
+  return with_type(*header.type, [&]<typename T>(T) {
+    const auto number = [&](std::size_t from) {
+      return number_at<T>(bytes, from * sizeof(T), header.big_endian);
+    };
+    if (value_type(header) == *header.type && header.offset == 0.0 && header.scale == 1.0) {
+      auto values = std::make_shared<std::vector<T>>(count);
+      for_each_number(header, volumes, on_progress,
+                      [&](std::size_t to, std::size_t from) { (*values)[to] = number(from); });
+      return array_of(std::move(values), *header.type, volumes.size());
+    }
+    auto values = std::make_shared<std::vector<float>>(count);
+    for_each_number(header, volumes, on_progress, [&](std::size_t to, std::size_t from) {
+      (*values)[to] = static_cast<float>(header.offset + header.scale * static_cast<double>(number(from)));
+    });
+    return array_of(std::move(values), ScalarType::kFloat32, volumes.size());
+  });
+}
+
+}  // namespace palpate
