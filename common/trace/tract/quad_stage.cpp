@@ -82,7 +82,8 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
   }
   transpose(sums, out);
   const Pack4 sum = load(out.xx) + load(out.yy) + load(out.zz) + load(out.xy) + load(out.xz) + load(out.yz);
-  return bits(inside & ((sum - sum) == zero));
+  // Nothing times a number is nothing, unless that is infinite or none.
+  return bits(inside & (zero * sum == zero));
 }
 
 }  // namespace
