@@ -9,6 +9,7 @@
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
+#include "common/field/field_on_grid.h"
 #include "common/field/scalar_field.h"
 
 namespace palpate {
@@ -313,6 +314,16 @@ std::shared_ptr<const ScalarField> make_scalar_field(const VectorField& like,
                ", as in the vector field");
   }
   return ScalarFieldBuilder::from_data(like.grid(), used, choice, {}, threads);
+}
+
+std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const FieldGrid> grid,
+                                                     const DataSet& block, const ScalarChoice& choice,
+                                                     const std::string& file, int threads) {
+  check_block(block, 0, 1, file);
+  const DataArray* array = block.find(choice.array, choice.association);
+  if (array == nullptr) refuse_missing(choice, file);
+  check_component(*array, choice);
+  return ScalarFieldBuilder::from_data(std::move(grid), {block}, choice, {}, threads);
 }
 
 std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const AnalyticScalar> formula,

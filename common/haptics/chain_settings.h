@@ -9,6 +9,7 @@
 
 #include "common/haptics/constraint/anisotropy_settings.h"
 #include "common/haptics/constraint/drag_settings.h"
+#include "common/haptics/constraint/fibre_settings.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/isosurface_settings.h"
 #include "common/haptics/constraint/linear_settings.h"
@@ -32,6 +33,7 @@ struct ChainSettings {
   IsosurfaceSettings isosurface;
   LinearSettings linear;
   AnisotropySettings anisotropy;
+  FibreSettings fibre;
   ForceFieldSettings force_field;
 
   bool operator==(const ChainSettings&) const = default;
@@ -40,7 +42,7 @@ struct ChainSettings {
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && isosurface.valid() && linear.valid() && anisotropy.valid() &&
+           grid_axis.valid() && isosurface.valid() && linear.valid() && anisotropy.valid() && fibre.valid() &&
            force_field.valid();
   }
 
@@ -58,6 +60,7 @@ struct ChainSettings {
     IsosurfaceSettings::each(self.isosurface, visit);
     LinearSettings::each(self.linear, visit);
     AnisotropySettings::each(self.anisotropy, visit);
+    FibreSettings::each(self.fibre, visit);
     ForceFieldSettings::each(self.force_field, visit);
   }
 };

@@ -10,7 +10,6 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/field_grid.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -98,10 +97,13 @@ System assemble(const TetMesh& mesh, const std::vector<WallSurface>& surface,
 }  // namespace
 
 WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads) {
-  const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
-  const WallSurfaces surfaces = find_wall_surfaces(*grid, mesh, file);
-  const std::vector<bool> reached = reached_points(*grid->tets, surfaces.of_point);
-  const System system = assemble(*grid->tets, surfaces.of_point, reached);
+  return make_wall_layer(*make_field_grid(std::span(&mesh, 1), file, threads), mesh, file);
+}
+
+WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file) {
+  const WallSurfaces surfaces = find_wall_surfaces(grid, mesh, file);
+  const std::vector<bool> reached = reached_points(*grid.tets, surfaces.of_point);
+  const System system = assemble(*grid.tets, surfaces.of_point, reached);
 
   WallLayer layer;
   layer.notes.push_back(surfaces.note);
@@ -123,7 +125,7 @@ WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int thre
   std::vector<double> values(mesh.point_count(), kNaN);
   std::size_t without = 0;
   for (std::size_t input = 0; input < values.size(); ++input) {
-    const std::size_t p = grid->point_of_input.empty() ? input : grid->point_of_input[input];
+    const std::size_t p = grid.point_of_input.empty() ? input : grid.point_of_input[input];
     if (p >= reached.size() || !reached[p]) {
       ++without;
       continue;

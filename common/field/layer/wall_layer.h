@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/field_grid.h"
 
 namespace palpate {
 
@@ -25,5 +26,8 @@ struct WallLayer {
 /// @throws Error (bad input) with `file` as find_wall_surfaces() and make_field_grid(); (work failed) where
 /// the iteration does not converge.
 [[nodiscard]] WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads = 0);
+
+/// The same on the grid that was made of `mesh`.
+[[nodiscard]] WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file);
 
 }  // namespace palpate

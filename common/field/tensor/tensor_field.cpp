@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
+#include "common/field/field_on_grid.h"
 #include "common/field/grid/block_join.h"
 #include "common/field/tensor/tensor_function.h"
 #include "common/math/symmetric3.h"
@@ -186,12 +187,12 @@ TensorSample TensorField::voxel(const Index3& at) const noexcept {
 /// Puts a TensorField together.
 class TensorFieldBuilder {
  public:
-  static std::shared_ptr<const TensorField> make(const DataSet& image, const DataArray& array,
-                                                 const TensorChoice& choice, const std::string& file,
+  static std::shared_ptr<const TensorField> make(std::shared_ptr<const FieldGrid> grid, const DataSet& image,
+                                                 const DataArray& array, const TensorChoice& choice,
                                                  int threads, const std::vector<std::string>& notes) {
     auto field = std::make_shared<TensorField>();
     field->name_ = choice.array;
-    field->grid_ = make_field_grid(std::span(&image, 1), file, threads);
+    field->grid_ = std::move(grid);
     field->notes_ = field->grid_->notes;
     field->notes_.lines.insert(field->notes_.lines.begin(), notes.begin(), notes.end());
     field->interpolation_ = choice.interpolation;
@@ -211,14 +212,15 @@ class TensorFieldBuilder {
     } else {
       field->values_ = std::move(gathered.floats);
     }
-    survey(*field);
+    survey(*field, choice.order == TensorOrder::kAxis);
     if (logarithms) take_logarithms(*field);
     return field;
   }
 
  private:
   /// Counts tensors that are not there or not positive.
-  static void survey(TensorField& field) {
+  /// @param directions outer products: their smaller eigenvalues are zero, but for rounding.
+  static void survey(TensorField& field, bool directions) {
     const std::size_t points = field.grid_->point_count();
     std::vector<double> traces;
     for (std::size_t point = 0; point < points; ++point) {
@@ -231,7 +233,7 @@ class TensorFieldBuilder {
       const double trace = d[0] + d[3] + d[5];
       field.largest_trace_ = std::max(field.largest_trace_, trace);
       if (trace > 0.0) traces.push_back(trace);
-      if (symmetric_eigenvalues(matrix_of(d))[2] < 0.0) ++field.negative_tensors_;
+      if (!directions && symmetric_eigenvalues(matrix_of(d))[2] < 0.0) ++field.negative_tensors_;
     }
     if (!traces.empty()) {
       const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
@@ -240,7 +242,8 @@ class TensorFieldBuilder {
     }
     if (field.notes_.bad_values > 0) {
       field.notes_.lines.push_back(std::to_string(field.notes_.bad_values) +
-                                   " points without a tensor (masked, or not finite)");
+                                   (directions ? " points without a direction (zero, or not finite)"
+                                               : " points without a tensor (masked, or not finite)"));
     }
     if (field.negative_tensors_ > 0) {
       field.notes_.lines.push_back(std::to_string(field.negative_tensors_) +
@@ -269,9 +272,10 @@ class TensorFieldBuilder {
   static constexpr double kFloor = 1e-6;  ///< traces
 };
 
-std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const TensorChoice& choice,
-                                                     const std::string& file, int threads,
-                                                     const std::vector<std::string>& notes) {
+namespace {
+
+/// Checks the image and finds its array.
+const DataArray& checked_array(const DataSet& image, const TensorChoice& choice, const std::string& file) {
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
   };
@@ -287,7 +291,25 @@ std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const
     refuse("array '" + choice.array + "' with " + std::to_string(array->components) + " components",
            std::to_string(components) + " components");
   }
-  return TensorFieldBuilder::make(image, *array, choice, file, threads, notes);
+  return *array;
+}
+
+}  // namespace
+
+std::shared_ptr<const TensorField> make_tensor_field(const DataSet& image, const TensorChoice& choice,
+                                                     const std::string& file, int threads,
+                                                     const std::vector<std::string>& notes) {
+  const DataArray& array = checked_array(image, choice, file);
+  auto grid = make_field_grid(std::span(&image, 1), file, threads);
+  return TensorFieldBuilder::make(std::move(grid), image, array, choice, threads, notes);
+}
+
+std::shared_ptr<const TensorField> make_tensor_field(std::shared_ptr<const FieldGrid> grid,
+                                                     const DataSet& image, const TensorChoice& choice,
+                                                     const std::string& file, int threads,
+                                                     const std::vector<std::string>& notes) {
+  const DataArray& array = checked_array(image, choice, file);
+  return TensorFieldBuilder::make(std::move(grid), image, array, choice, threads, notes);
 }
 
 }  // namespace palpate

@@ -44,6 +44,8 @@ class IsosurfaceConstraint final : public Constraint {
   [[nodiscard]] const Workspace& workspace() const noexcept { return workspace_; }
   /// Which isovalue of the settings holds the probe; -1: none.
   [[nodiscard]] int held_by() const noexcept { return held_ ? index_ : -1; }
+  /// Where the proxy is on the surface that holds it, frame L and local values; no meaning while none does.
+  [[nodiscard]] const SurfacePoint& point() const noexcept { return point_; }
   /// The gradient of the scalar at the proxy, frame L and local values; zero while nothing holds it.
   [[nodiscard]] const Vec3& gradient() const noexcept { return fit_.gradient; }
   /// @}

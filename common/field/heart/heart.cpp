@@ -1,0 +1,129 @@
+#include "common/field/heart/heart.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/field/field_grid.h"
+#include "common/field/field_on_grid.h"
+#include "common/field/layer/wall_layer.h"
+#include "common/field/layer/wall_surfaces.h"
+
+namespace palpate {
+namespace {
+
+std::string lower(std::string_view name) {
+  std::string out(name);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+bool means(const std::string& name, std::string_view word) {
+  return lower(name).find(word) != std::string::npos;
+}
+
+bool means_fibre(const std::string& name) {
+  return means(name, "fibre") || means(name, "fiber") || lower(name) == "f0" || lower(name) == "f";
+}
+
+bool means_other(const std::string& name) {
+  return means(name, "sheet") || means(name, "normal") || lower(name) == "s0" || lower(name) == "n0";
+}
+
+bool is_direction(const ArrayInfo& array) {
+  return array.components == 3 && (array.type == ScalarType::kFloat32 || array.type == ScalarType::kFloat64);
+}
+
+}  // namespace
+
+std::vector<std::string> HeartChoice::arrays() const {
+  std::vector<std::string> names{fibre.array};
+  if (!sheet.array.empty()) names.push_back(sheet.array);
+  if (!layer.empty()) names.push_back(layer);
+  if (layer.empty() && surface) names.emplace_back(kSurfaceArray);
+  return names;
+}
+
+std::vector<DirectionChoice> fibre_choices(const std::vector<ArrayInfo>& arrays) {
+  std::vector<const ArrayInfo*> found;
+  for (const ArrayInfo& array : arrays)
+    if (is_direction(array) && !means_other(array.name)) found.push_back(&array);
+  const auto rank = [](const ArrayInfo* array) {
+    return (means_fibre(array->name) ? 0 : 2) + (array->association == Association::kPoint ? 0 : 1);
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const ArrayInfo* a, const ArrayInfo* b) { return rank(a) < rank(b); });
+  std::vector<DirectionChoice> choices;
+  for (const ArrayInfo* array : found) choices.push_back({array->name, array->association});
+  return choices;
+}
+
+HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view fibre,
+                         const std::string& file) {
+  const std::vector<DirectionChoice> choices = fibre_choices(arrays);
+  if (choices.empty()) {
+    throw input_error(
+        {file, "", "has no fibres", "an array of three numbers a point or cell",
+         "fibres come with EX and openCARP models, .ortho and .axi files, or as an array 'fibre'"});
+  }
+  HeartChoice choice{.fibre = choices.front()};
+  if (!fibre.empty()) {
+    const auto named = std::find_if(choices.begin(), choices.end(),
+                                    [&](const DirectionChoice& each) { return each.array == fibre; });
+    if (named == choices.end()) {
+      std::string known;
+      for (const DirectionChoice& each : choices) known += (known.empty() ? "" : ", ") + each.array;
+      throw usage_error("--field " + std::string(fibre) + ": " + file + " has " + known);
+    }
+    choice.fibre = *named;
+  }
+  for (const ArrayInfo& array : arrays) {
+    const bool scalar = array.components == 1 && array.association == Association::kPoint;
+    if (is_direction(array) && means(array.name, "sheet") && !means(array.name, "normal") &&
+        choice.sheet.array.empty())
+      choice.sheet = {array.name, array.association};
+    if (scalar && array.name == kLayerArray) choice.layer = kLayerArray;
+    if (scalar && array.name == kSurfaceArray) choice.surface = true;
+  }
+  return choice;
+}
+
+Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file, int threads) {
+  const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
+  if (!grid->tets) {
+    throw input_error(
+        {file, "", "is an image of voxels", "a mesh of the heart's wall", "dtmri shows images of fibres"});
+  }
+  const auto directions = [&](const DirectionChoice& from) {
+    return make_tensor_field(
+        grid, mesh, {.array = from.array, .order = TensorOrder::kAxis, .association = from.association}, file,
+        threads);
+  };
+  Heart heart;
+  heart.fibres = directions(choice.fibre);
+  heart.notes = heart.fibres->notes().lines;
+  if (choice.fibre.association == Association::kCell) {
+    heart.notes.emplace_back(
+        "directions of cells brought to the points: volume-weighted mean of their outer products");
+  }
+  if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
+  if (!choice.layer.empty()) {
+    heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
+    heart.notes.push_back("layers from the array '" + choice.layer + "'");
+  } else {
+    WallLayer layer = make_wall_layer(*grid, mesh, file);
+    DataSet with = mesh;
+    with.arrays = {std::move(layer.array)};
+    heart.layer = make_scalar_field(grid, with, {.array = kLayerArray}, file, threads);
+    heart.notes.emplace_back("layers by Laplace's equation from the inner to the outer surface");
+    heart.notes.insert(heart.notes.end(), layer.notes.begin(), layer.notes.end());
+  }
+  if (!(heart.layer->local_range() > 0.0))
+    throw input_error({file, "", "has layers that are all the same", "a depth that rises through the wall"});
+  return heart;
+}
+
+}  // namespace palpate

@@ -1,0 +1,58 @@
+/// The muscle of a heart as a field: fibres, sheets and layers on one tetrahedral mesh.
+///
+/// Directions have no sign: what is interpolated are the components of their outer products, and a direction
+/// is the major eigenvector of that (Ikits 2006, sec. 8.2). Directions of cells are brought to the points as
+/// outer products, too (their volume-weighted mean), so that signs leave no trace there either.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/scalar_field.h"
+#include "common/field/tensor/tensor_field.h"
+#include "common/field/vector_choice.h"
+
+namespace palpate {
+
+/// A direction array.
+struct DirectionChoice {
+  std::string array;
+  Association association = Association::kPoint;
+};
+
+/// Which arrays make a heart.
+struct HeartChoice {
+  DirectionChoice fibre;
+  DirectionChoice sheet;  ///< no array: none is known
+  std::string layer;      ///< point array that rises through the wall; empty: from Laplace's equation
+  bool surface = false;   ///< the file says which points lie on the inner and the outer surface
+
+  /// All that are to be read.
+  [[nodiscard]] std::vector<std::string> arrays() const;
+};
+
+/// Every array that may hold fibres, the one to be taken by default first: three components; names that
+/// mean fibres before others, points before cells, then file order. "sheet" and "normal" are none.
+[[nodiscard]] std::vector<DirectionChoice> fibre_choices(const std::vector<ArrayInfo>& arrays);
+
+/// @param fibre name of the fibres' array; empty: the default one.
+/// @throws Error (usage) naming the known ones, or (bad input) with `file` where there is none.
+[[nodiscard]] HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view fibre,
+                                       const std::string& file);
+
+struct Heart {
+  std::shared_ptr<const TensorField> fibres;
+  std::shared_ptr<const TensorField> sheets;  ///< null: not known
+  std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray
+  std::vector<std::string> notes;             ///< of mesh, fibres and layers, for the user
+};
+
+/// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without an inner and an outer
+/// surface where no layers are given, and as make_field_grid(); (work failed) as make_wall_layer().
+[[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
+                               int threads = 0);
+
+}  // namespace palpate

@@ -1,0 +1,79 @@
+#include "common/haptics/constraint/fibre_groove.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/haptics/fade.h"
+#include "common/haptics/motion_rule.h"
+
+namespace palpate {
+namespace {
+
+/// A motion below this is none [m].
+constexpr double kSettled = 1e-9;
+constexpr int kMostSteps = 24;
+/// Longest step [m]: fibres turn, and a faster hand is followed in several.
+constexpr double kStride = 0.002;
+/// Sine of the angle between fibre and layer normal from which on the groove has its full depth.
+constexpr double kLying = 0.2;
+
+}  // namespace
+
+void FibreGroove::update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept {
+  link.proxy = probe;
+  const SurfacePoint& asked = walk_.surface().point();
+  if (!walk_.follow(asked, link)) return;
+  const double to_metres = walk_.surface().workspace().local_scale();
+  SearchWork work{.limit = budget.iterations};
+  link.state = HoldState::kHeld;
+  bool rests = false;
+  for (int step = 0; step < kMostSteps && !rests; ++step) {
+    const FibreSample here = walk_.sample();
+    if (here.status != SampleStatus::kOk || here.normal == Vec3{0.0}) {
+      walk_.jump(asked);
+      link.state = HoldState::kFellBack;
+      rests = true;
+      break;
+    }
+    Vec3 r = asked.position - walk_.point().position;
+    r -= glm::dot(r, here.normal) * here.normal;
+    const double certainty = fibre_certainty(here.gap) * fade(here.tangential / kLying);
+    if (certainty == 0.0) {  // no groove: as far as the layer's proxy
+      link.jacobian = Mat3{1.0} - glm::outerProduct(here.normal, here.normal);
+      link.kappa = Vec3{0.0};
+      const double length = glm::length(r) * to_metres;
+      if (length <= kSettled) rests = true;
+      if (rests || !walk_.move(r * std::min(1.0, kStride / length), work)) break;
+      continue;
+    }
+    const Vec3 t = here.in_layer, c = glm::cross(here.normal, t);
+    const Workspace& workspace = walk_.surface().workspace();
+    link.frame = {workspace.turned(t), workspace.turned(c), workspace.turned(here.normal)};
+    link.kappa = {0.0, 1.0, 0.0};
+    link.jacobian = glm::outerProduct(link.frame[0], link.frame[0]);
+    const double along = glm::dot(r, t) * to_metres;
+    const double across = snap_drag(glm::dot(r, c) * to_metres, spacing_ * certainty);
+    if (std::abs(across) > 0.0) {
+      if (!walk_.move(c * (across / to_metres), work)) break;
+      continue;
+    }
+    if (std::abs(along) <= kSettled) {
+      rests = true;
+      break;
+    }
+    const double go = std::clamp(along, -kStride, kStride) / to_metres;
+    const SurfacePoint from = walk_.point();
+    if (!walk_.move(0.5 * go * t, work)) break;
+    const FibreSample half = walk_.sample();
+    walk_.jump(from);
+    Vec3 direction = t;
+    if (half.status == SampleStatus::kOk && half.in_layer != Vec3{0.0})
+      direction = glm::dot(half.in_layer, t) < 0.0 ? -half.in_layer : half.in_layer;
+    if (!walk_.move(go * direction, work)) break;
+  }
+  if (!rests) link.state = HoldState::kFellBack;
+  link.iterations = work.used;
+  walk_.describe(link);
+}
+
+}  // namespace palpate

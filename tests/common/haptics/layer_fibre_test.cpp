@@ -1,0 +1,240 @@
+// Layers, grooves and friction of a heart's wall under random hands.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/field/analytic/ventricle.h"
+#include "common/haptics/constraint/fibre_friction.h"
+#include "common/haptics/constraint/fibre_groove.h"
+#include "common/haptics/constraint/layer.h"
+#include "common/haptics/proxy_chain.h"
+#include "tests/support/allocation_guard.h"
+
+namespace palpate {
+namespace {
+
+std::shared_ptr<const LayeredHeart> layered(const DataSet& mesh) {
+  std::vector<ArrayInfo> arrays;
+  for (const DataArray& a : mesh.arrays)
+    arrays.push_back({a.name, a.association, a.components, a.type, a.tuples});
+  return std::make_shared<const LayeredHeart>(make_heart(mesh, choose_heart(arrays, "", "mesh"), "mesh"));
+}
+
+/// Layer, groove and friction in a chain, as the modes of cardiac have them.
+class Chain {
+ public:
+  explicit Chain(std::shared_ptr<const LayeredHeart> heart, const ChainSettings& settings = {}, int links = 3)
+      : heart_(std::move(heart)),
+        workspace_(Workspace::default_scale(heart_->heart().layer->diagonal()), heart_->frame()) {
+    const auto& depth = heart_->heart().layer;
+    std::vector<std::unique_ptr<Constraint>> made;
+    auto layer = std::make_unique<LayerConstraint>(depth, workspace_, default_layers(*depth));
+    layer_ = layer.get();
+    made.push_back(std::move(layer));
+    auto groove = std::make_unique<FibreGroove>(heart_, *layer_);
+    auto friction = std::make_unique<FibreFriction>(heart_, *layer_, *groove);
+    friction_ = friction.get();
+    if (links > 1) made.push_back(std::move(groove));
+    if (links > 2) made.push_back(std::move(friction));
+    chain_ = std::make_unique<ProxyChain>(std::move(made), settings);
+  }
+
+  ChainStep step(const Vec3& x_data) { return chain_->step(workspace_.workspace_from_data(x_data)); }
+  [[nodiscard]] Vec3 proxy(const ChainStep& step, std::size_t link) const {
+    return workspace_.data_from_workspace(step.proxies[link]);
+  }
+  [[nodiscard]] int layer() const { return layer_->surface().held_by(); }
+  [[nodiscard]] double level() const {
+    return layer_->surface().point().level / heart_->heart().layer->value_scale();
+  }
+  [[nodiscard]] double threshold() const { return friction_->threshold(); }
+  [[nodiscard]] const Workspace& workspace() const { return workspace_; }
+  [[nodiscard]] const LayeredHeart& heart() const { return *heart_; }
+
+ private:
+  std::shared_ptr<const LayeredHeart> heart_;
+  Workspace workspace_;
+  LayerConstraint* layer_ = nullptr;
+  FibreFriction* friction_ = nullptr;
+  std::unique_ptr<ProxyChain> chain_;
+};
+
+/// A slab 0 <= x, y <= 4, 0 <= z <= 1 with depth z and fibres that lean out of the layers by `lean`, at the
+/// angle `turn` from x.
+DataSet slab(double turn, double lean) {
+  constexpr int kCells = 8, kHigh = 8, kSide = kCells + 1;
+  DataSet mesh;
+  StructuredTopology topology;
+  topology.points = {kSide, kSide, kHigh + 1};
+  std::vector<double> x, fibres, depth;
+  for (int k = 0; k <= kHigh; ++k)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i) {
+        x.insert(x.end(), {4.0 * i / kCells, 4.0 * j / kCells, 1.0 * k / kHigh});
+        fibres.insert(fibres.end(),
+                      {std::cos(lean) * std::cos(turn), std::cos(lean) * std::sin(turn), std::sin(lean)});
+        depth.push_back(1.0 * k / kHigh);
+      }
+  topology.positions = make_array("x", Association::kPoint, 3, std::span<const double>(x));
+  mesh.topology = topology;
+  mesh.arrays = {make_array("fibre", Association::kPoint, 3, std::span<const double>(fibres)),
+                 make_array("layer", Association::kPoint, 1, std::span<const double>(depth))};
+  return mesh;
+}
+
+/// Strokes, tremor and leaps.
+class RoughHand {
+ public:
+  explicit RoughHand(const Box& box) : box_(box) { goal_ = at_ = somewhere(); }
+  Vec3 next() {
+    if (++step_ % 400 == 0) at_ = somewhere();  // a leap
+    if (step_ % 60 == 0) goal_ = somewhere();
+    std::normal_distribution<double> tremor(0.0, 2e-4 * box_.diagonal());
+    at_ += 0.02 * (goal_ - at_) + Vec3{tremor(random_), tremor(random_), tremor(random_)};
+    return at_;
+  }
+
+ private:
+  Vec3 somewhere() {
+    std::uniform_real_distribution<double> part(0.0, 1.0);
+    const double x = part(random_), y = part(random_), z = part(random_);
+    return box_.lower + box_.size() * Vec3{x, y, z};
+  }
+  Box box_;
+  std::mt19937 random_{17};
+  Vec3 at_{0.0}, goal_{0.0};
+  int step_ = 0;
+};
+
+TEST(LayerFibre, EveryProxyIsOnItsLayerAlongAnyPath) {
+  const auto heart = layered(ventricle_mesh({}, {.wall = 4, .along = 20, .around = 40}));
+  Chain chain(heart);
+  const ScalarField& depth = *heart->heart().layer;
+  RoughHand hand(depth.bounds());
+  const double size = depth.diagonal();
+  int held = 0;
+  std::array<CellHint, 3> hints;
+  for (int i = 0; i < 6000; ++i) {
+    const ChainStep step = chain.step(hand.next());
+    ASSERT_TRUE(is_finite(step.force));
+    if (chain.layer() < 0) continue;
+    ++held;
+    for (std::size_t link = 0; link < 3; ++link) {
+      const Vec3 p = chain.proxy(step, link);
+      const ScalarSample s = depth.sample(p, hints[link]);
+      const VectorSample g = depth.gradient(p, hints[link]);
+      if (s.status != SampleStatus::kOk) continue;  // on the rim, by rounding outside
+      ASSERT_LT(std::abs(s.value - chain.level()) / glm::length(g.value), 1e-9 * size)
+          << "link " << link << " step " << i;
+    }
+  }
+  EXPECT_GT(held, 1000);
+}
+
+TEST(LayerFibre, PopsThroughToTheNeighbouringLayer) {
+  Chain chain(layered(slab(0.3, 0.0)));
+  (void)chain.step({2.0, 2.0, 0.45});
+  (void)chain.step({2.0, 2.0, 0.51});  // crosses the layer of depth 4/8
+  ASSERT_EQ(chain.layer(), 3);
+  (void)chain.step({2.0, 2.0, 0.6});
+  EXPECT_EQ(chain.layer(), 3) << "held from both sides until the next layer is crossed";
+  const ChainStep popped = chain.step({2.0, 2.0, 0.64});
+  EXPECT_EQ(chain.layer(), 4);
+  EXPECT_TRUE(popped.jumped);
+  for (std::size_t link = 0; link < 3; ++link) EXPECT_NEAR(chain.proxy(popped, link).z, 0.625, 1e-9);
+}
+
+TEST(LayerFibre, RunsAlongTheFibreAndSnapsAcrossItByWholeGrooves) {
+  const double turn = 0.4;
+  Chain chain(layered(slab(turn, 0.0)), {}, 2);
+  const Vec3 along{std::cos(turn), std::sin(turn), 0.0}, across{-along.y, along.x, 0.0};
+  const double spacing = FibreSettings{}.spacing / chain.workspace().scale();
+  const Vec3 start{2.0, 2.0, 0.49};
+  (void)chain.step(start);
+  (void)chain.step({2.0, 2.0, 0.51});
+  const auto at = [&](double u, double v) {
+    const ChainStep step = chain.step(Vec3{2.0, 2.0, 0.51} + u * along + v * across);
+    const Vec3 p = chain.proxy(step, 1) - Vec3{2.0, 2.0, 0.5};
+    return Vec3{glm::dot(p, along), glm::dot(p, across), glm::length(step.force)};
+  };
+  const Vec3 first = at(0.8, 0.0);
+  EXPECT_NEAR(first.x, 0.8, 1e-6);  // freely along
+  EXPECT_NEAR(first.y, 0.0, 1e-6);
+  for (const double v : {0.3, 0.7, 0.99}) EXPECT_NEAR(at(0.8, v * spacing).y, 0.0, 1e-6);
+  EXPECT_NEAR(at(0.8, 1.01 * spacing).y, spacing, 1e-6);
+  EXPECT_NEAR(at(0.8, 0.05 * spacing).y, spacing, 1e-6) << "held in the next groove on the way back";
+  EXPECT_NEAR(at(0.8, 3.5 * spacing).y, 3.0 * spacing, 1e-6);
+}
+
+// Eq. 8.1 as corrected: hard where the fibre leaves the layer, whatever the fibre's sign.
+TEST(LayerFibre, FrictionFollowsHowFarFibresLeaveTheLayer) {
+  const FibreSettings settings;
+  double before = -1.0;
+  for (const double lean : {0.0, 0.3, 0.7, 1.2}) {
+    for (const double sign : {1.0, -1.0}) {
+      Chain chain(layered(slab(0.2, sign * lean)));
+      (void)chain.step({2.0, 2.0, 0.49});
+      (void)chain.step({2.0, 2.0, 0.51});
+      const double u = std::sin(lean);
+      EXPECT_NEAR(chain.threshold(), (1.0 - u) * settings.least_friction + u * settings.most_friction, 1e-9);
+    }
+    Chain chain(layered(slab(0.2, lean)));
+    // Dragged along the fibre: the last proxy stays behind by the threshold.
+    const Vec3 along{std::cos(0.2), std::sin(0.2), 0.0};
+    (void)chain.step({1.0, 2.0, 0.49});
+    ChainStep step = chain.step({1.0, 2.0, 0.51});
+    for (int i = 1; i <= 100; ++i) step = chain.step(Vec3{1.0, 2.0, 0.51} + 0.02 * i * along);
+    const double behind = glm::dot(chain.proxy(step, 1) - chain.proxy(step, 2), along);
+    EXPECT_NEAR(behind * chain.workspace().scale(), chain.threshold(), 1e-6) << lean;
+    EXPECT_GT(chain.threshold(), before);
+    before = chain.threshold();
+  }
+}
+
+TEST(LayerFibre, UndefinedFibresHoldNothing) {
+  const FibreSettings settings;
+  const FibreSample undefined{.fibre = {0, 0, 1}, .normal = {0, 0, 1}, .gap = 0.0};
+  EXPECT_EQ(FibreFriction::threshold(undefined, settings), settings.least_friction);
+  // Fibres that stand on the layer have no direction in it: the groove lets go.
+  Chain chain(layered(slab(0.0, 1.5707963267948966)), {}, 2);
+  (void)chain.step({2.0, 2.0, 0.49});
+  (void)chain.step({2.0, 2.0, 0.51});
+  const ChainStep step = chain.step({2.3, 2.2, 0.51});
+  EXPECT_LT(glm::distance(chain.proxy(step, 1), Vec3{2.3, 2.2, 0.5}), 1e-6);
+}
+
+TEST(LayerFibre, PowersOfTwoOfTheDataChangeNoBit) {
+  const auto run = [](double scale) {
+    DataSet mesh = slab(0.3, 0.2);
+    auto& positions = std::get<StructuredTopology>(mesh.topology).positions;
+    std::vector<double> x;
+    for (std::size_t p = 0; p < positions.tuples; ++p)
+      for (int c = 0; c < 3; ++c) x.push_back(scale * positions.at(p, c));
+    positions = make_array("x", Association::kPoint, 3, std::span<const double>(x));
+    Chain chain(layered(mesh));
+    std::vector<double> forces;
+    RoughHand hand(chain.heart().heart().layer->bounds());
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 f = chain.step(hand.next()).force;
+      forces.insert(forces.end(), {f.x, f.y, f.z});
+    }
+    return forces;
+  };
+  EXPECT_EQ(run(1.0), run(0x1p20));
+}
+
+TEST(LayerFibre, StepAllocatesNothing) {
+  Chain chain(layered(ventricle_mesh({}, {.wall = 2, .along = 10, .around = 20})));
+  RoughHand hand(chain.heart().heart().layer->bounds());
+  const test::AllocationGuard guard;
+  for (int i = 0; i < 1000; ++i) (void)chain.step(hand.next());
+  EXPECT_EQ(guard.count(), 0U);
+}
+
+}  // namespace
+}  // namespace palpate
