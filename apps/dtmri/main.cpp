@@ -2,6 +2,7 @@
 #include "apps/dtmri/dtmri_modes.h"
 #include "apps/dtmri/image_verbs.h"
 #include "apps/dtmri/open_verb.h"
+#include "apps/dtmri/tracts_verb.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -69,6 +70,11 @@ int main(int argc, char** argv) {
                     "a page: directions against b-value and noise at these gradients, tracts against time"},
                    {"dtmri report --example helix --quick --out report",
                     "without a file, in a few seconds"}}),
+              tracts_verb({{"dtmri tracts dwi.nii.gz --tracts bundle.trk", "do they fit the image?"},
+                           {"dtmri tracts tensor.nii.gz --tracts bundle.tck --turn=-x,-y,z --out ras.tck",
+                            "from LPS to RAS"},
+                           {"dtmri tracts tensor.nii.gz --tracts bundle.trx --out bundle.trk",
+                            "the same lines in another format"}}),
           },
   };
   return run_explorer(dtmri, argc, argv);

@@ -125,5 +125,23 @@ TEST_F(DtmriTrace, RefusesWhatItCannotDo) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(DtmriTrace, TractsAreHeldAgainstTheImageAndTurnedOnRequest) {
+  (void)json(
+      {"trace", "--example", "helix", "--seeds", "point:20,0,0", "--max-length", "200", "--out", "t.trk"});
+  const Json right = json({"tracts", "--example", "helix", "--tracts", "t.trk"});
+  EXPECT_FALSE(right["suspicious"].get<bool>());
+  EXPECT_LT(right["angle"].get<double>(), 15.0);
+  const Json wrong =
+      json({"tracts", "--example", "helix", "--tracts", "t.trk", "--turn=i,k,j", "--out", "wrong.vtp"});
+  EXPECT_EQ(wrong["turn"], "i,k,j");
+  const Json found = json({"tracts", "--example", "helix", "--tracts", "wrong.vtp"});
+  EXPECT_TRUE(found["suspicious"].get<bool>());
+  const Json about = json({"info", "t.trk"});
+  EXPECT_EQ(about["tracts"]["lines"], 1);
+  EXPECT_NEAR(about["tracts"]["length_max"].get<double>(), 200.0, 1.0);
+  EXPECT_EQ(about["format"], "TrackVis tracks");
+  EXPECT_EQ(about["orientation"][0], "RAS+ mm");
+}
+
 }  // namespace
 }  // namespace palpate::test

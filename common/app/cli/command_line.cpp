@@ -32,13 +32,15 @@ const Verb* find_verb(const Explorer& explorer, std::string_view name) {
 }
 
 /// A bare word that is no file was meant as a verb, or lacks its ending.
-void refuse_unknown_verb(const Explorer& explorer, const std::string& word) {
+/// @param alone no other word follows it, so that a file may have been meant.
+void refuse_unknown_verb(const Explorer& explorer, const std::string& word, bool alone) {
   const bool bare =
       std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
   std::error_code ignored;
   if (!bare || std::filesystem::exists(word, ignored)) return;
   std::string verbs;
   for (const Verb& verb : explorer.verbs) verbs += (verbs.empty() ? "" : ", ") + verb.name;
+  if (!alone) throw usage_error(word + ": no such verb; verbs are " + verbs);
   throw input_error({word, "", "there is no such file, and no such verb", "", "verbs are " + verbs});
 }
 
@@ -54,7 +56,10 @@ std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<s
                 arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     return arguments;
   }
-  if (i < arguments.size()) refuse_unknown_verb(explorer, arguments[i]);
+  if (i < arguments.size()) {
+    const bool alone = i + 1 == arguments.size() || arguments[i + 1].starts_with("-");
+    refuse_unknown_verb(explorer, arguments[i], alone);
+  }
   const bool only_asks =
       i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
         return a == "--help" || a == "-h" || a == "--version";
@@ -94,6 +99,7 @@ class VerbParser {
     if (verb.groups.measure) add_measure();
     if (verb.groups.slice) add_slice();
     if (verb.groups.part) add_part();
+    if (verb.groups.turn) add_turn();
   }
 
   [[nodiscard]] const SceneOptions& scene_options() const noexcept { return scene_options_; }
@@ -442,6 +448,17 @@ class VerbParser {
         ->group("Part");
   }
 
+  void add_turn() {
+    app_.add_option("--tracts", options_.tract_file, "lines in .tck, .trk, .trx or .vtp")
+        ->type_name("FILE")
+        ->group("Input");
+    app_.add_option("--turn", options_.tract_turn,
+                    "turn the tracts before they are written: --turn=-i,j,k along the image's axes about its "
+                    "centre, --turn=-x,-y,z along those of the coordinates about the origin")
+        ->type_name("AXES")
+        ->group("Output");
+  }
+
   void add_effort() {
     app_.add_flag_callback(
             "--quick", [this] { options_.effort = "quick"; }, "fewer seeds and settings")
@@ -506,8 +523,7 @@ ParsedCommand parse_once(
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     const auto chosen = app.get_subcommands();
-    parsed.text = (chosen.empty() ? app : *chosen.front())
-                      .help(chosen.empty() ? "" : explorer.name + " " + chosen.front()->get_name());
+    parsed.text = (chosen.empty() ? app : *chosen.front()).help(chosen.empty() ? "" : explorer.name);
     return parsed;
   } catch (const CLI::CallForVersion&) {
     parsed.text = version_text(explorer.name) + "\n";

@@ -4,16 +4,17 @@
 
 #include "common/app/cli/json_output.h"
 #include "common/base/error.h"
+#include "common/base/printable.h"
 
 namespace palpate {
 
 void Console::note(const std::string& line) const {
-  if (!quiet_) std::fprintf(stderr, "%s: %s\n", program_.c_str(), line.c_str());
+  if (!quiet_) std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line).c_str());
 }
 
 void Console::print(const std::string& text) {
   if (json_) return;
-  std::fputs(text.c_str(), stdout);
+  std::fputs(printable(text, "\n").c_str(), stdout);
   std::fflush(stdout);  // a plan is seen before the work that it plans
 }
 
@@ -25,7 +26,7 @@ void Console::print_json(const std::string& object) {
 }
 
 void Console::fail(const std::string& line, int exit_code) {
-  std::fprintf(stderr, "%s: %s\n", program_.c_str(), line.c_str());
+  std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line, "\n").c_str());
   print_json(error_json(line, exit_code));
   std::fflush(stdout);
 }

@@ -50,6 +50,7 @@ struct VerbGroups {
   bool measure = false;  ///< --measure
   bool slice = false;    ///< --plane and how a slice is written
   bool part = false;     ///< --box of a volume
+  bool turn = false;     ///< --tracts and --turn
 };
 
 struct Verb {

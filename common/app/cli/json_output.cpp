@@ -173,6 +173,40 @@ std::string tract_json(const TractSummary& summary) {
   return text_of(json);
 }
 
+namespace {
+
+Json lines_json(const LinesSummary& lines) {
+  return {{"lines", lines.lines},
+          {"points", lines.points},
+          {"length_min", lines.lengths.least},
+          {"length_median", lines.lengths.median},
+          {"length_mean", lines.lengths.mean},
+          {"length_max", lines.lengths.most},
+          {"length_bin", lines.lengths.bin},
+          {"length_histogram", lines.lengths.histogram}};
+}
+
+}  // namespace
+
+std::string tract_fit_json(const TractFitSummary& summary) {
+  const TractFit& fit = summary.fit;
+  const Json json{{"input", summary.input},
+                  {"tracts", summary.tracts},
+                  {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                  {"turn", summary.turn.empty() ? Json(nullptr) : Json(summary.turn)},
+                  {"lengths", lines_json(summary.lines)},
+                  {"pieces", fit.pieces},
+                  {"inside", fit.inside},
+                  {"angle", fit.angle},
+                  {"score", fit.score},
+                  {"best_turn", fit.best.words()},
+                  {"turn_gain", std::isfinite(fit.gain) ? Json(fit.gain) : Json(nullptr)},
+                  {"suspicious", fit.suspicious},
+                  {"notes", summary.notes},
+                  {"version", version()}};
+  return text_of(json);
+}
+
 std::string info_json(const InfoSummary& summary) {
   const Input& input = *summary.input;
   Json json{{"input", input.title()}};
@@ -203,6 +237,7 @@ std::string info_json(const InfoSummary& summary) {
   } else if (summary.field_range) {
     json["range"] = {summary.field_range->lower, summary.field_range->upper};
   }
+  if (summary.tracts) json["tracts"] = lines_json(*summary.tracts);
   json["bounds"] = box_json(summary.bounds);
   json["diagonal"] = summary.bounds.diagonal();
   json["memory_bytes"] = summary.memory_bytes;

@@ -16,6 +16,7 @@ namespace palpate {
 [[nodiscard]] std::string info_json(const InfoSummary& summary);
 [[nodiscard]] std::string render_json(const RenderSummary& summary);
 [[nodiscard]] std::string lattice_json(const LatticeSummary& summary);
+[[nodiscard]] std::string tract_fit_json(const TractFitSummary& summary);
 [[nodiscard]] std::string image_json(const ImageSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
 [[nodiscard]] std::string open_json(const OpenSummary& summary);

@@ -149,6 +149,8 @@ struct Options {
   std::string effort = "normal";
   std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl
   std::string measure = "fa";         ///< measure: name_of(TensorMeasure)
+  std::filesystem::path tract_file;   ///< tracts: those that are held against the image
+  std::string tract_turn;             ///< tracts: grammar of parse_tract_turn(); empty: none
   std::filesystem::path session;
   /// Options that were given, by the command line or a session, and their text: what a session saves.
   std::vector<std::pair<std::string, std::string>> given;

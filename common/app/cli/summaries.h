@@ -9,12 +9,14 @@
 
 #include "common/base/needs.h"
 #include "common/device/device.h"
+#include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
 #include "common/trace/trace.h"
 #include "common/trace/tract/trace_tracts.h"
+#include "common/trace/tract/tract_orientation.h"
 
 namespace palpate {
 
@@ -66,6 +68,13 @@ struct ArraySummary {
   std::uint64_t bad_values = 0;        ///< NaN and infinite numbers
 };
 
+/// Lines of a file, and how long they are.
+struct LinesSummary {
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  TractogramLengths lengths;
+};
+
 struct InfoSummary {
   const Input* input = nullptr;
   std::vector<ArraySummary> arrays;
@@ -75,6 +84,7 @@ struct InfoSummary {
   std::optional<ComponentRange> field_range;  ///< of a scalar field with finite values
   double largest_trace = 0.0;                 ///< of a tensor field, in the data's units
   std::size_t negative_tensors = 0;           ///< of a tensor field: with an eigenvalue below zero
+  std::optional<LinesSummary> tracts;         ///< of a file of lines
   Box bounds;
   std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;
@@ -151,6 +161,17 @@ struct LatticeSummary {
   double window = 0.0, level = 0.0;    ///< of a picture
   double seconds_load = 0.0;
   double seconds_made = 0.0;
+};
+
+/// Tracts held against an image.
+struct TractFitSummary {
+  std::string input;   ///< the image
+  std::string tracts;  ///< the file of lines
+  std::string output;  ///< empty: none
+  LinesSummary lines;  ///< as written
+  TractFit fit;        ///< as read
+  std::string turn;    ///< that was asked for; empty: none
+  std::vector<std::string> notes;
 };
 
 struct RenderSummary {

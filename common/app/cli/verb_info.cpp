@@ -8,6 +8,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
+#include "common/load/read_tractogram.h"
 #include "common/scene/plan.h"
 
 namespace palpate {
@@ -71,7 +72,7 @@ char letter_of(const Vec3& step) {
 
 std::string orientation_of(const DataSet& block, bool anatomical) {
   const auto* uniform = std::get_if<UniformTopology>(&block.topology);
-  if (!uniform) return "coordinates as stored";
+  if (!uniform) return anatomical ? "RAS+ mm" : "coordinates as stored";
   const Mat3& a = uniform->axes;
   if (anatomical) {
     return std::string("RAS+ mm; voxel axes run to ") + letter_of(a[0]) + ", " + letter_of(a[1]) + ", " +
@@ -93,6 +94,11 @@ void read_all(Input& input, const Options& options, const VerbContext& context, 
   }
   context.progress.begin("reading " + input.title(), 0);
   const std::vector<DataSet> blocks = input.read(names, &context.progress);
+  if (may_hold_lines(*input.file())) {
+    const Tractogram lines = pack_lines(blocks);
+    if (lines.line_count() > 0 || input.file()->blocks.front().grid == "lines")
+      summary.tracts = LinesSummary{lines.line_count(), lines.points.size(), lengths_of(lines)};
+  }
   for (const DataSet& block : blocks) {
     context.progress.check();
     const std::string orientation = orientation_of(block, input.file()->anatomical);
@@ -120,6 +126,25 @@ std::string range_text(const ArraySummary& array) {
   return text;
 }
 
+std::string tracts_text(const LinesSummary& tracts) {
+  const TractogramLengths& lengths = tracts.lengths;
+  std::string text = "  lines      " + std::to_string(tracts.lines) + " of " +
+                     counted(tracts.points, "point") + ", lengths " + short_number(lengths.least) + " … " +
+                     short_number(lengths.most) + ", median " + short_number(lengths.median) + ", mean " +
+                     short_number(lengths.mean) + "\n";
+  if (!(lengths.bin > 0.0)) return text;
+  constexpr std::size_t kWidth = 40;  // characters of the longest bar
+  const std::size_t most = *std::max_element(lengths.histogram.begin(), lengths.histogram.end());
+  for (std::size_t b = 0; b < lengths.histogram.size(); ++b) {
+    const std::size_t count = lengths.histogram[b];
+    const std::string range = short_number(lengths.bin * static_cast<double>(b)) + " … " +
+                              short_number(lengths.bin * static_cast<double>(b + 1));
+    const std::string bar((count * kWidth + most - 1) / most, '#');
+    text += "             " + range + ": " + std::to_string(count) + (bar.empty() ? "" : " " + bar) + "\n";
+  }
+  return text;
+}
+
 std::string file_text(const InfoSummary& summary, const FileInfo& file) {
   std::string text = summary.input->title() + ": " + file.format + "\n";
   for (const BlockInfo& block : file.blocks) {
@@ -140,6 +165,7 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
             std::to_string(array.info.components) + " x " + name_of(array.info.type) +
             "): " + range_text(array) + "\n";
   }
+  if (summary.tracts) text += tracts_text(*summary.tracts);
   if (file.times.size() > 1) {
     text += "  times      " + std::to_string(file.times.size()) + ", " + short_number(file.times.front()) +
             " … " + short_number(file.times.back()) + "\n";

@@ -1,0 +1,72 @@
+#include "apps/dtmri/tracts_verb.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/text.h"
+#include "common/load/read_tractogram.h"
+#include "common/load/write_lines.h"
+#include "common/load/write_tractogram.h"
+
+namespace palpate {
+namespace {
+
+ExitCode run_tracts(const Options& options, const VerbContext& context) {
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.tract_file.empty()) throw usage_error("tracts needs a file of lines: try --tracts tracts.tck");
+  std::optional<TractTurn> turn;
+  if (!options.tract_turn.empty()) turn = parse_tract_turn(options.tract_turn);
+  if (turn && options.out.empty())
+    throw usage_error("--turn needs a file that the turned tracts are written to: try --out turned.tck");
+  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+
+  TractogramFile file = read_tractogram(options.tract_file, &context.progress);
+  Input input = open_input(options, context);
+  const auto field = input.load_tensor(options.common.threads, &context.progress);
+  context.progress.begin("comparing", 0);
+
+  TractFitSummary summary;
+  summary.input = input.title();
+  summary.tracts = options.tract_file.string();
+  summary.fit = fit_of_tracts(*field, file.lines, options.common.threads);
+  summary.notes = file.info.notes;
+  summary.notes.push_back(fit_sentence(summary.fit, "--turn"));
+  if (turn) {
+    turn_tracts(map_of(*turn, *field->voxels()), file.lines);
+    summary.turn = turn->words();
+    summary.notes.push_back(
+        "turned by " + summary.turn + ", as asked for: now " +
+        fit_sentence(fit_of_tracts(*field, file.lines, options.common.threads), "--turn"));
+  }
+  summary.lines = {file.lines.line_count(), file.lines.points.size(), lengths_of(file.lines)};
+  if (!options.out.empty()) {
+    // Positions in a .trk file are those of an image: this one.
+    const UniformTopology& voxels = *field->voxels();
+    file.lines.image = TractogramImage{voxels.points, voxels.axes, voxels.origin};
+    context.progress.begin("writing " + options.out.filename().string(), 0);
+    write_tractogram(options.out, file.lines, options.common.force);
+    summary.output = options.out.string();
+  }
+  for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
+  context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
+                        counted(summary.lines.lines, "line") + ", " + counted(summary.lines.points, "point") +
+                        ", median length " + short_number(summary.lines.lengths.median) + "\n");
+  context.console.print_json(tract_fit_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb tracts_verb(std::vector<UsageExample> examples) {
+  return {.name = "tracts",
+          .summary = "hold tracts against an image, turn them on request, and write them in another format",
+          .groups = {.out = true, .turn = true},
+          .examples = std::move(examples),
+          .run = run_tracts};
+}
+
+}  // namespace palpate
