@@ -2,6 +2,7 @@
 
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/tensor_scene.h"
+#include "common/app/cli/view_tracts.h"
 
 namespace palpate {
 
@@ -23,19 +24,61 @@ DtmriContent DtmriModel::read(Input& input, const Options& options, Progress& pr
   state.volume = std::move(view.volume);
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
+  if (!options.tract_look.file.empty()) {
+    state.tracts = TractView{.bundle = read_view_tracts(options.tract_look, &progress).bundle,
+                             .width = options.tract_look.width,
+                             .opacity = options.tract_look.opacity};
+  }
   return std::make_shared<const SceneState>(std::move(state));
 }
 
-SceneState DtmriModel::present(Input& /*input*/, const DtmriContent& content, const Options& /*options*/,
-                               const SceneSettings& settings, const SceneState* /*before*/,
-                               Progress& /*progress*/) const {
+SceneState DtmriModel::present(Input& /*input*/, const DtmriContent& content, const Options& options,
+                               const SceneSettings& settings, const SceneState* before,
+                               Progress& progress) const {
   SceneState state = *content;
   state.settings = settings;
+  if (settings.seeds.empty()) return state;
+  const bool same = before != nullptr && same_content(settings, before->settings) &&
+                    settings.seeds == before->settings.seeds && settings.cutoff == before->settings.cutoff &&
+                    settings.seeds_per_voxel == before->settings.seeds_per_voxel;
+  if (same) {
+    state.tracts = before->tracts;
+    state.seeds = before->seeds;
+    state.seconds_trace = before->seconds_trace;
+    return state;
+  }
+  TractTracingOptions wanted = options.tracts;
+  wanted.seeds = settings.seeds;
+  wanted.seeds_per_voxel = settings.seeds_per_voxel;
+  wanted.cutoff = settings.cutoff;
+  const ViewTracts traced = trace_view_tracts(wanted, options.common, *state.tensors->image, &progress);
+  state.tracts = TractView{
+      .bundle = traced.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
+  state.seeds = traced.seeds;
+  state.seconds_trace = traced.seconds;
+  if (traced.bundle->order.empty()) state.notes.push_back("no tract: " + traced.why_none);
   return state;
 }
 
+void DtmriModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
+  settings.seeds = options.tracts.seeds;
+  settings.seeds_per_voxel = options.tracts.seeds_per_voxel;
+  settings.cutoff = options.tracts.cutoff;
+}
+
 void DtmriModel::describe_session(Session& session, const InputSpec& /*spec*/, const Options& options,
-                                  const SceneSettings& /*settings*/, const SceneView& view) const {
+                                  const SceneSettings& settings, const SceneView& view) const {
+  if (!options.tract_look.file.empty())
+    add_option(session, "tracts", std::filesystem::absolute(options.tract_look.file).string());
+  if (!settings.seeds.empty()) {
+    add_option(session, "seeds", settings.seeds);
+    add_option(session, "seeds-per-voxel", std::to_string(settings.seeds_per_voxel));
+    add_option(session, "cutoff", exact_number(settings.cutoff));
+    if (view.tracts) {
+      add_option(session, "tract-width", exact_number(view.tracts->width));
+      add_option(session, "tract-opacity", exact_number(view.tracts->opacity));
+    }
+  }
   if (view.tensors) {
     add_option(session, "slices", slices_text(*view.tensors));
     add_option(session, "color", std::string(name_of(view.tensors->color)));

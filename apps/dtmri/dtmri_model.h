@@ -1,4 +1,5 @@
-/// What the window shows of diffusion tensors: their slices, made on the window's background thread.
+/// What the window shows of diffusion tensors: their slices and tracts, made on the window's background
+/// thread.
 #pragma once
 
 #include <memory>
@@ -20,6 +21,7 @@ class DtmriModel final : public InputModel<DtmriContent> {
   [[nodiscard]] SceneState present(Input& input, const DtmriContent& content, const Options& options,
                                    const SceneSettings& settings, const SceneState* before,
                                    Progress& progress) const override;
+  void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
   void describe_session(Session& session, const InputSpec& spec, const Options& options,
                         const SceneSettings& settings, const SceneView& view) const override;
 };

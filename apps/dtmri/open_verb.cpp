@@ -3,19 +3,27 @@
 #include <utility>
 
 #include "apps/dtmri/dtmri_model.h"
+#include "apps/dtmri/dtmri_modes.h"
 #include "common/app/cli/tensor_scene.h"
 #include "common/app/cli/verb_open.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/view_tracts.h"
 
 namespace palpate {
 
 Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
-      {.summary = "look at tensors in a window (the verb that FILE alone stands for)",
-       .groups = {.view = true},
+      {.summary =
+           "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",
+       .groups = {.tracts = true, .view = true, .touch = true, .record = true, .replay = true},
+       .modes = dtmri_modes(),
        .render = tensor_render_verb({}),
        .next = "info FILE",
-       .check = [](const Options& options) { check_tensor_options(options); },
+       .check =
+           [](const Options& options) {
+             check_tensor_options(options);
+             check_view_tracts(options.tracts, options.tract_look);
+           },
        .use = [](const Input&, const Options&) { return SceneUse{}; },
        .model = [](const Options& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); },

@@ -1,6 +1,6 @@
 /// What a picture shows of the probe, as plain data: the hand and the proxy that it is tied to, the
 /// streamline that holds it, where it has been, and the lines around it (figure 1.1 and sec. 8.1 of
-/// Ikits 2006: rake probe, stream balls, local vector icon).
+/// Ikits 2006: rake probe, stream balls, local vector icon; figure 8.4: path through tensors).
 ///
 /// Positions are in data coordinates. A view is cheap to copy and to change every frame: what is large in
 /// it is shared, and counts as the same while it is the same object. Things whose position is not finite
@@ -88,6 +88,7 @@ struct ProbeStyle {
   /// Opacity of probe, proxy, band, arrow, balls and followed line where something nearer hides them: the
   /// hand must not be lost in a bundle of lines. 0: hidden is hidden.
   double see_through = 0.55;
+  double tensor_length = 44.0;              ///< of the longest axis of ProbeView::tensor
   ColorMap force_map = ColorMap::kTension;  ///< of band and path
 
   bool operator==(const ProbeStyle&) const = default;
@@ -102,6 +103,9 @@ struct ProbeView {
 
   Vec3 velocity{0.0};  ///< of the field at the probe, where the arrow starts; zero or not finite: no arrow
   double reference_speed = 0.0;  ///< for which the arrow has ProbeStyle::arrow_length; <= 0: no arrow
+
+  /// A diffusion tensor at the proxy, whose glyph stands in its place.
+  std::optional<Mat3> tensor;
 
   std::shared_ptr<const FollowedLine> followed;  ///< may be null
   PathView path;

@@ -21,6 +21,7 @@
 #include "common/render/palette.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
+#include "common/render/tract/tract_pass.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -55,6 +56,10 @@ Box reach_of(const SceneView& view) {
   for (const auto& polyline : view.outline) {
     for (const Vec3& x : polyline) box.include(x);
   }
+  if (view.tracts && !view.tracts->bundle->bounds.empty()) {
+    box.include(view.tracts->bundle->bounds.lower);
+    box.include(view.tracts->bundle->bounds.upper);
+  }
   if (view.tensors) {
     const Box voxels = view.tensors->image->bounds();
     box.include(voxels.lower);
@@ -87,7 +92,7 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
          a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
          a.surfaces == b.surfaces && p.points == q.points && a.probe->style == b.probe->style &&
          a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
-         same_tensors(a, b);
+         same_tensors(a, b) && a.tracts == b.tracts;
 }
 
 bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
@@ -127,6 +132,7 @@ struct SceneRenderer::State {
   std::unique_ptr<VolumePass> volume;
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
+  std::unique_ptr<TractPass> tracts;
   std::unique_ptr<Overlay> overlay;
   Stopwatch since_draw;
 
@@ -135,6 +141,7 @@ struct SceneRenderer::State {
   std::shared_ptr<const std::vector<Line>> shown_lines;
   Box shown_bounds, reach;
   std::shared_ptr<const TensorVoxels> shown_tensors;
+  std::shared_ptr<const TractBundle> shown_tracts;
   std::vector<std::vector<Vec3>> shown_outline;
   std::optional<LineStyle> shown_style;
   SceneFrame frame;
@@ -142,11 +149,13 @@ struct SceneRenderer::State {
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
-  std::size_t still_path = 0;  // the path is drawn there up to this point
+  std::size_t still_path = 0;   // the path is drawn there up to this point
+  std::size_t tract_piece = 0;  // of the picture: tracts are drawn up to this one
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
-        shown_outline == view.outline && shown_tensors == (view.tensors ? view.tensors->image : nullptr)) {
+        shown_outline == view.outline && shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
+        shown_tracts == (view.tracts ? view.tracts->bundle : nullptr)) {
       return;
     }
     reach = reach_of(view);
@@ -157,6 +166,7 @@ struct SceneRenderer::State {
     shown_lines = view.lines;
     shown_bounds = view.bounds;
     shown_tensors = view.tensors ? view.tensors->image : nullptr;
+    shown_tracts = view.tracts ? view.tracts->bundle : nullptr;
     shown_outline = view.outline;
     shown_style.reset();
     still.reset();
@@ -243,6 +253,20 @@ struct SceneRenderer::State {
     surfaces->draw();
   }
 
+  // From where the picture has got to, into the framebuffer that is bound.
+  void draw_tracts(const SceneView& view, const LineDraw& base, float unit, double milliseconds) {
+    if (!view.tracts) {
+      tracts.reset();
+      tract_piece = 0;
+      return;
+    }
+    if (!tracts) tracts = std::make_unique<TractPass>();
+    tracts->update(*view.tracts, frame);
+    LineDraw how = base;
+    how.dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0));
+    tract_piece = tracts->draw(line_program, *view.tracts, how, unit, tract_piece, milliseconds);
+  }
+
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.
   void draw_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
@@ -254,15 +278,21 @@ struct SceneRenderer::State {
   // added to it bit by bit. The order is that of drawing everything, so the picture is the same. A volume
   // stays, too: the hand is seen through it, and need not wait for its rays.
   void draw_with_probe(const SceneView& view, const LineDraw& base, float unit,
-                       const ViewTransform& transform) {
+                       const ViewTransform& transform, double tract_milliseconds) {
     const bool other_path = update_probe(view);
     target.bind_still();
     if (other_path || !still || !same_still_part(*still, view)) {
       draw_still_part(view, base, unit, transform);
-      if (shows_volume(view)) draw_volume(view);
+      tract_piece = 0;
+      // What shines lies over the tracts, so that none can be added later.
+      if (shows_volume(view)) {
+        draw_tracts(view, base, unit, tract_milliseconds);
+        draw_volume(view);
+      }
       still = view;
       still_path = 0;
     }
+    if (!shows_volume(view)) draw_tracts(view, base, unit, tract_milliseconds);
     still_path = probe->draw_settled_path(line_program, view, unit, still_path);
     target.copy_still_to_scene();
     target.bind_scene();
@@ -274,7 +304,8 @@ struct SceneRenderer::State {
 SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
 SceneRenderer::~SceneRenderer() = default;
 
-void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution) {
+void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution,
+                         double tract_milliseconds) {
   State& s = *state_;
   s.since_draw.restart();
   if (s.target.resize(width, height, resolution)) s.still.reset();
@@ -301,10 +332,12 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   base.tolerance = line_tolerance(transform, perspective, pixel);
   base.back = Vec3f(view.camera.axes[2]);
   if (view.probe) {
-    s.draw_with_probe(view, base, unit, transform);
+    s.draw_with_probe(view, base, unit, transform, tract_milliseconds);
   } else {
     s.target.bind_scene();
     s.draw_still_part(view, base, unit, transform);
+    s.tract_piece = 0;
+    s.draw_tracts(view, base, unit, tract_milliseconds);
     if (shows_volume(view)) s.draw_volume(view);
   }
   if (is_transparent(view)) s.draw_lines(view, base, unit);
@@ -320,6 +353,13 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
     s.overlay->draw(view, s.legend, width, height);
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+bool SceneRenderer::complete() const noexcept {
+  const State& s = *state_;
+  // A picture that cannot be added to is all that it will be.
+  const bool goes_on = s.still && !shows_volume(*s.still) && s.tracts;
+  return !goes_on || s.tract_piece >= s.tracts->pieces();
 }
 
 double SceneRenderer::finish() {

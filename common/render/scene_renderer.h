@@ -1,6 +1,7 @@
 /// Draws a SceneView with OpenGL: into a framebuffer of its own, to be read or shown.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "common/render/scene_view.h"
@@ -22,8 +23,13 @@ class SceneRenderer {
 
   /// @param resolution in (0, 1]: less draws lines with fewer pixels along either edge and enlarges them,
   /// while the mouse moves a scene that is slow to draw; text stays sharp.
+  /// @param tract_milliseconds that this picture may spend on tracts. Where they take longer it shows an even
+  /// sample of them; the same view again, with a probe and without a volume, adds more of them.
   /// @throws Error (usage) for a size that cannot be drawn.
-  void draw(const SceneView& view, int width, int height, double resolution = 1.0);
+  void draw(const SceneView& view, int width, int height, double resolution = 1.0,
+            double tract_milliseconds = HUGE_VAL);
+  /// Whether the last picture shows all tracts that can be shown.
+  [[nodiscard]] bool complete() const noexcept;
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

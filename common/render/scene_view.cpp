@@ -14,7 +14,7 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
-         (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) &&
+         (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
          a.volume_label == b.volume_label && a.anatomical == b.anatomical && a.surfaces == b.surfaces;
 }
 

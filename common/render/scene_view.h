@@ -16,6 +16,7 @@
 #include "common/render/probe_view.h"
 #include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
+#include "common/render/tract/tract_view.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -40,6 +41,7 @@ struct SceneView {
   std::vector<SurfaceView> surfaces;
   std::optional<VolumeView> volume;
   std::optional<TensorView> tensors;
+  std::optional<TractView> tracts;
   std::string volume_label;  ///< what its values are, for the colour bar
   bool anatomical = false;   ///< data coordinates are RAS+: letters say where right, front and up are
 };

@@ -11,9 +11,11 @@ in Vertex {
   flat vec3 color;
 } vertex;
 
+layout(location = 0) uniform float opacity;
+
 layout(location = 0) out vec4 color;
 
 void main() {
   vec2 shine = surface_light(normalize(vertex.normal), light_direction(), normalize(vertex.to_eye));
-  color = vec4(shade(vertex.color, shine.x, shine.y), 1.0);
+  color = vec4(shade(vertex.color, shine.x, shine.y), opacity);
 }

@@ -48,7 +48,7 @@ class TouchWindow : public ExplorerTest {
     options.recorded.program = "flow";
     ProbeSession session(options, [] {});
     const auto field = make_vector_field(example("tornado"));
-    session.set_field(field, field_key("example tornado velocity", 0));
+    session.set_field({field, field_key("example tornado velocity", 0)});
     const Vec3 start = field->bounds().lower + 0.4 * (field->bounds().upper - field->bounds().lower);
     const Camera camera = make_camera(field->bounds(), {}, 1.5);
     ProbeView view;

@@ -337,6 +337,14 @@ class VerbParser {
           "colours between the centres of voxels: nearest (default), each voxel has its own; or linear",
           "nearest|linear", group)
         ->check(CLI::IsMember({"nearest", "linear"}));
+    TractLook& tracts = options_.tract_look;
+    scene("--tracts", tracts.file,
+          "a tractogram to show: .tck, .trk, .trx, or lines in .vtp; or --seeds traces some", "FILE", group);
+    scene("--tract-width", tracts.width, "of tracts, in thousandths of the picture's height; default 1.5",
+          "W", group)
+        ->check(CLI::Range(0.1, 100.0));
+    scene("--tract-opacity", tracts.opacity, "of tracts; default 1", "0..1", group)
+        ->check(CLI::Range(0.01, 1.0));
   }
 
   void add_path() {

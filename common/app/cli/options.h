@@ -99,6 +99,13 @@ struct TensorOptions {
   std::string volume = "auto";      ///< auto: with a lens; none, fa, direction: of what is outside lenses
 };
 
+/// Tracts of a file, and how tracts are drawn.
+struct TractLook {
+  std::string file;      ///< a tractogram; empty: none
+  double width = 1.5;    ///< thousandths of the picture's height
+  double opacity = 1.0;  ///< in (0, 1]
+};
+
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
   std::string mode;                ///< empty: the program's first one
@@ -117,13 +124,14 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  LinearWords linear;            ///< mode linear
-  double field_force = 1.0;      ///< [N] of the force-field modes
-  double field_damping = 5.0;    ///< [N s/m], likewise
-  std::string density_curve;     ///< haptic transfer function; empty: straight
-  std::string anisotropy_curve;  ///< haptic transfer function [mm]; empty: that of AnisotropySettings
-  double force_cap = 4.0;        ///< [N]
-  double slew_cap = 200.0;       ///< [N/s]
+  LinearWords linear;             ///< mode linear
+  double field_force = 1.0;       ///< [N] of the force-field modes
+  double field_damping = 5.0;     ///< [N s/m], likewise
+  std::string density_curve;      ///< haptic transfer function; empty: straight
+  std::string anisotropy_curve;   ///< haptic transfer function [mm]; empty: that of AnisotropySettings
+  std::string stroke = "append";  ///< name_of(StrokeUse)
+  double force_cap = 4.0;         ///< [N]
+  double slew_cap = 200.0;        ///< [N/s]
 };
 
 struct Options {
@@ -135,6 +143,7 @@ struct Options {
   VolumeOptions volume;
   SliceOptions slice;
   TensorOptions tensors;
+  TractLook tract_look;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded

@@ -126,6 +126,14 @@ void add_anisotropy(SceneOptions& options, TouchOptions& touch) {
       "distance in mm at which the proxy follows across the main direction, by anisotropy from 0 to 1, "
       "as A:MM,A:MM[,...][,smooth], from 0:0 on and never falling; default 0:0,1:8",
       "CURVE", kGroup);
+  const std::string uses = "append|replace";
+  options
+      .add("--stroke", touch.stroke,
+           "window: a stroke goes on from the end of a tract that it begins at (append, default), or takes "
+           "the "
+           "place of what was drawn",
+           uses, kGroup)
+      ->check(one_of(uses));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/scene/input.h"
 #include "common/scene/seeds.h"
 #include "common/scene/voxel_seeds.h"
@@ -102,6 +103,22 @@ TractOptions tract_options(const TractTracingOptions& options, int threads, Prog
   tracts.stop = parse_regions(options.stop, "--stop", threads, progress);
   tracts.threads = threads;
   return tracts;
+}
+
+std::string why_no_tract(const TractResult& result, const TractOptions& options) {
+  const TractsDropped& d = result.dropped;
+  std::string why;
+  const auto add = [&why](std::size_t count, const std::string& what) {
+    if (count > 0) why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(d.outside, "seeds outside the image");
+  add(d.bad_data, "seeds without a tensor");
+  add(d.below_cutoff, "seeds where " + std::string(name_of(options.measure)) + " is below --cutoff " +
+                          short_number(options.cutoff));
+  add(d.too_short, "lines shorter than --min-length");
+  add(d.not_included, "lines that miss an --include region");
+  add(d.excluded, "lines that enter an --exclude region");
+  return why;
 }
 
 std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,

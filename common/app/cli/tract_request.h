@@ -28,4 +28,7 @@ namespace palpate {
                                             const TensorField& field, const DataSet& image, int threads,
                                             Progress* progress = nullptr);
 
+/// Of tracing that gave no line: what became of its seeds and lines, and by which option.
+[[nodiscard]] std::string why_no_tract(const TractResult& result, const TractOptions& options);
+
 }  // namespace palpate

@@ -34,7 +34,6 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kStepsBetweenChecks = 4096;
-constexpr double kTractSpacing = 2e-4;  // diagonals, between points of a tract
 
 /// Processor time of this thread [us].
 double thread_microseconds() {

@@ -3,6 +3,7 @@
 #include "common/app/cli/picture.h"
 #include "common/app/cli/tensor_scene.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/view_tracts.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 
@@ -23,8 +24,19 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
   drawn.voxels = voxels->directions.size();
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.measured = measured_costs(input, nullptr);
-  drawn.view =
-      make_tensor_scene(input, make_tensor_view(std::move(voxels), options.tensors), options, aspect);
+  drawn.view = make_tensor_scene(input, make_tensor_view(voxels, options.tensors), options, aspect);
+  const bool read = !options.tract_look.file.empty();
+  if (!read && options.tracts.seeds.empty()) return drawn;
+  const ViewTracts tracts =
+      read ? read_view_tracts(options.tract_look, &context.progress)
+           : trace_view_tracts(options.tracts, options.common, *voxels, &context.progress);
+  if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
+  drawn.lines = tracts.bundle->order.size();
+  drawn.points = tracts.bundle->lines->points.size();
+  drawn.seconds_trace = tracts.seconds;
+  drawn.what += ", " + counted(drawn.lines, "tract");
+  drawn.view.tracts = TractView{
+      .bundle = tracts.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
   return drawn;
 }
 
@@ -33,10 +45,14 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
 Verb tensor_render_verb(std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the tensors, with or without a display",
-          .groups = {.view = true, .out = true, .picture = true},
+          .groups = {.tracts = true, .view = true, .out = true, .picture = true},
           .examples = std::move(examples),
           .run = [](const Options& options, const VerbContext& context) {
-            const PictureMaker maker{.check = [](const Options& given) { check_tensor_options(given); },
+            const PictureMaker maker{.check =
+                                         [](const Options& given) {
+                                           check_tensor_options(given);
+                                           check_view_tracts(given.tracts, given.tract_look);
+                                         },
                                      .use = use_of,
                                      .make = make_scene};
             return draw_picture(maker, options, context);

@@ -33,21 +33,8 @@ std::vector<std::string> advice_for(const TractSummary& summary) {
 
 /// Why there is no line, or empty.
 std::string failure_of(const TractSummary& summary) {
-  const TractResult& result = summary.result;
-  if (result.lines.line_count() > 0) return {};
-  const TractsDropped& d = result.dropped;
-  std::string why;
-  const auto add = [&why](std::size_t count, const std::string& what) {
-    if (count > 0) why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + what;
-  };
-  add(d.outside, "seeds outside the image");
-  add(d.bad_data, "seeds without a tensor");
-  add(d.below_cutoff, "seeds where " + std::string(name_of(summary.options.measure)) + " is below --cutoff " +
-                          short_number(summary.options.cutoff));
-  add(d.too_short, "lines shorter than --min-length");
-  add(d.not_included, "lines that miss an --include region");
-  add(d.excluded, "lines that enter an --exclude region");
-  return "no line: " + why;
+  if (summary.result.lines.line_count() > 0) return {};
+  return "no line: " + why_no_tract(summary.result, summary.options);
 }
 
 std::string dropped_text(const TractsDropped& d) {

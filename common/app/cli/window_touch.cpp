@@ -55,6 +55,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   }
   touch.choice.settings = touch_settings(options.touch);
   touch.choice.ticks = wants_ticks(options.touch);
+  touch.choice.stroke = stroke_use_from_name(options.touch.stroke);
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;

@@ -1,24 +1,68 @@
 #include "common/app/haptic/drawn_tract.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <utility>
 
 #include "common/load/write_lines.h"
 
 namespace palpate {
+namespace {
 
-TractPen::TractPen(std::shared_ptr<const TensorField> field, double spacing)
-    : field_(std::move(field)), spacing_(spacing) {}
+constexpr std::size_t kLeastPoints = 2;  // of a line
 
-void TractPen::add(double time, const Vec3& proxy, double force) {
-  if (!down_) {
+/// The other way round, arc and time counted from its new first point.
+void turn_round(DrawnTract& tract) {
+  std::vector<LinePoint>& points = tract.line.points;
+  const double arc = points.back().arc, time = points.back().time;
+  for (LinePoint& point : points) {
+    point.arc = arc - point.arc;
+    point.time = time - point.time;
+  }
+  std::reverse(points.begin(), points.end());
+  std::reverse(tract.forces.begin(), tract.forces.end());
+  std::reverse(tract.measures.begin(), tract.measures.end());
+}
+
+}  // namespace
+
+TractPen::TractPen(std::shared_ptr<const TensorField> field, double spacing, double reach)
+    : field_(std::move(field)), spacing_(spacing), reach_(reach) {}
+
+void TractPen::begin(double time, const Vec3& proxy) {
+  if (reach_ > 0.0) before_.push_back(tracts_);
+  ++edits_;
+  down_ = true;
+  if (use_ == StrokeUse::kReplace && fresh_) tracts_.clear();
+  fresh_ = false;
+
+  double nearest = reach_;
+  auto joined = tracts_.end();
+  bool at_front = false;
+  for (auto tract = tracts_.begin(); tract != tracts_.end(); ++tract) {
+    for (const bool front : {true, false}) {
+      const std::vector<LinePoint>& points = tract->line.points;
+      const double away = glm::distance((front ? points.front() : points.back()).position, proxy);
+      if (!(away < nearest)) continue;
+      nearest = away;
+      joined = tract;
+      at_front = front;
+    }
+  }
+  if (joined == tracts_.end()) {
     tracts_.emplace_back();
     tracts_.back().line.end = End::kStoppedByRule;
     tracts_.back().line.seed = static_cast<std::uint32_t>(tracts_.size() - 1);
     start_ = time;
-    down_ = true;
+    return;
   }
+  if (at_front) turn_round(*joined);
+  std::rotate(joined, std::next(joined), tracts_.end());
+  start_ = time - tracts_.back().line.points.back().time;
+}
+
+void TractPen::add(double time, const Vec3& proxy, double force) {
+  if (!down_) begin(time, proxy);
   DrawnTract& tract = tracts_.back();
   std::vector<LinePoint>& points = tract.line.points;
   if (!points.empty()) {
@@ -43,29 +87,70 @@ void TractPen::add(double time, const Vec3& proxy, double force) {
   tract.measures.push_back(measures_at(*field_, proxy, hint_));
 }
 
-void TractPen::clear() {
-  tracts_.clear();
+void TractPen::lift() {
+  // A hand that has not moved has drawn nothing.
+  const bool nothing = down_ && depth() > 0 && tracts_.back().line.points.size() < kLeastPoints;
   down_ = false;
+  if (nothing) undo();
 }
 
-std::size_t save_tracts(const std::filesystem::path& path, const std::vector<DrawnTract>& tracts,
-                        bool overwrite) {
-  std::vector<Line> lines;
-  std::array<PointColumn, 4> columns{PointColumn{.name = "force", .values = {}},
-                                     {.name = "cl", .values = {}},
-                                     {.name = "cp", .values = {}},
-                                     {.name = "fa", .values = {}}};
-  for (const DrawnTract& tract : tracts) {
-    if (tract.line.points.size() < 2) continue;
-    lines.push_back(tract.line);
-    columns[0].values.insert(columns[0].values.end(), tract.forces.begin(), tract.forces.end());
-    for (const TensorMeasures& measures : tract.measures) {
+void TractPen::let_go() {
+  lift();
+  fresh_ = true;
+}
+
+void TractPen::cut(std::size_t points) {
+  if (tracts_.empty() || tracts_.back().forces.size() <= points) return;
+  DrawnTract& tract = tracts_.back();
+  tract.line.points.resize(points);
+  tract.forces.resize(points);
+  tract.measures.resize(points);
+  ++edits_;
+}
+
+std::vector<DrawnTract> TractPen::take() {
+  lift();
+  if (tracts_.empty()) return {};
+  if (reach_ > 0.0) before_.push_back(tracts_);
+  ++edits_;
+  std::vector<DrawnTract> taken = std::exchange(tracts_, {});
+  std::erase_if(taken, [](const DrawnTract& tract) { return tract.line.points.size() < kLeastPoints; });
+  return taken;
+}
+
+void TractPen::undo() {
+  down_ = false;
+  tracts_ = std::move(before_.back());
+  before_.pop_back();
+  ++edits_;
+}
+
+void write_drawn(const std::filesystem::path& path, std::span<const DrawnTract> lines, bool overwrite) {
+  std::vector<Line> written;
+  std::vector<PointColumn> columns{{.name = "force", .values = {}}};
+  const bool measured =
+      std::any_of(lines.begin(), lines.end(), [](const DrawnTract& line) { return !line.measures.empty(); });
+  if (measured) {
+    for (const char* name : {"cl", "cp", "fa"}) columns.push_back({.name = name, .values = {}});
+  }
+  for (const DrawnTract& line : lines) {
+    written.push_back(line.line);
+    columns[0].values.insert(columns[0].values.end(), line.forces.begin(), line.forces.end());
+    for (const TensorMeasures& measures : line.measures) {
       columns[1].values.push_back(measures.parts.linear);
       columns[2].values.push_back(measures.parts.planar);
       columns[3].values.push_back(measures.fractional_anisotropy);
     }
   }
-  write_lines(path, lines, overwrite, columns);
+  write_lines(path, written, overwrite, columns);
+}
+
+std::size_t save_tracts(const std::filesystem::path& path, const std::vector<DrawnTract>& tracts,
+                        bool overwrite) {
+  std::vector<DrawnTract> lines;
+  std::copy_if(tracts.begin(), tracts.end(), std::back_inserter(lines),
+               [](const DrawnTract& tract) { return tract.line.points.size() >= kLeastPoints; });
+  write_drawn(path, lines, overwrite);
   return lines.size();
 }
 

@@ -2,8 +2,11 @@
 /// each point (Ikits 2006, figure 8.4).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/field/tensor/measures_at.h"
@@ -12,41 +15,73 @@
 
 namespace palpate {
 
-/// A tract and the columns that are saved with it, one number a point.
+/// A line and the columns that are saved with it, one number a point.
 struct DrawnTract {
-  Line line;                   ///< data coordinates; time since its first point [s]
-  std::vector<double> forces;  ///< the largest felt at the point [N]
-  std::vector<TensorMeasures> measures;
+  Line line;                             ///< data coordinates; of a tract, time since its first point [s]
+  std::vector<double> forces;            ///< the largest felt at the point [N]; NaN where none was
+  std::vector<TensorMeasures> measures;  ///< none of a streamline
 };
 
-/// Grows tracts from the steps of the servo. One thread.
+/// What a stroke does with the tracts that were drawn before the hand took the probe.
+enum class StrokeUse : std::uint8_t {
+  kAppend,  ///< goes on from the end of one that it begins at, else it is a tract of its own
+  kReplace  ///< takes their place
+};
+
+/// Distance of points of drawn tracts, in diagonals of the image: fine enough for any voxel, coarse enough
+/// for any file.
+inline constexpr double kTractSpacing = 2e-4;
+
+/// Grows tracts from the steps of the servo, a stroke at a time, and takes strokes back. One thread.
 class TractPen {
  public:
   /// @param spacing of points [data units]: steps closer to the last point than this are taken together.
-  TractPen(std::shared_ptr<const TensorField> field, double spacing);
+  /// @param reach about the ends of tracts in which a stroke goes on from them [data units]; 0: every stroke
+  /// is a tract of its own, and none can be taken back.
+  TractPen(std::shared_ptr<const TensorField> field, double spacing, double reach = 0.0);
 
+  void use(StrokeUse use) noexcept { use_ = use; }
   /// The proxy is at `proxy` [data coordinates] and the force on the hand is `force` [N]; time in seconds.
   void add(double time, const Vec3& proxy, double force);
-  /// The hand is off, or the proxy has jumped: the next add() begins another tract.
-  void lift() noexcept { down_ = false; }
-  void clear();
+  /// Nothing holds the proxy, or it has jumped: the next add() begins another stroke.
+  void lift();
+  /// The hand is off, too.
+  void let_go();
 
-  /// In the order of time, those of one point too.
+  /// In the order of their first strokes. A stroke that goes on from the first point of a tract turns that
+  /// round.
   [[nodiscard]] const std::vector<DrawnTract>& tracts() const noexcept { return tracts_; }
+  /// Takes out all but the first `points` of the stroke's own tract. @pre 0 < points.
+  void cut(std::size_t points);
+  /// Leaves those of two points and more to the caller, and none here.
+  [[nodiscard]] std::vector<DrawnTract> take();
+  /// Strokes and take()s that undo() can take back.
+  [[nodiscard]] std::size_t depth() const noexcept { return before_.size(); }
+  /// Takes back the last of these, whole. @pre depth() > 0. A stroke that is being drawn ends.
+  void undo();
+  /// Grows whenever tracts() has changed by more than a point at the end of its last tract.
+  [[nodiscard]] std::uint64_t edits() const noexcept { return edits_; }
 
  private:
+  void begin(double time, const Vec3& proxy);
+
   std::shared_ptr<const TensorField> field_;
-  double spacing_;
+  double spacing_, reach_;
+  StrokeUse use_ = StrokeUse::kAppend;
   CellHint hint_;
-  double start_ = 0.0;  ///< time of the first point of the last tract
+  double start_ = 0.0;  ///< time at which the last tract's own is 0
   bool down_ = false;
+  bool fresh_ = true;  ///< the hand has drawn nothing since it took the probe
+  std::uint64_t edits_ = 0;
   std::vector<DrawnTract> tracts_;
+  std::vector<std::vector<DrawnTract>> before_;  ///< each stroke, each take()
 };
 
-/// Writes those of at least two points, with the columns `force`, `cl`, `cp` and `fa` where the format has
-/// columns.
-/// @return how many these are.
-/// @throws Error as write_lines().
+/// Writes `lines` with the columns `force` and, where they have measures, `cl`, `cp` and `fa`, where the
+/// format has columns (.vtp, .trk, .csv). @throws Error as write_lines().
+void write_drawn(const std::filesystem::path& path, std::span<const DrawnTract> lines, bool overwrite);
+
+/// The same for those of at least two points. @return how many these are.
 std::size_t save_tracts(const std::filesystem::path& path, const std::vector<DrawnTract>& tracts,
                         bool overwrite);
 

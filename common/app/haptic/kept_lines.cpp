@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "common/load/write_lines.h"
-
 namespace palpate {
 
 std::vector<double> forces_along(const Line& line, std::span<const FeltForce> felt) {
@@ -39,13 +37,16 @@ std::vector<double> forces_along(const Line& line, std::span<const FeltForce> fe
   return forces;
 }
 
-void KeptLines::keep(Line line, std::vector<double> forces) {
+void KeptLines::keep(std::vector<DrawnTract> lines) {
   before_.push_back(entries_);
-  Entry entry{.number = next_number_++,
-              .line = std::make_shared<const Line>(std::move(line)),
-              .forces = std::move(forces)};
-  for (const double force : entry.forces) entry.largest_force = std::fmax(entry.largest_force, force);
-  entries_.push_back(std::move(entry));
+  for (DrawnTract& line : lines) {
+    Entry entry{.number = next_number_++,
+                .line = std::make_shared<const Line>(std::move(line.line)),
+                .forces = std::move(line.forces),
+                .measures = std::move(line.measures)};
+    for (const double force : entry.forces) entry.largest_force = std::fmax(entry.largest_force, force);
+    entries_.push_back(std::move(entry));
+  }
   changed();
 }
 
@@ -77,14 +78,12 @@ void KeptLines::changed() {
 }
 
 void KeptLines::save(const std::filesystem::path& path, bool overwrite) const {
-  std::vector<Line> lines;
-  PointColumn force{.name = "force", .values = {}};
+  std::vector<DrawnTract> lines;
   for (const Entry& entry : entries_) {
-    lines.push_back(*entry.line);
-    lines.back().seed = static_cast<std::uint32_t>(entry.number);
-    force.values.insert(force.values.end(), entry.forces.begin(), entry.forces.end());
+    lines.push_back({*entry.line, entry.forces, entry.measures});
+    lines.back().line.seed = static_cast<std::uint32_t>(entry.number);
   }
-  write_lines(path, lines, overwrite, std::span(&force, 1));
+  write_drawn(path, lines, overwrite);
 }
 
 }  // namespace palpate

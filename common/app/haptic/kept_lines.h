@@ -1,12 +1,14 @@
-/// Followed lines that the user has kept: a list, with the force that was felt along each.
+/// Followed lines and drawn tracts that the user has kept: a list, with the force that was felt along each.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/app/haptic/drawn_tract.h"
 #include "common/geometry/line.h"
 #include "common/render/probe_view.h"
 
@@ -27,11 +29,14 @@ class KeptLines {
   struct Entry {
     int number = 1;  ///< counts all that were ever kept
     std::shared_ptr<const Line> line;
-    std::vector<double> forces;  ///< [N], one a point; NaN where none was felt
+    std::vector<double> forces;            ///< [N], one a point; NaN where none was felt
+    std::vector<TensorMeasures> measures;  ///< one a point of a tract; none of a streamline
     double largest_force = 0.0;
   };
 
-  void keep(Line line, std::vector<double> forces);
+  void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}}}); }
+  /// All of them, as one thing to take back.
+  void keep(std::vector<DrawnTract> lines);
   /// Takes out the one at `index`. @pre index < entries().size().
   void remove(std::size_t index);
   /// Takes back the last keep() or remove(); false where there is nothing to take back.
@@ -42,7 +47,7 @@ class KeptLines {
   /// For the picture; another object whenever the list has changed.
   [[nodiscard]] const std::shared_ptr<const std::vector<KeptLine>>& drawn() const noexcept { return drawn_; }
 
-  /// Writes all lines, with the column `force` where the format has columns (.vtp, .csv).
+  /// Writes all lines as write_drawn().
   /// @throws Error.
   void save(const std::filesystem::path& path, bool overwrite) const;
 

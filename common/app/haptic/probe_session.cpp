@@ -22,6 +22,8 @@ constexpr double kLocalReach = 0.06;   // diagonals: half the length of a rake
 constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
 constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
 constexpr std::size_t kMostFelt = 1U << 20U;
+constexpr double kTractReach =
+    0.01;  // diagonals: as near as that to the end of a tract, a stroke goes on from it
 
 bool same_points(const Line& a, const Line& b) {
   return a.points.size() == b.points.size() && a.points.front().position == b.points.front().position &&
@@ -85,16 +87,22 @@ HapticChain ProbeSession::build(const std::string& description) const {
   return build_chain(description, options_.modes, open_, options_.threads);
 }
 
-bool ProbeSession::set_field(std::shared_ptr<const VectorField> field, const std::string& name,
-                             std::shared_ptr<const ScalarField> scalar) {
-  if (!available() || (!field && !scalar)) return false;
-  if (field == open_.field && (field || scalar == open_.scalar)) return false;
+bool ProbeSession::set_field(NamedField open) {
+  if (!available() || open.empty()) return false;
+  // A flow keeps its hand when another scalar is felt.
+  const bool same =
+      open.tensor == open_.tensor && open.field == open_.field && (open.field || open.scalar == open_.scalar);
+  if (same) return false;
   let_go();
-  open_ = {std::move(field), name, std::move(scalar)};
+  open_ = std::move(open);
   hint_ = scalar_hint_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   if (!surfaces_) surfaces_ = std::make_unique<FeltSurfaces>(wake_);
+  pen_.reset();
+  if (open_.tensor)
+    pen_.emplace(open_.tensor, kTractSpacing * open_.diagonal(), kTractReach * open_.diagonal());
+  list_edits_.clear();
   clear_path();
   kept_.clear();
   last_drawn_.reset();
@@ -168,6 +176,7 @@ void ProbeSession::grab(double time, const Vec3& position) {
   if (!servo_ || replay_ || path_device_) return;
   target_ = position;
   noted_.reset();
+  noted_points_.reset();
   mouse_->grab(time, workspace().workspace_from_data(position), 1);
 }
 
@@ -226,41 +235,17 @@ std::pair<double, double> ProbeSession::measure_range() const {
 
 std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   if (!available()) return {};
-  constexpr double kMillimetres = 1e3;
-  const ChainSettings& settings = choice_.settings;
-  std::vector<std::pair<std::string, std::string>> options{
-      {"mode", options_.modes[choice_.mode].name},
-      {"stiffness", exact_number(settings.stiffness)},
-      {"release", exact_number(kMillimetres * settings.streamline.release_distance)},
-      {"drag", exact_number(kMillimetres * settings.drag.threshold)},
-      {"tick-stiffness", exact_number(settings.ticks.stiffness)},
-      {"speed-force", exact_number(settings.streamline.speed_force)},
-      {"field-force", exact_number(settings.force_field.strength)},
-      {"field-damping", exact_number(settings.force_field.damping)},
-      {"density-curve", settings.force_field.density.text()},
-      {"anisotropy-curve", settings.anisotropy.tau.text(1.0 / kMillimetres)}};
-  const IsosurfaceSettings& surface = settings.isosurface;
-  options.emplace_back("surface", name_of(surface.hold));
-  options.emplace_back("depth", exact_number(kMillimetres * surface.depth));
-  options.emplace_back("snap", exact_number(kMillimetres * surface.snap_distance));
-  std::string isovalues;
-  for (int i = 0; i < surface.isovalues.count; ++i) {
-    (isovalues += i > 0 ? "," : "") += exact_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
-  }
-  if (!isovalues.empty()) options.emplace_back("isovalue", isovalues);
-  if (surface.along_streamline) options.emplace_back("along-streamline", "true");
-  for (auto& option : linear_options(settings.linear)) options.push_back(std::move(option));
-  if (choice_.ticks) {
-    const double interval = settings.ticks.interval;
-    options.emplace_back("ticks", interval > 0.0 ? exact_number(interval) : "auto");
-  }
-  if (options_.workspace_scale > 0.0) {
+  auto options = touch_options_of(choice_, options_.modes[choice_.mode].name, has_tensors());
+  if (options_.workspace_scale > 0.0)
     options.emplace_back("workspace-scale", exact_number(options_.workspace_scale));
-  }
   return options;
 }
 
 void ProbeSession::clear_path() {
+  if (pen_) {
+    (void)pen_->take();
+    drawn_edits_ = pen_->edits();
+  }
   path_ = std::make_shared<ProbePath>(open_.empty() ? 0.0 : kPathSpacing * open_.diagonal());
 }
 
@@ -294,6 +279,7 @@ void ProbeSession::take(const HandStep& step) {
   if (replay_) follow_replayed_chain(step.number);
   if (!step.present) {
     path_->append(gap, 0.0);
+    if (pen_) pen_->let_go();
     readout_.held = false;
     held_before_ = false;
     return;
@@ -310,10 +296,11 @@ void ProbeSession::take(const HandStep& step) {
     felt_.clear();
     other_line_ = false;
     // A line is popped over to when the next one holds; a surface is behind when it lets go.
-    if (held_before_ && !surfaces_of_) ++readout_.popped;
+    if (held_before_ && has_flow() && !surfaces_of_) ++readout_.popped;
   }
   if (surfaces_of_ && step.state == HoldState::kReleased) ++readout_.popped;
   held_before_ = held_before_ || on_line;
+  if (pen_) draw_tract(step, proxy, force);
   path_->append(on_line ? proxy : gap, force);
   const double spacing = kPathSpacing * open_.diagonal();
   if (!on_line) {
@@ -352,6 +339,7 @@ void ProbeSession::follow_replayed_chain(std::uint64_t step) {
 void ProbeSession::read_out() {
   if (!readout_.held) return;
   readout_.sampled = false;
+  readout_.tensor.reset();
   readout_.scalar.reset();
   readout_.scalar_name.clear();
   readout_.cell.clear();
@@ -360,7 +348,10 @@ void ProbeSession::read_out() {
     if (sample.status == SampleStatus::kOk) readout_.scalar = sample.value;
     readout_.scalar_name = open_.scalar->name();
   }
-  if (open_.field) {
+  if (open_.tensor) {
+    const TensorSample sample = open_.tensor->sample(readout_.proxy, hint_);
+    if (sample.status == SampleStatus::kOk) readout_.tensor = sample.value;
+  } else if (open_.field) {
     const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
     readout_.sampled = sample.status == SampleStatus::kOk;
     readout_.velocity = sample.value;
@@ -391,12 +382,22 @@ void ProbeSession::describe(ProbeView& view) const {
   view.force = readout_.force;
   view.force_cap = options_.limits.force_cap;
   view.velocity = readout_.held && readout_.sampled ? readout_.velocity : Vec3{0.0};
+  view.tensor = readout_.held ? readout_.tensor : std::nullopt;
   // A hand outside the data follows nothing.
   const bool outside = readout_.held && readout_.state == HoldState::kOutside;
   view.followed = curve_ && !outside ? last_drawn_ : nullptr;
-  view.path = choice_.show_path ? PathView{path_, path_->size(), std::nullopt} : PathView{};
+  view.path = choice_.show_path ? PathView{path_, path_->size(), tension_range()} : PathView{};
   view.seeds = local_->drawn();
   view.kept = kept_.drawn();
+}
+
+/// Of the path through tensors: up to the most that their thresholds let the hand feel, which may be little
+/// of what the device could show. None elsewhere.
+std::optional<ValueRange> ProbeSession::tension_range() const {
+  const ChainSettings& settings = choice_.settings;
+  const double most =
+      std::min(options_.limits.force_cap, settings.stiffness * settings.anisotropy.tau.highest());
+  return has_tensors() && most > 0.0 ? std::optional(ValueRange{0.0, most}) : std::nullopt;
 }
 
 bool ProbeSession::lively() const noexcept {
@@ -418,18 +419,52 @@ std::optional<double> ProbeSession::surfaces_fraction() const {
   return surfaces_ ? surfaces_->fraction() : std::nullopt;
 }
 
+void ProbeSession::draw_tract(const HandStep& step, const Vec3& proxy, double force) {
+  const bool held = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
+  if (!held || step.chain.jumped) pen_->lift();
+  if (!held) return;
+  pen_->use(choice_.stroke);
+  pen_->add(step.time, proxy, force);
+  if (pen_->edits() != drawn_edits_) redraw_path();
+}
+
+/// The path is that of the tracts, after some of them have changed.
+void ProbeSession::redraw_path() {
+  drawn_edits_ = pen_->edits();
+  path_ = std::make_shared<ProbePath>(kPathSpacing * open_.diagonal());
+  for (const DrawnTract& tract : pen_->tracts()) {
+    path_->append(Vec3{kNotThere}, 0.0);
+    for (std::size_t i = 0; i < tract.forces.size(); ++i)
+      path_->append(tract.line.points[i].position, tract.forces[i]);
+  }
+}
+
 void ProbeSession::note_line() {
   noted_.reset();
+  noted_points_.reset();
+  if (pen_ && readout_.held && !pen_->tracts().empty())
+    noted_points_ = pen_->tracts().back().line.points.size();
   if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
   noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), felt_)};
 }
 
+ProbeSession::Keeping ProbeSession::keep_tracts() {
+  std::vector<DrawnTract> tracts = pen_->take();
+  if (tracts.empty()) return Keeping::kNothing;
+  list_edits_.push_back({.strokes = pen_->depth(), .took = true});
+  kept_.keep(std::move(tracts));
+  redraw_path();
+  return Keeping::kKept;
+}
+
 ProbeSession::Keeping ProbeSession::keep_line() {
+  if (pen_) return keep_tracts();
   if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
   return keep(curve_->line(), forces_along(curve_->line(), felt_));
 }
 
 ProbeSession::Keeping ProbeSession::keep_noted_line() {
+  if (pen_ && noted_points_ && readout_.held) pen_->cut(*noted_points_);
   return noted_ && readout_.held ? keep(noted_->line, noted_->forces) : keep_line();
 }
 
@@ -440,6 +475,23 @@ ProbeSession::Keeping ProbeSession::keep(const Line& line, std::vector<double> f
   }
   kept_.keep(line, std::move(forces));
   return Keeping::kKept;
+}
+
+void ProbeSession::remove_kept(std::size_t index) {
+  list_edits_.push_back({.strokes = pen_ ? pen_->depth() : 0, .took = false});
+  kept_.remove(index);
+}
+
+bool ProbeSession::undo() {
+  if (!pen_) return kept_.undo();
+  const std::size_t before = list_edits_.empty() ? 0 : list_edits_.back().strokes;
+  const bool of_list = !list_edits_.empty() && pen_->depth() == before;
+  if (!of_list && pen_->depth() == 0) return false;
+  if (of_list) (void)kept_.undo();
+  if (!of_list || list_edits_.back().took) pen_->undo();
+  if (of_list) list_edits_.pop_back();
+  redraw_path();
+  return true;
 }
 
 void ProbeSession::record_event(std::uint64_t frame, const std::string& text) {

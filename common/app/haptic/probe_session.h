@@ -15,11 +15,13 @@
 #include <vector>
 
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/followed_curve.h"
 #include "common/app/haptic/haptic_mode.h"
 #include "common/app/haptic/kept_lines.h"
 #include "common/app/haptic/local_lines.h"
+#include "common/app/haptic/touch_choice.h"
 #include "common/device/mouse_device.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
@@ -29,20 +31,6 @@
 #include "common/servo/servo_loop.h"
 
 namespace palpate {
-
-/// What the user can choose about touch, as panels edit it.
-struct TouchChoice {
-  std::size_t mode = 0;  ///< index into the modes
-  ChainSettings settings;
-  bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
-  bool show_balls = true;
-  bool show_path = true;
-  bool show_surface = true;  ///< isosurfaces that are felt
-  bool fade_rest = true;     ///< the scene's own lines step back while a hand is on the probe
-  SeedShape local = SeedShape::kNone;
-
-  bool operator==(const TouchChoice&) const = default;
-};
 
 struct ProbeSessionOptions {
   std::vector<HapticMode> modes;  ///< empty: no touch at all
@@ -75,6 +63,7 @@ struct ProbeReadout {
   std::string cell;    ///< of the grid, at the proxy: a number, or i j k; empty where there is none
   Vec3 velocity{0.0};  ///< at the proxy, of a flow; meaningless where `sampled` is false
   bool sampled = false;
+  std::optional<Mat3> tensor;    ///< at the proxy, of an image of tensors; none where there is none
   std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
   std::string scalar_name;       ///< empty where none is felt
   int popped = 0;                ///< times that the hand has gone over to another line, or through a surface
@@ -96,13 +85,9 @@ class ProbeSession {
   [[nodiscard]] bool available() const noexcept { return !options_.modes.empty(); }
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
 
-  /// Takes another field and lets go; `name` is its field_key(). The same field again changes nothing.
-  /// @param field null for a volume of scalars alone.
-  /// @param scalar what modes of a scalar feel; null: what each takes by default
-  /// @return whether it was another one.
-  bool set_field(std::shared_ptr<const VectorField> field, const std::string& name,
-                 std::shared_ptr<const ScalarField> scalar = nullptr);
-  /// Whether there is a flow, whose lines can be followed, kept and shown about the probe.
+  /// Takes another input and lets go; where it has a scalar, modes of a scalar feel that. The same one again
+  /// changes nothing. @return whether it was another one.
+  bool set_field(NamedField open);
 
   /// @name The hand
   /// @{
@@ -127,7 +112,10 @@ class ProbeSession {
   /// Lowest and highest of what curves of mode `linear` take [data units]; 0 and 1 while there is no data.
   /// Steepness up to that of all values within an eighth of the diagonal, which little exceeds.
   [[nodiscard]] std::pair<double, double> measure_range() const;
+  /// Whether there is a flow, whose lines can be followed, kept and shown about the probe.
   [[nodiscard]] bool has_flow() const noexcept { return open_.field != nullptr; }
+  /// Whether there are tensors, through which tracts are drawn by hand.
+  [[nodiscard]] bool has_tensors() const noexcept { return open_.tensor != nullptr; }
   /// The choice as options of the command line and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> options() const;
 
@@ -145,17 +133,25 @@ class ProbeSession {
   [[nodiscard]] std::optional<double> surfaces_fraction() const;
 
   enum class Keeping : std::uint8_t { kKept, kAlready, kNothing };
-  /// Keeps the line that is followed, or was last, with the forces felt along it.
+  /// Keeps the line that is followed, or was last, with the forces felt along it; of tensors, the tracts that
+  /// were drawn.
   Keeping keep_line();
   /// Keeps instead the one that note_line() has noted, if the hand has not been let go since.
   Keeping keep_noted_line();
-  /// Notes the line that is followed now, while the hand rests: on its way to a panel it may slip to others.
+  /// Notes the line that is followed now, or how far the tract is drawn, while the hand rests: on its way to
+  /// a panel it may slip to others.
   void note_line();
   /// Whether mouse and keys move the probe: not in a replay, nor with a path as the device.
   [[nodiscard]] bool by_mouse() const noexcept { return options_.path.empty() && !replaying(); }
-  [[nodiscard]] KeptLines& kept() noexcept { return kept_; }
   [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
+  /// Takes out the kept line at `index`. @pre index < kept().entries().size().
+  void remove_kept(std::size_t index);
+  /// Takes back the last stroke, keep_line(), remove_kept() or clear_path() of tracts; false where there is
+  /// none. A path without tracts stays cleared.
+  bool undo();
   void clear_path();
+  /// Whether tracts are drawn that are not kept yet.
+  [[nodiscard]] bool has_drawn() const noexcept { return pen_ && !pen_->tracts().empty(); }
 
   /// A line of text for the recording, where there is one.
   void record_event(std::uint64_t frame, const std::string& text);
@@ -182,6 +178,10 @@ class ProbeSession {
   void describe(ProbeView& view) const;
   void follow_chain(const HapticChain& made);
   Keeping keep(const Line& line, std::vector<double> forces);
+  Keeping keep_tracts();
+  void draw_tract(const HandStep& step, const Vec3& proxy, double force);
+  void redraw_path();
+  [[nodiscard]] std::optional<ValueRange> tension_range() const;
 
   ProbeSessionOptions options_;
   std::function<void()> wake_;
@@ -199,6 +199,15 @@ class ProbeSession {
     std::vector<double> forces;
   };
   std::optional<NotedLine> noted_;
+  std::optional<TractPen> pen_;              ///< where there are tensors
+  std::uint64_t drawn_edits_ = 0;            ///< of the pen that the path shows
+  std::optional<std::size_t> noted_points_;  ///< of the tract that is being drawn
+  /// A change of the kept lines: how far the pen's strokes went then, and whether it gave its tracts to them.
+  struct ListEdit {
+    std::size_t strokes = 0;
+    bool took = false;
+  };
+  std::vector<ListEdit> list_edits_;
   std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, replayed_isovalues_;
   KeptLines kept_;

@@ -86,10 +86,22 @@ void edit_linear(LinearSettings& settings, const ProbeSession& session) {
                       ImGuiSliderFlags_AlwaysClamp);
 }
 
+void edit_anisotropy(AnisotropySettings& settings) {
+  AnisotropySettings edited = settings;
+  const CurveRange range{.high_value = kFarthest};
+  if (!draw_curve_editor({.name = "tau", .measure = "anisotropy", .unit = "mm", .units = kMillimetres}, range,
+                         edited.tau)) {
+    return;
+  }
+  // The chain takes only curves that begin at nothing and never fall: other moves of a knot are not made.
+  if (edited.valid()) settings = edited;
+}
+
 }  // namespace
 
 void edit_curves(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
   if (mode == kLinearMode) edit_linear(choice.settings.linear, session);
+  if (session.has_tensors()) edit_anisotropy(choice.settings.anisotropy);
   if (mode == "density") {
     draw_curve_editor({.name = "density", .measure = "value"}, {}, choice.settings.force_field.density);
   }

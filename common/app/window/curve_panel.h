@@ -1,5 +1,5 @@
-/// The part of the touch panel about transfer functions: what mode `linear` does along each axis, and how the
-/// drag of mode `density` follows the value.
+/// The part of the touch panel about transfer functions: what mode `linear` does along each axis, how the
+/// drag of mode `density` follows the value, and how the hold across tracts follows the anisotropy.
 #pragma once
 
 #include <string_view>

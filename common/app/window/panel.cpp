@@ -242,11 +242,14 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
   }
 }
 
-void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors) {
+void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors,
+                  std::optional<TractView>& tracts) {
   section("TENSORS");
   choose("field", state.settings.field, scene.info->fields);
   draw_time(state, scene.info->times);
   draw_tensor_panel(tensors, scene.info->anatomical);
+  section("TRACTS");
+  draw_tract_panel(state.tract_seeds, state.settings, tensors, tracts);
 }
 
 void draw_anisotropy(const SceneState& scene, VolumeView& volume) {
@@ -314,7 +317,15 @@ std::string status_text(const SceneState& scene) {
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
            short_number(image.highest) + "   loaded in " + short_number(scene.seconds_load) + " s";
   }
-  if (scene.tensors) return size_text(scene) + "   loaded in " + short_number(scene.seconds_load) + " s";
+  if (scene.tensors) {
+    std::string text = size_text(scene) + "   loaded in " + short_number(scene.seconds_load) + " s";
+    if (scene.tracts) {
+      text += "   " + counted(scene.tracts->bundle->order.size(), "tract");
+      if (scene.seeds > 0)
+        text += " from " + counted(scene.seeds, "seed") + " in " + short_number(scene.seconds_trace) + " s";
+    }
+    return text;
+  }
   std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
@@ -388,8 +399,8 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("right drag, wheel", "zoom");
     row("drop files", "open them");
     row("wheel", "while a lens follows the mouse: its size; with Ctrl along the view");
-    row("Ctrl, left drag", "put the crosshair of slices there");
-    row("Ctrl, wheel", "move the slice under the mouse");
+    row("click", "put the crosshair of slices there; drag it with Ctrl");
+    row("wheel on a slice", "move it; Ctrl and the wheel zoom");
     row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
     for (const KeyBinding& binding : key_bindings()) {
       if (*binding.name != '\0') row(binding.name, binding.what);
@@ -462,7 +473,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file);
     }
     if (state.scene->tensors && view.tensors) {
-      draw_tensors(state, *state.scene, *view.tensors);
+      draw_tensors(state, *state.scene, *view.tensors, view.tracts);
       if (view.volume) draw_anisotropy(*state.scene, *view.volume);
     } else if (state.scene->volume && view.volume) {
       draw_volume(state, *state.scene, *view.volume, actions);

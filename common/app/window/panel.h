@@ -6,6 +6,7 @@
 
 #include "common/app/window/seed_choice.h"
 #include "common/app/window/touch_panel.h"
+#include "common/app/window/tract_panel.h"
 #include "common/app/window/transfer_panel.h"
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
@@ -31,10 +32,11 @@ struct PanelState {
   bool playing = false;
   ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
-  std::optional<TensorPick> tensor;                                      ///< under the mouse
-  std::vector<InputFiles> recent;                                        ///< newest first
-  std::string replay_verdict;                                            ///< that was said
-  std::string lines_file = "followed.vtp";                               ///< edited
+  TractSeedChoice tract_seeds;              ///< edited; goes into the settings when tracts are traced
+  std::optional<TensorPick> tensor;         ///< under the mouse
+  std::vector<InputFiles> recent;           ///< newest first
+  std::string replay_verdict;               ///< that was said
+  std::string lines_file = "followed.vtp";  ///< edited
   std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
   KeptHistogram histogram;                                               ///< of the volume
 };

@@ -1,11 +1,14 @@
 #include "common/app/window/slice_control.h"
 
 #include <cmath>
+#include <utility>
 
 namespace palpate {
 namespace {
 
 constexpr int kLeftControlKey = 341, kRightControlKey = 345;  // GLFW's numbers
+/// A press that is led farther than this is a drag, and no click [pixels].
+constexpr double kDrag = 4.0;
 
 /// Moves the slice across axis 0, 1 or 2 of the data by one voxel, toward larger coordinates for `steps` > 0.
 void step_along(TensorView& view, std::size_t axis, int steps) {
@@ -13,23 +16,6 @@ void step_along(TensorView& view, std::size_t axis, int steps) {
   const int own = slice_axes(voxels.axes)[axis];
   const bool forwards = voxels.axes[own][static_cast<int>(axis)] > 0.0;
   view.position = moved_position(voxels, view.position, own, forwards ? steps : -steps);
-}
-
-/// The slice that is shown and faces the viewer most.
-std::optional<int> facing_slice(const TensorView& view, const Camera& camera) {
-  std::optional<int> best;
-  double most = -1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!view.slices[static_cast<std::size_t>(axis)]) continue;
-    const Vec3 normal = glm::normalize(glm::cross(glm::normalize(view.image->axes[(axis + 1) % 3]),
-                                                  glm::normalize(view.image->axes[(axis + 2) % 3])));
-    const double facing = std::abs(glm::dot(normal, camera.axes[2]));
-    if (facing > most) {
-      most = facing;
-      best = axis;
-    }
-  }
-  return best;
 }
 
 }  // namespace
@@ -51,25 +37,29 @@ bool SliceControl::handle(const InputEvent& event, const PictureArea& area, cons
       x_ = event.x;
       y_ = event.y;
       if (dragging_) put_crosshair();
+      if (std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDrag) clicking_ = false;
       return dragging_;
     case InputKind::kPress:
-      if (!control_ || event.button != MouseButton::kLeft || !area.contains(x_, y_)) return false;
+      clicking_ = event.button == MouseButton::kLeft && area.contains(x_, y_);
+      pressed_x_ = x_;
+      pressed_y_ = y_;
+      if (!control_ || !clicking_) return false;
       dragging_ = true;
       put_crosshair();
       return true;
     case InputKind::kRelease:
-      if (!dragging_ || event.button != MouseButton::kLeft) return false;
-      dragging_ = false;
-      return true;
+      if (event.button != MouseButton::kLeft) return false;
+      if (std::exchange(dragging_, false)) return true;
+      if (std::exchange(clicking_, false)) put_crosshair();
+      return false;  // the camera's drag ends, too
     case InputKind::kWheel: {
-      if (!control_ || event.y == 0.0 || !area.contains(x_, y_)) return false;
+      if (control_ || event.y == 0.0) return false;
       const auto pick = under_mouse(area, camera, view);
-      const std::optional<int> axis = pick ? std::optional(pick->axis) : facing_slice(view, camera);
-      if (!axis) return false;
+      if (!pick) return false;
       // Away from the viewer for positive notches.
-      const bool away = glm::dot(view.image->axes[*axis], camera.axes[2]) < 0.0;
+      const bool away = glm::dot(view.image->axes[pick->axis], camera.axes[2]) < 0.0;
       const int notch = event.y > 0.0 ? 1 : -1;
-      view.position = moved_position(*view.image, view.position, *axis, away ? notch : -notch);
+      view.position = moved_position(*view.image, view.position, pick->axis, away ? notch : -notch);
       return true;
     }
     case InputKind::kKeyDown:

@@ -1,6 +1,7 @@
-/// What mouse and keys do to slices through tensors: Ctrl and the left button put the crosshair where the
-/// mouse is, Ctrl and the wheel move the slice under it, keys move the three of them. Plain arithmetic, no
-/// window.
+/// What mouse and keys do to slices through tensors: a click, or a drag of the left button with Ctrl, puts
+/// the crosshair where the mouse is, the wheel moves the slice under it, keys move the three of them. Beside
+/// slices, and with Ctrl, the wheel is left to the camera: both as in MRview and in 3D Slicer's slice views.
+/// Plain arithmetic, no window.
 #pragma once
 
 #include <optional>
@@ -23,12 +24,14 @@ class SliceControl {
   [[nodiscard]] std::optional<TensorPick> under_mouse(const PictureArea& area, const Camera& camera,
                                                       const TensorView& view) const;
   [[nodiscard]] bool dragging() const noexcept { return dragging_; }
-  void let_go() noexcept { dragging_ = false; }
+  void let_go() noexcept { dragging_ = clicking_ = false; }
 
  private:
   double x_ = -1.0, y_ = -1.0;  ///< of the mouse [pixels]
   bool control_ = false;        ///< the key is held
   bool dragging_ = false;
+  bool clicking_ = false;                     ///< the left button is down and has not moved away
+  double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it went down [pixels]
 };
 
 }  // namespace palpate

@@ -64,6 +64,17 @@ void draw_tensor_panel(TensorView& view, bool anatomical) {
                       ImGuiSliderFlags_AlwaysClamp);
 }
 
+void add_tensor_rows(const Mat3& tensor, ReadoutRows& rows) {
+  const SymmetricEigen eigen = symmetric_eigen(tensor);
+  const Anisotropy shares = anisotropy(eigen.values);
+  const Vec3& e1 = eigen.vectors[0];
+  rows.add("FA", "%.3f", fractional_anisotropy(eigen.values));
+  rows.add("MD", "%.4g", mean_diffusivity(eigen.values));
+  rows.add("cl cp cs", "%.3f  %.3f  %.3f", shares.linear, shares.planar, shares.spherical);
+  rows.add("e1", "%.3f  %.3f  %.3f", e1.x, e1.y, e1.z);
+  if (has_negative(eigen.values)) rows.add("", "an eigenvalue is below zero");
+}
+
 float draw_tensor_readout(const TensorPick& pick, float left, float top) {
   ImGui::SetNextWindowPos({left, top});
   ImGui::SetNextWindowBgAlpha(0.7F);
@@ -71,17 +82,10 @@ float draw_tensor_readout(const TensorPick& pick, float left, float top) {
       ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
       ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
   ImGui::Begin("voxel", nullptr, kFlags);
-  const SymmetricEigen eigen = symmetric_eigen(pick.tensor);
-  const Anisotropy shares = anisotropy(eigen.values);
-  const Vec3& e1 = eigen.vectors[0];
   ReadoutRows rows("voxel");
   rows.add("voxel", "%d  %d  %d", pick.voxel.x, pick.voxel.y, pick.voxel.z);
   rows.add("at", "%.4g  %.4g  %.4g", pick.position.x, pick.position.y, pick.position.z);
-  rows.add("FA", "%.3f", fractional_anisotropy(eigen.values));
-  rows.add("MD", "%.4g", mean_diffusivity(eigen.values));
-  rows.add("cl cp cs", "%.3f  %.3f  %.3f", shares.linear, shares.planar, shares.spherical);
-  rows.add("e1", "%.3f  %.3f  %.3f", e1.x, e1.y, e1.z);
-  if (has_negative(eigen.values)) rows.add("", "an eigenvalue is below zero");
+  add_tensor_rows(pick.tensor, rows);
   rows.finish();
   const float height = ImGui::GetWindowHeight();
   ImGui::End();

@@ -5,8 +5,13 @@
 
 namespace palpate {
 
+class ReadoutRows;
+
 /// @param anatomical the data's axes lead to the right, the front and up of a patient.
 void draw_tensor_panel(TensorView& view, bool anatomical);
+
+/// The rows of a tensor: its anisotropies, mean diffusivity and main direction.
+void add_tensor_rows(const Mat3& tensor, ReadoutRows& rows);
 
 /// A small window with its upper left corner at `left`, `top` [pixels]. @return its height.
 float draw_tensor_readout(const TensorPick& pick, float left, float top);

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/render/tensor/tensor_pick.h"
+
 namespace palpate {
 namespace {
 
 constexpr int kLeftShift = 340, kRightShift = 344;
 /// A mouse that has not moved for so long rests [s].
 constexpr double kRest = 0.25;
+/// A press that is led farther than this is a drag, and no click [pixels].
+constexpr double kDrag = 4.0;
 
 PictureSize size_of(const PictureArea& area) {
   return {static_cast<int>(area.width), static_cast<int>(area.height)};
@@ -54,9 +58,15 @@ void TouchControl::grab(const PictureArea& area, const SceneView& view, double t
   moved_ = time;
 }
 
-/// On the nearest isosurface under the mouse in modes that feel some, else where the lines are.
+/// On the slice of tensors under the mouse, on the nearest isosurface there in modes that feel some, else
+/// where the lines are.
 Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view) const {
   const PicturePoint mouse{x_ - area.left, y_ - area.top};
+  if (view.tensors) {
+    const PictureSize size = size_of(area);
+    if (const auto pick = pick_slice(*view.tensors, view.camera, size.width, size.height, mouse.x, mouse.y))
+      return pick->position;
+  }
   if (const FeltLevels felt = session_.felt_levels(); felt.field) {
     const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
     const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
@@ -72,7 +82,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
 }
 
 void TouchControl::let_go() noexcept {
-  grabbed_ = by_shift_ = waiting_ = false;
+  grabbed_ = by_shift_ = by_button_ = waiting_ = false;
   axis_.reset();
   session_.let_go();
 }
@@ -85,7 +95,8 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       const double dx = event.x - x_, dy = event.y - y_;
       x_ = event.x;
       y_ = event.y;
-      if (!grabbed_ || buttons_ > 0) return false;
+      if (!grabbed_ || (buttons_ > 0 && !by_button_)) return false;
+      dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDrag;
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
       // A mouse that rested means the line that it rested on: on to the panel it may be led over others.
@@ -100,12 +111,25 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     case InputKind::kPress:
       ++buttons_;
-      if (!waiting_ || over_panel || !area.contains(x_, y_)) return false;
+      if (!waiting_ || event.button != MouseButton::kLeft || over_panel || !area.contains(x_, y_))
+        return false;
       grab(area, view, time);
+      by_button_ = true;
+      dragged_ = false;
+      pressed_x_ = x_;
+      pressed_y_ = y_;
       return true;
-    case InputKind::kRelease:
+    case InputKind::kRelease: {
       buttons_ = std::max(0, buttons_ - 1);
-      return false;
+      if (!by_button_ || event.button != MouseButton::kLeft) return false;
+      // A click leaves the probe in the hand; a drag was a stroke, and the next one may begin.
+      by_button_ = false;
+      if (dragged_) {
+        let_go();
+        waiting_ = true;
+      }
+      return true;
+    }
     case InputKind::kKeyDown:
       if (!shift || grabbed_ || !session_.available() || !area.contains(x_, y_)) return false;
       grab(area, view, time);
@@ -157,11 +181,15 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       // From the panel's button the mouse has a way to go.
       if (!area.contains(x_, y_)) {
         waiting_ = !waiting_;
-        return waiting_ ? "click on a line to grab the probe there" : "let go";
+        if (!waiting_) return "let go";
+        return session_.has_tensors() ? "drag along a tract to draw it, or click to take the probe"
+                                      : "click on a line to grab the probe there";
       }
       grab(area, view, time);
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +
-             (session_.has_flow() ? "K keeps the line, G lets go" : "G lets go");
+             (session_.has_flow()      ? "K keeps the line, G lets go"
+              : session_.has_tensors() ? "K keeps the tract, G lets go"
+                                       : "G lets go");
     case Command::kForceOff:
       session_.force_off();
       return "force off; switch it on again in the panel";
@@ -171,10 +199,15 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       return lock(1);
     case Command::kLockZ:
       return lock(2);
-    case Command::kKeepLine:
+    case Command::kKeepLine: {
       // From the panel's button: the line on which the hand rested before it went there.
-      switch (area.contains(x_, y_) ? session_.keep_line() : session_.keep_noted_line()) {
+      const bool here = area.contains(x_, y_);
+      const ProbeSession::Keeping kept = here ? session_.keep_line() : session_.keep_noted_line();
+      // What the hand draws on its way back from there would be no tract.
+      if (!here && grabbed_ && session_.has_tensors()) let_go();
+      switch (kept) {
         case ProbeSession::Keeping::kNothing:
+          if (session_.has_tensors()) return "no tract is drawn: press G, then drag along one";
           return grabbed_ ? "no line is followed here: move the probe to where the lines are"
                           : "no line is followed: grab the probe (G) and move it on to one";
         case ProbeSession::Keeping::kAlready:
@@ -182,10 +215,11 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
         case ProbeSession::Keeping::kKept:
           break;
       }
-      return "kept line " + std::to_string(session_.kept().entries().back().number) +
-             "; Ctrl+E saves all that are kept";
+      return (session_.has_tensors() ? "kept tract " : "kept line ") +
+             std::to_string(session_.kept().entries().back().number) + "; Ctrl+E saves all that are kept";
+    }
     case Command::kUndo:
-      return session_.kept().undo() ? "undone" : "nothing to undo";
+      return session_.undo() ? "undone" : "nothing to undo";
     case Command::kLocalLines: {
       TouchChoice choice = session_.choice();
       choice.local = choice.local == SeedShape::kNone   ? SeedShape::kRake

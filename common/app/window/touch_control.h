@@ -1,5 +1,6 @@
 /// What mouse and keys do to the probe: `G` or a held Shift grabs it, the mouse then moves it in the plane of
-/// the view and the wheel along the view.
+/// the view and the wheel along the view. Asked for from the panel, a click into the picture grabs it there,
+/// and a drag holds it for as long as the button is down: what needs no key.
 #pragma once
 
 #include <optional>
@@ -29,6 +30,8 @@ class TouchControl {
 
   /// The mouse has hold of the probe; in a replay, that of the recording had.
   [[nodiscard]] bool grabbed() const noexcept { return grabbed_; }
+  /// The next press into the picture grabs the probe.
+  [[nodiscard]] bool waiting() const noexcept { return waiting_; }
   [[nodiscard]] std::optional<int> locked_axis() const noexcept { return axis_; }
   void let_go() noexcept;
 
@@ -40,9 +43,12 @@ class TouchControl {
 
   ProbeSession& session_;
   bool grabbed_ = false;
-  bool by_shift_ = false;  ///< for as long as Shift is held
-  bool waiting_ = false;   ///< asked for away from the picture: the next click into it grabs the probe there
-  int buttons_ = 0;        ///< that are down: the camera's then
+  bool by_shift_ = false;   ///< for as long as Shift is held
+  bool waiting_ = false;    ///< asked for away from the picture: the next click into it grabs the probe there
+  bool by_button_ = false;  ///< the press that grabbed the probe goes on
+  bool dragged_ = false;    ///< and has moved it
+  double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it was [pixels]
+  int buttons_ = 0;                           ///< that are down: the camera's then
   std::optional<int> axis_;
   double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
   double moved_ = 0.0;        ///< when it last moved the probe [s]

@@ -4,8 +4,10 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -14,6 +16,7 @@
 #include "common/app/window/curve_panel.h"
 #include "common/app/window/isosurface_panel.h"
 #include "common/app/window/readout_rows.h"
+#include "common/app/window/tensor_panel.h"
 #include "common/base/text.h"
 #include "common/render/probe_view.h"
 
@@ -60,6 +63,34 @@ void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
   if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
 }
 
+void choose_stroke(StrokeUse& use) {
+  constexpr std::array<std::pair<StrokeUse, const char*>, 2> kUses{
+      {{StrokeUse::kAppend, "goes on from an end"}, {StrokeUse::kReplace, "replaces the last"}}};
+  if (!ImGui::BeginCombo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second)) return;
+  for (const auto& [each, words] : kUses) {
+    if (ImGui::Selectable(words, each == use)) use = each;
+  }
+  ImGui::EndCombo();
+}
+
+/// The name of the file, and its ending for those who have only a mouse.
+void choose_file(std::string& file, float width) {
+  constexpr std::array<const char*, 4> kEndings{".tck", ".trk", ".vtp", ".csv"};
+  const float ending_width = 4.5F * ImGui::GetFontSize();
+  std::filesystem::path path(file);
+  const std::string ending = path.extension().string();
+  ImGui::SetNextItemWidth(width - ending_width - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputText("##file", &file);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ending_width);
+  if (ImGui::BeginCombo("##ending", ending.c_str())) {
+    for (const char* each : kEndings) {
+      if (ImGui::Selectable(each, ending == each)) file = path.replace_extension(each).string();
+    }
+    ImGui::EndCombo();
+  }
+}
+
 void choose_looks(TouchChoice& choice, float half, bool flow, bool surfaces) {
   if (surfaces) ImGui::Checkbox("show isosurface", &choice.show_surface);
   if (!flow) {
@@ -77,7 +108,8 @@ void choose_looks(TouchChoice& choice, float half, bool flow, bool surfaces) {
   }
 }
 
-void list_kept(KeptLines& kept) {
+void list_kept(ProbeSession& session) {
+  const KeptLines& kept = session.kept();
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < kept.entries().size(); ++i) {
     const KeptLines::Entry& entry = kept.entries()[i];
@@ -92,7 +124,7 @@ void list_kept(KeptLines& kept) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("delete (Ctrl+Z takes it back)");
     ImGui::PopID();
   }
-  if (removed) kept.remove(*removed);
+  if (removed) session.remove_kept(*removed);
 }
 
 }  // namespace
@@ -109,7 +141,10 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
     const std::string verdict = session.replay_verdict();
     ImGui::TextWrapped("%s", verdict.empty() ? "replaying" : verdict.c_str());
   }
-  actions.grab = ImGui::Button(grabbed ? "Let go  (G)" : "Grab  (G)", size);
+  const bool tensors = session.has_tensors();
+  const char* grab = tensors ? "Draw tracts  (G)" : "Grab  (G)";
+  const char* let_go = tensors ? "Stop drawing  (G)" : "Let go  (G)";
+  actions.grab = ImGui::Button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), size);
   ImGui::SameLine();
   if (session.readout().servo.armed) {
     if (ImGui::Button("Force off  (F12)", size)) session.force_off();
@@ -123,18 +158,25 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
                    session.has_flow());
+  if (tensors) choose_stroke(choice.stroke);
   choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
   session.choose(choice);
   if (const std::string note = session.stiffness_note(); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 
-  if (session.has_flow()) {
-    actions.keep = ImGui::Button("Keep line  (K)", size);
+  if (session.has_flow() || tensors) {
+    actions.keep = ImGui::Button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
     ImGui::SameLine();
   }
-  if (ImGui::Button("Clear path", size)) session.clear_path();
-  list_kept(session.kept());
-  if (!session.kept().entries().empty()) {
+  if (tensors) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
+  if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
+  list_kept(session);
+  if (session.kept().entries().empty() && !session.has_drawn()) return actions;
+  if (tensors) {
+    choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
+    ImGui::SameLine();
+    actions.save_lines = ImGui::Button("Save tracts", {-FLT_MIN, 0.0F});
+  } else {
     ImGui::SetNextItemWidth(half_width);
     ImGui::InputText("##file", &file);
     ImGui::SameLine();
@@ -168,6 +210,11 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
     rows.add("speed", "%.4g", glm::length(readout.velocity));
   } else if (session.has_flow()) {
     rows.add("value", "none here");
+  }
+  if (readout.tensor) {
+    add_tensor_rows(*readout.tensor, rows);
+  } else if (session.has_tensors()) {
+    rows.add("tensor", "none here");
   }
   if (readout.scalar) {
     rows.add(readout.scalar_name.c_str(), "%.5g", *readout.scalar);

@@ -13,10 +13,13 @@ class ReadoutRows;
 struct TouchActions {
   bool grab = false;  ///< or let go
   bool keep = false;
+  bool undo = false;
   bool save_lines = false;
 };
 
-/// Changes the session's choice and its kept lines. @param file where the kept lines go, edited.
+/// Changes the session's choice and its kept lines.
+/// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
+/// edited.
 [[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.

@@ -23,6 +23,11 @@ class ViewControl {
   /// Presses and wheel count over `area` only; a drag goes on outside it until its button is let go.
   /// @return whether the camera changed.
   bool handle(const InputEvent& event, const PictureArea& area, const Box& bounds, Camera& camera);
+  /// Where the mouse has gone while something else was moved by it.
+  void place(double x, double y) noexcept {
+    x_ = x;
+    y_ = y;
+  }
   [[nodiscard]] bool dragging() const noexcept { return button_.has_value(); }
   void let_go() noexcept { button_.reset(); }
 

@@ -42,6 +42,8 @@ constexpr double kPatience = 0.4;
 // Frames slower than this lower the resolution while the camera moves [ms], down to this share of the
 // pixels along either edge.
 constexpr double kSlowFrame = 60.0, kCoarsest = 0.35;
+// What a picture may spend on tracts [ms]; what is left of them is added by the next ones.
+constexpr double kTractTime = 30.0;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 // A lens that has not moved for so long stands still: its picture is drawn sharp [s].
@@ -112,7 +114,8 @@ class Window {
       return;
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-    const bool busy = job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
+    const bool busy =
+        job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively() || !renderer_->complete();
     glfwWaitEventsTimeout(busy ? kBusyRest : kIdleRest);
     lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
   }
@@ -182,6 +185,7 @@ class Window {
     view_.subtitle = scene_->settings.field + ", " + size_text(*scene_);
     adopt_volume();
     adopt_tensors();
+    adopt_tracts();
     const std::vector<double>& times = scene_->info->times;
     if (times.size() > 1 && scene_->settings.time_step < times.size()) {
       view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
@@ -218,6 +222,15 @@ class Window {
     }
   }
 
+  /// Likewise of tracts.
+  void adopt_tracts() {
+    const std::optional<TractView> before = std::exchange(view_.tracts, scene_->tracts);
+    if (!view_.tracts || !before || job_kind_ != JobKind::kUpdate) return;
+    const auto bundle = view_.tracts->bundle;
+    view_.tracts = before;
+    view_.tracts->bundle = bundle;
+  }
+
   /// Likewise of tensors: another time step of an image keeps its slices.
   void adopt_tensors() {
     const std::optional<TensorView> before = std::exchange(view_.tensors, scene_->tensors);
@@ -235,15 +248,17 @@ class Window {
 
   /// The hand feels what the lines show.
   void adopt_field() {
-    if ((!scene_->probed && !scene_->felt_scalar) || !touch_->available()) return;
+    NamedField open{.field = scene_->probed, .name = {}, .scalar = scene_->felt_scalar};
+    if (scene_->tensors) open.tensor = scene_->tensors->image->field;
+    if (open.empty() || !touch_->available()) return;
     // The fields of all examples have the same label.
     const SceneInfo& info = *scene_->info;
     std::string label = scene_->settings.field;
     if (info.files.files.empty()) label.insert(0, info.name + " ");
-    const std::string name = field_key(label, scene_->settings.time_step) + scene_->felt_scalar_key;
-    if (touch_->set_field(scene_->probed, name, scene_->felt_scalar)) {
-      touch_control_->let_go();
-    }
+    open.name = field_key(label, scene_->settings.time_step) + scene_->felt_scalar_key;
+    if (touch_->set_field(std::move(open))) touch_control_->let_go();
+    if (job_kind_ != JobKind::kUpdate)
+      state_.lines_file = touch_->has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
     if (!view_.probe) view_.probe.emplace();
     view_.probe->reference_speed = reference_speed(view_);
   }
@@ -302,8 +317,9 @@ class Window {
     }
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
-    state_.grabbed = touch_control_->grabbed();
-    const bool looking = view_.tensors && !control_.dragging() && !ImGui::GetIO().WantCaptureMouse;
+    state_.grabbed = touch_control_->grabbed() || touch_control_->waiting();
+    const bool looking =
+        view_.tensors && !control_.dragging() && !touch_->readout().held && !ImGui::GetIO().WantCaptureMouse;
     state_.tensor =
         looking ? slice_control_.under_mouse(picture_, view_.camera, *view_.tensors) : std::nullopt;
     const SceneSettings settings_before = state_.settings;
@@ -323,6 +339,7 @@ class Window {
     }
     if (actions.touch.grab) run_command(Command::kGrab);
     if (actions.touch.keep) run_command(Command::kKeepLine);
+    if (actions.touch.undo) run_command(Command::kUndo);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     // Surfaces are solid: they would hide what is in a lens.
@@ -372,6 +389,8 @@ class Window {
           !handle_lens(event, parts.picture) &&
           !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
+      } else if (event.kind == InputKind::kMove) {
+        control_.place(event.x, event.y);
       }
       // An open list takes Esc for itself.
       const bool of_list =
@@ -459,8 +478,10 @@ class Window {
   }
 
   std::string save_lines() {
+    if (touch_->has_drawn()) (void)touch_->keep_line();
     if (touch_->kept().entries().empty())
-      throw work_error("no line is kept; grab the probe (G), then K keeps one");
+      throw work_error(touch_->has_tensors() ? "no tract is drawn; press G, then drag along one"
+                                             : "no line is kept; grab the probe (G), then K keeps one");
     const std::filesystem::path folder = std::filesystem::absolute(options_.picture_folder);
     std::filesystem::path path = (folder / state_.lines_file).lexically_normal();
     const std::filesystem::path stem = path.stem(), ending = path.extension();
@@ -542,13 +563,13 @@ class Window {
     dirty_ = glfw_.take_damage() || dirty_;
     const SceneView picture = with_focus();
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
-        (!moving && state_.resolution < 1.0)) {
+        (!moving && state_.resolution < 1.0) || !renderer_->complete()) {
       if (!moving) {
         state_.resolution = 1.0;
       } else if (state_.frame_ms > kSlowFrame) {
         state_.resolution = std::max(kCoarsest, 0.7 * state_.resolution);
       }
-      renderer_->draw(picture, w, h, state_.resolution);
+      renderer_->draw(picture, w, h, state_.resolution, kTractTime);
       state_.frame_ms = renderer_->finish();
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();

@@ -42,6 +42,8 @@ struct SceneSettings {
   double step = 0.0;        ///< as --step; 0: the default
   double max_length = 0.0;  ///< data units; 0: the default
   std::uint64_t random_seed = 1;
+  int seeds_per_voxel = 1;  ///< of tracts, as --seeds-per-voxel; `seeds` is empty where none are wanted
+  double cutoff = 0.2;      ///< of tracts, as --cutoff
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
   std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
   std::string focus;        ///< of lenses, as --focus-tf; empty: the model's own
@@ -75,6 +77,7 @@ struct SceneState {
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::optional<VolumeView> volume;                ///< in place of lines
   std::optional<TensorView> tensors;               ///< likewise, also with a volume
+  std::optional<TractView> tracts;                 ///< through them
   Lens lens;                                       ///< how a new lens shows what is in it; its shape is none
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too

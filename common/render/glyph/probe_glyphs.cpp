@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "common/math/symmetric3.h"
 #include "common/render/line/line_values.h"
 #include "common/render/palette.h"
 
@@ -22,6 +24,18 @@ Rgb band_color(const ProbeView& probe) {
   const ValueRange range = force_range(probe);
   const double t = (probe.force - range.lower) / (range.upper - range.lower);
   return map_color(probe.style.force_map, t);
+}
+
+// The glyph that stands for the probe's tensor, or none.
+std::optional<TensorGlyph> tensor_glyph(const SceneView& view, const SceneFrame& frame) {
+  const ProbeView& probe = *view.probe;
+  if (!probe.tensor || !is_finite(probe.proxy)) return std::nullopt;
+  const double largest = symmetric_eigenvalues(*probe.tensor).x;
+  if (!(largest > 0.0) || !std::isfinite(largest)) return std::nullopt;
+  const bool chosen = view.tensors && view.tensors->glyphs != GlyphShape::kNone;
+  const double reach = 0.5e-3 * probe.style.tensor_length * view.camera.view_height;
+  return make_glyph(*probe.tensor, chosen ? view.tensors->glyphs : GlyphShape::kSuperquadric,
+                    view.tensors ? view.tensors->color : TensorColor::kDirection, probe.proxy, reach, frame);
 }
 
 class Builder {
@@ -123,7 +137,11 @@ ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame, co
   if (probe.followed) add_balls(builder, view, range, colors);
   if (probe.seeds) add_seeds(builder, probe, colors);
 
-  builder.sphere(probe.proxy, probe.style.proxy_size, colors.proxy);
+  if (const auto glyph = tensor_glyph(view, frame)) {
+    builder.glyphs.tensors.push_back(*glyph);
+  } else {
+    builder.sphere(probe.proxy, probe.style.proxy_size, colors.proxy);
+  }
   builder.sphere(probe.probe, probe.style.probe_size, colors.ink);
   if (is_finite(probe.probe) && is_finite(probe.proxy) && probe.force_cap > 0.0) {
     builder.tube(

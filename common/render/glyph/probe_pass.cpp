@@ -158,6 +158,7 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
   }
 
   arrow_pass_.draw(glyphs_.arrows, see_through);
+  tensor_mesh_.draw(glyphs_.tensors, true, see_through);
   sphere_pass_.draw(glyphs_.spheres, std::max(1.0F, 1.2F * unit), see_through);
 
   // Lines of the local seeds may be transparent: they come last.

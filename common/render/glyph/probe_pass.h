@@ -13,6 +13,7 @@
 #include "common/render/line/line_pass.h"
 #include "common/render/line/line_trail.h"
 #include "common/render/scene_view.h"
+#include "common/render/tensor/tensor_glyph_mesh.h"
 
 namespace palpate {
 
@@ -52,6 +53,7 @@ class ProbePass {
   LineTrail trail_;
   SpherePass sphere_pass_;
   ArrowPass arrow_pass_;
+  TensorGlyphMesh tensor_mesh_;
   ProbeGlyphs glyphs_;
 
   // What the buffers were made from.

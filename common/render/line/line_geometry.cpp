@@ -62,6 +62,14 @@ LineGeometry make_line_geometry(const std::vector<std::vector<Vec3>>& polylines,
   return geometry;
 }
 
+LineGeometry make_line_geometry(std::span<const std::span<const Vec3f>> polylines, const SceneFrame& frame) {
+  LineGeometry geometry;
+  for (const auto& polyline : polylines) {
+    append(geometry, polyline.size(), frame, [&](std::size_t i) { return Vec3(polyline[i]); });
+  }
+  return geometry;
+}
+
 std::vector<LineSegment> simplify(const LineGeometry& geometry, std::span<const float> coordinates,
                                   double tolerance) {
   // Points that one new segment may span: bounds the work, which grows with the square of it.

@@ -36,6 +36,8 @@ struct LineGeometry {
 [[nodiscard]] LineGeometry make_line_geometry(const std::vector<Line>& lines, const SceneFrame& frame);
 [[nodiscard]] LineGeometry make_line_geometry(const std::vector<std::vector<Vec3>>& polylines,
                                               const SceneFrame& frame);
+[[nodiscard]] LineGeometry make_line_geometry(std::span<const std::span<const Vec3f>> polylines,
+                                              const SceneFrame& frame);
 
 /// Joins segments that follow each other where the picture does not change by it: the points between
 /// lie within `tolerance` (scene frame) of the new segment, and their tangents and map coordinates are

@@ -1,4 +1,4 @@
-/// Draws tensor glyphs: one mesh, instanced and shaped by the vertex shader (shaders/tensor/glyph.*).
+/// Draws the tensor glyphs of slices: one mesh, instanced and shaped by the vertex shader.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "common/render/camera.h"
-#include "common/render/gl/object.h"
-#include "common/render/tensor/tensor_glyphs.h"
+#include "common/render/tensor/tensor_glyph_mesh.h"
 
 namespace palpate {
 
@@ -23,17 +22,9 @@ class TensorGlyphPass {
             const ViewTransform& transform, double pixel);
 
  private:
-  /// Facets of the sphere: twice as many around as from pole to pole.
-  struct Mesh {
-    GlVertexArray array;
-    GlBuffer corners, indices;
-    int index_count = 0;
-  };
-  static Mesh make_mesh(int bands);
   void update(const TensorView& view, const SceneFrame& frame, const Index3& stride);
 
-  GlProgram program_;  // compiled at the first use
-  Mesh coarse_, fine_;
+  TensorGlyphMesh mesh_;
   std::vector<TensorGlyph> glyphs_;
 
   // What the glyphs were made from.

@@ -56,8 +56,92 @@ TEST(TractPen, BeginsAnotherTractWhenItWasLifted) {
   EXPECT_EQ(pen.tracts()[1].line.points.size(), 3U);
   EXPECT_EQ(pen.tracts()[1].line.points.front().time, 0.0);
   EXPECT_EQ(pen.tracts()[1].line.seed, 1U);
-  pen.clear();
+  EXPECT_EQ(pen.take().size(), 2U);
   EXPECT_TRUE(pen.tracts().empty());
+}
+
+/// A straight stroke of points 1 mm apart along x.
+void draw(TractPen& pen, double from, double to, double time) {
+  const double sign = to > from ? 1.0 : -1.0;
+  for (long n = 0; n <= std::lround(std::abs(to - from)); ++n) {
+    pen.add(time + 0.1 * static_cast<double>(n), {from + sign * static_cast<double>(n), 0.0, 0.0},
+            0.1 * static_cast<double>(n));
+  }
+  pen.let_go();
+}
+
+TEST(TractPen, AStrokeGoesOnFromEitherEnd) {
+  TractPen pen(planar(), 0.1, 0.5);
+  draw(pen, 0.0, 5.0, 0.0);
+  draw(pen, 5.2, 9.2, 10.0);
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  draw(pen, -0.2, -4.2, 20.0);
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  const DrawnTract& tract = pen.tracts().front();
+  ASSERT_EQ(tract.line.points.size(), 16U);
+  ASSERT_EQ(tract.forces.size(), 16U);
+  ASSERT_EQ(tract.measures.size(), 16U);
+  // It was turned round to go on from its first point; arc and time count on.
+  for (std::size_t i = 0; i < 16; ++i) {
+    const LinePoint& point = tract.line.points[i];
+    EXPECT_NEAR(point.arc, 9.2 - point.position.x, 1e-12) << i;
+    if (i > 0) {
+      EXPECT_GE(point.time, tract.line.points[i - 1].time - 1e-12) << i;
+    }
+  }
+  EXPECT_NEAR(tract.forces.front(), 0.4, 1e-12) << "the force went round with its point";
+  draw(pen, 20.0, 25.0, 30.0);
+  EXPECT_EQ(pen.tracts().size(), 2U) << "too far away to go on";
+}
+
+TEST(TractPen, AStrokeReplacesWhatEarlierHandsDrew) {
+  TractPen pen(planar(), 0.1, 0.5);
+  pen.use(StrokeUse::kReplace);
+  draw(pen, 0.0, 5.0, 0.0);
+  draw(pen, 10.0, 13.0, 10.0);
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  EXPECT_EQ(pen.tracts()[0].line.points.front().position.x, 10.0);
+  // One hand's strokes do not replace each other.
+  pen.add(20.0, {0.0, 0.0, 0.0}, 0.0);
+  pen.add(20.1, {1.0, 0.0, 0.0}, 0.0);
+  pen.lift();
+  pen.add(20.2, {7.0, 0.0, 0.0}, 0.0);
+  pen.add(20.3, {8.0, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(pen.tracts().size(), 2U);
+}
+
+TEST(TractPen, TakesStrokesBackOneByOne) {
+  TractPen pen(planar(), 0.1, 0.5);
+  draw(pen, 0.0, 5.0, 0.0);
+  draw(pen, 0.0, -5.0, 1.0);
+  EXPECT_EQ(pen.depth(), 2U);
+  pen.add(2.0, {30.0, 0.0, 0.0}, 0.0);  // a hand that does not move draws nothing
+  pen.let_go();
+  EXPECT_EQ(pen.depth(), 2U);
+  EXPECT_EQ(pen.take().size(), 1U);
+  EXPECT_TRUE(pen.tracts().empty());
+  pen.undo();
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  EXPECT_EQ(pen.tracts()[0].line.points.size(), 11U);
+  pen.undo();
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  EXPECT_EQ(pen.tracts()[0].line.points.size(), 6U);
+  EXPECT_EQ(pen.tracts()[0].line.points.front().position.x, 0.0);
+  pen.undo();
+  EXPECT_TRUE(pen.tracts().empty());
+  EXPECT_EQ(pen.depth(), 0U);
+}
+
+TEST(TractPen, IsCutBackToWhereTheHandRested) {
+  TractPen pen(planar(), 0.1, 0.5);
+  const std::uint64_t before = pen.edits();
+  for (int n = 0; n < 9; ++n) pen.add(n, {1.0 * n, 0.0, 0.0}, 0.0);
+  pen.cut(4);
+  EXPECT_GT(pen.edits(), before);
+  EXPECT_EQ(pen.tracts()[0].line.points.size(), 4U);
+  EXPECT_EQ(pen.tracts()[0].measures.size(), 4U);
+  pen.cut(40);
+  EXPECT_EQ(pen.tracts()[0].forces.size(), 4U);
 }
 
 TEST(TractPen, SaysWhereThereIsNoTensor) {

@@ -29,7 +29,7 @@ const Vec3 kSeed{1.0, 0.0, 0.0};
 class Hand {
  public:
   explicit Hand(ProbeSessionOptions options = with_modes()) : session(std::move(options), [] {}) {
-    session.set_field(helix_flow(kRise), kField);
+    session.set_field({helix_flow(kRise), kField});
   }
 
   static ProbeSessionOptions with_modes() {
@@ -97,7 +97,7 @@ double off_the_line(const Vec3& x, const Vec3& seed = kSeed) {
 TEST(ProbeSession, WithoutModesThereIsNoTouch) {
   ProbeSession session({}, [] {});
   EXPECT_FALSE(session.available());
-  session.set_field(helix_flow(kRise), kField);
+  session.set_field({helix_flow(kRise), kField});
   session.grab(0.0, kSeed);
   ProbeView view;
   session.update(0.0, Camera{}, ColorBy::kSpeed, view);
@@ -207,7 +207,7 @@ TEST(ProbeSession, AnotherFieldLetsGoAndForgets) {
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   ASSERT_TRUE(keep(hand.session));
   ASSERT_TRUE(hand.wait_for([&] { return hand.view.followed != nullptr; }));
-  hand.session.set_field(helix_flow(2.0 * kRise), field_key("helix", 1));
+  hand.session.set_field({helix_flow(2.0 * kRise), field_key("helix", 1)});
   EXPECT_FALSE(hand.session.grabbed());
   EXPECT_TRUE(hand.session.kept().entries().empty());
   hand.frame();

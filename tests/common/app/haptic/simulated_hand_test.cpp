@@ -21,7 +21,7 @@ constexpr double kNear = 0.15;  // [data units]
 class SimulatedHand {
  public:
   explicit SimulatedHand(ProbeSessionOptions options) : session(std::move(options), [] {}) {
-    session.set_field(helix_flow(0.25), field_key("helix", 0));
+    session.set_field({helix_flow(0.25), field_key("helix", 0)});
   }
 
   [[nodiscard]] bool wait_for(const std::function<bool()>& happened) {

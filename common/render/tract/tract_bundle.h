@@ -1,0 +1,38 @@
+/// A tractogram prepared for pictures: pure arithmetic, no OpenGL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/geometry/tractogram.h"
+#include "common/math/vec.h"
+#include "common/render/camera.h"
+#include "common/render/line/line_geometry.h"
+
+namespace palpate {
+
+/// Immutable where shared.
+struct TractBundle {
+  std::shared_ptr<const Tractogram> lines;
+  /// Numbers of all lines of two points and more, shuffled: every first part is an even sample of them. The
+  /// same for the same number of lines.
+  std::vector<std::uint32_t> order;
+  /// Parts of `order`, [first, last): each of about kPiecePoints points, one line at least.
+  std::vector<std::pair<std::size_t, std::size_t>> pieces;
+  Box bounds;  ///< of the finite points
+
+  static constexpr std::size_t kPiecePoints = 1U << 16U;
+};
+
+/// @param lines not null.
+[[nodiscard]] std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines);
+
+/// The lines of a piece without the points that a picture does not need: what is left lies within `tolerance`
+/// (scene frame) of the lines, with tangents of the whole ones. @pre piece < bundle.pieces.size().
+[[nodiscard]] LineGeometry piece_geometry(const TractBundle& bundle, std::size_t piece,
+                                          const SceneFrame& frame, double tolerance);
+
+}  // namespace palpate

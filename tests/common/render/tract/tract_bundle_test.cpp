@@ -1,0 +1,110 @@
+// Which lines are drawn first, and what is left out of them: no picture.
+
+#include "common/render/tract/tract_bundle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace palpate::test {
+namespace {
+
+void add_line(Tractogram& lines, const std::vector<Vec3f>& points) {
+  lines.points.insert(lines.points.end(), points.begin(), points.end());
+  lines.starts.push_back(lines.points.size());
+}
+
+/// `count` straight lines of `points` points along x, at y = their number.
+std::shared_ptr<Tractogram> straight_lines(std::size_t count, int points) {
+  auto lines = std::make_shared<Tractogram>();
+  for (std::size_t l = 0; l < count; ++l) {
+    std::vector<Vec3f> line;
+    for (int i = 0; i < points; ++i) line.emplace_back(static_cast<float>(i), static_cast<float>(l), 0.0F);
+    add_line(*lines, line);
+  }
+  return lines;
+}
+
+TEST(TractBundle, HasEveryLineOnceInPiecesOfALimitedSize) {
+  constexpr std::size_t kLines = 9000;
+  constexpr int kPoints = 30;
+  const auto bundle = make_tract_bundle(straight_lines(kLines, kPoints));
+  EXPECT_EQ(std::set<std::uint32_t>(bundle->order.begin(), bundle->order.end()).size(), kLines);
+  ASSERT_GT(bundle->pieces.size(), 3U);
+  std::size_t next = 0;
+  for (const auto& [first, last] : bundle->pieces) {
+    EXPECT_EQ(first, next);
+    EXPECT_GT(last, first);
+    EXPECT_LE((last - first - 1) * kPoints, TractBundle::kPiecePoints);
+    next = last;
+  }
+  EXPECT_EQ(next, kLines);
+  EXPECT_EQ(bundle->bounds.lower, Vec3(0.0));
+  EXPECT_EQ(bundle->bounds.upper, Vec3(kPoints - 1, kLines - 1, 0.0));
+}
+
+// Of n numbers drawn without order from [0, 1] the mean is 1/2 +- 1 / sqrt(12 n): five times that.
+TEST(TractBundle, EveryFirstPartIsAnEvenSample) {
+  constexpr std::size_t kLines = 40'000;
+  const auto bundle = make_tract_bundle(straight_lines(kLines, 2));
+  for (const std::size_t part : {100U, 1000U, 10'000U}) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < part; ++i) sum += bundle->order[i] / static_cast<double>(kLines);
+    EXPECT_NEAR(sum / static_cast<double>(part), 0.5, 5.0 / std::sqrt(12.0 * static_cast<double>(part)));
+  }
+  EXPECT_EQ(bundle->order, make_tract_bundle(straight_lines(kLines, 2))->order) << "the same each time";
+}
+
+TEST(TractBundle, LeavesOutWhatIsNoLine) {
+  Tractogram lines;
+  add_line(lines, {});
+  add_line(lines, {Vec3f(1.0F)});
+  add_line(lines, {Vec3f(0.0F), Vec3f(std::numeric_limits<float>::quiet_NaN()), Vec3f(2.0F)});
+  const auto bundle = make_tract_bundle(std::make_shared<const Tractogram>(lines));
+  EXPECT_EQ(bundle->order, (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(bundle->bounds.upper, Vec3(2.0));
+  const LineGeometry geometry = piece_geometry(*bundle, 0, scene_frame(bundle->bounds), 1e-4);
+  EXPECT_TRUE(geometry.segments.empty()) << "no segment ends where there is no point";
+  EXPECT_TRUE(make_tract_bundle(std::make_shared<const Tractogram>())->pieces.empty());
+}
+
+TEST(TractBundle, ThinnedLinesStayWithinTheTolerance) {
+  auto lines = std::make_shared<Tractogram>();
+  std::vector<Vec3f> circle, straight;
+  constexpr int kPoints = 400;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double angle = 3.0 * i / kPoints;
+    circle.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    straight.emplace_back(static_cast<float>(i) / kPoints, -0.5F, 0.25F);
+  }
+  add_line(*lines, circle);
+  add_line(*lines, straight);
+  const auto bundle = make_tract_bundle(lines);
+  const SceneFrame frame = scene_frame(bundle->bounds);
+  constexpr double kTolerance = 1e-4;
+  const LineGeometry geometry = piece_geometry(*bundle, 0, frame, kTolerance);
+  EXPECT_LT(geometry.vertices.size(), 200U);
+  EXPECT_EQ(geometry.segments.size() + 2, geometry.vertices.size()) << "two lines, and no vertex to spare";
+  for (const LineSegment& segment : geometry.segments) {
+    ASSERT_LT(segment.last, geometry.vertices.size());
+    const Vec3 a = Vec3(geometry.vertices[segment.first].position),
+               b = Vec3(geometry.vertices[segment.last].position);
+    const Vec3 middle = 0.5 * (a + b);
+    double nearest = HUGE_VAL;
+    for (const auto* line : {&circle, &straight}) {
+      for (std::size_t i = 0; i + 1 < line->size(); ++i) {
+        const Vec3 p = frame.scene_from_data(Vec3((*line)[i])),
+                   q = frame.scene_from_data(Vec3((*line)[i + 1]));
+        const double u = std::clamp(glm::dot(middle - p, q - p) / glm::dot(q - p, q - p), 0.0, 1.0);
+        nearest = std::min(nearest, glm::distance(middle, p + u * (q - p)));
+      }
+    }
+    EXPECT_LT(nearest, 1.1 * kTolerance);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test
