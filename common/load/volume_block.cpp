@@ -38,4 +38,18 @@ BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array
   return block;
 }
 
+BlockInfo describe_mesh(const DataSet& mesh) {
+  BlockInfo block;
+  block.name = mesh.name;
+  block.grid = "unstructured";
+  block.point_count = mesh.point_count();
+  block.cell_count = mesh.cell_count();
+  const DataArray& positions = std::get<UnstructuredTopology>(mesh.topology).positions;
+  for (std::size_t p = 0; p < positions.tuples; ++p)
+    block.bounds.include(Vec3(positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)));
+  for (const DataArray& array : mesh.arrays)
+    block.arrays.push_back({array.name, array.association, array.components, array.type, array.tuples});
+  return block;
+}
+
 }  // namespace palpate

@@ -1,4 +1,4 @@
-/// What loaders of images say of the one block that an image is.
+/// What loaders say of the one block that an image or a mesh is.
 #pragma once
 
 #include "common/field/data_set.h"
@@ -11,5 +11,8 @@ namespace palpate {
 
 /// The block of an image with one array; it is no volume where it has one sample only along an axis.
 [[nodiscard]] BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array);
+
+/// The block of an unstructured mesh. @pre mesh.topology is one.
+[[nodiscard]] BlockInfo describe_mesh(const DataSet& mesh);
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
+#include "common/field/analytic/ventricle.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/load/volume_block.h"
 #include "common/scene/raw_file.h"
@@ -59,6 +60,8 @@ std::string_view name_of(FieldKind kind) noexcept {
       return "scalar";
     case FieldKind::kTensor:
       return "tensor";
+    case FieldKind::kFibre:
+      return "fibre";
     case FieldKind::kVector:
       break;
   }
@@ -71,6 +74,8 @@ std::vector<ExampleInfo> examples_of(FieldKind kind) {
       return volume_examples();
     case FieldKind::kTensor:
       return tensor_examples();
+    case FieldKind::kFibre:
+      return heart_examples();
     case FieldKind::kVector:
       break;
   }
@@ -100,6 +105,8 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   } else if (input.spec_.kind == FieldKind::kTensor) {
     for (const TensorSource& source : tensor_sources(input.arrays_, input.file()->diffusion))
       input.fields_.push_back(source.label);
+  } else if (input.spec_.kind == FieldKind::kFibre) {
+    for (const DirectionChoice& choice : fibre_choices(input.arrays_)) input.fields_.push_back(choice.array);
   } else if (input.file() && input.not_volume_.empty()) {
     for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
@@ -125,6 +132,14 @@ void Input::open_example() {
     (void)example(spec_.example);  // throws for an unknown name
     if (!spec_.field.empty() && spec_.field != kFormulaField)
       throw usage_error("--field " + spec_.field + ": a built-in example has one field, " + kFormulaField);
+    return;
+  }
+  if (spec_.kind == FieldKind::kFibre) {
+    made_ = heart_example(spec_.example);
+    for (const DataArray& array : made_->arrays)
+      arrays_.push_back({array.name, array.association, array.components, array.type, array.tuples});
+    made_info_ = FileInfo{.format = "made on the fly", .units = "coordinates in mm"};
+    made_info_->blocks.push_back(describe_mesh(*made_));
     return;
   }
   made_ = spec_.kind == FieldKind::kTensor ? tensor_example(spec_.example) : volume_example(spec_.example);
@@ -169,8 +184,14 @@ TensorSource Input::tensor_source() const {
   return choose_tensors(arrays_, file()->diffusion, spec_.field, file_name());
 }
 
+HeartChoice Input::heart_choice() const {
+  check_volume();
+  return choose_heart(arrays_, spec_.field, file_name());
+}
+
 std::string Input::field_label() const {
   if (!file()) return kFormulaField;
+  if (spec_.kind == FieldKind::kFibre) return heart_choice().fibre.array;
   if (spec_.kind == FieldKind::kTensor) return tensor_source().label;
   return spec_.kind == FieldKind::kScalar ? label_of(scalar_choice(), arrays_) : choice().label;
 }
@@ -179,6 +200,7 @@ std::vector<std::string> Input::field_arrays() const {
   if (!file()) return {};
   if (spec_.kind == FieldKind::kScalar) return {scalar_choice().array};
   if (spec_.kind == FieldKind::kTensor) return tensor_source().arrays;
+  if (spec_.kind == FieldKind::kFibre) return heart_choice().arrays();
   return choice().arrays;
 }
 
@@ -189,6 +211,7 @@ std::string Input::choice_sentence() const {
   Association on = Association::kPoint;
   if (spec_.kind == FieldKind::kScalar) on = scalar_choice().association;
   if (spec_.kind == FieldKind::kVector) on = choice().association;
+  if (spec_.kind == FieldKind::kFibre) on = heart_choice().fibre.association;
   text += on == Association::kCell ? " (cell values brought to the points)" : "";
   std::string others;
   for (const std::string& other : fields_) {
@@ -261,6 +284,22 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
       parse_tensor_words(spec_.tensor), threads, progress);
   seconds_field_ = watch.seconds();
   return image;
+}
+
+Heart Input::load_heart(int threads, Progress* progress) {
+  Stopwatch watch;
+  const HeartChoice chosen = heart_choice();
+  if (progress) progress->begin("reading " + title_, 0);
+  const std::vector<DataSet> blocks = read(chosen.arrays(), progress);
+  if (blocks.size() != 1) {
+    throw input_error({file_name(), "", "has " + std::to_string(blocks.size()) + " blocks", "one mesh", ""});
+  }
+  seconds_read_ = watch.seconds();
+  watch.restart();
+  if (progress) progress->begin("finding fibres and layers", 0);
+  Heart heart = make_heart(blocks.front(), chosen, file_name(), threads);
+  seconds_field_ = watch.seconds();
+  return heart;
 }
 
 std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* progress) {

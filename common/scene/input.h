@@ -12,6 +12,7 @@
 
 #include "common/base/progress.h"
 #include "common/field/analytic/examples.h"
+#include "common/field/heart/heart.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
@@ -23,9 +24,9 @@
 namespace palpate {
 
 /// What an explorer takes from its input.
-enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor };
+enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor, kFibre };
 
-/// "vector", "scalar", "tensor".
+/// "vector", "scalar", "tensor", "fibre".
 [[nodiscard]] std::string_view name_of(FieldKind kind) noexcept;
 
 /// The built-in data sets of a kind; the first is the one shown by default.
@@ -87,6 +88,8 @@ class Input {
   [[nodiscard]] ScalarChoice scalar_choice() const;
   /// The same for a tensor field.
   [[nodiscard]] TensorSource tensor_source() const;
+  /// The same for the fibres of a heart.
+  [[nodiscard]] HeartChoice heart_choice() const;
   /// What spec().field means, of any kind: "velocity". @throws as choice().
   [[nodiscard]] std::string field_label() const;
   /// The arrays that the field is made of; none for a formula. @throws as choice().
@@ -102,6 +105,8 @@ class Input {
   [[nodiscard]] std::shared_ptr<const ScalarField> load_scalar(int threads, Progress* progress = nullptr);
   /// The same for the tensor field. @pre file().
   [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr);
+  /// Fibres, sheets and layers of a heart. @pre file().
+  [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr);
   /// The image that load_tensor() makes its field of. @pre file().
   [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <random>
 
 #include "common/base/error.h"
@@ -53,28 +54,51 @@ double tet_volume(const TetMesh& mesh, std::size_t cell) {
   return std::abs(glm::dot(glm::cross(x[v[1]] - a, x[v[2]] - a), x[v[3]] - a)) / 6.0;
 }
 
-/// Draws points of a field's domain, uniform in volume.
-class PointSource {
+/// Draws points of a mesh, uniform in volume.
+class MeshSource {
  public:
-  explicit PointSource(const VectorField& field) : field_(field) {
-    const TetMesh* mesh = field.tet_mesh();
-    if (mesh == nullptr) return;
-    volume_up_to_.reserve(mesh->cells().size());
+  explicit MeshSource(const TetMesh& mesh) : mesh_(mesh) {
+    volume_up_to_.reserve(mesh.cells().size());
     double sum = 0.0;
-    for (std::size_t c = 0; c < mesh->cells().size(); ++c) {
-      if (!mesh->zero_volume(static_cast<CellIndex>(c))) sum += tet_volume(*mesh, c);
+    for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+      if (!mesh.zero_volume(static_cast<CellIndex>(c))) sum += tet_volume(mesh, c);
       volume_up_to_.push_back(sum);
     }
   }
 
   /// False for a mesh without volume.
-  [[nodiscard]] bool usable() const {
-    return !field_.tet_mesh() || (!volume_up_to_.empty() && volume_up_to_.back() > 0.0);
+  [[nodiscard]] bool usable() const { return !volume_up_to_.empty() && volume_up_to_.back() > 0.0; }
+
+  /// Frame L. @pre usable().
+  [[nodiscard]] Vec3 draw(std::mt19937_64& random) const {
+    const double wanted = uniform(random) * volume_up_to_.back();
+    const auto place = std::upper_bound(volume_up_to_.begin(), volume_up_to_.end() - 1, wanted);
+    // The spacings of three sorted uniform numbers are uniform on the simplex.
+    std::array<double, 3> u{};
+    for (double& part : u) part = uniform(random);
+    std::sort(u.begin(), u.end());
+    const Vec4 b{u[0], u[1] - u[0], u[2] - u[1], 1.0 - u[2]};
+    return mesh_.position(static_cast<CellIndex>(place - volume_up_to_.begin()), b);
   }
+
+ private:
+  const TetMesh& mesh_;
+  std::vector<double> volume_up_to_;  ///< of the cells up to each, frame L
+};
+
+/// Draws points of a field's domain, uniform in volume.
+class PointSource {
+ public:
+  explicit PointSource(const VectorField& field) : field_(field) {
+    if (field.tet_mesh() != nullptr) mesh_.emplace(*field.tet_mesh());
+  }
+
+  /// False for a mesh without volume.
+  [[nodiscard]] bool usable() const { return !mesh_ || mesh_->usable(); }
 
   [[nodiscard]] Vec3 draw(std::mt19937_64& random) const {
     const LocalFrame& frame = field_.frame();
-    if (const TetMesh* mesh = field_.tet_mesh()) return frame.data_from_local(draw_in(*mesh, random));
+    if (mesh_) return frame.data_from_local(mesh_->draw(random));
     // The grid's own box, which may be turned against the data's axes.
     if (const BoxGrid* grid = field_.box_grid())
       return frame.data_from_local(draw_in(grid->bounds(), random));
@@ -97,19 +121,8 @@ class PointSource {
     return box.lower + Vec3{x, y, uniform(random)} * box.size();
   }
 
-  [[nodiscard]] Vec3 draw_in(const TetMesh& mesh, std::mt19937_64& random) const {
-    const double wanted = uniform(random) * volume_up_to_.back();
-    const auto place = std::upper_bound(volume_up_to_.begin(), volume_up_to_.end() - 1, wanted);
-    // The spacings of three sorted uniform numbers are uniform on the simplex.
-    std::array<double, 3> u{};
-    for (double& part : u) part = uniform(random);
-    std::sort(u.begin(), u.end());
-    const Vec4 b{u[0], u[1] - u[0], u[2] - u[1], 1.0 - u[2]};
-    return mesh.position(static_cast<CellIndex>(place - volume_up_to_.begin()), b);
-  }
-
   const VectorField& field_;
-  std::vector<double> volume_up_to_;  ///< of the cells up to each, frame L
+  std::optional<MeshSource> mesh_;
 };
 
 std::vector<Vec3> random_seeds(const VectorField& field, const SeedRandom& wanted,
@@ -225,6 +238,21 @@ std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field, std
   if (const auto* list = std::get_if<SeedList>(&spec)) return list->points;
   if (const auto* grid = std::get_if<SeedGrid>(&spec)) return grid_seeds(field.bounds(), grid->n);
   return random_seeds(field, std::get<SeedRandom>(spec), random_seed);
+}
+
+std::vector<Vec3> make_seeds(const SeedSpec& spec, const TetMesh& mesh, const LocalFrame& frame,
+                             const Box& bounds, std::uint64_t random_seed) {
+  if (const auto* list = std::get_if<SeedList>(&spec)) return list->points;
+  if (const auto* grid = std::get_if<SeedGrid>(&spec)) return grid_seeds(bounds, grid->n);
+  const auto& wanted = std::get<SeedRandom>(spec);
+  if (wanted.by_speed) throw usage_error("--seeds speed:n: fibres have no speed; try random:n");
+  const MeshSource source(mesh);
+  std::vector<Vec3> seeds;
+  if (!source.usable()) return seeds;
+  std::mt19937_64 random{random_seed};
+  seeds.reserve(wanted.count);
+  while (seeds.size() < wanted.count) seeds.push_back(frame.data_from_local(source.draw(random)));
+  return seeds;
 }
 
 }  // namespace palpate

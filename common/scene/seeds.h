@@ -21,6 +21,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/field/local_frame.h"
 #include "common/field/vector_field.h"
 #include "common/math/vec.h"
 
@@ -57,6 +58,11 @@ using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 /// point is kept with the probability |v| / max |v|, else drawn anew.
 [[nodiscard]] std::vector<Vec3> make_seeds(const SeedSpec& spec, const VectorField& field,
                                            std::uint64_t random_seed);
+
+/// The same on a mesh without a field: random seeds are uniform in volume.
+/// @throws Error (usage) for seeds by speed.
+[[nodiscard]] std::vector<Vec3> make_seeds(const SeedSpec& spec, const TetMesh& mesh, const LocalFrame& frame,
+                                           const Box& bounds, std::uint64_t random_seed);
 
 /// `count` numbers separated by commas.
 /// @throws Error (usage) that quotes `text` and says `grammar`.

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/volume_block.h"
 #include "loaders/cardiac/carp_reader.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
@@ -21,20 +22,6 @@ namespace {
 constexpr int kRefine = 4;
 /// Of the quadrature: nine points are exact to rounding on elements that hardly bend within themselves.
 constexpr int kQuadrature = 9;
-
-BlockInfo describe(const DataSet& mesh) {
-  BlockInfo block;
-  block.name = mesh.name;
-  block.grid = "unstructured";
-  block.point_count = mesh.point_count();
-  block.cell_count = mesh.cell_count();
-  const DataArray& positions = std::get<UnstructuredTopology>(mesh.topology).positions;
-  for (std::size_t p = 0; p < positions.tuples; ++p)
-    block.bounds.include(Vec3(positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)));
-  for (const DataArray& array : mesh.arrays)
-    block.arrays.push_back({array.name, array.association, array.components, array.type, array.tuples});
-  return block;
-}
 
 /// "beside" files of an EX model: nodes and elements come as a pair.
 std::vector<std::string> ex_files(const std::vector<std::string>& named) {
@@ -77,7 +64,7 @@ class CardiacLoader : public Loader {
         break;
     }
     if (mesh_.cell_count() == 0) throw input_error({named.front(), "", "holds no element"});
-    info.blocks.push_back(describe(mesh_));
+    info.blocks.push_back(describe_mesh(mesh_));
     return info;
   }
 

@@ -85,6 +85,9 @@ class VerbParser {
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.tracts) add_tract_options(scene_options_, options_.tracts);
+    if (verb.groups.fibres) add_fibres();
+    if (verb.groups.layer) add_layer();
+    if (verb.groups.angle) add_angle();
     if (verb.groups.view) add_view(explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();
@@ -242,6 +245,43 @@ class VerbParser {
             "nx,ny,nz,d", group);
   }
 
+  void add_fibres() {
+    const char* group = "Fibres";
+    TracingOptions& tracing = options_.tracing;
+    scene("--seeds", tracing.seeds,
+          "file.csv | file.vtp (its points) | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three "
+          "corners as x,y,z) | grid:nx,ny,nz | random:n; each goes to the layer first",
+          "S", group);
+    scene("--direction", tracing.direction, "which way from each seed; fibres have no sign; default both",
+          "forward|backward|both", group)
+        ->check(CLI::IsMember({"forward", "backward", "both"}));
+    scene("--step", tracing.step, "step length in data units; default 1/1000 of the diagonal", "LENGTH",
+          group);
+    scene("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals", "LENGTH",
+          group);
+    scene("--least-gap", options_.heart.least_gap,
+          "eigen gap below which fibres count as undefined, 0 to 1; default 0.05", "GAP", group)
+        ->check(CLI::Range(0.0, 1.0));
+  }
+
+  void add_layer() {
+    scene("--layer", options_.heart.layer, "depth in the wall: 0 is the inner, 1 the outer surface", "DEPTH",
+          "Fibres");
+  }
+
+  void add_angle() {
+    const char* group = "Angles";
+    HeartOptions& heart = options_.heart;
+    scene("--angle", heart.angle,
+          "helix (default), transverse, sheet, or gap (how well fibres are defined) and depth",
+          "helix|transverse|sheet|gap|depth", group)
+        ->check(CLI::IsMember({"helix", "transverse", "sheet", "gap", "depth"}));
+    scene("--convention", heart.convention,
+          "what the angle is measured from: streeter (default), bayer, piersanti or doste", "NAME", group)
+        ->check(CLI::IsMember({"streeter", "bayer", "piersanti", "doste"}));
+    scene("--axis", heart.axis, "long axis from apex to base; default: as the wall opens", "X,Y,Z", group);
+  }
+
   void add_view(FieldKind kind) {
     const char* group = "View";
     scene("--camera", options_.view.camera, "direction of view in degrees, and zoom",
@@ -254,6 +294,11 @@ class VerbParser {
     if (kind == FieldKind::kTensor) {
       add_tensors();
       add_tensor_volume();
+      add_projection();
+      return;
+    }
+    if (kind == FieldKind::kFibre) {
+      scene("--cut", options_.heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d", group);
       add_projection();
       return;
     }

@@ -37,6 +37,9 @@ struct VerbGroups {
   bool input = true;
   bool tracing = false;
   bool tracts = false;  ///< seeds, regions and limits of tracts
+  bool fibres = false;  ///< seeds and limits of lines along fibres
+  bool layer = false;   ///< --layer of a heart
+  bool angle = false;   ///< --angle, --convention, --axis
   bool view = false;
   bool touch = false;
   bool path = false;    ///< --path

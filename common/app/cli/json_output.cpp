@@ -342,6 +342,28 @@ std::string open_json(const OpenSummary& summary) {
   return text_of(json);
 }
 
+std::string map_json(const MapSummary& summary) {
+  Json bands = Json::array();
+  for (const MapSummary::Band& band : summary.bands) {
+    if (band.points == 0) continue;
+    bands.push_back(
+        {{"depth", band.depth}, {"mean", band.mean}, {"deviation", band.deviation}, {"points", band.points}});
+  }
+  const bool angle = !summary.convention.empty();
+  return text_of({{"input", summary.input},
+                  {"field", summary.field},
+                  {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                  {"angle", summary.angle},
+                  {"convention", angle ? Json(summary.convention) : Json(nullptr)},
+                  {"axis", angle ? vec_json(summary.axis) : Json(nullptr)},
+                  {"points", summary.points},
+                  {"undefined", summary.undefined},
+                  {"bands", bands},
+                  {"seconds_load", summary.seconds_load},
+                  {"seconds_map", summary.seconds_map},
+                  {"version", version()}});
+}
+
 std::string probe_json(const ProbeSummary& summary) {
   Json states = Json::object();
   for (int s = 0; s < kHoldStateCount; ++s) {

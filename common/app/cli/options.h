@@ -106,6 +106,16 @@ struct TractLook {
   double opacity = 1.0;  ///< in (0, 1]
 };
 
+/// What of a heart is traced, drawn and mapped.
+struct HeartOptions {
+  std::string layer;                    ///< depth from 0 inner to 1 outer; empty: the verb's default
+  std::string axis;                     ///< x,y,z from apex to base; empty: as the wall opens
+  std::string angle = "helix";          ///< name_of(WallAngle), gap, depth
+  std::string convention = "streeter";  ///< name_of(AngleConvention)
+  std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
+  double least_gap = 0.05;
+};
+
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
   std::string mode;                ///< empty: the program's first one
@@ -129,6 +139,9 @@ struct TouchOptions {
   double field_damping = 5.0;     ///< [N s/m], likewise
   std::string density_curve;      ///< haptic transfer function; empty: straight
   std::string anisotropy_curve;   ///< haptic transfer function [mm]; empty: that of AnisotropySettings
+  double fibre_spacing = 4.0;     ///< [mm]
+  double least_friction = 0.5;    ///< [mm]
+  double most_friction = 6.0;     ///< [mm]
   std::string stroke = "append";  ///< name_of(StrokeUse)
   double force_cap = 4.0;         ///< [N]
   double slew_cap = 200.0;        ///< [N/s]
@@ -144,6 +157,7 @@ struct Options {
   SliceOptions slice;
   TensorOptions tensors;
   TractLook tract_look;
+  HeartOptions heart;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded

@@ -174,6 +174,28 @@ struct TractFitSummary {
   std::vector<std::string> notes;
 };
 
+/// A map of a heart's angles that was written.
+struct MapSummary {
+  /// The mean over the points of a range of depths.
+  struct Band {
+    double depth = 0.0;      ///< the middle of the range
+    double mean = 0.0;       ///< degrees; of angles the mean of directions without sign
+    double deviation = 0.0;  ///< root mean square from it
+    std::size_t points = 0;  ///< where the angle is defined
+  };
+  std::string input;
+  std::string field;
+  std::string output;
+  std::string angle;       ///< "helix"
+  std::string convention;  ///< empty for what is no angle
+  Vec3 axis{0.0};          ///< zero for what needs none
+  std::size_t points = 0;
+  std::size_t undefined = 0;
+  std::vector<Band> bands;
+  double seconds_load = 0.0;
+  double seconds_map = 0.0;
+};
+
 struct RenderSummary {
   std::string input;
   std::string field;

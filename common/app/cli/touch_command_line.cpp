@@ -136,12 +136,34 @@ void add_anisotropy(SceneOptions& options, TouchOptions& touch) {
       ->check(one_of(uses));
 }
 
+void add_fibres(SceneOptions& options, TouchOptions& touch) {
+  options.add("--isovalue", touch.isovalues,
+              "depths of layers that are felt, up to eight; default: seven through the wall", "V[,V...]",
+              kGroup);
+  options.add("--depth", touch.depth, "stretch in mm at which a layer lets go; default 10", "MM", kGroup);
+  options.add("--snap", touch.snap,
+              "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", kGroup);
+  options.add("--fibre-spacing", touch.fibre_spacing,
+              "fiber, friction: stretch across a fibre in mm at which the next one catches; default 4", "MM",
+              kGroup);
+  options.add("--least-friction", touch.least_friction,
+              "friction: distance in mm at which the proxy is dragged where fibres lie in the layer; default "
+              "0.5",
+              "MM", kGroup);
+  options.add("--most-friction", touch.most_friction,
+              "friction: the same where fibres stand on the layer; default 6", "MM", kGroup);
+}
+
 }  // namespace
 
 void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
   add_hold(options, touch);
   if (kind == FieldKind::kTensor) {
     add_anisotropy(options, touch);
+    return;
+  }
+  if (kind == FieldKind::kFibre) {
+    add_fibres(options, touch);
     return;
   }
   add_lines(options, touch);
@@ -162,6 +184,9 @@ void check_touch_options(const TouchOptions& touch) {
   check_not_negative(touch.drag, "--drag");
   check_not_negative(touch.depth, "--depth");
   check_not_negative(touch.snap, "--snap");
+  check_not_negative(touch.fibre_spacing, "--fibre-spacing");
+  check_not_negative(touch.least_friction, "--least-friction");
+  check_not_negative(touch.most_friction, "--most-friction");
   check_not_negative(touch.field_damping, "--field-damping");
   check_not_negative(touch.force_cap, "--force-cap");
   check_not_negative(touch.slew_cap, "--slew-cap");

@@ -73,6 +73,9 @@ ChainSettings touch_settings(const TouchOptions& options) {
                          .speed_force = options.speed_force};
   settings.drag.threshold = kMetresPerMillimetre * options.drag;
   settings.isosurface = isosurface_settings(options);
+  settings.fibre = {.spacing = kMetresPerMillimetre * options.fibre_spacing,
+                    .least_friction = kMetresPerMillimetre * options.least_friction,
+                    .most_friction = kMetresPerMillimetre * options.most_friction};
   settings.ticks.stiffness = options.tick_stiffness;
   settings.linear = linear_settings(options.linear);
   settings.force_field.strength = options.field_force;
@@ -103,6 +106,9 @@ ChainSettings touch_settings(const TouchOptions& options) {
   if (!std::isfinite(settings.damping) || settings.damping < 0.0) {
     throw usage_error("--damping: a number of zero or more is expected");
   }
+  if (!(settings.fibre.spacing > 0.0)) throw usage_error("--fibre-spacing: a number above zero is expected");
+  if (!settings.fibre.valid())
+    throw usage_error("--most-friction: a distance no smaller than --least-friction is expected");
   if (!(settings.streamline.release_distance > 0.0))
     throw usage_error("--release: a number above zero is expected");
   if (!std::isfinite(settings.ticks.interval)) throw usage_error("--ticks: a finite time is expected");
@@ -128,7 +134,10 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 27> kRecorded{"anisotropy-curve",
+  constexpr std::array<std::string_view, 30> kRecorded{"anisotropy-curve",
+                                                       "fibre-spacing",
+                                                       "least-friction",
+                                                       "most-friction",
                                                        "mode",
                                                        "workspace-scale",
                                                        "stiffness",

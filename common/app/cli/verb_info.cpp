@@ -265,6 +265,12 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
     add_field(input, *field, options.common.explain, summary);
     summary.largest_trace = field->largest_trace();
     summary.negative_tensors = field->negative_tensors();
+  } else if (has_field && context.explorer.kind == FieldKind::kFibre) {
+    const Heart heart = input.load_heart(options.common.threads, &context.progress);
+    summary.field = input.field_label();
+    summary.bounds = heart.layer->bounds();
+    summary.notes.insert(summary.notes.end(), heart.notes.begin(), heart.notes.end());
+    if (options.common.explain) summary.measured = measured_costs(input, heart.layer->tet_mesh());
   } else if (has_field) {
     const auto field = input.load_field(options.common.threads, &context.progress);
     add_field(input, *field, options.common.explain, summary);

@@ -23,6 +23,7 @@
 #include "common/device/replay_device.h"
 #include "common/field/field_grid.h"
 #include "common/field/scalar_threshold.h"
+#include "common/haptics/constraint/layer.h"
 #include "common/load/write_lines.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
@@ -243,6 +244,14 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
     felt.diagonal = felt.tensor->bounds().diagonal();
     felt.mesh = felt.tensor->grid()->tets.get();
     felt.notes = felt.tensor->notes().lines;
+  } else if (context.explorer.kind == FieldKind::kFibre) {
+    Heart heart = input.load_heart(options.common.threads, &context.progress);
+    felt.tensor = heart.fibres;
+    felt.scalar = heart.layer;
+    felt.name = heart.fibres->name();
+    felt.diagonal = heart.layer->diagonal();
+    felt.mesh = heart.layer->tet_mesh();
+    felt.notes = std::move(heart.notes);
   } else if (context.explorer.kind == FieldKind::kScalar) {
     felt.scalar = input.load_scalar(options.common.threads, &context.progress);
     describe(*felt.scalar);
@@ -328,6 +337,14 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
       options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
+  // Of a heart the tensors are its fibres, which no column tells of.
+  const TensorField* const logged = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr;
+  if (context.explorer.kind == FieldKind::kFibre && !recording) {
+    IsosurfaceSettings& layers = summary.settings.isosurface;
+    if (layers.isovalues.count == 0) layers.isovalues = default_layers(*felt.scalar);
+    layers.hold = IsosurfaceHold::kLayer;
+    summary.scalar = felt.scalar->name();
+  }
   summary.input = input.title();
   summary.field = felt.name;
   summary.mode = mode.name;
@@ -356,7 +373,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
       links = std::max(links, made.chain->size());
       return std::move(made.chain);
     });
-    if (file) run.log_to(*file, links, felt.tensor.get());
+    if (file) run.log_to(*file, links, logged);
     follow_recording(replay, workspace, run, context.progress);
     if (!replay.recording().chains.empty()) {
       const DescribedChain chain = parse_chain(replay.recording().chains.back());
@@ -372,7 +389,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   } else {
     HapticChain haptics = mode.make(
         {felt.field, workspace, summary.settings, options.common.threads, felt.scalar, felt.tensor});
-    if (file) run.log_to(*file, haptics.chain->size(), felt.tensor.get());
+    if (file) run.log_to(*file, haptics.chain->size(), logged);
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (simulated) {
       const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),

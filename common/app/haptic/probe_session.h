@@ -114,8 +114,9 @@ class ProbeSession {
   [[nodiscard]] std::pair<double, double> measure_range() const;
   /// Whether there is a flow, whose lines can be followed, kept and shown about the probe.
   [[nodiscard]] bool has_flow() const noexcept { return open_.field != nullptr; }
-  /// Whether there are tensors, through which tracts are drawn by hand.
-  [[nodiscard]] bool has_tensors() const noexcept { return open_.tensor != nullptr; }
+  /// Whether there are tensors alone, through which tracts are drawn by hand: the fibres of a heart come with
+  /// the depth in its wall.
+  [[nodiscard]] bool has_tensors() const noexcept { return open_.tensor != nullptr && !open_.scalar; }
   /// The choice as options of the command line and their values.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> options() const;
 

@@ -156,6 +156,18 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   }
 }
 
+/// Of a heart: which layer is shown, and where its fibres start.
+void draw_layer(PanelState& state, const SceneState& scene) {
+  section("LAYER");
+  SceneSettings& settings = state.settings;
+  const SceneInfo& info = *scene.info;
+  choose("field", settings.field, info.fields);
+  draw_time(state, info.times);
+  ImGui::SliderScalar("depth", ImGuiDataType_Double, &settings.layer, &info.layers->lower,
+                      &info.layers->upper, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  draw_seeds(state);
+}
+
 void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   section("COLOUR");
   LineStyle& style = view.style;
@@ -478,7 +490,11 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     } else if (state.scene->volume && view.volume) {
       draw_volume(state, *state.scene, *view.volume, actions);
     } else {
-      draw_lines(state, *state.scene);
+      if (state.scene->info->layers) {
+        draw_layer(state, *state.scene);
+      } else {
+        draw_lines(state, *state.scene);
+      }
       draw_color(state, *state.scene, view);
     }
     draw_look(view, actions);

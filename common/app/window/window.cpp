@@ -190,10 +190,11 @@ class Window {
     if (times.size() > 1 && scene_->settings.time_step < times.size()) {
       view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
     }
+    if (job_kind_ != JobKind::kUpdate && scene_->style) view_.style = *scene_->style;
     if (job_kind_ != JobKind::kUpdate) {
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;
-      view_.style.range.reset();
+      if (!scene_->style) view_.style.range.reset();
       needs_camera_ = true;
       remember(state_.recent, scene_->info->files);
       glfwSetWindowTitle(glfw_.get(), (scene_->info->name + " - " + options_.program).c_str());
@@ -249,7 +250,7 @@ class Window {
   /// The hand feels what the lines show.
   void adopt_field() {
     NamedField open{.field = scene_->probed, .name = {}, .scalar = scene_->felt_scalar};
-    if (scene_->tensors) open.tensor = scene_->tensors->image->field;
+    open.tensor = scene_->tensors ? scene_->tensors->image->field : scene_->felt_tensor;
     if (open.empty() || !touch_->available()) return;
     // The fields of all examples have the same label.
     const SceneInfo& info = *scene_->info;
@@ -345,6 +346,7 @@ class Window {
     // Surfaces are solid: they would hide what is in a lens.
     const bool lenses = view_.volume && view_.volume->shown && !view_.volume->lenses.empty();
     view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_->surfaces().meshes);
+    if (scene_) view_.surfaces.insert(view_.surfaces.end(), scene_->surfaces.begin(), scene_->surfaces.end());
     if (const int popped = touch_->readout().popped; popped != told_popped_) {
       if (popped > told_popped_) say(popped_words(), false);
       told_popped_ = popped;

@@ -17,6 +17,7 @@
 
 #include "common/base/progress.h"
 #include "common/field/scalar_field.h"
+#include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
@@ -45,6 +46,7 @@ struct SceneSettings {
   int seeds_per_voxel = 1;  ///< of tracts, as --seeds-per-voxel; `seeds` is empty where none are wanted
   double cutoff = 0.2;      ///< of tracts, as --cutoff
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
+  double layer = 0.5;       ///< of a heart: the depth that is shown
   std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
   std::string focus;        ///< of lenses, as --focus-tf; empty: the model's own
 
@@ -60,6 +62,7 @@ struct SceneInfo {
   std::vector<std::string> integrators;   ///< those that this grid can be traced with
   std::vector<std::string> color_arrays;  ///< arrays of the data and measures that can colour the lines
   std::vector<double> times;              ///< empty for a single state
+  std::optional<ValueRange> layers;       ///< depths that a heart's wall has
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
@@ -73,8 +76,11 @@ struct SceneState {
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
   std::shared_ptr<const VectorField> probed;       ///< the flow that the hand feels; null: none
   std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed, if any
+  std::shared_ptr<const TensorField> felt_tensor;  ///< fibres that the hand feels; null: none
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
+  std::vector<SurfaceView> surfaces;               ///< drawn with the lines
+  std::optional<LineStyle> style;                  ///< of the lines at the start; none: the window's
   std::optional<VolumeView> volume;                ///< in place of lines
   std::optional<TensorView> tensors;               ///< likewise, also with a volume
   std::optional<TractView> tracts;                 ///< through them

@@ -1,0 +1,47 @@
+#include "apps/cardiac/cardiac_modes.h"
+
+#include <memory>
+#include <utility>
+
+#include "common/haptics/constraint/fibre_friction.h"
+#include "common/haptics/constraint/fibre_groove.h"
+#include "common/haptics/constraint/layer.h"
+
+namespace palpate {
+namespace {
+
+/// How many proxies: on the layer, in the groove, dragged along it.
+enum class Links : unsigned char { kLayer = 1, kGroove = 2, kFriction = 3 };
+
+HapticChain make_chain(const HapticScene& scene, Links links) {
+  HapticChain made;
+  made.surfaces_of = scene.scalar;
+  made.isovalues = default_layers(*scene.scalar);
+  auto layer = std::make_unique<LayerConstraint>(scene.scalar, scene.workspace, made.isovalues);
+  const LayerConstraint& on = *layer;
+  std::vector<std::unique_ptr<Constraint>> chain;
+  chain.push_back(std::move(layer));
+  if (links != Links::kLayer) {
+    const auto heart =
+        std::make_shared<const LayeredHeart>(Heart{.fibres = scene.tensor, .layer = scene.scalar});
+    auto groove = std::make_unique<FibreGroove>(heart, on);
+    const FibreGroove& in = *groove;
+    chain.push_back(std::move(groove));
+    if (links == Links::kFriction) chain.push_back(std::make_unique<FibreFriction>(heart, on, in));
+  }
+  made.chain = std::make_unique<ProxyChain>(std::move(chain), scene.settings);
+  return made;
+}
+
+}  // namespace
+
+std::vector<HapticMode> cardiac_modes() {
+  return {{"fiber", "held to a layer of the wall, and on it to a fibre as in a groove; gives to the next one",
+           [](const HapticScene& scene) { return make_chain(scene, Links::kGroove); }},
+          {"layer", "held to a layer of the wall, which gives to the next one when pushed",
+           [](const HapticScene& scene) { return make_chain(scene, Links::kLayer); }},
+          {"friction", "as fiber, and dragged along the fibre: the harder, the more that leaves the layer",
+           [](const HapticScene& scene) { return make_chain(scene, Links::kFriction); }}};
+}
+
+}  // namespace palpate

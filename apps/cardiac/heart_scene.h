@@ -1,0 +1,83 @@
+/// What all verbs of cardiac make of an input: the heart, its long axis, angles along lines, and the scene of
+/// one layer.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/cli/options.h"
+#include "common/base/progress.h"
+#include "common/field/heart/fibre_angles.h"
+#include "common/geometry/line.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+#include "common/trace/fibre_lines.h"
+#include "common/trace/layer_fibre.h"
+
+namespace palpate {
+
+/// The layer that is drawn where none is named.
+inline constexpr double kViewLayer = 0.5;
+/// Seeds and length [diagonals] of the fibres that are drawn on it: short ones, close together.
+inline constexpr const char* kViewFibres = "random:2500";
+inline constexpr double kViewFibreLength = 0.12;
+
+/// @throws Error, Cancelled.
+[[nodiscard]] std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, int threads,
+                                                                     Progress* progress);
+
+/// `--layer`; none where it is not given.
+/// @throws Error (usage).
+[[nodiscard]] std::optional<double> layer_of(const HeartOptions& options);
+
+/// `--axis`, or as the wall opens.
+/// @throws Error (usage) where it is no direction, or is not given for a closed wall.
+[[nodiscard]] Vec3 axis_of(const HeartOptions& options, const ScalarField& layer);
+
+/// What `--angle` names, at a place. The directions of sheets are looked up for sheet angles only.
+class AngleProbe {
+ public:
+  /// @throws Error (usage) where the convention does not define the angle, sheets are not known, or there is
+  /// no axis.
+  AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options);
+  /// Degrees, or a number without a unit for "gap" and "depth"; NaN where it is not defined.
+  /// @param x data coordinates.
+  [[nodiscard]] double at(const Vec3& x, CellHint& hint) const;
+  [[nodiscard]] const std::string& name() const noexcept { return options_.angle; }
+  /// Empty for "gap" and "depth".
+  [[nodiscard]] const char* unit() const noexcept;
+  /// Of the points of the heart's mesh.
+  [[nodiscard]] std::vector<double> map() const;
+  /// Zero where it is not asked for.
+  [[nodiscard]] const Vec3& axis() const noexcept { return axis_; }
+  /// Whether it is one of the three angles.
+  [[nodiscard]] bool is_angle() const noexcept { return angle_.has_value(); }
+
+ private:
+  std::shared_ptr<const LayeredHeart> heart_;
+  HeartOptions options_;
+  std::optional<WallAngle> angle_;
+  AngleConvention convention_ = AngleConvention::kStreeter;
+  Vec3 axis_{0.0};
+};
+
+/// Its values at the points of the lines, line after line.
+[[nodiscard]] std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line>& lines,
+                                               int threads);
+
+/// A layer with its fibres, as options say.
+struct LayerScene {
+  SceneView view;
+  FibreLineResult fibres;
+  double depth = 0.0;
+};
+
+/// @param settings of tracing; zeros and empty words stand for the view's own defaults.
+/// @throws Error, Cancelled.
+[[nodiscard]] LayerScene make_layer_scene(const Input& input,
+                                          const std::shared_ptr<const LayeredHeart>& heart,
+                                          const Options& options, double aspect, Progress* progress);
+
+}  // namespace palpate

@@ -1,0 +1,14 @@
+/// The verbs of hearts: lines along fibres, maps of angles, pictures of layers.
+#pragma once
+
+#include <vector>
+
+#include "common/app/cli/explorer.h"
+
+namespace palpate {
+
+[[nodiscard]] Verb trace_fibres_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);
+
+}  // namespace palpate

@@ -1,0 +1,55 @@
+/// cardiac: layers and fibres of a heart's wall, seen and felt.
+#include "apps/cardiac/cardiac_modes.h"
+#include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/open_verb.h"
+#include "common/app/cli/verbs.h"
+
+int main(int argc, char** argv) {
+  using namespace palpate;
+  const Explorer cardiac{
+      .name = "cardiac",
+      .summary = "Explore hearts: the layers of the wall and the fibres on them",
+      .kind = FieldKind::kFibre,
+      .examples = {{"cardiac heart.exelem.gz", "look at a file in the window"},
+                   {"cardiac info heart.exelem.gz", "what the file holds"},
+                   {"cardiac render heart.exelem.gz --layer 0.5 --out heart.png",
+                    "a picture, with or without a display"},
+                   {"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
+                    "fibres of one layer, for ParaView"},
+                   {"cardiac map heart.exelem.gz --angle helix --out helix.vtu",
+                    "how fibres turn through the wall"},
+                   {"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
+                    "feel along a recorded path"},
+                   {"cardiac --example list", "the built-in hearts"}},
+      .verbs = {
+          info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
+                     {"cardiac info mesh.pts --explain", "and what each verb would load"}}),
+          trace_fibres_verb(
+              {{"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
+                "on the layer half way through the wall; with depth, gap and helix angle at each point"},
+               {"cardiac trace mesh.ele --seeds line:0,0,-5,0,8,-5,20 --max-length 10 --out fibres.csv",
+                "through the wall, as the fibres go; 10 data units each way"},
+               {"cardiac trace --example ventricle --layer 0.9 --seeds grid:8,8,8 --json --out outer.vtp",
+                "a built-in heart; the counts as JSON"}}),
+          probe_verb(cardiac_modes(),
+                     {{"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
+                       "held to layers, and on them to fibres as in grooves"},
+                      {"cardiac probe --example ventricle --path path.csv --mode friction --json",
+                       "dragged the harder, the more fibres leave the layer; the summary as JSON"}}),
+          map_angles_verb(
+              {{"cardiac map heart.exelem.gz --angle helix --out helix.vtu", "as a mesh for ParaView"},
+               {"cardiac map mesh.pts --angle sheet --convention bayer --axis 0,0,1 --out sheet.csv",
+                "by another convention, with the long axis stated"},
+               {"cardiac map heart.exelem.gz --angle gap --json", "where fibres are undefined, in numbers"}}),
+          render_layers_verb(
+              {{"cardiac render heart.exelem.gz --layer 0.5 --out heart.png", "helix angle on a layer"},
+               {"cardiac render --example ventricle --cut 0,1,0,0 --camera 0,20,0,1 --out half.png",
+                "cut open"},
+               {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out felt.png",
+                "with what a hand on that path has felt"}}),
+          open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
+                     {"cardiac --example ventricle", "a built-in heart"},
+                     {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
+      }};
+  return run_explorer(cardiac, argc, argv);
+}

@@ -1,0 +1,149 @@
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "apps/cardiac/heart_scene.h"
+#include "apps/cardiac/heart_verbs.h"
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/text.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/load/write_mesh.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kBands = 11;  // of the depth: the surfaces have half a band each
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+/// The values of a band.
+class BandMean {
+ public:
+  /// @param angle values are degrees of directions without sign: 90 and -90 are the same.
+  explicit BandMean(bool angle) : angle_(angle) {}
+
+  void add(double value) {
+    values_.push_back(value);
+    if (angle_) {
+      cosine_ += std::cos(2.0 * kRadians * value);
+      sine_ += std::sin(2.0 * kRadians * value);
+    } else {
+      cosine_ += value;
+    }
+  }
+
+  [[nodiscard]] MapSummary::Band result(double depth) const {
+    MapSummary::Band band{.depth = depth, .points = values_.size()};
+    if (values_.empty()) return band;
+    const auto count = static_cast<double>(values_.size());
+    band.mean = angle_ ? 0.5 * std::atan2(sine_, cosine_) / kRadians : cosine_ / count;
+    double squares = 0.0;
+    constexpr double kHalfTurn = 180.0;
+    for (const double value : values_) {
+      const double off = angle_ ? std::remainder(value - band.mean, kHalfTurn) : value - band.mean;
+      squares += off * off;
+    }
+    band.deviation = std::sqrt(squares / count);
+    return band;
+  }
+
+ private:
+  bool angle_;
+  std::vector<double> values_;
+  double cosine_ = 0.0, sine_ = 0.0;
+};
+
+std::vector<MapSummary::Band> bands_of(const std::vector<double>& values, const std::vector<double>& depths,
+                                       const ScalarField& layer, bool angle) {
+  std::vector<BandMean> means(kBands, BandMean(angle));
+  const double range = layer.highest() - layer.lowest();
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    const double part = (depths[p] - layer.lowest()) / range;
+    if (!std::isfinite(values[p]) || !(part >= 0.0 && part <= 1.0)) continue;
+    means[static_cast<std::size_t>(std::lround(part * (kBands - 1)))].add(values[p]);
+  }
+  std::vector<MapSummary::Band> bands;
+  for (int b = 0; b < kBands; ++b) {
+    const double part = static_cast<double>(b) / (kBands - 1);
+    bands.push_back(means[static_cast<std::size_t>(b)].result(layer.lowest() + part * range));
+  }
+  return bands;
+}
+
+std::string summary_text(const MapSummary& summary) {
+  std::string text = summary.input + ": " + summary.angle +
+                     (summary.convention.empty() ? "" : " angle (" + summary.convention + ")") + " at " +
+                     counted(summary.points, "point");
+  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
+  if (!summary.convention.empty())
+    text += "  axis       " + short_number(summary.axis.x) + ", " + short_number(summary.axis.y) + ", " +
+            short_number(summary.axis.z) + ", from apex to base\n";
+  if (summary.undefined > 0) text += "  undefined  at " + counted(summary.undefined, "point") + "\n";
+  for (const MapSummary::Band& band : summary.bands) {
+    if (band.points == 0) continue;
+    text += "  depth " + short_number(band.depth) + "  mean " + short_number(band.mean) + ", deviation " +
+            short_number(band.deviation) + " (" + counted(band.points, "point") + ")\n";
+  }
+  return text;
+}
+
+ExitCode run_map(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.out.empty() && !options.common.json)
+    throw usage_error("map needs an output: try --out helix.vtu (or --json to get the means alone)");
+  if (!options.out.empty()) check_mesh_output(options.out, options.common.force);
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
+  const AngleProbe probe(heart, options.heart);
+
+  const Stopwatch watch;
+  const ScalarField& layer = *heart->heart().layer;
+  const std::vector<double> values = probe.map();
+  HeartOptions depth_options = options.heart;
+  depth_options.angle = "depth";
+  const std::vector<double> depths = AngleProbe(heart, depth_options).map();
+  MapSummary summary;
+  summary.input = input.title();
+  summary.field = input.field_label();
+  summary.output = options.out.string();
+  summary.angle = probe.name();
+  if (probe.is_angle()) summary.convention = options.heart.convention;
+  summary.axis = probe.axis();
+  summary.points = values.size();
+  for (const double value : values) summary.undefined += std::isfinite(value) ? 0 : 1;
+  summary.bands = bands_of(values, depths, layer, probe.is_angle());
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  summary.seconds_map = watch.seconds();
+  if (!options.out.empty()) {
+    const TetMesh& mesh = *layer.tet_mesh();
+    std::vector<Vec3> points;
+    points.reserve(values.size());
+    for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
+    std::vector<PointColumn> columns{{probe.name(), values}};
+    if (probe.name() != "depth") columns.push_back({"depth", depths});
+    write_mesh(options.out, points, mesh.cells(), columns, options.common.force);
+    context.interrupt.keep(options.out);
+  }
+  console.print(summary_text(summary));
+  console.print_json(map_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb map_angles_verb(std::vector<UsageExample> examples) {
+  return {.name = "map",
+          .summary = "write angles of fibres and sheets as a mesh, and say how they turn through the wall",
+          .groups = {.angle = true, .out = true},
+          .examples = std::move(examples),
+          .run = run_map};
+}
+
+}  // namespace palpate

@@ -1,0 +1,12 @@
+/// The verb that opens the window.
+#pragma once
+
+#include <vector>
+
+#include "common/app/cli/explorer.h"
+
+namespace palpate {
+
+[[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
+
+}  // namespace palpate

@@ -1,0 +1,93 @@
+#include <utility>
+
+#include "apps/cardiac/cardiac_modes.h"
+#include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/heart_scene.h"
+#include "apps/cardiac/heart_verbs.h"
+#include "common/app/cli/picture.h"
+#include "common/app/cli/touch_options.h"
+#include "common/app/cli/verbs.h"
+#include "common/app/haptic/probe_picture.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/device/probe_path.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+namespace {
+
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+}
+
+void check(const Options& options) {
+  (void)layer_of(options.heart);
+  (void)parse_cut(options.heart.cut);
+  if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
+  if (!options.path.empty()) (void)read_probe_path(options.path.string());
+  (void)mode_of(cardiac_modes(), options);
+  (void)touch_settings(options.touch);
+}
+
+DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
+  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);
+  DrawnScene drawn;
+  drawn.field = input.field_label();
+  drawn.seconds_trace = layer.fibres.seconds;
+  drawn.lines = layer.fibres.lines.size();
+  drawn.points = layer.fibres.points;
+  drawn.what = counted(drawn.lines, "fibre");
+  drawn.measured = measured_costs(input, heart->heart().layer->tet_mesh());
+  drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});
+  drawn.view = std::move(layer.view);
+  if (!options.path.empty()) {
+    const ScalarField& depth = *heart->heart().layer;
+    const Workspace workspace = touch_workspace(options.touch, depth.diagonal(), depth.frame());
+    const HapticScene scene{nullptr,
+                            workspace,
+                            touch_settings(options.touch, nullptr, workspace),
+                            options.common.threads,
+                            heart->heart().layer,
+                            heart->heart().fibres};
+    const std::vector<HapticMode> modes = cardiac_modes();
+    drawn.view.probe =
+        probe_after(read_probe_path(options.path.string()), mode_of(modes, options).make(scene), scene,
+                    touch_limits(options.touch), drawn.view.style.color_by);
+    fade_lines(drawn.view);
+  }
+  return drawn;
+}
+
+}  // namespace
+
+Verb render_layers_verb(std::vector<UsageExample> examples) {
+  return {.name = "render",
+          .summary = "draw a layer of the wall with its fibres, with or without a display",
+          .groups = {.fibres = true,
+                     .layer = true,
+                     .angle = true,
+                     .view = true,
+                     .touch = true,
+                     .path = true,
+                     .out = true,
+                     .picture = true},
+          .examples = std::move(examples),
+          .run = [](const Options& options, const VerbContext& context) {
+            const PictureMaker maker{
+                .check = check,
+                .use =
+                    [](const Options& given, const Input& input) {
+                      (void)input.heart_choice();  // an unknown --field is refused before anything is read
+                      return SceneUse{.verb = "render",
+                                      .tracing = true,
+                                      .threads = resolve_threads(given.common.threads),
+                                      .drawing = true};
+                    },
+                .make = make_scene};
+            return draw_picture(maker, options, context);
+          }};
+}
+
+}  // namespace palpate

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "apps/cardiac/heart_scene.h"
+#include "apps/cardiac/heart_verbs.h"
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/load/write_lines.h"
+#include "common/scene/plan.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+namespace {
+
+std::string summary_text(const TraceSummary& summary, double step) {
+  const TraceResult& result = summary.result;
+  std::string text = summary.input + ": " + counted(summary.seeds, "seed") + ", " +
+                     counted(result.lines.size(), "line") + ", " + counted(result.points, "point");
+  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
+  std::string ends;
+  for (int e = 0; e < kEndCount; ++e) {
+    const auto count = result.ends[static_cast<std::size_t>(e)];
+    if (count > 0)
+      ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
+              std::to_string(count);
+  }
+  text += "  ends       " + ends + "\n";
+  text += "  field      " + summary.field + "\n";
+  text += "  method     rk4, steps of " + short_number(step) + ", longest line allowed " +
+          short_number(summary.max_length) + "\n";
+  text += "  error      at most " + short_number(result.error_max) + " by its own estimate, " +
+          short_number(result.error_max / summary.diagonal) + " of the diagonal\n";
+  text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +
+          short_number(result.seconds_prepare) + ", trace " + short_number(result.seconds_trace) + "\n";
+  return text;
+}
+
+std::string failure_of(const TraceSummary& summary) {
+  if (summary.seeds == 0) return "no line: there are no seeds; the mesh has no volume to draw them from";
+  const TraceResult& result = summary.result;
+  if (result.lines.empty())
+    return "no line: all " + counted(summary.seeds, "seed") + " lie outside the wall, or off the layer";
+  const bool any = std::any_of(result.lines.begin(), result.lines.end(),
+                               [](const Line& line) { return line.points.size() > 1; });
+  return any ? std::string() : "no line: fibres are not known, or not defined, at any seed";
+}
+
+/// The helix angle beside each point, where it has an axis to be measured from.
+std::vector<PointColumn> columns_of(const std::shared_ptr<const LayeredHeart>& heart,
+                                    const HeartOptions& options, const std::vector<Line>& lines,
+                                    int threads) {
+  std::vector<PointColumn> columns;
+  HeartOptions asked = options;
+  for (const char* angle : {"depth", "gap", "helix"}) {
+    asked.angle = angle;
+    const bool axis = !asked.axis.empty() || long_axis(*heart->heart().layer).has_value();
+    if (asked.angle == "helix" && !axis) continue;
+    columns.push_back({angle, angles_along(AngleProbe(heart, asked), lines, threads)});
+  }
+  return columns;
+}
+
+ExitCode run_trace(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.tracing.seeds.empty())
+    throw usage_error("trace needs seeds: try --seeds random:100 or --seeds grid:8,8,8");
+  if (options.out.empty() && !options.common.json && !options.common.explain)
+    throw usage_error("trace needs an output: try --out fibres.vtp (or --json to get the counts alone)");
+  const SeedSpec spec = parse_seeds(options.tracing.seeds);
+  const auto layer = layer_of(options.heart);
+  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  TraceSummary summary;
+  summary.input = input.title();
+  summary.output = options.out.string();
+  summary.threads = resolve_threads(options.common.threads);
+  if (options.common.explain) {
+    summary.plan = plan_scene(
+        input, {.verb = "trace", .tracing = true, .lines = 2 * seed_count(spec), .threads = summary.threads});
+    console.print(plan_text(summary.plan));
+  }
+  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
+  const ScalarField& depth = *heart->heart().layer;
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  summary.field = input.field_label() + (layer ? " on the layer of depth " + short_number(*layer)
+                                               : std::string(" through the wall"));
+  summary.diagonal = depth.diagonal();
+  summary.seed_points =
+      make_seeds(spec, *depth.tet_mesh(), heart->frame(), depth.bounds(), options.common.seed);
+  summary.seeds = summary.seed_points.size();
+  FibreLineResult traced = trace_fibres(*heart, summary.seed_points,
+                                        {.layer = layer,
+                                         .step = options.tracing.step,
+                                         .max_length = options.tracing.max_length,
+                                         .least_gap = options.heart.least_gap,
+                                         .forward = options.tracing.direction != "backward",
+                                         .backward = options.tracing.direction != "forward",
+                                         .threads = options.common.threads},
+                                        &context.progress);
+  summary.max_length = traced.max_length;
+  summary.result = {.lines = std::move(traced.lines),
+                    .outside_seeds = std::move(traced.outside_seeds),
+                    .ends = traced.ends,
+                    .points = traced.points,
+                    .error_max = traced.error_max,
+                    .seconds_trace = traced.seconds,
+                    .integrator = Integrator::kRk4};
+  const std::size_t outside = summary.result.outside_seeds.size();
+  if (outside > 0)
+    console.note(counted(outside, "seed") + " outside the wall, or off the layer, gave no line");
+  summary.failure = failure_of(summary);
+  if (!summary.failure.empty()) {
+    summary.output.clear();
+    console.print_json(trace_json(summary));
+    throw work_error(summary.failure);
+  }
+  if (!options.out.empty()) {
+    context.progress.begin("writing " + options.out.string(), 0);
+    const Stopwatch watch;
+    write_lines(options.out, summary.result.lines, options.common.force,
+                columns_of(heart, options.heart, summary.result.lines, options.common.threads));
+    summary.seconds_write = watch.seconds();
+    context.interrupt.keep(options.out);
+  }
+  console.print(summary_text(summary, traced.step));
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, depth.tet_mesh());
+    summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * traced.seconds});
+    console.print(measured_text(summary.measured));
+  }
+  console.print_json(trace_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb trace_fibres_verb(std::vector<UsageExample> examples) {
+  return {.name = "trace",
+          .summary = "trace fibres, on a layer or through the wall, and write them to a file",
+          .groups = {.fibres = true, .layer = true, .out = true},
+          .examples = std::move(examples),
+          .run = run_trace};
+}
+
+}  // namespace palpate

@@ -1,0 +1,27 @@
+/// Writer of tetrahedra with numbers at their points: .vtu, or .csv for the points alone. Written under a
+/// temporary name and renamed, so an output is never half a file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "common/load/write_lines.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Checks that `path` has a known ending, may be written, and does not exist unless `overwrite`; call it
+/// before the work starts.
+/// @throws Error (usage, or work failed where the folder cannot be written).
+void check_mesh_output(const std::filesystem::path& path, bool overwrite);
+
+/// .vtu is VTK XML with raw appended data; .csv has the header x,y,z and the names of the columns.
+/// @param columns of one number a point.
+/// @throws Error as check_mesh_output(); (work failed) where the disk refuses.
+void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
+                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const PointColumn> columns,
+                bool overwrite);
+
+}  // namespace palpate
