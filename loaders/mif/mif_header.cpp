@@ -77,6 +77,7 @@ class HeaderReader {
       refuse("dim", "has " + std::to_string(axes.size()) + " axes", "three, and perhaps one of volumes", "");
     // Ranks without those of the axes that were left out.
     std::vector<int> ranks;
+    ranks.reserve(axes.size());
     for (const MifAxis& axis : axes) ranks.push_back(axis.rank);
     std::sort(ranks.begin(), ranks.end());
     for (MifAxis& axis : axes)

@@ -100,7 +100,7 @@ bool ProbeSession::set_field(NamedField open) {
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   if (!surfaces_) surfaces_ = std::make_unique<FeltSurfaces>(wake_);
   pen_.reset();
-  if (open_.tensor)
+  if (has_tensors())
     pen_.emplace(open_.tensor, kTractSpacing * open_.diagonal(), kTractReach * open_.diagonal());
   list_edits_.clear();
   clear_path();

@@ -57,6 +57,7 @@ std::vector<DirectionChoice> fibre_choices(const std::vector<ArrayInfo>& arrays)
   std::stable_sort(found.begin(), found.end(),
                    [&](const ArrayInfo* a, const ArrayInfo* b) { return rank(a) < rank(b); });
   std::vector<DirectionChoice> choices;
+  choices.reserve(found.size());
   for (const ArrayInfo* array : found) choices.push_back({array->name, array->association});
   return choices;
 }
