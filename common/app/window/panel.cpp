@@ -323,18 +323,25 @@ void draw_job(const Progress& job, PanelActions& actions) {
   actions.cancel |= ImGui::Button("Cancel", {-FLT_MIN, 0.0F});
 }
 
+/// "0.432 s"
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g s", seconds);
+  return text.data();
+}
+
 std::string status_text(const SceneState& scene) {
   if (scene.volume && !scene.tensors) {
     const VolumeImage& image = *scene.volume->image;
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
-           short_number(image.highest) + "   loaded in " + short_number(scene.seconds_load) + " s";
+           short_number(image.highest) + "   loaded in " + seconds_text(scene.seconds_load);
   }
   if (scene.tensors) {
-    std::string text = size_text(scene) + "   loaded in " + short_number(scene.seconds_load) + " s";
+    std::string text = size_text(scene) + "   loaded in " + seconds_text(scene.seconds_load);
     if (scene.tracts) {
       text += "   " + counted(scene.tracts->bundle->order.size(), "tract");
       if (scene.seeds > 0)
-        text += " from " + counted(scene.seeds, "seed") + " in " + short_number(scene.seconds_trace) + " s";
+        text += " from " + counted(scene.seeds, "seed") + " in " + seconds_text(scene.seconds_trace);
     }
     return text;
   }
@@ -349,10 +356,9 @@ std::string status_text(const SceneState& scene) {
     text += separator + std::to_string(count) + " " + name;
     separator = ", ";
   }
-  std::array<char, 96> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), "   error below %.1e   traced in %.3g s", scene.error_max,
-                scene.seconds_trace);
-  return text + numbers.data();
+  std::array<char, 32> error{};
+  std::snprintf(error.data(), error.size(), "%.1e", scene.error_max);
+  return text + "   error below " + error.data() + "   traced in " + seconds_text(scene.seconds_trace);
 }
 
 void draw_status(const PanelState& state, const WindowLayout& layout) {

@@ -75,6 +75,13 @@ void add_tensor_rows(const Mat3& tensor, ReadoutRows& rows) {
   if (has_negative(eigen.values)) rows.add("", "an eigenvalue is below zero");
 }
 
+void add_fibre_rows(const Mat3& fibres, ReadoutRows& rows) {
+  const SymmetricEigen eigen = symmetric_eigen(fibres);
+  const Vec3& direction = eigen.vectors[0];
+  rows.add("fibre", "%.3f  %.3f  %.3f", direction.x, direction.y, direction.z);
+  rows.add("gap", "%.3f", anisotropy(eigen.values).linear);
+}
+
 float draw_tensor_readout(const TensorPick& pick, float left, float top) {
   ImGui::SetNextWindowPos({left, top});
   ImGui::SetNextWindowBgAlpha(0.7F);

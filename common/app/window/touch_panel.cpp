@@ -211,8 +211,10 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
   } else if (session.has_flow()) {
     rows.add("value", "none here");
   }
-  if (readout.tensor) {
+  if (readout.tensor && session.has_tensors()) {
     add_tensor_rows(*readout.tensor, rows);
+  } else if (readout.tensor) {
+    add_fibre_rows(*readout.tensor, rows);
   } else if (session.has_tensors()) {
     rows.add("tensor", "none here");
   }
