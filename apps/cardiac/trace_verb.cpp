@@ -6,6 +6,7 @@
 #include "apps/cardiac/heart_verbs.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
+#include "common/app/cli/trace_text.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -19,26 +20,11 @@ namespace palpate {
 namespace {
 
 std::string summary_text(const TraceSummary& summary, double step) {
-  const TraceResult& result = summary.result;
-  std::string text = summary.input + ": " + counted(summary.seeds, "seed") + ", " +
-                     counted(result.lines.size(), "line") + ", " + counted(result.points, "point");
-  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
-  std::string ends;
-  for (int e = 0; e < kEndCount; ++e) {
-    const auto count = result.ends[static_cast<std::size_t>(e)];
-    if (count > 0)
-      ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
-              std::to_string(count);
-  }
-  text += "  ends       " + ends + "\n";
+  std::string text = trace_counts_text(summary);
   text += "  field      " + summary.field + "\n";
   text += "  method     rk4, steps of " + short_number(step) + ", longest line allowed " +
           short_number(summary.max_length) + "\n";
-  text += "  error      at most " + short_number(result.error_max) + " by its own estimate, " +
-          short_number(result.error_max / summary.diagonal) + " of the diagonal\n";
-  text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +
-          short_number(result.seconds_prepare) + ", trace " + short_number(result.seconds_trace) + "\n";
-  return text;
+  return text + trace_error_text(summary) + trace_seconds_text(summary);
 }
 
 std::string failure_of(const TraceSummary& summary) {

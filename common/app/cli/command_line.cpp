@@ -11,9 +11,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/app/cli/heart_command_line.h"
+#include "common/app/cli/input_command_line.h"
 #include "common/app/cli/scene_options.h"
 #include "common/app/cli/touch_command_line.h"
 #include "common/app/cli/tract_command_line.h"
+#include "common/app/cli/view_command_line.h"
 #include "common/base/version.h"
 #include "common/scene/session.h"
 
@@ -85,10 +88,10 @@ class VerbParser {
     if (verb.groups.input) add_input(explorer.kind);
     if (verb.groups.tracing) add_tracing();
     if (verb.groups.tracts) add_tract_options(scene_options_, options_.tracts);
-    if (verb.groups.fibres) add_fibres();
-    if (verb.groups.layer) add_layer();
-    if (verb.groups.angle) add_angle();
-    if (verb.groups.view) add_view(explorer.kind);
+    if (verb.groups.fibres) add_fibre_options(scene_options_, options_.tracing, options_.heart);
+    if (verb.groups.layer) add_layer_option(scene_options_, options_.heart);
+    if (verb.groups.angle) add_angle_options(scene_options_, options_.heart);
+    if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();
     if (verb.groups.path && explorer.kind == FieldKind::kTensor) add_tract();
@@ -124,16 +127,6 @@ class VerbParser {
     return scene_options_.add(name, value, text, type, group);
   }
 
-  /// One that may be repeated; a session has its values with ';' between.
-  void several(const std::string& name, std::vector<std::string>& values, const std::string& text,
-               const std::string& type, const std::string& group) {
-    scene(name, values, text, type, group)
-        ->delimiter(';')
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);  // or it would swallow the FILE behind it
-  }
-
   void add_common() {
     const char* group = "Common";
     CommonOptions& common = options_.common;
@@ -163,58 +156,14 @@ class VerbParser {
     scene("--field", input.field,
           "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
           "NAME", group);
-    if (kind == FieldKind::kScalar) add_raw();
-    if (kind == FieldKind::kTensor) add_tensor_input();
+    if (kind == FieldKind::kScalar) add_raw_options(scene_options_, input.raw);
+    if (kind == FieldKind::kTensor) add_tensor_input_options(scene_options_, input.tensor);
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);
     app_.add_option("--session", options_.session,
                     "take files and options from a saved session; typed options win")
         ->type_name("FILE.toml")
         ->group(group);
-  }
-
-  void add_tensor_input() {
-    const char* group = "Tensors";
-    TensorWords& tensor = options_.input.tensor;
-    scene("--bval", tensor.bval, "b-values of diffusion-weighted volumes; default: beside FILE", "FILE",
-          group);
-    scene("--bvec", tensor.bvec, "their gradient directions, in FSL's image axes; default: beside FILE",
-          "FILE", group);
-    scene("--mask", tensor.mask,
-          "where tensors are fitted: auto (default, the foreground), none, or an image", "auto|none|FILE",
-          group);
-    scene("--fit", tensor.fit,
-          "least squares on the log signal: weighted (default, by the squared signal) or "
-          "ordinary",
-          "WORD", group);
-    scene("--negative", tensor.negative, "eigenvalues below zero of fitted tensors: keep (default) or zero",
-          "keep|zero", group);
-    scene("--tensor-order", tensor.order,
-          "what six volumes are: fsl, mrtrix, nifti, or auto (default), by what "
-          "makes tensors positive and smooth",
-          "WORD", group);
-    scene("--permute", tensor.permute,
-          "take components along the image's axes from others, jik: i and j swapped", "jik", group);
-    scene("--flip", tensor.flip, "turn around components along these of the image's axes i, j, k", "AXES",
-          group);
-    scene("--interpolation", tensor.interpolation,
-          "of tensors between voxels: components (default) or "
-          "log-euclidean",
-          "WORD", group);
-  }
-
-  void add_raw() {
-    const char* group = "Voxels without a header";
-    RawWords& raw = options_.input.raw;
-    scene("--raw-size", raw.size, "voxels along each axis, the fastest first", "NXxNYxNZ", group);
-    scene("--raw-type", raw.type, "uint8, int8, uint16, int16, uint32, int32, float32, float64, …", "TYPE",
-          group);
-    scene("--raw-endian", raw.endian, "order of the bytes of a number; default little", "little|big", group);
-    scene("--raw-spacing", raw.spacing, "steps between voxels in data units; default 1,1,1", "DX,DY,DZ",
-          group);
-    scene("--raw-origin", raw.origin, "place of the first voxel in data units; default 0,0,0", "X,Y,Z",
-          group);
-    scene("--raw-skip", raw.skip, "bytes before the first voxel; default 0", "BYTES", group);
   }
 
   void add_tracing() {
@@ -241,155 +190,8 @@ class VerbParser {
     scene("--max-time", tracing.max_time, "longest time along a line, in data units", "TIME", group);
     scene("--max-steps", tracing.max_steps, "most steps of a line; default 1000000", "N", group)
         ->check(CLI::PositiveNumber);
-    several("--stop-plane", tracing.stop_planes, "end lines on the plane n.x = d; may be repeated",
-            "nx,ny,nz,d", group);
-  }
-
-  void add_fibres() {
-    const char* group = "Fibres";
-    TracingOptions& tracing = options_.tracing;
-    scene("--seeds", tracing.seeds,
-          "file.csv | file.vtp (its points) | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three "
-          "corners as x,y,z) | grid:nx,ny,nz | random:n; each goes to the layer first",
-          "S", group);
-    scene("--direction", tracing.direction, "which way from each seed; fibres have no sign; default both",
-          "forward|backward|both", group)
-        ->check(CLI::IsMember({"forward", "backward", "both"}));
-    scene("--step", tracing.step, "step length in data units; default 1/1000 of the diagonal", "LENGTH",
-          group);
-    scene("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals", "LENGTH",
-          group);
-    scene("--least-gap", options_.heart.least_gap,
-          "eigen gap below which fibres count as undefined, 0 to 1; default 0.05", "GAP", group)
-        ->check(CLI::Range(0.0, 1.0));
-  }
-
-  void add_layer() {
-    scene("--layer", options_.heart.layer, "depth in the wall: 0 is the inner, 1 the outer surface", "DEPTH",
-          "Fibres");
-  }
-
-  void add_angle() {
-    const char* group = "Angles";
-    HeartOptions& heart = options_.heart;
-    scene("--angle", heart.angle,
-          "helix (default), transverse, sheet, or gap (how well fibres are defined) and depth",
-          "helix|transverse|sheet|gap|depth", group)
-        ->check(CLI::IsMember({"helix", "transverse", "sheet", "gap", "depth"}));
-    scene("--convention", heart.convention,
-          "what the angle is measured from: streeter (default), bayer, piersanti or doste", "NAME", group)
-        ->check(CLI::IsMember({"streeter", "bayer", "piersanti", "doste"}));
-    scene("--axis", heart.axis, "long axis from apex to base; default: as the wall opens", "X,Y,Z", group);
-  }
-
-  void add_view(FieldKind kind) {
-    const char* group = "View";
-    scene("--camera", options_.view.camera, "direction of view in degrees, and zoom",
-          "azimuth,elevation,roll,zoom", group);
-    if (kind == FieldKind::kScalar) {
-      add_volume();
-      add_projection();
-      return;
-    }
-    if (kind == FieldKind::kTensor) {
-      add_tensors();
-      add_tensor_volume();
-      add_projection();
-      return;
-    }
-    if (kind == FieldKind::kFibre) {
-      scene("--cut", options_.heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d", group);
-      add_projection();
-      return;
-    }
-    scene("--color", options_.view.color,
-          "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, q, "
-          "lambda2, "
-          "divergence, or an array of the file",
-          "NAME", group);
-  }
-
-  void add_volume() {
-    const char* group = "View";
-    scene("--transfer-function,--context-tf", options_.volume.transfer,
-          "which colour and opacity values have: density, mr, ct, or a file with the header "
-          "value,red,green,blue,opacity; without it one is made from the histogram",
-          "NAME|FILE", group);
-    add_lenses("the same inside lenses; without it the denser half of what is seen outside");
-    add_rays();
-  }
-
-  void add_tensor_volume() {
-    const char* group = "View";
-    scene("--volume", options_.tensors.volume,
-          "fractional anisotropy as a volume: none, fa (grey) or direction (coloured by the main "
-          "eigenvector); default auto: fa with --lens or --clip, else none",
-          "auto|none|fa|direction", group)
-        ->check(CLI::IsMember({"auto", "none", "fa", "direction"}));
-    scene(
-        "--transfer-function,--context-tf", options_.volume.transfer,
-        "of that volume, as a file with the header value,red,green,blue,opacity, value being FA; default: a "
-        "faint veil",
-        "FILE", group);
-    add_lenses(
-        "inside lenses, where colours are those of directions and it says how opaque FA is; default: solid "
-        "from an FA of 0.4 on");
-    add_rays();
-  }
-
-  void add_rays() {
-    const char* group = "View";
-    VolumeOptions& volume = options_.volume;
-    scene("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", group);
-    scene("--shading", volume.shading, "light surfaces by the gradient of the values: on (default) or off",
-          "on|off", group);
-  }
-
-  void add_lenses(const char* focus) {
-    const char* group = "View";
-    VolumeOptions& volume = options_.volume;
-    several(
-        "--lens", volume.lenses,
-        "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
-        "cylinder:x,y,z,x,y,z,r or halfspace:nx,ny,nz,d (where n.x > d); ',cut' behind it cuts it away; may "
-        "be repeated, the first one wins",
-        "SHAPE", group);
-    scene("--focus-tf", volume.focus, focus, "NAME|FILE", group);
-    several("--clip,--plane", volume.clips, "cut away what lies where n.x > d; may be repeated", "nx,ny,nz,d",
-            group);
-  }
-
-  void add_projection() {
-    const char* group = "View";
-    scene("--projection", options_.volume.projection, "perspective (default) or orthographic", "NAME", group)
-        ->check(CLI::IsMember({"perspective", "orthographic"}));
-  }
-
-  void add_tensors() {
-    const char* group = "View";
-    TensorOptions& tensors = options_.tensors;
-    scene("--slices", tensors.slices,
-          "slices through the image: all (default: three through its middle), none, or where they lie on the "
-          "axes of the data, '-' for one that is left out",
-          "X,Y,Z|all|none", group);
-    scene("--color", tensors.color,
-          "colours of slices and glyphs: direction (default), that of the main eigenvector with left-right "
-          "red, back-front green and feet-head blue; or fa, fractional anisotropy",
-          "direction|fa", group);
-    scene("--glyphs", tensors.glyphs, "what stands for tensors on the slices; default none",
-          "none|ellipsoid|superquadric", group);
-    scene("--voxels", tensors.voxels,
-          "colours between the centres of voxels: nearest (default), each voxel has its own; or linear",
-          "nearest|linear", group)
-        ->check(CLI::IsMember({"nearest", "linear"}));
-    TractLook& tracts = options_.tract_look;
-    scene("--tracts", tracts.file,
-          "a tractogram to show: .tck, .trk, .trx, or lines in .vtp; or --seeds traces some", "FILE", group);
-    scene("--tract-width", tracts.width, "of tracts, in thousandths of the picture's height; default 1.5",
-          "W", group)
-        ->check(CLI::Range(0.1, 100.0));
-    scene("--tract-opacity", tracts.opacity, "of tracts; default 1", "0..1", group)
-        ->check(CLI::Range(0.01, 1.0));
+    scene_options_.add_several("--stop-plane", tracing.stop_planes,
+                               "end lines on the plane n.x = d; may be repeated", "nx,ny,nz,d", group);
   }
 
   void add_path() {

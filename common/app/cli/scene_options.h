@@ -23,6 +23,16 @@ class SceneOptions {
     return options_.back();
   }
 
+  /// One that may be repeated; a session has its values with ';' between.
+  void add_several(const std::string& name, std::vector<std::string>& values, const std::string& text,
+                   const std::string& type, const std::string& group) {
+    add(name, values, text, type, group)
+        ->delimiter(';')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);  // or it would swallow the FILE behind it
+  }
+
   void add_flag(const std::string& name, bool& value, const std::string& text, const std::string& group) {
     options_.push_back(app_.add_flag(name, value, text)->group(group));
   }

@@ -2,6 +2,7 @@
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
+#include "common/app/cli/trace_text.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -78,26 +79,11 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
 }
 
 std::string summary_text(const TraceSummary& summary) {
-  const TraceResult& result = summary.result;
-  std::string text = summary.input + ": " + counted(summary.seeds, "seed") + ", " +
-                     counted(result.lines.size(), "line") + ", " + counted(result.points, "point");
-  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
-  std::string ends;
-  for (int e = 0; e < kEndCount; ++e) {
-    const auto count = result.ends[static_cast<std::size_t>(e)];
-    if (count > 0)
-      ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
-              std::to_string(count);
-  }
-  text += "  ends       " + ends + "\n";
-  text += "  method     " + std::string(name_of(result.integrator)) + ", tolerance " +
+  std::string text = trace_counts_text(summary);
+  text += "  method     " + std::string(name_of(summary.result.integrator)) + ", tolerance " +
           short_number(summary.tolerance) + ", longest line allowed " + short_number(summary.max_length) +
           " (" + short_number(summary.max_length / summary.diagonal) + " diagonals)\n";
-  text += "  error      at most " + short_number(result.error_max) + " by its own estimate, " +
-          short_number(result.error_max / summary.diagonal) + " of the diagonal\n";
-  text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +
-          short_number(result.seconds_prepare) + ", trace " + short_number(result.seconds_trace) + " (" +
-          counted(static_cast<std::uint64_t>(summary.threads), "thread") + ")\n";
+  text += trace_error_text(summary) + trace_seconds_text(summary);
   for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
   return text;
 }

@@ -1,0 +1,46 @@
+#include "common/app/cli/heart_command_line.h"
+
+namespace palpate {
+
+void add_fibre_options(SceneOptions& options, TracingOptions& tracing, HeartOptions& heart) {
+  const char* group = "Fibres";
+  options.add(
+      "--seeds", tracing.seeds,
+      "file.csv | file.vtp (its points) | point:x,y,z | line:x,y,z,x,y,z,n | plane:o,a,b,na,nb (three "
+      "corners as x,y,z) | grid:nx,ny,nz | random:n; each goes to the layer first",
+      "S", group);
+  options
+      .add("--direction", tracing.direction, "which way from each seed; fibres have no sign; default both",
+           "forward|backward|both", group)
+      ->check(CLI::IsMember({"forward", "backward", "both"}));
+  options.add("--step", tracing.step, "step length in data units; default 1/1000 of the diagonal", "LENGTH",
+              group);
+  options.add("--max-length", tracing.max_length, "longest line, in data units; default 10 diagonals",
+              "LENGTH", group);
+  options
+      .add("--least-gap", heart.least_gap,
+           "eigen gap below which fibres count as undefined, 0 to 1; default 0.05", "GAP", group)
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_layer_option(SceneOptions& options, HeartOptions& heart) {
+  options.add("--layer", heart.layer, "depth in the wall: 0 is the inner, 1 the outer surface", "DEPTH",
+              "Fibres");
+}
+
+void add_angle_options(SceneOptions& options, HeartOptions& heart) {
+  const char* group = "Angles";
+  options
+      .add("--angle", heart.angle,
+           "helix (default), transverse, sheet, or gap (how well fibres are defined) and depth",
+           "helix|transverse|sheet|gap|depth", group)
+      ->check(CLI::IsMember({"helix", "transverse", "sheet", "gap", "depth"}));
+  options
+      .add("--convention", heart.convention,
+           "what the angle is measured from: streeter (default), bayer, piersanti or doste", "NAME", group)
+      ->check(CLI::IsMember({"streeter", "bayer", "piersanti", "doste"}));
+  options.add("--axis", heart.axis, "long axis from apex to base; default: as the wall opens", "X,Y,Z",
+              group);
+}
+
+}  // namespace palpate

@@ -1,0 +1,18 @@
+/// The command line's spelling of what of a heart is traced and measured: groups "Fibres" and "Angles".
+#pragma once
+
+#include "common/app/cli/options.h"
+#include "common/app/cli/scene_options.h"
+
+namespace palpate {
+
+/// How fibres are traced. Binds the options to `tracing` and `heart`, which outlive `options`.
+void add_fibre_options(SceneOptions& options, TracingOptions& tracing, HeartOptions& heart);
+
+/// Which layer of the wall. Binds the option to `heart`, which outlives `options`.
+void add_layer_option(SceneOptions& options, HeartOptions& heart);
+
+/// Which angle, and what it is measured from. Binds the options to `heart`, which outlives `options`.
+void add_angle_options(SceneOptions& options, HeartOptions& heart);
+
+}  // namespace palpate

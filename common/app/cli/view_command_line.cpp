@@ -1,0 +1,121 @@
+#include "common/app/cli/view_command_line.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kGroup = "View";
+
+void add_rays(SceneOptions& options, VolumeOptions& volume) {
+  options.add("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", kGroup);
+  options.add("--shading", volume.shading,
+              "light surfaces by the gradient of the values: on (default) or off", "on|off", kGroup);
+}
+
+void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus) {
+  options.add_several(
+      "--lens", volume.lenses,
+      "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
+      "cylinder:x,y,z,x,y,z,r or halfspace:nx,ny,nz,d (where n.x > d); ',cut' behind it cuts it away; may "
+      "be repeated, the first one wins",
+      "SHAPE", kGroup);
+  options.add("--focus-tf", volume.focus, focus, "NAME|FILE", kGroup);
+  options.add_several("--clip,--plane", volume.clips, "cut away what lies where n.x > d; may be repeated",
+                      "nx,ny,nz,d", kGroup);
+}
+
+void add_projection(SceneOptions& options, VolumeOptions& volume) {
+  options.add("--projection", volume.projection, "perspective (default) or orthographic", "NAME", kGroup)
+      ->check(CLI::IsMember({"perspective", "orthographic"}));
+}
+
+void add_volume(SceneOptions& options, VolumeOptions& volume) {
+  options.add("--transfer-function,--context-tf", volume.transfer,
+              "which colour and opacity values have: density, mr, ct, or a file with the header "
+              "value,red,green,blue,opacity; without it one is made from the histogram",
+              "NAME|FILE", kGroup);
+  add_lenses(options, volume, "the same inside lenses; without it the denser half of what is seen outside");
+  add_rays(options, volume);
+}
+
+void add_tensor_volume(SceneOptions& options, TensorOptions& tensors, VolumeOptions& volume) {
+  options
+      .add("--volume", tensors.volume,
+           "fractional anisotropy as a volume: none, fa (grey) or direction (coloured by the main "
+           "eigenvector); default auto: fa with --lens or --clip, else none",
+           "auto|none|fa|direction", kGroup)
+      ->check(CLI::IsMember({"auto", "none", "fa", "direction"}));
+  options.add(
+      "--transfer-function,--context-tf", volume.transfer,
+      "of that volume, as a file with the header value,red,green,blue,opacity, value being FA; default: a "
+      "faint veil",
+      "FILE", kGroup);
+  add_lenses(
+      options, volume,
+      "inside lenses, where colours are those of directions and it says how opaque FA is; default: solid "
+      "from an FA of 0.4 on");
+  add_rays(options, volume);
+}
+
+void add_tensors(SceneOptions& options, TensorOptions& tensors) {
+  options.add(
+      "--slices", tensors.slices,
+      "slices through the image: all (default: three through its middle), none, or where they lie on the "
+      "axes of the data, '-' for one that is left out",
+      "X,Y,Z|all|none", kGroup);
+  options.add(
+      "--color", tensors.color,
+      "colours of slices and glyphs: direction (default), that of the main eigenvector with left-right "
+      "red, back-front green and feet-head blue; or fa, fractional anisotropy",
+      "direction|fa", kGroup);
+  options.add("--glyphs", tensors.glyphs, "what stands for tensors on the slices; default none",
+              "none|ellipsoid|superquadric", kGroup);
+  options
+      .add("--voxels", tensors.voxels,
+           "colours between the centres of voxels: nearest (default), each voxel has its own; or linear",
+           "nearest|linear", kGroup)
+      ->check(CLI::IsMember({"nearest", "linear"}));
+}
+
+void add_tract_look(SceneOptions& options, TractLook& tracts) {
+  options.add("--tracts", tracts.file,
+              "a tractogram to show: .tck, .trk, .trx, or lines in .vtp; or --seeds traces some", "FILE",
+              kGroup);
+  options
+      .add("--tract-width", tracts.width, "of tracts, in thousandths of the picture's height; default 1.5",
+           "W", kGroup)
+      ->check(CLI::Range(0.1, 100.0));
+  options.add("--tract-opacity", tracts.opacity, "of tracts; default 1", "0..1", kGroup)
+      ->check(CLI::Range(0.01, 1.0));
+}
+
+}  // namespace
+
+void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
+  options.add("--camera", bound.view.camera, "direction of view in degrees, and zoom",
+              "azimuth,elevation,roll,zoom", kGroup);
+  switch (kind) {
+    case FieldKind::kScalar:
+      add_volume(options, bound.volume);
+      add_projection(options, bound.volume);
+      return;
+    case FieldKind::kTensor:
+      add_tensors(options, bound.tensors);
+      add_tract_look(options, bound.tract_look);
+      add_tensor_volume(options, bound.tensors, bound.volume);
+      add_projection(options, bound.volume);
+      return;
+    case FieldKind::kFibre:
+      options.add("--cut", bound.heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d",
+                  kGroup);
+      add_projection(options, bound.volume);
+      return;
+    case FieldKind::kVector:
+      options.add("--color", bound.view.color,
+                  "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, "
+                  "q, lambda2, divergence, or an array of the file",
+                  "NAME", kGroup);
+      return;
+  }
+}
+
+}  // namespace palpate
