@@ -41,9 +41,12 @@ function(palpate_app name)
 endfunction()
 
 # palpate_test(common/ode/rk4_test LABELS … USES …): tests/common/ode/rk4_test.cpp as one program.
-# Every test has the label `fast` (run under the sanitizers too) unless LABELS says `slow`.
+# Every test has the label `fast` (run under the sanitizers too) unless LABELS says `slow` (not built there).
 function(palpate_test path)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABELS;USES;DEPENDS;SOURCES" ${ARGN})
+  if(PALPATE_SANITIZE AND "slow" IN_LIST arg_LABELS)
+    return()
+  endif()
   string(REPLACE "/" "_" name ${path})
   add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/${path}.cpp ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE palpate_test_support ${arg_USES})
