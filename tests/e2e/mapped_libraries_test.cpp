@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/e2e/program.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -134,7 +135,7 @@ TEST(MappedLibraries, AreFewInGridToo) {
 TEST(MappedLibraries, NrrdStartsNoVtkHelper) {
   // A copy of the installed layout without the helpers that know VTK: reading NRRD must not miss them.
   const TempFolder folder;
-  const std::filesystem::path build = PALPATE_BUILD_DIR;
+  const std::filesystem::path build = build_folder();
   std::filesystem::create_directories(folder.path("bin"));
   std::filesystem::create_directories(folder.path("lib/palpate"));
   std::filesystem::copy(build / "bin/flow", folder.path("bin/flow"));

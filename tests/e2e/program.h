@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/project_folders.h"
+
 namespace palpate::test {
 
 struct ProgramResult {
@@ -104,8 +106,6 @@ class Program {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-inline std::filesystem::path bin(const std::string& name) {
-  return std::filesystem::path(PALPATE_BUILD_DIR) / "bin" / name;
-}
+inline std::filesystem::path bin(const std::string& name) { return build_folder() / "bin" / name; }
 
 }  // namespace palpate::test

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/project_folders.h"
+
 namespace palpate::test {
 namespace {
 
@@ -99,7 +101,7 @@ const std::vector<Foreign> kForeign{
 std::vector<fs::path> sources() {
   std::vector<fs::path> files;
   for (const char* top : {"common", "loaders", "apps"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(PALPATE_SOURCE_DIR) / top)) {
+    for (const auto& entry : fs::recursive_directory_iterator(source_folder() / top)) {
       const std::string ending = entry.path().extension().string();
       if (ending == ".h" || ending == ".cpp") files.push_back(entry.path());
     }
@@ -112,7 +114,7 @@ TEST(IncludeArrows, PointOnlyWhereTheTableAllows) {
   const std::regex include_line(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::size_t read = 0;
   for (const fs::path& file : sources()) {
-    const std::string name = fs::relative(file, PALPATE_SOURCE_DIR).generic_string();
+    const std::string name = fs::relative(file, source_folder()).generic_string();
     std::ifstream in(file);
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
@@ -148,7 +150,7 @@ TEST(IncludeArrows, TableNamesEveryFolderAndHasNoCycle) {
       EXPECT_FALSE(closure(direct).count(folder)) << folder << " and " << direct << " include each other";
     }
   }
-  for (const auto& entry : fs::directory_iterator(fs::path(PALPATE_SOURCE_DIR) / "common")) {
+  for (const auto& entry : fs::directory_iterator(source_folder() / "common")) {
     if (!entry.is_directory()) continue;
     EXPECT_TRUE(kDirect.count(entry.path().filename().string()))
         << entry.path().filename() << " is not in the table";

@@ -16,6 +16,7 @@
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/render/scene_view.h"
+#include "tests/support/project_folders.h"
 
 namespace palpate::test {
 
@@ -73,7 +74,7 @@ inline void expect_baseline(const SceneView& view, const std::string& name) {
   constexpr int kClearlyDifferent = 24;
   constexpr int kWidth = 240, kHeight = 180;
   const Image image = render_image(view, kWidth, kHeight).image;
-  const auto path = std::filesystem::path(PALPATE_SOURCE_DIR) / "tests/baselines" / (name + ".png");
+  const auto path = source_folder() / "tests/baselines" / (name + ".png");
   if (std::getenv("PALPATE_UPDATE_BASELINES") != nullptr) {
     std::filesystem::create_directories(path.parent_path());
     write_png(path, image, {});
