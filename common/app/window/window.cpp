@@ -20,15 +20,14 @@
 #include "common/app/window/keys.h"
 #include "common/app/window/lens_control.h"
 #include "common/app/window/panel.h"
+#include "common/app/window/saved_files.h"
+#include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
 #include "common/app/window/touch_control.h"
 #include "common/app/window/user_settings.h"
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
-#include "common/base/text.h"
-#include "common/field/color_transfer_file.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
@@ -52,7 +51,11 @@ constexpr double kLensRest = 0.3;
 class Window {
  public:
   Window(WindowModel& model, const WindowOptions& options)
-      : model_(model), options_(options), glfw_(options), view_(options.view) {
+      : model_(model),
+        options_(options),
+        files_(options.picture_folder, options.program),
+        glfw_(options),
+        view_(options.view) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
@@ -176,25 +179,10 @@ class Window {
 
   void adopt(SceneState scene) {
     scene_ = std::move(scene);
-    view_.lines = scene_->lines;
-    adopt_color(scene_->color_array);
-    view_.bounds = scene_->info->bounds;
-    view_.outline = scene_->info->outline;
-    view_.units = scene_->info->units;
-    view_.title = scene_->info->name;
-    view_.subtitle = scene_->settings.field + ", " + size_text(*scene_);
-    adopt_volume();
-    adopt_tensors();
-    adopt_tracts();
-    const std::vector<double>& times = scene_->info->times;
-    if (times.size() > 1 && scene_->settings.time_step < times.size()) {
-      view_.subtitle += ", time " + short_number(times[scene_->settings.time_step]);
-    }
-    if (job_kind_ != JobKind::kUpdate && scene_->style) view_.style = *scene_->style;
+    show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;
-      if (!scene_->style) view_.style.range.reset();
       needs_camera_ = true;
       remember(state_.recent, scene_->info->files);
       glfwSetWindowTitle(glfw_.get(), (scene_->info->name + " - " + options_.program).c_str());
@@ -206,45 +194,6 @@ class Window {
     state_.seeds = seed_choice(state_.settings.seeds);
     adopt_field();
     say({}, false);
-  }
-
-  /// What the user has chosen about the look of a volume stays while the input does.
-  void adopt_volume() {
-    const std::optional<VolumeView> before = std::exchange(view_.volume, scene_->volume);
-    view_.anatomical = scene_->info->anatomical;
-    view_.volume_label = scene_->tensors ? "FA" : scene_->settings.field;
-    if (!view_.volume || !before || job_kind_ != JobKind::kUpdate) return;
-    view_.volume->shading = before->shading;
-    view_.volume->samples_per_voxel = before->samples_per_voxel;
-    view_.volume->shown = before->shown;
-    view_.volume->lenses = before->lenses;
-    for (Lens& lens : view_.volume->lenses) {
-      if (!lens.cut) lens.transfer = scene_->lens.transfer;
-    }
-  }
-
-  /// Likewise of tracts.
-  void adopt_tracts() {
-    const std::optional<TractView> before = std::exchange(view_.tracts, scene_->tracts);
-    if (!view_.tracts || !before || job_kind_ != JobKind::kUpdate) return;
-    const auto bundle = view_.tracts->bundle;
-    view_.tracts = before;
-    view_.tracts->bundle = bundle;
-  }
-
-  /// Likewise of tensors: another time step of an image keeps its slices.
-  void adopt_tensors() {
-    const std::optional<TensorView> before = std::exchange(view_.tensors, scene_->tensors);
-    if (!view_.tensors) return;
-    if (!before || job_kind_ != JobKind::kUpdate) {
-      view_.style.color_by = ColorBy::kDirection;
-      return;
-    }
-    const TensorVoxels& voxels = *view_.tensors->image;
-    TensorView kept = *before;
-    kept.image = view_.tensors->image;
-    if (!voxels.contains(voxels.grid_coordinates(kept.position))) kept.position = view_.tensors->position;
-    view_.tensors = std::move(kept);
   }
 
   /// The hand feels what the lines show.
@@ -262,19 +211,6 @@ class Window {
       state_.lines_file = touch_->has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
     if (!view_.probe) view_.probe.emplace();
     view_.probe->reference_speed = reference_speed(view_);
-  }
-
-  /// Colours by `array`, or where there is none by a quantity of the lines.
-  void adopt_color(const std::shared_ptr<const LineArray>& array) {
-    LineStyle& style = view_.style;
-    const bool by_array = style.color_by == ColorBy::kArray;
-    const bool same = by_array && array && style.array && style.array->name == array->name;
-    if (!same && (array || by_array)) {
-      style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
-      style.range.reset();
-      style.logarithmic.reset();
-    }
-    style.array = array;
   }
 
   void fail(const std::exception_ptr& error) {
@@ -331,11 +267,11 @@ class Window {
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
     if (actions.save_transfer && view_.volume) {
-      attempt([this] { return save_transfer(state_.transfer_file, view_.volume->transfer); });
+      attempt([this] { return files_.save_transfer(state_.transfer_file, view_.volume->transfer); });
     }
     if (actions.save_focus && scene_) {
       attempt([this] {
-        return save_transfer(state_.focus_file, scene_->lens.transfer.value_or(ColorTransfer()));
+        return files_.save_transfer(state_.focus_file, scene_->lens.transfer.value_or(ColorTransfer()));
       });
     }
     if (actions.touch.grab) run_command(Command::kGrab);
@@ -454,7 +390,7 @@ class Window {
         state_.show_rates = !state_.show_rates;
         break;
       case Command::kSavePicture:
-        attempt([this] { return save_picture(); });
+        attempt([this] { return files_.save_picture(renderer_->read(), picture_texts()); });
         break;
       case Command::kSaveSession:
         if (scene_)
@@ -479,38 +415,19 @@ class Window {
     if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
   }
 
-  std::string save_lines() {
+  std::filesystem::path save_lines() {
     if (touch_->has_drawn()) (void)touch_->keep_line();
     if (touch_->kept().entries().empty())
       throw work_error(touch_->has_tensors() ? "no tract is drawn; press G, then drag along one"
                                              : "no line is kept; grab the probe (G), then K keeps one");
-    const std::filesystem::path folder = std::filesystem::absolute(options_.picture_folder);
-    std::filesystem::path path = (folder / state_.lines_file).lexically_normal();
-    const std::filesystem::path stem = path.stem(), ending = path.extension();
-    for (int number = 2; path != saved_as_ && std::filesystem::exists(path); ++number) {
-      path.replace_filename(stem.string() + "-" + std::to_string(number) + ending.string());
-    }
-    touch_->kept().save(path, path == saved_as_);
-    saved_as_ = path;
-    state_.lines_file = path.lexically_proximate(folder).string();
-    return path.string();
-  }
-
-  /// A transfer function as a table, in the folder of pictures unless `name` says another one; never over a
-  /// file that is there.
-  [[nodiscard]] std::string save_transfer(const std::string& name, const ColorTransfer& transfer) const {
-    const std::filesystem::path path = std::filesystem::absolute(options_.picture_folder) / name;
-    OutputFile file(path, false);
-    file.write(color_transfer_text(transfer));
-    file.finish();
-    return path.string();
+    return files_.save_lines(touch_->kept(), state_.lines_file);
   }
 
   // Says what was saved, or why it was not.
   template <class Save>
   void attempt(const Save& save) {
     try {
-      say("saved " + std::string(save()), false);
+      say("saved " + std::filesystem::path(save()).string(), false);
     } catch (const std::exception& error) {
       say(error.what(), true);
     }
@@ -524,21 +441,6 @@ class Window {
 
   [[nodiscard]] std::vector<PngText> picture_texts() const {
     return {{"Software", options_.version}, {"Comment", options_.command_line}};
-  }
-
-  // The picture alone, under the first number that is free.
-  std::string save_picture() {
-    constexpr int kMostPictures = 10'000;
-    for (int number = 1; number < kMostPictures; ++number) {
-      const std::string digits = std::to_string(number);
-      const auto path = options_.picture_folder /
-                        (options_.program + "-" +
-                         std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + ".png");
-      if (std::filesystem::exists(path)) continue;
-      write_png(path, renderer_->read(), picture_texts());
-      return path.string();
-    }
-    throw work_error(options_.picture_folder.string() + ": too many pictures");
   }
 
   // The whole window, as it stands in the framebuffer that is about to be shown.
@@ -590,6 +492,7 @@ class Window {
 
   WindowModel& model_;
   const WindowOptions& options_;
+  SavedFiles files_;
   GlfwWindow glfw_;  // first in, last out: the others need its context
   std::unique_ptr<Gui> gui_;
   std::unique_ptr<SceneRenderer> renderer_;
@@ -610,7 +513,6 @@ class Window {
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]
   std::vector<double> frame_ms_;
-  std::filesystem::path saved_as_;  // the file of lines that this window has written: it may do so again
   std::string told_fault_;
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;

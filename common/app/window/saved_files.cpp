@@ -1,0 +1,50 @@
+#include "common/app/window/saved_files.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/output_file.h"
+#include "common/field/color_transfer_file.h"
+
+namespace palpate {
+
+SavedFiles::SavedFiles(std::filesystem::path folder, std::string program)
+    : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
+
+std::filesystem::path SavedFiles::save_lines(const KeptLines& lines, std::string& name) {
+  std::filesystem::path path = (folder_ / name).lexically_normal();
+  const std::filesystem::path stem = path.stem(), ending = path.extension();
+  for (int number = 2; path != own_lines_ && std::filesystem::exists(path); ++number) {
+    path.replace_filename(stem.string() + "-" + std::to_string(number) + ending.string());
+  }
+  lines.save(path, path == own_lines_);
+  own_lines_ = path;
+  name = path.lexically_proximate(folder_).string();
+  return path;
+}
+
+std::filesystem::path SavedFiles::save_transfer(const std::string& name,
+                                                const ColorTransfer& transfer) const {
+  std::filesystem::path path = folder_ / name;
+  OutputFile file(path, false);
+  file.write(color_transfer_text(transfer));
+  file.finish();
+  return path;
+}
+
+std::filesystem::path SavedFiles::save_picture(const Image& image, const std::vector<PngText>& texts) const {
+  constexpr int kMostPictures = 10'000;
+  for (int number = 1; number < kMostPictures; ++number) {
+    const std::string digits = std::to_string(number);
+    std::filesystem::path path =
+        folder_ /
+        (program_ + "-" + std::string(3 - std::min<std::size_t>(3, digits.size()), '0') + digits + ".png");
+    if (std::filesystem::exists(path)) continue;
+    write_png(path, image, texts);
+    return path;
+  }
+  throw work_error(folder_.string() + ": too many pictures");
+}
+
+}  // namespace palpate

@@ -1,0 +1,38 @@
+/// Files that a window writes on request, and their names.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/app/haptic/kept_lines.h"
+#include "common/field/color_transfer.h"
+#include "common/render/png.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// Writes into one folder, never over a file that this window has not written itself.
+/// Every function returns the absolute path that it wrote, and throws Error where it cannot.
+class SavedFiles {
+ public:
+  /// @param program  the stem of pictures' names
+  SavedFiles(std::filesystem::path folder, std::string program);
+
+  /// Saves kept lines or tracts under `name`, numbered where a file of others is in the way; `name` becomes
+  /// what was taken, so that the next time writes the same file again.
+  std::filesystem::path save_lines(const KeptLines& lines, std::string& name);
+  /// Saves a transfer function as a table under `name`.
+  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name,
+                                                    const ColorTransfer& transfer) const;
+  /// Saves a picture under the first number that is free.
+  [[nodiscard]] std::filesystem::path save_picture(const Image& image,
+                                                   const std::vector<PngText>& texts) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string program_;
+  std::filesystem::path own_lines_;  // the file of lines that this window has written: it may do so again
+};
+
+}  // namespace palpate

@@ -1,0 +1,87 @@
+#include "common/app/window/shown_scene.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/app/window/panel.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<VolumeView> before = std::exchange(view.volume, scene.volume);
+  view.anatomical = scene.info->anatomical;
+  view.volume_label = scene.tensors ? "FA" : scene.settings.field;
+  if (!view.volume || !before || new_input) return;
+  view.volume->shading = before->shading;
+  view.volume->samples_per_voxel = before->samples_per_voxel;
+  view.volume->shown = before->shown;
+  view.volume->lenses = before->lenses;
+  for (Lens& lens : view.volume->lenses) {
+    if (!lens.cut) lens.transfer = scene.lens.transfer;
+  }
+}
+
+void show_tracts(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<TractView> before = std::exchange(view.tracts, scene.tracts);
+  if (!view.tracts || !before || new_input) return;
+  const auto bundle = view.tracts->bundle;
+  view.tracts = before;
+  view.tracts->bundle = bundle;
+}
+
+// Another time step of an image keeps its slices.
+void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<TensorView> before = std::exchange(view.tensors, scene.tensors);
+  if (!view.tensors) return;
+  if (!before || new_input) {
+    view.style.color_by = ColorBy::kDirection;
+    return;
+  }
+  const TensorVoxels& voxels = *view.tensors->image;
+  TensorView kept = *before;
+  kept.image = view.tensors->image;
+  if (!voxels.contains(voxels.grid_coordinates(kept.position))) kept.position = view.tensors->position;
+  view.tensors = std::move(kept);
+}
+
+// Colours by `array`, or where there is none by a quantity of the lines.
+void color_lines(const std::shared_ptr<const LineArray>& array, LineStyle& style) {
+  const bool by_array = style.color_by == ColorBy::kArray;
+  const bool same = by_array && array && style.array && style.array->name == array->name;
+  if (!same && (array || by_array)) {
+    style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
+    style.range.reset();
+    style.logarithmic.reset();
+  }
+  style.array = array;
+}
+
+}  // namespace
+
+void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
+  view.lines = scene.lines;
+  color_lines(scene.color_array, view.style);
+  view.bounds = scene.info->bounds;
+  view.outline = scene.info->outline;
+  view.units = scene.info->units;
+  view.title = scene.info->name;
+  view.subtitle = scene.settings.field + ", " + size_text(scene);
+  const std::vector<double>& times = scene.info->times;
+  if (times.size() > 1 && scene.settings.time_step < times.size()) {
+    view.subtitle += ", time " + short_number(times[scene.settings.time_step]);
+  }
+  show_volume(scene, new_input, view);
+  show_tensors(scene, new_input, view);
+  show_tracts(scene, new_input, view);
+  if (!new_input) return;
+  if (scene.style) {
+    view.style = *scene.style;
+  } else {
+    view.style.range.reset();
+  }
+}
+
+}  // namespace palpate
