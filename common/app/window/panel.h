@@ -1,4 +1,4 @@
-/// The panel at the left of the window, the status line below the picture, and the cheat sheet.
+/// The panel at the left of the window, and the layout of its parts.
 #pragma once
 
 #include <optional>
@@ -61,9 +61,6 @@ struct WindowLayout {
 };
 
 [[nodiscard]] WindowLayout layout(int width, int height, float text_height);
-
-/// "300 lines", or "103 x 94 x 161 voxels" of a volume.
-[[nodiscard]] std::string size_text(const SceneState& scene);
 
 /// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
 [[nodiscard]] PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout);

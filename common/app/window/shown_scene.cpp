@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/app/window/panel.h"
+#include "common/app/window/picture_panels.h"
 #include "common/base/text.h"
 
 namespace palpate {
