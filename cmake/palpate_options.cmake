@@ -35,6 +35,9 @@ target_compile_options(palpate_options INTERFACE
   -Wno-missing-field-initializers -Werror -ffp-contract=off
   # GCC 12 sees overlapping copies in `"text" + std::string` where there are none (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# Tests are compiled more often than they run: the optimiser's last round costs them a quarter of that time.
+target_compile_options(palpate_options INTERFACE
+  $<$<AND:$<CONFIG:Release>,$<BOOL:$<TARGET_PROPERTY:PALPATE_IS_TEST>>>:-O1>)
 if(PALPATE_ASSERTIONS)
   target_compile_definitions(palpate_options INTERFACE PALPATE_ASSERTIONS=1)
 endif()
