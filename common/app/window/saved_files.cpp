@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-SavedFiles::SavedFiles(std::filesystem::path folder, std::string program)
+SavedFiles::SavedFiles(const std::filesystem::path& folder, std::string program)
     : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
 
 std::filesystem::path SavedFiles::save_lines(const KeptLines& lines, std::string& name) {

@@ -17,7 +17,7 @@ namespace palpate {
 class SavedFiles {
  public:
   /// @param program  the stem of pictures' names
-  SavedFiles(std::filesystem::path folder, std::string program);
+  SavedFiles(const std::filesystem::path& folder, std::string program);
 
   /// Saves kept lines or tracts under `name`, numbered where a file of others is in the way; `name` becomes
   /// what was taken, so that the next time writes the same file again.
