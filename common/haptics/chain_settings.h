@@ -13,6 +13,7 @@
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/isosurface_settings.h"
 #include "common/haptics/constraint/linear_settings.h"
+#include "common/haptics/constraint/plane_widget_settings.h"
 #include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
@@ -30,6 +31,7 @@ struct ChainSettings {
   DragSettings drag;
   ShapeSettings shape;
   GridAxisSettings grid_axis;
+  PlaneWidgetSettings plane_widget;
   IsosurfaceSettings isosurface;
   LinearSettings linear;
   AnisotropySettings anisotropy;
@@ -42,8 +44,8 @@ struct ChainSettings {
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && isosurface.valid() && linear.valid() && anisotropy.valid() && fibre.valid() &&
-           force_field.valid();
+           grid_axis.valid() && plane_widget.valid() && isosurface.valid() && linear.valid() &&
+           anisotropy.valid() && fibre.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -57,6 +59,7 @@ struct ChainSettings {
     DragSettings::each(self.drag, visit);
     ShapeSettings::each(self.shape, visit);
     GridAxisSettings::each(self.grid_axis, visit);
+    PlaneWidgetSettings::each(self.plane_widget, visit);
     IsosurfaceSettings::each(self.isosurface, visit);
     LinearSettings::each(self.linear, visit);
     AnisotropySettings::each(self.anisotropy, visit);

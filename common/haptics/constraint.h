@@ -69,6 +69,8 @@ class Constraint {
   virtual void apply(const ChainSettings& settings) noexcept = 0;
   /// Forgets its proxy: the next update catches afresh.
   virtual void reset() noexcept = 0;
+  /// The buttons of the device from now on, bit i: button i is down.
+  virtual void press(std::uint32_t /*buttons*/) noexcept {}
   /// Moves the proxy after `probe`, which is finite.
   virtual void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept = 0;
 };

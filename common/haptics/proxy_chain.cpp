@@ -37,6 +37,10 @@ void ProxyChain::reset() noexcept {
   for (const auto& link : links_) link->reset();
 }
 
+void ProxyChain::press(std::uint32_t buttons) noexcept {
+  for (const auto& link : links_) link->press(buttons);
+}
+
 ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
   ChainForce springs(form_);

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -60,6 +61,8 @@ class ProxyChain {
 
   /// Forgets all proxies.
   void reset() noexcept;
+  /// The buttons of the device from the next step on.
+  void press(std::uint32_t buttons) noexcept;
   /// Moves the proxies after `probe`, one after the other.
   /// @param velocity xdot of the hand [m/s]. @pre both finite.
   [[nodiscard]] ChainStep step(const Vec3& probe, const Vec3& velocity = Vec3{0.0}) noexcept;

@@ -6,6 +6,7 @@
 
 #include "common/base/number_text.h"
 #include "common/base/text.h"
+#include "common/haptics/widget/widget_text.h"
 
 namespace palpate {
 namespace {
@@ -26,6 +27,32 @@ bool read_value(std::string_view text, bool& value) noexcept {
   value = text == "yes";
   return value || text == "no";
 }
+
+std::string value_text(int value) { return std::to_string(value); }
+
+bool read_value(std::string_view text, int& value) noexcept {
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, value);
+  return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+/// "1,0.5,2"
+std::string value_text(const Vec3& value) {
+  return exact_number(value.x) + "," + exact_number(value.y) + "," + exact_number(value.z);
+}
+
+bool read_value(std::string_view text, Vec3& value) {
+  const std::vector<std::string_view> words = split(text, ',');
+  return words.size() == 3 && read_value(words[0], value.x) && read_value(words[1], value.y) &&
+         read_value(words[2], value.z);
+}
+
+std::string value_text(const GridFrame& frame) { return text_of(frame); }
+bool read_value(std::string_view text, GridFrame& frame) { return !read_text(text, frame); }
+std::string value_text(const GridMarks& marks) { return text_of(marks); }
+bool read_value(std::string_view text, GridMarks& marks) { return !read_text(text, marks); }
+std::string value_text(const PlanePoses& poses) { return text_of(poses); }
+bool read_value(std::string_view text, PlanePoses& poses) { return !read_text(text, poses); }
 
 /// "0.5,1.25", or nothing.
 std::string value_text(const Isovalues& values) {
@@ -80,6 +107,12 @@ std::string value_text(LinearReference reference) { return std::string(name_of(r
 
 bool read_value(std::string_view text, LinearReference& reference) noexcept {
   return read_name(text, kLinearReferenceCount, reference);
+}
+
+std::string value_text(GridSwitch where) { return std::string(name_of(where)); }
+
+bool read_value(std::string_view text, GridSwitch& where) noexcept {
+  return read_name(text, kGridSwitchCount, where);
 }
 
 std::string value_text(LinearMeasure measure) { return std::string(name_of(measure)); }

@@ -63,6 +63,7 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
     const Vec3& velocity = velocity_.update(input.sample.time, input.sample.position);
     last_sample_ = input.sample;
     last_sample_time_ = input.sample.time;
+    if (chain_) chain_->press(input.sample.buttons);
     const ChainStep now = chain_ ? chain_->step(input.sample.position, velocity) : ChainStep{};
     if (!is_finite(now)) {
       chain_->reset();

@@ -1,11 +1,17 @@
 #include "common/haptics/constraint/grid_axis.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "common/base/check.h"
 #include "common/haptics/motion_rule.h"
+#include "common/haptics/notch.h"
 
 namespace palpate {
 namespace {
+
+/// A plane that an axis meets at less than some 6 degrees is no place along it.
+constexpr double kGrazing = 0.1;
 
 int largest_axis(const Vec3& x) noexcept {
   const Vec3 size = glm::abs(x);
@@ -15,9 +21,46 @@ int largest_axis(const Vec3& x) noexcept {
 
 }  // namespace
 
+GridAxis::GridAxis(const Vec3& origin, const Mat3& axes, const Vec3& spacing,
+                   std::span<const Landmark> landmarks)
+    : origin_(origin), axes_(axes), spacing_(spacing) {
+  PALPATE_CHECK(landmarks.size() <= kMaxLandmarks);
+  for (const Landmark& landmark : landmarks) {
+    landmarks_[static_cast<std::size_t>(landmark_count_++)] = {
+        landmark.normal * axes_, landmark.offset - glm::dot(landmark.normal, origin_)};
+  }
+}
+
 /// The node next to `u` on an axis.
 double GridAxis::node(int axis, double u) const noexcept {
   return spacing_[axis] * std::round(u / spacing_[axis]);
+}
+
+GridAxis::Notch GridAxis::notch_near(double u) const noexcept {
+  Notch nearest;
+  double second = HUGE_VAL;  // distance of the nearest landmark to the one after it
+  const auto crossing = [this](const Landmark& mark, double& at) {
+    const double along = mark.normal[leading_];
+    if (std::abs(along) < kGrazing) return false;
+    Vec3 across = at_;
+    across[leading_] = 0.0;
+    at = (mark.offset - glm::dot(mark.normal, across)) / along;
+    return true;
+  };
+  double at = 0.0;
+  for (int i = 0; i < landmark_count_; ++i) {
+    if (!crossing(landmarks_[static_cast<std::size_t>(i)], at)) continue;
+    if (nearest.there && std::abs(at - u) >= std::abs(nearest.at - u)) continue;
+    nearest.there = true;
+    nearest.at = at;
+  }
+  if (!nearest.there) return nearest;
+  for (int i = 0; i < landmark_count_; ++i) {
+    if (!crossing(landmarks_[static_cast<std::size_t>(i)], at) || at == nearest.at) continue;
+    second = std::min(second, std::abs(at - nearest.at));
+  }
+  nearest.reach = std::min(settings_.notch, 0.5 * second);
+  return nearest;
 }
 
 /// At the nearest node, led by the line through it that comes nearest.
@@ -32,10 +75,17 @@ bool GridAxis::change_over(const Vec3& u) noexcept {
   Vec3 across = u - at_;
   across[leading_] = 0.0;
   const int pulled = largest_axis(across);
-  const double crossing = node(leading_, u[leading_]);
-  const bool at_crossing = std::abs(u[leading_] - crossing) <= settings_.threshold;
-  if (!at_crossing || !(std::abs(across[pulled]) > settings_.threshold)) return false;
-  at_[leading_] = crossing;
+  if (!(std::abs(across[pulled]) > settings_.threshold)) return false;
+  const auto within = [&](double place) { return std::abs(u[leading_] - place) <= settings_.threshold; };
+  const Notch notch = notch_near(u[leading_]);
+  const double next = node(leading_, u[leading_]);
+  if (notch.there && within(notch.at)) {
+    at_[leading_] = notch.at;
+  } else if (settings_.switch_at == GridSwitch::kNodes && within(next)) {
+    at_[leading_] = next;
+  } else {
+    return false;
+  }
   leading_ = pulled;
   return true;
 }
@@ -50,12 +100,19 @@ void GridAxis::update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpd
     for (int n = 0; n < 2 && change_over(u); ++n) link.jumped = true;
   }
   const int a = leading_;
+  const Notch notch = notch_near(u[a]);
   const bool teeth = settings_.teeth > 0.0;
-  at_[a] = teeth ? node(a, at_[a] + snap_drag(u[a] - at_[a], spacing_[a])) : u[a];
+  if (notch.there && std::abs(u[a] - notch.at) < notch.reach) {
+    at_[a] = notch.at;
+    link.kappa[a] = notch_hold(u[a] - notch.at, notch.reach);
+    link.jacobian = Mat3{0.0};
+  } else {
+    at_[a] = teeth ? node(a, at_[a] + snap_drag(u[a] - at_[a], spacing_[a])) : u[a];
+    if (teeth) link.kappa[a] = settings_.teeth;
+    link.jacobian = teeth ? Mat3{0.0} : glm::outerProduct(axes_[a], axes_[a]);
+  }
   link.proxy = origin_ + axes_ * at_;
   link.frame = axes_;
-  if (teeth) link.kappa[a] = settings_.teeth;
-  link.jacobian = teeth ? Mat3{0.0} : glm::outerProduct(axes_[a], axes_[a]);
   link.state = HoldState::kHeld;
 }
 
