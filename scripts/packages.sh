@@ -3,7 +3,7 @@
 # What every build needs.
 packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev"
 # The explorers: command line, session files, window, drawing.
-packages_explorer="libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
+packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev libnifti2-dev zlib1g-dev"

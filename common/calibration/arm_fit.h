@@ -1,0 +1,30 @@
+/// Calibration of an arm's kinematics from places that its tip was put to (Ikits 2006, sec. 4.3).
+#pragma once
+
+#include <vector>
+
+#include "common/calibration/arm_problem.h"
+#include "common/calibration/fit_report.h"
+
+namespace palpate {
+
+struct ArmFitOptions {
+  bool offsets_only = false;  ///< the joints' offsets alone: an encoder's reference pose
+  Loss loss = Loss::kSquare;
+  double loss_scale = 2e-3;  ///< [m], beyond which a robust loss bends
+  std::size_t folds = 3;     ///< every third sample is left out, as in the reference
+};
+
+struct ArmFit {
+  DhhChain chain;
+  std::vector<Rigid> grids;  ///< of each grid in the first one's frame
+  FitReport report;          ///< errors "nominal", "offsets", and "full" unless offsets_only
+};
+
+/// @param nominal where the search starts; its `free` flags say what a full fit estimates.
+/// @throws Error (bad input) for fewer measurements than unknowns, and for sets that cannot tell parameters
+/// apart: names them and says where to measure next.
+[[nodiscard]] ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhChain& nominal,
+                                   const ArmFitOptions& options);
+
+}  // namespace palpate

@@ -1,0 +1,101 @@
+/// What every calibration reports.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/base/work_precision.h"
+#include "common/calibration/identifiability.h"
+
+namespace palpate {
+
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double mean = 0.0, deviation = 0.0, maximum = 0.0, rms = 0.0;
+};
+
+[[nodiscard]] ErrorStatistics statistics_of(std::span<const double> errors);
+
+/// A row of table 4.1: one quantity under one method.
+struct ErrorRow {
+  std::string method;     ///< "before", "offsets alone", "polynomial, degree 4"
+  std::string quantity;   ///< "position", "orientation", "distance"
+  std::string unit;       ///< "mm", "deg"
+  bool left_out = false;  ///< on measurements that the fit did not see
+  ErrorStatistics errors;
+};
+
+struct FittedParameter {
+  std::string name;
+  double value = 0.0;
+  double deviation = 0.0;  ///< standard, from the residuals; NaN where it is not known
+  std::string unit;        ///< "m", "rad", "1"
+};
+
+/// An error against the place where it was made, for pictures.
+struct PlacedError {
+  double distance = 0.0;  ///< from the transmitter [m]
+  double before = 0.0, after = 0.0;
+};
+
+struct FitReport {
+  std::string kind;    ///< "tracker", "arm", …
+  std::string source;  ///< the file of measurements, or "example"
+  std::size_t measurements = 0;
+  std::vector<ErrorRow> errors;
+  double condition_number = 0.0;  ///< columns scaled to unit influence
+  std::optional<double> chi_square;
+  std::size_t degrees_of_freedom = 0;
+  double chi_square_probability = 0.0;  ///< of a larger one by chance
+  int iterations = 0;
+  std::vector<FittedParameter> parameters;
+  std::vector<std::string> weak;      ///< parameters that the measurements hardly tell apart
+  std::vector<std::string> advice;    ///< where to measure next, and what else the user should know
+  std::vector<std::size_t> outliers;  ///< rows of the table, from 1
+  std::vector<WorkPrecision> work_precision;
+  std::vector<PlacedError> position_errors, orientation_errors;  ///< [m], [rad]; left-out measurements
+  double seconds = 0.0;
+
+  /// @return null where there is no such row.
+  [[nodiscard]] const ErrorRow* find(const std::string& method, const std::string& quantity,
+                                     bool left_out) const;
+};
+
+/// Probability that chi-square with `degrees` of freedom exceeds `value` (Wilson and Hilferty 1931: good to
+/// three digits from ten degrees on).
+[[nodiscard]] double chi_square_tail(double value, std::size_t degrees);
+
+/// Rows whose residual lies more than five robust deviations out, from 1. A fit that is exact has none.
+/// @param floor residuals below it are never outliers.
+[[nodiscard]] std::vector<std::size_t> outlying(std::span<const double> residuals, double floor);
+
+/// Refuses measurements whose linearized problem is singular.
+/// @param source file; @param remedy what to measure next. @throws Error (bad input).
+void require_identifiable(const Identifiability& found, const std::string& source, const std::string& remedy);
+
+/// Fills in condition number and weak combinations.
+void describe(FitReport& report, const Identifiability& found);
+
+/// Errors on each measurement by a fit that did not see it: measurement i is left out of fit i mod folds.
+/// @param fit takes the kept measurements; @param error takes what it gave and a measurement.
+template <typename Measurement, typename Fit, typename Error>
+[[nodiscard]] auto left_out_errors(const std::vector<Measurement>& all, std::size_t folds, const Fit& fit,
+                                   const Error& error) {
+  using Value = decltype(error(fit(all), all[0]));
+  std::vector<Value> out(all.size());
+  for (std::size_t fold = 0; fold < folds && fold < all.size(); ++fold) {
+    std::vector<Measurement> kept;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % folds != fold) kept.push_back(all[i]);
+    }
+    const auto fitted = fit(kept);
+    for (std::size_t i = fold; i < all.size(); i += folds) out[i] = error(fitted, all[i]);
+  }
+  return out;
+}
+
+}  // namespace palpate

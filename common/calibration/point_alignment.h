@@ -1,0 +1,30 @@
+/// The rigid motion that brings points to where they were measured.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "common/calibration/measurements.h"
+#include "common/math/quaternion.h"
+
+namespace palpate {
+
+struct PointAlignment {
+  Rigid to_from_from;  ///< measured = to_from_from * model
+  double rms = 0.0;    ///< of the distances that remain [m]
+  double width = 0.0;  ///< spread of the points across their longest direction; 0: they lie on a line [m]
+};
+
+/// The least-squares solution in closed form (Horn 1987; Arun, Huang and Blostein 1987): the minimum itself,
+/// so nothing is iterated. Nothing for fewer than three points, or where they lie on a line.
+[[nodiscard]] std::optional<PointAlignment> align_points(std::span<const Vec3> model,
+                                                         std::span<const Vec3> measured);
+
+/// The pose of a sensor's frame from three or more of its markers (Ikits 2006, eq. 4.12), in the instrument's
+/// frame.
+/// @param places of markers in the sensor's frame; @param seen where each was measured, if it was.
+[[nodiscard]] std::optional<PointAlignment> pose_from_markers(
+    std::span<const Vec3> places, const std::array<std::optional<Vec3>, kMaxMarkers>& seen);
+
+}  // namespace palpate

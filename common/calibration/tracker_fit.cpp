@@ -1,0 +1,401 @@
+#include "common/calibration/tracker_fit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Errors at reported places: what all methods fit.
+struct Samples {
+  std::vector<Vec3> places;
+  MatrixXd errors;  ///< N x 6: position, orientation
+};
+
+PoseError pose_error_of(const VectorXd& six) { return {{six(0), six(1), six(2)}, {six(3), six(4), six(5)}}; }
+
+Samples samples_of(const std::vector<TrackerMeasurement>& rows) {
+  Samples out{{}, MatrixXd(static_cast<Index>(rows.size()), 6)};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const PoseError e = pose_error(rows[i].actual, rows[i].reported);
+    out.places.push_back(rows[i].reported.position);
+    out.errors.row(static_cast<Index>(i)) << e.position.x, e.position.y, e.position.z, e.orientation.x,
+        e.orientation.y, e.orientation.z;
+  }
+  return out;
+}
+
+Box box_of(const std::vector<Vec3>& places) {
+  Box box;
+  for (const Vec3& p : places) box.include(p);
+  return box;
+}
+
+/// Refuses places that all lie near a plane, a line or a point.
+void require_volume(const std::vector<Vec3>& places, const std::string& source) {
+  Vec3 mean{0.0};
+  for (const Vec3& p : places) mean += p / static_cast<double>(places.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : places) {
+    const Eigen::Vector3d d(p.x - mean.x, p.y - mean.y, p.z - mean.z);
+    spread += d * d.transpose() / static_cast<double>(places.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const double thin = std::sqrt(std::max(axes.eigenvalues()(0), 0.0));
+  const double wide = std::sqrt(axes.eigenvalues()(2));
+  constexpr double kFlat = 0.02;  // thinner than that of the width, powers across are only noise
+  if (wide > 0.0 && thin >= kFlat * wide) return;
+  const Eigen::Vector3d n = axes.eigenvectors().col(0);
+  throw input_error({.file = source,
+                     .place = "",
+                     .found = "all measurements lie near a plane, within " + short_number(1e3 * thin) + " mm",
+                     .expected = "places that fill the volume",
+                     .remedy = "measure more along (" + short_number(n.x()) + ", " + short_number(n.y()) +
+                               ", " + short_number(n.z()) + ") as well"});
+}
+
+MatrixXd design(const std::vector<Vec3>& places, const VectorPolynomial& frame) {
+  const Index terms = term_count(frame.degree);
+  MatrixXd a(static_cast<Index>(places.size()), terms);
+  std::vector<double> row(static_cast<std::size_t>(terms));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    monomials((places[i] - frame.center) / frame.scale, frame.degree, row);
+    a.row(static_cast<Index>(i)) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), terms);
+  }
+  return a;
+}
+
+/// Least squares for three right-hand sides, with Huber's weights by the length of a row's residual if asked.
+MatrixXd solved(const MatrixXd& a, const MatrixXd& b, Loss loss) {
+  MatrixXd c = a.householderQr().solve(b);
+  constexpr int kRounds = 20;  // of reweighting; Huber's weights settle in a few
+  for (int round = 0; loss != Loss::kSquare && round < kRounds; ++round) {
+    const VectorXd lengths = (b - a * c).rowwise().norm();
+    std::vector<double> sorted(lengths.data(), lengths.data() + lengths.size());
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                     sorted.end());
+    // 1.345 deviations give 95 % of the efficiency of plain squares on normal errors.
+    constexpr double kHuber = 1.345, kMedianNorm = 1.54;
+    const double bound = kHuber * std::sqrt(3.0) * sorted[sorted.size() / 2] / kMedianNorm;
+    if (!(bound > 0.0)) break;
+    const VectorXd weights =
+        lengths.unaryExpr([&](double r) { return r > bound ? std::sqrt(bound / r) : 1.0; });
+    c = (weights.asDiagonal() * a).householderQr().solve(weights.asDiagonal() * b);
+  }
+  return c;
+}
+
+struct PolynomialFit {
+  VectorPolynomial position, orientation;
+  Linearization linearization;  ///< of one component: the same for all six
+};
+
+PolynomialFit fit_polynomials(const Samples& samples, int degree, Loss loss, const std::string& source) {
+  const auto terms = static_cast<std::size_t>(term_count(degree));
+  if (samples.places.size() <= terms) {
+    int bearable = -1;
+    while (static_cast<std::size_t>(term_count(bearable + 1)) < samples.places.size()) ++bearable;
+    throw input_error({.file = source,
+                       .place = "",
+                       .found = counted(samples.places.size(), "measurement") +
+                                " for the fit of a polynomial of degree " + std::to_string(degree),
+                       .expected = "more than " + std::to_string(terms),
+                       .remedy = bearable >= 0 ? "measure more places, or ask for degree " +
+                                                     std::to_string(bearable) + " at most"
+                                               : "measure more places"});
+  }
+  const Box box = box_of(samples.places);
+  PolynomialFit out;
+  out.position.degree = out.orientation.degree = degree;
+  out.position.center = out.orientation.center = box.center();
+  out.position.scale = out.orientation.scale = std::max(0.5 * box.diagonal() / std::sqrt(3.0), 1e-9);
+  const MatrixXd a = design(samples.places, out.position);
+  const MatrixXd cp = solved(a, samples.errors.leftCols(3), loss);
+  const MatrixXd cq = solved(a, samples.errors.rightCols(3), loss);
+  for (Index j = 0; j < cp.rows(); ++j) {
+    out.position.coefficients.emplace_back(cp(j, 0), cp(j, 1), cp(j, 2));
+    out.orientation.coefficients.emplace_back(cq(j, 0), cq(j, 1), cq(j, 2));
+  }
+  Linearization& lin = out.linearization;
+  lin.rows = static_cast<std::size_t>(a.rows());
+  lin.columns = terms;
+  for (Index i = 0; i < a.rows(); ++i)
+    lin.jacobian.insert(lin.jacobian.end(), a.row(i).begin(), a.row(i).end());
+  for (int s = 0; s <= degree; ++s) {
+    for (int t = 0; t <= degree - s; ++t) {
+      for (int u = 0; u <= degree - s - t; ++u)
+        lin.names.push_back("x^" + std::to_string(s) + " y^" + std::to_string(t) + " z^" + std::to_string(u));
+    }
+  }
+  return out;
+}
+
+/// The spline through what is left of the errors, smoothed by the weight that predicts a left-out one best.
+ErrorSpline fit_spline(const std::vector<Vec3>& all_places, const MatrixXd& all_errors) {
+  // Solving takes N^3; beyond this, every k-th measurement carries the spline.
+  constexpr std::size_t kMostCenters = 1500;
+  const std::size_t stride = (all_places.size() + kMostCenters - 1) / kMostCenters;
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < all_places.size(); i += stride) places.push_back(all_places[i]);
+  const auto n = static_cast<Index>(places.size());
+  MatrixXd b = MatrixXd::Zero(n + 4, 6);
+  for (Index i = 0; i < n; ++i) b.row(i) = all_errors.row(i * static_cast<Index>(stride));
+  const double size = box_of(places).diagonal();
+
+  MatrixXd k = MatrixXd::Zero(n + 4, n + 4);
+  for (Index i = 0; i < n; ++i) {
+    const Vec3& p = places[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = glm::distance(p, places[static_cast<std::size_t>(j)]);
+    const std::array<double, 4> plane{1.0, p.x, p.y, p.z};
+    for (Index c = 0; c < 4; ++c) k(i, n + c) = k(n + c, i) = plane[static_cast<std::size_t>(c)];
+  }
+  std::optional<MatrixXd> best;
+  double least = HUGE_VAL;
+  // |p - p'| is negative on the weights that matter, so smoothing enters with a minus sign.
+  for (const double smoothing : {1e-3, 1e-2, 1e-1, 1.0}) {
+    MatrixXd smoothed = k;
+    smoothed.diagonal().head(n).array() -= smoothing * size;
+    const MatrixXd inverse = smoothed.partialPivLu().inverse();
+    MatrixXd w = inverse * b;
+    if (!w.allFinite()) continue;
+    // Leaving measurement i out changes its prediction by w_i / (K^-1)_ii; position and orientation count
+    // alike.
+    double position = 0.0, orientation = 0.0;
+    for (Index i = 0; i < n; ++i) {
+      position += w.row(i).leftCols(3).squaredNorm() / std::pow(inverse(i, i), 2);
+      orientation += w.row(i).rightCols(3).squaredNorm() / std::pow(inverse(i, i), 2);
+    }
+    const double score = position / std::max(b.leftCols(3).squaredNorm(), 1e-300) +
+                         orientation / std::max(b.rightCols(3).squaredNorm(), 1e-300);
+    if (score >= least) continue;
+    least = score;
+    best = std::move(w);
+  }
+  ErrorSpline out;
+  if (!best) return out;
+  out.centers = places;
+  for (Index i = 0; i < n; ++i) out.weights.push_back(pose_error_of(best->row(i)));
+  for (Index c = 0; c < 4; ++c) out.plane[static_cast<std::size_t>(c)] = pose_error_of(best->row(n + c));
+  return out;
+}
+
+/// `spline` at the nodes of a lattice over `places`.
+ErrorTable sampled(const ErrorSpline& spline, const std::vector<Vec3>& places, int nodes) {
+  const Box box = box_of(places);
+  const Vec3 size = box.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  // Half the distance at which measurements stand apart keeps the trilinear error below the spline's own.
+  const double apart = std::cbrt(size.x * size.y * size.z / static_cast<double>(places.size()));
+  const double step = nodes > 1 ? longest / (nodes - 1) : std::max(0.5 * apart, longest / 40.0);
+  ErrorTable out;
+  out.lower = box.lower;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.count[axis] = std::max(2, static_cast<int>(std::ceil(size[axis] / step)) + 1);
+    out.spacing[axis] = std::max(size[axis], 1e-9) / (out.count[axis] - 1);
+  }
+  for (int z = 0; z < out.count.z; ++z) {
+    for (int y = 0; y < out.count.y; ++y) {
+      for (int x = 0; x < out.count.x; ++x)
+        out.values.push_back(spline.at(out.lower + Vec3(x, y, z) * out.spacing));
+    }
+  }
+  return out;
+}
+
+TrackerCorrection fitted(const Samples& samples, const TrackerFitOptions& options,
+                         const std::string& source) {
+  TrackerCorrection out;
+  MatrixXd left = samples.errors;
+  if (options.method != TrackerMethod::kTable && options.method != TrackerMethod::kSpline) {
+    PolynomialFit polynomial = fit_polynomials(samples, options.degree, options.loss, source);
+    out.position = std::move(polynomial.position);
+    out.orientation = std::move(polynomial.orientation);
+    if (options.method == TrackerMethod::kPolynomial) return out;
+    for (std::size_t i = 0; i < samples.places.size(); ++i) {
+      const PoseError e = out.error_at(samples.places[i]);
+      Eigen::RowVectorXd six(6);
+      six << e.position.x, e.position.y, e.position.z, e.orientation.x, e.orientation.y, e.orientation.z;
+      left.row(static_cast<Index>(i)) -= six;
+    }
+  }
+  out.spline = fit_spline(samples.places, left);
+  if (options.method == TrackerMethod::kTable || options.method == TrackerMethod::kCombined) {
+    out.table = sampled(out.spline, samples.places, options.table_nodes);
+    out.spline = {};
+  }
+  return out;
+}
+
+/// Position error [m] and angle [rad] that a correction leaves.
+struct Left {
+  double position = 0.0, orientation = 0.0;
+};
+
+Left left_by(const TrackerCorrection& correction, const TrackerMeasurement& row) {
+  const TrackerPose pose = correction.corrected(row.reported);
+  return {glm::distance(pose.position, row.actual.position),
+          angle_of(row.actual.orientation * glm::conjugate(pose.orientation))};
+}
+
+void add_rows(FitReport& report, const std::string& method, bool left_out, const std::vector<Left>& errors) {
+  std::vector<double> position, orientation;
+  for (const Left& e : errors) {
+    position.push_back(1e3 * e.position);
+    orientation.push_back(e.orientation / kDegree);
+  }
+  report.errors.push_back({method, "position", "mm", left_out, statistics_of(position)});
+  report.errors.push_back({method, "orientation", "deg", left_out, statistics_of(orientation)});
+}
+
+/// Seconds of one evaluation.
+double evaluation_seconds(const TrackerCorrection& correction, const std::vector<TrackerMeasurement>& rows) {
+  constexpr std::size_t kTimes = 2000;
+  double sum = 0.0;
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < kTimes; ++i)
+    sum += correction.corrected(rows[i % rows.size()].reported).position.x;
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  return std::isfinite(sum) ? spent.count() / kTimes : 0.0;
+}
+
+}  // namespace
+
+std::string name_of(TrackerMethod method) {
+  switch (method) {
+    case TrackerMethod::kPolynomial:
+      return "polynomial";
+    case TrackerMethod::kTable:
+      return "table";
+    case TrackerMethod::kSpline:
+      return "spline";
+    case TrackerMethod::kCombined:
+      return "combined";
+    case TrackerMethod::kCombinedSpline:
+      return "combined-spline";
+  }
+  return {};
+}
+
+TrackerCorrection fit_tracker(const std::vector<TrackerMeasurement>& rows, const TrackerFitOptions& options,
+                              const std::string& source) {
+  const Samples samples = samples_of(rows);
+  // Ten measurements are the least from which a table says more than their mean.
+  constexpr std::size_t kFewest = 10;
+  if (rows.size() < kFewest)
+    throw input_error({.file = source,
+                       .place = "",
+                       .found = counted(rows.size(), "measurement") + " for the fit",
+                       .expected = std::to_string(kFewest) + " at least",
+                       .remedy = "measure on a grid through the tracked volume"});
+  require_volume(samples.places, source);
+  return fitted(samples, options, source);
+}
+
+TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
+                             const TrackerFitOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<TrackerMeasurement> fit, validation;
+  for (const TrackerMeasurement& row : table.rows) (row.validation ? validation : fit).push_back(row);
+  TrackerFit out;
+  out.correction = fit_tracker(fit, options, table.source);
+  FitReport& report = out.report;
+  report.kind = "tracker";
+  report.source = table.source;
+  report.measurements = fit.size();
+  const std::chrono::duration<double> fitting = std::chrono::steady_clock::now() - begin;
+
+  const std::vector<TrackerMeasurement>& judged = validation.empty() ? fit : validation;
+  const auto all_left = [](const TrackerCorrection& correction, const std::vector<TrackerMeasurement>& rows) {
+    std::vector<Left> errors;
+    for (const TrackerMeasurement& row : rows) errors.push_back(left_by(correction, row));
+    return errors;
+  };
+
+  // On measurements that the fit of `asked` did not see; `whole` is the fit to all of them.
+  const auto left_out = [&](const TrackerFitOptions& asked, const TrackerCorrection& whole) {
+    if (!validation.empty()) return all_left(whole, validation);
+    return left_out_errors(
+        fit, options.folds,
+        [&](const std::vector<TrackerMeasurement>& kept) { return fit_tracker(kept, asked, table.source); },
+        left_by);
+  };
+
+  const std::vector<Left> before = all_left({}, judged);
+  add_rows(report, "before", true, before);
+  const std::vector<Left> seen = all_left(out.correction, fit);
+  add_rows(report, name_of(options.method), false, seen);
+
+  // Error beside time: every method, and polynomials of every degree that the measurements bear.
+  for (const TrackerMethod method :
+       {TrackerMethod::kPolynomial, TrackerMethod::kTable, TrackerMethod::kSpline, TrackerMethod::kCombined,
+        TrackerMethod::kCombinedSpline}) {
+    TrackerFitOptions asked = options;
+    asked.method = method;
+    const bool has_degree = method != TrackerMethod::kTable && method != TrackerMethod::kSpline;
+    for (int degree = 1; degree <= 6; ++degree) {
+      const bool sweep = method == TrackerMethod::kPolynomial;
+      if (!sweep && degree != 1) break;
+      asked.degree = sweep ? degree : options.degree;
+      const std::size_t folds = validation.empty() ? options.folds : fit.size();
+      const auto terms = static_cast<std::size_t>(has_degree ? term_count(asked.degree) : 0);
+      if (fit.size() - (fit.size() + folds - 1) / folds <= terms) break;
+      const TrackerCorrection whole = fit_tracker(fit, asked, table.source);
+      const std::vector<Left> errors = left_out(asked, whole);
+      if (!sweep || degree == options.degree) add_rows(report, name_of(method), true, errors);
+      std::vector<double> position;
+      for (const Left& e : errors) position.push_back(1e3 * e.position);
+      report.work_precision.push_back(
+          {.subject = "one corrected pose",
+           .method = name_of(method),
+           .parameter = has_degree ? "degree=" + std::to_string(asked.degree) : "",
+           .error = statistics_of(position).mean,
+           .error_kind = "mean position error [mm]",
+           .seconds = evaluation_seconds(whole, judged)});
+    }
+  }
+
+  const std::vector<Left> after = left_out(options, out.correction);
+  std::vector<double> residuals;
+  for (const Left& e : seen) residuals.push_back(e.position);
+  constexpr double kNoOutlier = 1e-3;  // [m], what a tracker's noise may be
+  report.outliers = outlying(residuals, kNoOutlier);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const double distance = glm::length(judged[i].reported.position);
+    report.position_errors.push_back({distance, before[i].position, after[i].position});
+    report.orientation_errors.push_back({distance, before[i].orientation, after[i].orientation});
+  }
+
+  if (out.correction.position.degree >= 0) {
+    const PolynomialFit polynomial =
+        fit_polynomials(samples_of(fit), options.degree, options.loss, table.source);
+    const Identifiability found = analyze(polynomial.linearization);
+    describe(report, found);
+    require_identifiable(found, table.source, "spread the measurements more evenly through the volume");
+    const TrackerCorrection alone{.position = polynomial.position, .orientation = polynomial.orientation};
+    double squares = 0.0;
+    for (const TrackerMeasurement& row : fit) squares += std::pow(left_by(alone, row).position, 2);
+    const double sigma =
+        std::sqrt(squares / (3.0 * static_cast<double>(fit.size() - polynomial.linearization.columns)));
+    for (std::size_t j = 0; j < polynomial.linearization.columns; ++j) {
+      for (int axis = 0; axis < 3; ++axis)
+        report.parameters.push_back({std::string("p") + "xyz"[axis] + " " + polynomial.linearization.names[j],
+                                     polynomial.position.coefficients[j][axis],
+                                     sigma * found.standard_deviations[j], "m"});
+    }
+  }
+  report.seconds = fitting.count();
+  return out;
+}
+
+}  // namespace palpate
