@@ -23,7 +23,8 @@ struct Symmetric {
     if (off == 0.0) return;
     // tan of the angle: the smaller root of t^2 + 2 theta t - 1 = 0.
     const double theta = (a[q][q] - a[p][p]) / (2.0 * off);
-    const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
+    // A theta whose square overflows turns by nothing, and rightly so: `off` is below rounding.
+    const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
     const double c = 1.0 / std::sqrt(t * t + 1.0);
     const double s = t * c;
     a[p][p] -= t * off;

@@ -17,8 +17,8 @@
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/vector_field.h"
+#include "common/math/pack4.h"
 #include "common/trace/exact_walk.h"
-#include "common/trace/pack4.h"
 
 namespace palpate {
 

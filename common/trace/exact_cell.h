@@ -22,9 +22,9 @@
 
 #include <cstdint>
 
+#include "common/math/pack4.h"
 #include "common/math/vec.h"
 #include "common/trace/exact_series.h"
-#include "common/trace/pack4.h"
 
 namespace palpate {
 

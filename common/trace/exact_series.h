@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "common/trace/pack4.h"
+#include "common/math/pack4.h"
 
 namespace palpate {
 

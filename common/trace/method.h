@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 
+#include "common/math/pack4.h"
 #include "common/ode/explicit_step.h"
 #include "common/ode/rosenbrock.h"
 #include "common/ode/tableau.h"
-#include "common/trace/pack4.h"
 
 namespace palpate {
 

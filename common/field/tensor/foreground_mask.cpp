@@ -13,40 +13,57 @@ namespace {
 
 using Axes = std::array<bool, 3>;
 
+/// Of every voxel, the faces of the image that it lies at: bit 2 axis of the first, bit 2 axis + 1 of the
+/// last voxels along an axis.
+std::vector<std::uint8_t> faces_of(const Index3& points) {
+  std::vector<std::uint8_t> faces;
+  faces.reserve(static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
+                static_cast<std::size_t>(points.z));
+  const auto along = [&](int i, int axis) {
+    const unsigned first = i == 0 ? 1U : 0U, last = i + 1 == points[axis] ? 2U : 0U;
+    return (first | last) << (2 * axis);
+  };
+  for (int k = 0; k < points.z; ++k) {
+    for (int j = 0; j < points.y; ++j) {
+      const unsigned row = along(j, 1) | along(k, 2);
+      for (int i = 0; i < points.x; ++i) faces.push_back(static_cast<std::uint8_t>(row | along(i, 0)));
+    }
+  }
+  return faces;
+}
+
 /// The voxels of an image and their neighbours through faces along some of its axes.
 class Neighbours {
  public:
-  Neighbours(const Index3& points, const Axes& along)
-      : along_(along),
-        size_{static_cast<std::size_t>(points.x), static_cast<std::size_t>(points.y),
-              static_cast<std::size_t>(points.z)},
-        stride_{1, size_[0], size_[0] * size_[1]} {}
+  Neighbours(const Index3& points, std::span<const std::uint8_t> faces, const Axes& along)
+      : faces_(faces),
+        stride_{1, static_cast<std::size_t>(points.x),
+                static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y)} {
+    for (std::size_t axis = 0; axis < 3; ++axis) seen_ |= along[axis] ? 3U << (2 * axis) : 0U;
+  }
 
   /// Calls `visit` for each neighbour; true where the voxel lies at the border of the image.
   template <typename Visit>
   bool each(std::size_t voxel, const Visit& visit) const {
-    bool border = false;
+    const unsigned open = seen_ & ~unsigned{faces_[voxel]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!along_[axis]) continue;
-      const std::size_t i = voxel / stride_[axis] % size_[axis];
-      if (i > 0) visit(voxel - stride_[axis]);
-      if (i + 1 < size_[axis]) visit(voxel + stride_[axis]);
-      border = border || i == 0 || i + 1 == size_[axis];
+      if ((open & 1U << (2 * axis)) != 0) visit(voxel - stride_[axis]);
+      if ((open & 2U << (2 * axis)) != 0) visit(voxel + stride_[axis]);
     }
-    return border;
+    return open != seen_;
   }
 
  private:
-  Axes along_;
-  std::array<std::size_t, 3> size_;
+  std::span<const std::uint8_t> faces_;
   std::array<std::size_t, 3> stride_;
+  unsigned seen_ = 0;  ///< bits of `faces_` that count
 };
 
 /// Parts of equal value that hang together, found one after the other.
 class Parts {
  public:
-  Parts(const Index3& points, std::size_t voxels, const Axes& along)
-      : neighbours_(points, along), seen_(voxels, 0) {}
+  Parts(const Index3& points, std::span<const std::uint8_t> faces, const Axes& along)
+      : neighbours_(points, faces, along), seen_(faces.size(), 0) {}
 
   struct Part {
     std::vector<std::size_t> voxels;
@@ -99,8 +116,9 @@ double threshold_of(std::span<const float> values) {
 
 /// Fills what is enclosed along `along`: parts of the background that do not reach the border of the image,
 /// or of its slices.
-void fill_holes(const Index3& points, const Axes& along, std::vector<std::uint8_t>& mask) {
-  Parts outside(points, mask.size(), along);
+void fill_holes(const Index3& points, std::span<const std::uint8_t> faces, const Axes& along,
+                std::vector<std::uint8_t>& mask) {
+  Parts outside(points, faces, along);
   for (std::size_t voxel = 0; voxel < mask.size(); ++voxel) {
     if (mask[voxel] != 0) continue;
     const Parts::Part part = outside.take(voxel, mask);
@@ -122,7 +140,8 @@ std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const I
     return static_cast<std::uint8_t>(std::isfinite(value) && static_cast<double>(value) > threshold ? 1 : 0);
   });
   std::vector<std::uint8_t> mask(values.size(), 0);
-  Parts parts(points, values.size(), {true, true, true});
+  const std::vector<std::uint8_t> faces = faces_of(points);
+  Parts parts(points, faces, {true, true, true});
   std::vector<std::size_t> largest;
   for (std::size_t voxel = 0; voxel < values.size(); ++voxel) {
     if (bright[voxel] == 0) continue;
@@ -132,9 +151,9 @@ std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const I
   for (const std::size_t voxel : largest) mask[voxel] = 1;
   // In a slice too: what is dark inside a head is open to the outside somewhere, through the base of the
   // skull.
-  fill_holes(points, {true, true, true}, mask);
+  fill_holes(points, faces, {true, true, true}, mask);
   for (const Axes& slice : {Axes{true, true, false}, Axes{true, false, true}, Axes{false, true, true}})
-    fill_holes(points, slice, mask);
+    fill_holes(points, faces, slice, mask);
   return mask;
 }
 

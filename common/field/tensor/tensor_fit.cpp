@@ -5,21 +5,21 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/field/tensor/fit_kernel.h"
 #include "common/field/tensor/tensor_function.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
 namespace {
 
-constexpr int kUnknowns = 7;
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;  ///< Dxx Dxy Dxz Dyy Dyz Dzz of b_max D, and log S_0
+constexpr int kUnknowns = kFitUnknowns;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-using Row = std::array<double, kUnknowns>;
+using Row = std::array<double, kFitUnknowns>;
 
 /// The rows of (1), weightings divided by the largest: all entries are of order one.
 std::vector<Row> design(const GradientTable& table) {
@@ -39,119 +39,113 @@ std::vector<Row> design(const GradientTable& table) {
   return rows;
 }
 
-/// The fit of one voxel after the other, in room of its own.
-class VoxelFit {
- public:
-  VoxelFit(const std::vector<Row>& rows, FitWeights weights)
-      : rows_(rows), weighted_(weights == FitWeights::kSignal), log_(rows.size()), weight_(rows.size()) {
-    if (weighted_) return;
-    std::fill(weight_.begin(), weight_.end(), 1.0);
-    ordinary_.compute(normal_matrix());
-  }
-
-  /// The signals of the voxel; filled by the caller.
-  std::vector<double>& signals() noexcept { return log_; }
-
-  enum class Outcome : std::uint8_t { kFitted, kLifted, kUnusable };
-
-  /// Fits signals(), which it overwrites.
-  Outcome fit() {
-    double largest = 0.0;
-    for (const double s : log_) {
-      if (!std::isfinite(s)) return Outcome::kUnusable;
-      largest = std::max(largest, s);
-    }
-    if (!(largest > 0.0)) return Outcome::kUnusable;
-    constexpr double kFloor = 1e-6;
-    bool lifted = false;
-    for (std::size_t i = 0; i < log_.size(); ++i) {
-      const double share = log_[i] / largest;
-      lifted = lifted || share < kFloor;
-      const double kept = std::max(share, kFloor);
-      log_[i] = std::log(kept);
-      if (weighted_) weight_[i] = kept * kept;
-    }
-    if (!weighted_) {
-      solution_ = ordinary_.solve(right_side());
-      return lifted ? Outcome::kLifted : Outcome::kFitted;
-    }
-    constexpr int kIterations = 2;
-    if (!solve()) return Outcome::kUnusable;
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      weigh_by_prediction();
-      if (!solve()) break;  // the last one stands
-    }
-    return lifted ? Outcome::kLifted : Outcome::kFitted;
-  }
-
-  [[nodiscard]] const Unknowns& solution() const noexcept { return solution_; }
-
- private:
-  [[nodiscard]] Normal normal_matrix() const noexcept {
-    Normal sum = Normal::Zero();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (int c = 0; c < kUnknowns; ++c) {
-        const double part = weight_[i] * rows_[i][static_cast<std::size_t>(c)];
-        for (int r = c; r < kUnknowns; ++r) sum(r, c) += part * rows_[i][static_cast<std::size_t>(r)];
-      }
-    }
-    return sum;  // the lower triangle
-  }
-
-  [[nodiscard]] Unknowns right_side() const noexcept {
-    Unknowns sum = Unknowns::Zero();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double part = weight_[i] * log_[i];
-      for (int r = 0; r < kUnknowns; ++r) sum(r) += part * rows_[i][static_cast<std::size_t>(r)];
-    }
-    return sum;
-  }
-
-  void weigh_by_prediction() noexcept {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      double predicted = 0.0;
-      for (int r = 0; r < kUnknowns; ++r) predicted += rows_[i][static_cast<std::size_t>(r)] * solution_(r);
-      weight_[i] = predicted;
-      largest = std::max(largest, predicted);
-    }
-    // In units of the largest: nothing overflows.
-    for (double& weight : weight_) weight = std::exp(2.0 * (weight - largest));
-  }
-
-  /// False, and nothing changed, where the weights leave the equations without a solution.
-  bool solve() {
-    const Eigen::LLT<Normal> factors(normal_matrix());
-    if (factors.info() != Eigen::Success) return false;
-    const Unknowns solution = factors.solve(right_side());
-    if (!solution.allFinite()) return false;
-    solution_ = solution;
-    return true;
-  }
-
-  const std::vector<Row>& rows_;
-  bool weighted_;
-  std::vector<double> log_, weight_;
-  Eigen::LLT<Normal> ordinary_;
-  Unknowns solution_ = Unknowns::Zero();
-};
-
 /// What a range of voxels counted.
 struct Counts {
   std::size_t fitted = 0, unusable = 0, lifted = 0, negative = 0;
 };
 
-/// Stores b_max D / b_max at `out`; true where an eigenvalue lies below zero.
-bool store(const Unknowns& solution, double largest_weighting, NegativeEigenvalues negative, float* out) {
-  const Unknowns d = solution / largest_weighting;
-  Mat3 tensor{Vec3{d(0), d(1), d(2)}, Vec3{d(1), d(3), d(4)}, Vec3{d(2), d(4), d(5)}};
-  const bool below = symmetric_eigenvalues(tensor)[2] < 0.0;
-  if (below && negative == NegativeEigenvalues::kZero) tensor = without_negative(tensor);
-  const std::array<double, 6> six{tensor[0][0], tensor[1][0], tensor[2][0],
-                                  tensor[1][1], tensor[2][1], tensor[2][2]};
-  std::transform(six.begin(), six.end(), out, [](double value) { return static_cast<float>(value); });
-  return below;
+/// False for tensors that certainly are positive: Sylvester's criterion, with room for rounding.
+bool may_be_negative(const std::array<double, 6>& d) noexcept {
+  const auto& [xx, xy, xz, yy, yz, zz] = d;
+  constexpr double kRoom = 1e-9;
+  const double minor = xx * yy - xy * xy;
+  const double determinant = zz * minor - xx * yz * yz - yy * xz * xz + 2.0 * xy * xz * yz;
+  return !(xx > 0.0 && minor > kRoom * xx * yy && determinant > kRoom * xx * yy * zz);
 }
+
+/// The fit of voxels, four at a time.
+class VoxelFit {
+ public:
+  VoxelFit(const VoxelFit&) = delete;
+  VoxelFit& operator=(const VoxelFit&) = delete;
+  VoxelFit(const std::vector<Row>& rows, double largest_weighting, const FitOptions& options,
+           const FitKernel& kernel, std::span<float> tensors)
+      : largest_weighting_(largest_weighting),
+        options_(options),
+        kernel_(kernel),
+        tensors_(tensors),
+        logs_(rows.size()),
+        weights_(rows.size(), {1.0, 1.0, 1.0, 1.0}) {
+    constexpr int kIterations = 2;
+    four_.rows = rows;
+    four_.logs = logs_;
+    four_.weights = weights_;
+    four_.reweighted = weighted() ? kIterations : 0;
+  }
+
+  /// Takes a voxel; it is fitted when four have come, or by flush().
+  void add(const DataArray& signals, std::size_t voxel, Counts& count) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < logs_.size(); ++i) {
+      const double signal = signals.at(voxel, static_cast<int>(i));
+      if (!std::isfinite(signal)) largest = std::numeric_limits<double>::infinity();
+      largest = std::max(largest, signal);
+      logs_[i][used_] = signal;
+    }
+    if (!(largest > 0.0 && std::isfinite(largest))) {
+      ++count.unusable;
+      return;
+    }
+    constexpr double kFloor = 1e-6;
+    bool lifted = false;
+    for (std::size_t i = 0; i < logs_.size(); ++i) {
+      double& log = logs_[i][used_];
+      const double share = log / largest, kept = std::max(share, kFloor);
+      lifted = lifted || share < kFloor;
+      log = std::log(kept);
+      if (weighted()) weights_[i][used_] = kept * kept;
+    }
+    voxels_[used_] = voxel;
+    lifted_[used_] = lifted;
+    if (++used_ == voxels_.size()) flush(count);
+  }
+
+  /// Fits what has been taken. Lanes that are not in use hold what was there: it is not looked at.
+  void flush(Counts& count) {
+    if (used_ == 0) return;
+    const unsigned solved = kernel_.fit(four_);
+    for (std::size_t lane = 0; lane < used_; ++lane) {
+      if ((solved & 1U << lane) == 0) {
+        ++count.unusable;
+        continue;
+      }
+      ++count.fitted;
+      count.lifted += lifted_[lane] ? 1 : 0;
+      count.negative += store(lane, tensors_.subspan(6 * voxels_[lane], 6)) ? 1 : 0;
+    }
+    used_ = 0;
+  }
+
+ private:
+  [[nodiscard]] bool weighted() const noexcept { return options_.weights == FitWeights::kSignal; }
+
+  /// Stores b_max D / b_max; true where an eigenvalue lies below zero.
+  [[nodiscard]] bool store(std::size_t lane, std::span<float> out) const {
+    std::array<double, 6> d{};
+    for (std::size_t c = 0; c < d.size(); ++c) d[c] = four_.solution[c][lane] / largest_weighting_;
+    bool below = false;
+    if (may_be_negative(d)) {
+      const Mat3 tensor{Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
+      below = symmetric_eigenvalues(tensor)[2] < 0.0;
+      if (below && options_.negative == NegativeEigenvalues::kZero) {
+        const Mat3 t = without_negative(tensor);
+        d = {t[0][0], t[1][0], t[2][0], t[1][1], t[2][1], t[2][2]};
+      }
+    }
+    std::transform(d.begin(), d.end(), out.begin(), [](double value) { return static_cast<float>(value); });
+    return below;
+  }
+
+  double largest_weighting_;
+  FitOptions options_;
+  const FitKernel& kernel_;
+  std::span<float> tensors_;
+  std::vector<FitFour::Lanes> logs_, weights_;
+  FitFour four_;  ///< refers to them
+  std::size_t used_ = 0;
+  std::array<std::size_t, 4> voxels_{};
+  std::array<bool, 4> lifted_{};
+};
 
 }  // namespace
 
@@ -188,23 +182,13 @@ TensorFit fit_tensors(const DataArray& signals, const GradientTable& table,
   const std::size_t pieces = (signals.tuples + kPiece - 1) / kPiece;
   std::vector<Counts> counts(pieces);
   parallel_for(pieces, options.threads, [&](std::size_t first, std::size_t last) {
-    VoxelFit voxel(rows, options.weights);
+    VoxelFit voxels(rows, largest_weighting, options, fit_kernels().back(), fit.tensors);
     for (std::size_t piece = first; piece < last; ++piece) {
       if (progress != nullptr) progress->check();
-      Counts& count = counts[piece];
       for (std::size_t v = piece * kPiece; v < std::min(signals.tuples, (piece + 1) * kPiece); ++v) {
-        if (!mask.empty() && mask[v] == 0) continue;
-        for (std::size_t i = 0; i < rows.size(); ++i) voxel.signals()[i] = signals.at(v, static_cast<int>(i));
-        const VoxelFit::Outcome outcome = voxel.fit();
-        if (outcome == VoxelFit::Outcome::kUnusable) {
-          ++count.unusable;
-          continue;
-        }
-        ++count.fitted;
-        count.lifted += outcome == VoxelFit::Outcome::kLifted ? 1 : 0;
-        count.negative +=
-            store(voxel.solution(), largest_weighting, options.negative, fit.tensors.data() + 6 * v) ? 1 : 0;
+        if (mask.empty() || mask[v] != 0) voxels.add(signals, v, counts[piece]);
       }
+      voxels.flush(counts[piece]);
     }
   });
   for (const Counts& count : counts) {

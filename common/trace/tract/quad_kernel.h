@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-#include "common/trace/pack4.h"
+#include "common/math/pack4.h"
 
 namespace palpate {
 

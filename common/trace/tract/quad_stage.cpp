@@ -70,9 +70,9 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
     f[axis] = kept - low;
     store(low, cell[axis]);
   }
-  const std::array<Pack4, 8> weights = corner_weights(Pack4::all(image.scale), f[0], f[1], f[2]);
   alignas(32) std::array<Lanes, 8> w;
-  for (std::size_t i = 0; i < 8; ++i) store(weights[i], w[i]);
+  corner_weights(Pack4::all(image.scale), f[0], f[1], f[2],
+                 [&w](std::size_t i, const Pack4& weight) { store(weight, w[i]); });
   std::array<Six, 4> sums;
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const T* const corner = image.values + std::size_t{6} * static_cast<std::size_t>(cell[0][lane]) +

@@ -181,14 +181,13 @@ class QuadTracer {
     rk.step = 1.0;
     const PackedVectors first = PackedVectors::load(direction_);
     rk.k[0] = h * first;
-    Vectors4 at, last = direction_;
-    Tensors4 tensor;
+    auto& [at, last, end, found, tensor] = scratch_;
+    last = direction_;
     rk.advance([&](double, const PackedVectors& x) {
       x.store(at);
       evaluate(at, last, tensor, last, alive);
       return h * PackedVectors::load(last);
     });
-    Vectors4 end, found;
     rk.end.store(end);
     evaluate(end, last, tensor, found, alive);
 
@@ -250,7 +249,14 @@ class QuadTracer {
     return enters;
   }
 
+  /// What a step computes. Kept here, for it need not be cleared.
+  struct Scratch {
+    Vectors4 at, last, end, found;
+    Tensors4 tensor;
+  };
+
   Vectors4 here_, direction_;  ///< of the last points
+  Scratch scratch_;
   const QuadKernel& kernel_;
   std::size_t first_ = 0, next_seed_ = 0;
   std::span<const Vec3> seeds_;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "common/trace/pack4.h"
+#include "common/math/pack4.h"
 
 namespace palpate {
 inline namespace PALPATE_PACK {
@@ -58,14 +58,22 @@ template <typename T>
   return folded(lower[0] + upper[0], lower[1] + upper[1], lower[2] + upper[2]);
 }
 
-/// The eight weights of six_sum() at a place within a cell, all times `scale`. Number: double or Pack4.
-template <class Number>
-[[gnu::always_inline]] inline std::array<Number, 8> corner_weights(const Number& scale, const Number& fx,
-                                                                   const Number& fy, const Number& fz) {
+/// Calls `put(i, weight)` for each of the eight weights of six_sum() at a place within a cell, all times
+/// `scale`. Number: double or Pack4.
+template <class Number, class Put>
+[[gnu::always_inline]] inline void corner_weights(const Number& scale, const Number& fx, const Number& fy,
+                                                  const Number& fz, const Put& put) {
   const Number z1 = scale * fz, z0 = scale - z1;
   const Number z0y1 = z0 * fy, z0y0 = z0 - z0y1, z1y1 = z1 * fy, z1y0 = z1 - z1y1;
   const Number w1 = z0y0 * fx, w3 = z0y1 * fx, w5 = z1y0 * fx, w7 = z1y1 * fx;
-  return {z0y0 - w1, w1, z0y1 - w3, w3, z1y0 - w5, w5, z1y1 - w7, w7};
+  put(0, z0y0 - w1);
+  put(1, w1);
+  put(2, z0y1 - w3);
+  put(3, w3);
+  put(4, z1y0 - w5);
+  put(5, w5);
+  put(6, z1y1 - w7);
+  put(7, w7);
 }
 
 }  // namespace PALPATE_PACK

@@ -93,7 +93,9 @@ class UniformTensors {
       f[a] = u - cell;
       corner += steps[a] * static_cast<std::size_t>(cell);
     }
-    const std::array<double, 8> weights = corner_weights(grid_.scale, f[0], f[1], f[2]);
+    std::array<double, 8> weights;
+    corner_weights(grid_.scale, f[0], f[1], f[2],
+                   [&weights](std::size_t i, double weight) { weights[i] = weight; });
     const Six sum = six_sum(corner, grid_.step_y, grid_.step_z, weights.data(), 1);
     out = {sum.first[0], sum.first[1], sum.first[2], sum.first[3], sum.last[0], sum.last[1]};
     // A corner without a tensor is NaN in some of its numbers; other numbers stay in range.

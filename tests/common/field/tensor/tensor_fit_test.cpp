@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/field/tensor/fit_kernel.h"
 #include "common/field/tensor/foreground_mask.h"
+#include "common/math/counter_random.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate::test {
@@ -122,6 +125,61 @@ TEST(TensorFit, IsTheSameForAnyNumberOfThreads) {
     all.insert(all.end(), signals.begin(), signals.end());
   }
   EXPECT_EQ(fit_of(all, table, {.threads = 1}).tensors, fit_of(all, table, {.threads = 4}).tensors);
+}
+
+// Voxels of many kinds, some without a solution: what a lane yields must depend neither on the kernel nor on
+// the other lanes.
+TEST(FitKernel, GivesTheSameBitsOnEveryProcessorAndInEveryLane) {
+  const GradientTable table = spiral(9, 1000.0);
+  const std::size_t volumes = table.weightings.size();
+  std::vector<std::array<double, kFitUnknowns>> rows(volumes);
+  for (std::size_t i = 0; i < volumes; ++i) {
+    const double b = table.weightings[i] / 1000.0;
+    const Vec3& g = table.directions[i];
+    rows[i] = {-b * g.x * g.x,
+               -b * 2.0 * g.x * g.y,
+               -b * 2.0 * g.x * g.z,
+               -b * g.y * g.y,
+               -b * 2.0 * g.y * g.z,
+               -b * g.z * g.z,
+               1.0};
+  }
+  using Lanes = FitFour::Lanes;
+  constexpr std::size_t kVoxels = 40;
+  std::vector<std::array<std::vector<double>, 2>> voxels(kVoxels);  // logs, weights
+  for (std::size_t v = 0; v < kVoxels; ++v) {
+    for (std::size_t i = 0; i < volumes; ++i) {
+      voxels[v][0].push_back(-3.0 * uniform_at(100 * v + i));
+      // Every fifth has weights that leave most unknowns open.
+      voxels[v][1].push_back(v % 5 == 4 && i > 2 ? 0.0 : std::exp(2.0 * voxels[v][0].back()));
+    }
+  }
+  const auto solved = [&](const FitKernel& kernel, const std::array<std::size_t, 4>& four) {
+    std::vector<Lanes> logs(volumes), weights(volumes);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      for (std::size_t i = 0; i < volumes; ++i) {
+        logs[i][lane] = voxels[four[lane]][0][i];
+        weights[i][lane] = voxels[four[lane]][1][i];
+      }
+    }
+    FitFour work{.rows = rows, .logs = logs, .weights = weights, .reweighted = 2};
+    const unsigned good = kernel.fit(work);
+    return std::pair{good, work.solution};
+  };
+  const FitKernel& baseline = fit_kernels().front();
+  for (std::size_t v = 0; v < kVoxels; ++v) {
+    const auto [good, alone] = solved(baseline, {v, v, v, v});
+    EXPECT_EQ(good, v % 5 == 4 ? 0U : 15U) << v;
+    for (const FitKernel& kernel : fit_kernels()) {
+      const std::size_t lane = v % 4;
+      std::array<std::size_t, 4> four{(v + 1) % kVoxels, (v + 4) % kVoxels, (v + 9) % kVoxels, 0};
+      four[lane] = v;
+      const auto [some, together] = solved(kernel, four);
+      EXPECT_EQ((some >> lane) & 1U, good & 1U) << kernel.name;
+      if (good == 0) continue;
+      for (std::size_t r = 0; r < kFitUnknowns; ++r) EXPECT_EQ(together[r][lane], alone[r][0]) << kernel.name;
+    }
+  }
 }
 
 TEST(GradientProblem, NamesTablesThatDetermineNoTensor) {
