@@ -1,252 +1,64 @@
-/// Tracts by a fixed-step method through a uniform image, four lines side by side (quad_kernel.h). A lane
-/// that has finished a line takes the next seed: which lines share a step changes nothing but the time.
+/// Tracts through a uniform image, four lines side by side (quad_lanes.h), by any tableau of ode/: one step
+/// for each point, or, with an embedded solution, steps that each lane chooses for itself.
 ///
 /// The same lines as those of TractWalk one after the other, but for the rounding of stages.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <span>
-#include <type_traits>
 
 #include "common/ode/explicit_step.h"
-#include "common/trace/tract/quad_kernel.h"
-#include "common/trace/tract/tract_lines.h"
+#include "common/ode/step_control.h"
+#include "common/trace/tract/quad_lanes.h"
 
 namespace palpate {
 
-/// Three coordinates of four lanes.
-struct PackedVectors {
-  Pack4 x, y, z;
-
-  [[nodiscard]] static PackedVectors load(const Vectors4& v) {
-    return {Pack4::load(v.x.data()), Pack4::load(v.y.data()), Pack4::load(v.z.data())};
-  }
-  void store(Vectors4& v) const {
-    x.store(v.x.data());
-    y.store(v.y.data());
-    z.store(v.z.data());
-  }
-  PackedVectors& operator+=(const PackedVectors& v) {
-    x += v.x;
-    y += v.y;
-    z += v.z;
-    return *this;
-  }
-};
-inline PackedVectors operator*(double a, const PackedVectors& v) { return {a * v.x, a * v.y, a * v.z}; }
-inline PackedVectors operator*(const Pack4& a, const PackedVectors& v) { return {a * v.x, a * v.y, a * v.z}; }
-inline PackedVectors operator-(const PackedVectors& a, const PackedVectors& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-[[nodiscard]] inline Pack4 dot(const PackedVectors& a, const PackedVectors& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
+/// One step for each point.
 template <typename T, class Tableau>
-class QuadTracer {
+class QuadFixed : private QuadLanes<T> {
   static_assert(Tableau::kEmbeddedOrder == 0 && !Tableau::kFirstSameAsLast);
+  using Base = QuadLanes<T>;
 
  public:
-  QuadTracer(const UniformTensors<T>& tensors, const TractRules& rules)
-      : kernel_(quad_kernel()), rules_(rules), tensors_(tensors) {}
+  QuadFixed(const UniformTensors<T>& tensors, const TractRules& rules) : Base(tensors, rules) {}
 
   /// All the lines of `seeds`, the first of which has the index `first`. `check()` may throw.
   template <class Check>
   void trace(std::span<const Vec3> seeds, std::size_t first, TractPart& part, const Check& check) {
-    seeds_ = seeds;
-    first_ = first;
-    next_seed_ = 0;
-    active_ = 0;
-    for (unsigned lane = 0; lane < 4; ++lane) take_seed(lane, part);
-    while (active_ != 0) {
+    this->begin(seeds, first, part);
+    while (this->active()) {
       check();
       step(part);
     }
   }
 
  private:
-  struct Lane {
-    std::size_t seed = 0;
-    TractState start;
-    TractSides sides;
-    unsigned way = 1;  ///< of `sides`
-    int steps = 0;
-    double arc = 0.0, next = 0.0, longest = 0.0;  ///< next: of the point that the step leads to
-    bool in_stop = false;
-  };
-
-  static constexpr unsigned bit(unsigned lane) { return 1U << lane; }
-  static Vec3 get(const Vectors4& v, std::size_t lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
-  static void set(Vectors4& v, std::size_t lane, const Vec3& x) {
-    v.x[lane] = x.x;
-    v.y[lane] = x.y;
-    v.z[lane] = x.z;
-  }
-  static Tensor6 get(const Tensors4& d, std::size_t i) {
-    return {d.xx[i], d.xy[i], d.xz[i], d.yy[i], d.yz[i], d.zz[i]};
-  }
-  static void set(Tensors4& d, std::size_t i, const Tensor6& t) {
-    d.xx[i] = t.xx;
-    d.xy[i] = t.xy;
-    d.xz[i] = t.xz;
-    d.yy[i] = t.yy;
-    d.yz[i] = t.yz;
-    d.zz[i] = t.zz;
-  }
-
-  void take_seed(unsigned lane, TractPart& part) {
-    Lane& l = lanes_[lane];
-    while (next_seed_ < seeds_.size()) {
-      l.seed = next_seed_++;
-      if (!rules_.start(tensors_, seeds_[l.seed], l.start, part)) continue;
-      l.longest = rules_.limits().max_length;
-      active_ |= bit(lane);
-      start_side(lane, 1, part);
-      return;
-    }
-  }
-
-  void start_side(unsigned lane, unsigned way, TractPart& part) {
-    Lane& l = lanes_[lane];
-    l.way = way;
-    l.sides[way].clear();
-    l.steps = 0;
-    l.arc = 0.0;
-    l.in_stop = rules_.in_stop(l.start.position);
-    set(here_, lane, l.start.position);
-    set(direction_, lane, l.start.direction);
-    errors_[lane] = 0.0;
-    plan(lane, part);
-  }
-
-  /// Sets the length of the lane's next step, or ends its side at the largest length.
-  void plan(unsigned lane, TractPart& part) {
-    Lane& l = lanes_[lane];
-    l.next = std::min(++l.steps * rules_.limits().spacing, l.longest);
-    step_[lane] = l.next - l.arc;
-    if (!(l.next > l.arc)) end_side(lane, End::kMaxLength, part);
-  }
-
-  void end_side(unsigned lane, End end, TractPart& part) {
-    Lane& l = lanes_[lane];
-    l.sides[l.way].end = end;
-    if (l.way == 1) {
-      l.longest -= l.arc;
-      l.start.direction = -l.start.direction;
-      start_side(lane, 0, part);
-      return;
-    }
-    rules_.keep(seeds_[l.seed], static_cast<std::uint32_t>(first_ + l.seed), l.sides, part);
-    active_ &= ~bit(lane);
-    step_[lane] = 0.0;
-    take_seed(lane, part);
-  }
-
-  /// Tensors and main directions at `at`; takes lanes without a tensor out of `alive`.
-  void evaluate(const Vectors4& at, const Vectors4& toward, Tensors4& tensor, Vectors4& found,
-                unsigned& alive) {
-    unsigned sampled = 0;
-    if constexpr (std::is_same_v<T, float>) {
-      sampled = kernel_.sample_float(tensors_.grid(), at, tensor);
-    } else {
-      sampled = kernel_.sample_double(tensors_.grid(), at, tensor);
-    }
-    for (unsigned lane = 0; (alive & ~sampled) != 0 && lane < 4; ++lane) {
-      if ((alive & ~sampled & bit(lane)) == 0) continue;
-      Tensor6 one;
-      statuses_[lane] = tensors_.sample(get(at, lane), one);
-      if (statuses_[lane] == SampleStatus::kOk) {
-        set(tensor, lane, one);
-        sampled |= bit(lane);
-      } else {
-        alive &= ~bit(lane);
-      }
-    }
-    const unsigned certified = kernel_.directions(tensor, toward, alive, found);
-    for (unsigned lane = 0; (alive & ~certified) != 0 && lane < 4; ++lane) {
-      if ((alive & ~certified & bit(lane)) == 0) continue;
-      set(found, lane, rotated_main_direction(get(tensor, lane), get(toward, lane)));
-    }
-  }
-
   void step(TractPart& part) {
-    unsigned alive = active_;
-    const Pack4 h = Pack4::load(step_.data());
+    unsigned alive = this->active_;
+    const Pack4 h = Pack4::load(this->next_.data()) - Pack4::load(this->arc_.data());
     // Slopes are those over a whole step, for every lane has a length of its own.
     ExplicitStep<Tableau, PackedVectors> rk;
-    rk.start = PackedVectors::load(here_);
+    rk.start = PackedVectors::load(this->point_);
     rk.step = 1.0;
-    const PackedVectors first = PackedVectors::load(direction_);
-    rk.k[0] = h * first;
+    rk.k[0] = h * PackedVectors::load(this->direction_);
     auto& [at, last, end, found, tensor] = scratch_;
-    last = direction_;
+    last = this->direction_;
     rk.advance([&](double, const PackedVectors& x) {
       x.store(at);
-      evaluate(at, last, tensor, last, alive);
+      this->evaluate(at, last, tensor, last, alive);
       return h * PackedVectors::load(last);
     });
     rk.end.store(end);
-    evaluate(end, last, tensor, found, alive);
-
-    const PackedVectors direction = PackedVectors::load(found);
+    this->evaluate(end, last, tensor, found, alive);
     // As TractWalk: with the slope at the end one more is known.
-    const PackedVectors differ = h * direction - rk.k[Tableau::kStages - 1];
+    const PackedVectors differ = h * PackedVectors::load(found) - rk.k[Tableau::kStages - 1];
     const double weight = Tableau::kOrder == 1 ? 0.5 : Tableau::b[Tableau::kStages - 1];
-    std::array<double, 4> errors{};
-    (Pack4::load(errors_.data()) + weight * sqrt(dot(differ, differ))).store(errors.data());
-    const unsigned turned = bits(dot(direction, first) < Pack4::all(rules_.limits().least_cosine));
-    const unsigned above = reaching(tensor, alive);
-
-    for (unsigned lane = 0; lane < 4; ++lane) {
-      if ((active_ & bit(lane)) == 0) continue;
-      Lane& l = lanes_[lane];
-      if ((alive & above & ~turned & bit(lane)) != 0) {
-        rules_.push(get(end, lane), errors[lane], l.sides[l.way]);
-        l.arc = l.next;
-        set(here_, lane, get(end, lane));
-        set(direction_, lane, get(found, lane));
-        errors_[lane] = errors[lane];
-        if (rules_.options().stop.empty() || !enters_stop(l, get(end, lane))) {
-          plan(lane, part);
-        } else {
-          end_side(lane, End::kStoppedByRule, part);
-        }
-      } else if ((alive & bit(lane)) == 0) {
-        end_side(lane, statuses_[lane] == SampleStatus::kBadData ? End::kBadData : End::kLeftDomain, part);
-      } else if ((turned & bit(lane)) != 0) {
-        end_side(lane, End::kSharpTurn, part);
-      } else {
-        TractState from, to;
-        from.position = get(here_, lane);
-        from.direction = get(direction_, lane);
-        to.position = get(end, lane);
-        to.direction = get(found, lane);
-        to.error = errors[lane];
-        l.arc += rules_.cut(tensors_, from, to, step_[lane], l.sides[l.way]);
-        end_side(lane, End::kBelowCutoff, part);
-      }
-    }
-  }
-
-  /// Lanes of `alive` whose measure reaches the cut-off.
-  [[nodiscard]] unsigned reaching(const Tensors4& tensor, unsigned alive) const {
-    unsigned above = 0, known = 0;
-    if (rules_.options().measure == TractMeasure::kFa) {
-      known = kernel_.positive(tensor, rules_.options().cutoff, above);
-    }
-    for (unsigned lane = 0; (alive & ~known) != 0 && lane < 4; ++lane) {
-      if ((alive & ~known & bit(lane)) != 0 && rules_.reaches_cutoff(get(tensor, lane))) above |= bit(lane);
-    }
-    return above;
-  }
-
-  [[nodiscard]] bool enters_stop(Lane& l, const Vec3& x) const {
-    const bool inside = rules_.in_stop(x), enters = inside && !l.in_stop;
-    l.in_stop = inside;
-    return enters;
+    std::array<double, 4> errors;
+    (Pack4::load(this->errors_.data()) + weight * sqrt(dot(differ, differ))).store(errors.data());
+    this->arrive(this->active_, alive, end, found, tensor, errors, part);
   }
 
   /// What a step computes. Kept here, for it need not be cleared.
@@ -254,18 +66,148 @@ class QuadTracer {
     Vectors4 at, last, end, found;
     Tensors4 tensor;
   };
-
-  Vectors4 here_, direction_;  ///< of the last points
   Scratch scratch_;
-  const QuadKernel& kernel_;
-  std::size_t first_ = 0, next_seed_ = 0;
-  std::span<const Vec3> seeds_;
-  std::array<double, 4> errors_{}, step_{};
-  TractRules rules_;
-  UniformTensors<T> tensors_;
-  std::array<Lane, 4> lanes_;
-  unsigned active_ = 0;                     ///< lanes that have a line
-  std::array<SampleStatus, 4> statuses_{};  ///< of lanes that have no tensor
+};
+
+/// Steps that keep the error of each lane below the tolerance, by the rule of TractWalk; the points lie on
+/// the steps' dense output. A round is a step of the lanes that need one or a point of those that have one in
+/// reach, whichever are more.
+template <typename T, class Tableau>
+class QuadControlled : private QuadLanes<T> {
+  static_assert(Tableau::kEmbeddedOrder > 0 && Tableau::kFirstSameAsLast);
+  using Base = QuadLanes<T>;
+  using Base::bit;
+
+ public:
+  QuadControlled(const UniformTensors<T>& tensors, const TractRules& rules) : Base(tensors, rules) {}
+
+  /// As QuadFixed::trace().
+  template <class Check>
+  void trace(std::span<const Vec3> seeds, std::size_t first, TractPart& part, const Check& check) {
+    this->begin(seeds, first, part);
+    while (this->active()) {
+      check();
+      start_fresh();
+      unsigned short_of = 0;
+      for (unsigned lane = 0; lane < 4; ++lane)
+        short_of |= reached_[lane] < this->next_[lane] ? bit(lane) : 0U;
+      short_of &= this->active_;
+      const unsigned in_reach = this->active_ & ~short_of;
+      if (std::popcount(short_of) > std::popcount(in_reach)) {
+        step(short_of, part);
+      } else {
+        read(in_reach, part);
+      }
+    }
+  }
+
+ private:
+  void start_fresh() {
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      if ((this->fresh_ & bit(lane)) == 0) continue;
+      Base::set(here_, lane, Base::get(this->point_, lane));
+      Base::set(heading_, lane, Base::get(this->direction_, lane));
+      reached_[lane] = error_[lane] = 0.0;
+      step_[lane] = this->rules_.limits().spacing;
+      control_[lane] = StepControl(Tableau::kEmbeddedOrder);
+    }
+    this->fresh_ = 0;
+  }
+
+  /// Tries a step in each of `lanes`.
+  void step(unsigned lanes, TractPart& part) {
+    const double spacing = this->rules_.limits().spacing, tolerance = this->rules_.options().tolerance;
+    const double shortest = TractStep::kShortest * spacing;
+    std::array<double, 4> lengths{}, errors, taken{};
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      if ((lanes & bit(lane)) != 0)
+        lengths[lane] = std::clamp(step_[lane], shortest, TractStep::kLongest * spacing);
+    }
+    const Pack4 h = Pack4::load(lengths.data());
+    unsigned alive = lanes;
+    ExplicitStep<Tableau, PackedVectors> rk;
+    rk.start = PackedVectors::load(here_);
+    rk.step = 1.0;
+    rk.k[0] = h * PackedVectors::load(heading_);
+    last_ = heading_;
+    const auto slope = [&](double, const PackedVectors& x) {
+      x.store(at_);
+      this->evaluate(at_, last_, tensor_, last_, alive);
+      return h * PackedVectors::load(last_);
+    };
+    rk.advance(slope);
+    rk.finish(slope);
+    const PackedVectors differ = rk.error();
+    sqrt(dot(differ, differ)).store(errors.data());
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      if ((lanes & bit(lane)) == 0) continue;
+      if ((alive & bit(lane)) == 0) {
+        step_[lane] = 0.25 * lengths[lane];
+        if (lengths[lane] <= shortest)
+          this->stop_short(lane, Base::get(here_, lane), reached_[lane], error_[lane], part);
+        continue;
+      }
+      const auto verdict = control_[lane].judge(errors[lane] / (tolerance * lengths[lane]));
+      step_[lane] = lengths[lane] * verdict.factor;
+      if (!verdict.accepted && lengths[lane] > shortest) continue;
+      taken[lane] = 1.0;
+      piece_.start[lane] = reached_[lane];
+      piece_.length[lane] = lengths[lane];
+      piece_.error[lane] = error_[lane];
+      reached_[lane] += lengths[lane];
+      error_[lane] += errors[lane];
+    }
+    const Mask4 took = Pack4() < Pack4::load(taken.data());
+    if (bits(took) == 0) return;
+    const auto put = [&took](const PackedVectors& v, Vectors4& to) {
+      select(took, v, PackedVectors::load(to)).store(to);
+    };
+    const auto dense = rk.dense();
+    for (std::size_t j = 0; j < dense.size(); ++j) put(dense[j], piece_.dense[j]);
+    put(rk.start, piece_.from);
+    put(rk.end, here_);
+    put(PackedVectors::load(last_), heading_);
+  }
+
+  /// Reads the next point of each of `lanes` from its last step.
+  void read(unsigned lanes, TractPart& part) {
+    const Pack4 length = Pack4::load(piece_.length.data());
+    const Pack4 theta = (Pack4::load(this->next_.data()) - Pack4::load(piece_.start.data())) / length;
+    PackedVectors x = PackedVectors::load(piece_.from), toward{};  // toward: the derivative
+    Pack4 power = Pack4::all(1.0);
+    for (std::size_t j = 0; j < piece_.dense.size(); ++j) {
+      const PackedVectors q = PackedVectors::load(piece_.dense[j]);
+      toward += (static_cast<double>(j + 1) * power) * q;
+      power = power * theta;
+      x += power * q;
+    }
+    const Pack4 size = sqrt(dot(toward, toward));
+    const Mask4 clear = Pack4::all(0.5) * length < size;
+    select(clear, (Pack4::all(1.0) / size) * toward, PackedVectors::load(heading_)).store(last_);
+    x.store(at_);
+    std::array<double, 4> errors;
+    const Pack4 before = Pack4::load(piece_.error.data());
+    (before + theta * (Pack4::load(error_.data()) - before)).store(errors.data());
+    unsigned alive = lanes;
+    this->evaluate(at_, last_, tensor_, last_, alive);
+    this->arrive(lanes, alive, at_, last_, tensor_, errors, part);
+  }
+
+  /// The last step of each lane.
+  struct Piece {
+    Vectors4 from;
+    std::array<Vectors4, Tableau::kDenseDegree> dense;
+    std::array<double, 4> start{}, length{1.0, 1.0, 1.0, 1.0}, error{};  ///< error: at its start
+  };
+
+  Vectors4 here_, heading_;  ///< ends of the last steps
+  std::array<double, 4> reached_{}, error_{}, step_{};
+  std::array<StepControl, 4> control_{
+      StepControl(Tableau::kEmbeddedOrder), StepControl(Tableau::kEmbeddedOrder),
+      StepControl(Tableau::kEmbeddedOrder), StepControl(Tableau::kEmbeddedOrder)};
+  Piece piece_;
+  Vectors4 at_, last_;  ///< what a round computes
+  Tensors4 tensor_;
 };
 
 }  // namespace palpate

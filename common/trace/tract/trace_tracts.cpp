@@ -1,10 +1,15 @@
 #include "common/trace/tract/trace_tracts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -115,29 +120,59 @@ double voxel_of(const TensorField& field) {
   return shortest * grid.frame.length_scale();
 }
 
-/// Joins the parts in the order of their seeds.
-void join(std::vector<TractPart>& parts, TractResult& result) {
-  std::size_t points = 0;
-  for (const TractPart& part : parts) points += part.points.size();
-  Tractogram& lines = result.lines;
-  lines.points.reserve(points);
-  lines.of_points = {{.name = "error", .values = {}}};
-  std::vector<float>& errors = lines.of_points[0].values;
-  errors.reserve(points);
-  for (TractPart& part : parts) {
-    std::sort(part.lines.begin(), part.lines.end(),
+/// Joins parts in the order of their seeds while others are still traced: one thread at a time does it, and
+/// none waits for it. What is joined is freed, so that the next parts find its memory.
+class Joiner {
+ public:
+  Joiner(std::size_t part_count, TractResult& result) : ready_(part_count), result_(result) {
+    result.lines.of_points = {{.name = "error", .values = {}}};
+  }
+
+  /// Takes part number `p`.
+  void add(std::size_t p, std::unique_ptr<TractPart> part) {
+    std::sort(part->lines.begin(), part->lines.end(),
               [](const TractPart::Line& a, const TractPart::Line& b) { return a.seed < b.seed; });
+    std::unique_lock lock(mutex_);
+    ready_[p] = std::move(part);
+    if (joining_) return;
+    joining_ = true;
+    while (next_ < ready_.size() && ready_[next_] != nullptr) {
+      const std::unique_ptr<TractPart> next = std::move(ready_[next_]);
+      ++next_;
+      lock.unlock();
+      append(*next);
+      lock.lock();
+    }
+    joining_ = false;
+  }
+
+ private:
+  void append(const TractPart& part) {
+    Tractogram& lines = result_.lines;
+    std::vector<float>& errors = lines.of_points[0].values;
+    const std::size_t needed = lines.points.size() + part.points.size();
+    if (needed > lines.points.capacity()) {
+      // As many points as the parts so far let one expect.
+      const double parts = static_cast<double>(ready_.size()) / static_cast<double>(next_);
+      const auto expected = static_cast<std::size_t>(1.1 * parts * static_cast<double>(needed));
+      const std::size_t room = std::max(needed, std::min(expected, 4 * needed + kLeastRoom));
+      lines.points.reserve(room);
+      errors.reserve(room);
+    }
     for (const TractPart::Line& line : part.lines) {
       const auto first = static_cast<std::ptrdiff_t>(line.first);
       const auto last = static_cast<std::ptrdiff_t>(line.first + line.count);
       lines.points.insert(lines.points.end(), part.points.begin() + first, part.points.begin() + last);
       errors.insert(errors.end(), part.errors.begin() + first, part.errors.begin() + last);
       lines.starts.push_back(lines.points.size());
-      result.seeds.push_back(line.seed);
-      result.ends.push_back(line.ends);
-      for (const End end : line.ends) ++result.end_counts[static_cast<std::size_t>(end)];
+      result_.seeds.push_back(line.seed);
+      result_.ends.push_back(line.ends);
+      for (const End end : line.ends) ++result_.end_counts[static_cast<std::size_t>(end)];
     }
-    TractsDropped& dropped = result.dropped;
+    if (!part.errors.empty())
+      result_.error_max =
+          std::max(result_.error_max, static_cast<double>(*std::ranges::max_element(part.errors)));
+    TractsDropped& dropped = result_.dropped;
     dropped.outside += part.dropped.outside;
     dropped.bad_data += part.dropped.bad_data;
     dropped.below_cutoff += part.dropped.below_cutoff;
@@ -145,50 +180,64 @@ void join(std::vector<TractPart>& parts, TractResult& result) {
     dropped.not_included += part.dropped.not_included;
     dropped.excluded += part.dropped.excluded;
   }
-  for (const float error : errors) result.error_max = std::max(result.error_max, static_cast<double>(error));
-}
+
+  static constexpr std::size_t kLeastRoom = std::size_t{1} << 16U;  // points
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TractPart>> ready_;
+  std::size_t next_ = 0;  ///< part to join
+  bool joining_ = false;
+  TractResult& result_;  ///< of the thread that is joining
+};
 
 template <class Tracer, class Tensors>
-std::vector<TractPart> trace_parts(const Tensors& tensors, const TractRules& rules,
-                                   std::span<const Vec3> seeds, Progress* progress) {
-  std::vector<TractPart> parts((seeds.size() + kSeedsOfPart - 1) / kSeedsOfPart);
+void trace_parts(const Tensors& tensors, const TractRules& rules, std::span<const Vec3> seeds,
+                 TractResult& result, Progress* progress) {
+  const std::size_t part_count = (seeds.size() + kSeedsOfPart - 1) / kSeedsOfPart;
+  Joiner joiner(part_count, result);
+  std::atomic<std::size_t> next{0};
   const auto check = [progress] {
     if (progress != nullptr) progress->check();
   };
-  parallel_for(parts.size(), rules.options().threads, [&](std::size_t first, std::size_t last) {
+  parallel_for(part_count, rules.options().threads, [&](std::size_t first, std::size_t last) {
     Tracer tracer(tensors, rules);
-    for (std::size_t p = first; p < last; ++p) {
+    // Not the parts of this range but the next ones: they are joined in order.
+    for (std::size_t n = first; n < last; ++n) {
+      const std::size_t p = next++;
       const std::size_t begin = p * kSeedsOfPart, count = std::min(kSeedsOfPart, seeds.size() - begin);
-      tracer.trace(seeds.subspan(begin, count), begin, parts[p], check);
+      auto part = std::make_unique<TractPart>();
+      tracer.trace(seeds.subspan(begin, count), begin, *part, check);
+      joiner.add(p, std::move(part));
       if (progress != nullptr) progress->advance(count);
     }
   });
-  return parts;
 }
 
-/// Fixed steps go four lines at a time where the field allows.
+/// Uniform images are traced four lines at a time.
 template <class Tableau, typename T>
-std::vector<TractPart> trace_fixed(const UniformTensors<T>& tensors, const TractRules& rules,
-                                   std::span<const Vec3> seeds, Progress* progress) {
-  return trace_parts<QuadTracer<T, Tableau>>(tensors, rules, seeds, progress);
+void trace_by(const UniformTensors<T>& tensors, const TractRules& rules, std::span<const Vec3> seeds,
+              TractResult& result, Progress* progress) {
+  using Tracer =
+      std::conditional_t<Tableau::kEmbeddedOrder == 0, QuadFixed<T, Tableau>, QuadControlled<T, Tableau>>;
+  trace_parts<Tracer>(tensors, rules, seeds, result, progress);
 }
 template <class Tableau>
-std::vector<TractPart> trace_fixed(const AnyTensors& tensors, const TractRules& rules,
-                                   std::span<const Vec3> seeds, Progress* progress) {
-  return trace_parts<Tracer<AnyTensors, Tableau>>(tensors, rules, seeds, progress);
+void trace_by(const AnyTensors& tensors, const TractRules& rules, std::span<const Vec3> seeds,
+              TractResult& result, Progress* progress) {
+  trace_parts<Tracer<AnyTensors, Tableau>>(tensors, rules, seeds, result, progress);
 }
 
 template <class Tensors>
-std::vector<TractPart> trace_with(const Tensors& tensors, const TractRules& rules,
-                                  std::span<const Vec3> seeds, Progress* progress) {
+void trace_with(const Tensors& tensors, const TractRules& rules, std::span<const Vec3> seeds,
+                TractResult& result, Progress* progress) {
   const Integrator integrator = rules.options().integrator;
   switch (integrator) {
     case Integrator::kEuler:
-      return trace_fixed<Euler>(tensors, rules, seeds, progress);
+      return trace_by<Euler>(tensors, rules, seeds, result, progress);
     case Integrator::kRk4:
-      return trace_fixed<Rk4>(tensors, rules, seeds, progress);
+      return trace_by<Rk4>(tensors, rules, seeds, result, progress);
     case Integrator::kDp54:
-      return trace_parts<Tracer<Tensors, Dp54>>(tensors, rules, seeds, progress);
+      return trace_by<Dp54>(tensors, rules, seeds, result, progress);
     default:
       throw usage_error("integrator '" + std::string(name_of(integrator)) +
                         "' does not trace tracts; known are euler, rk4, dp54");
@@ -250,13 +299,12 @@ TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, 
   const FieldGrid& grid = *field.grid();
   const bool uniform =
       grid.box != nullptr && grid.box->uniform() && field.interpolation() == TensorInterpolation::kComponents;
-  std::vector<TractPart> parts = std::visit(
+  std::visit(
       [&]<typename T>(std::span<const T> values) {
-        return uniform ? trace_with(UniformTensors<T>(field, values), rules, seeds, progress)
-                       : trace_with(AnyTensors(field), rules, seeds, progress);
+        return uniform ? trace_with(UniformTensors<T>(field, values), rules, seeds, result, progress)
+                       : trace_with(AnyTensors(field), rules, seeds, result, progress);
       },
       field.values());
-  join(parts, result);
   result.seconds = watch.seconds();
   return result;
 }

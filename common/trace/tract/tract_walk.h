@@ -25,6 +25,12 @@ struct TractState {
   double error = 0.0;  ///< sum of the steps' error estimates so far
 };
 
+/// Bounds of controlled steps, in spacings of the points.
+struct TractStep {
+  static constexpr double kLongest = 8.0;
+  static constexpr double kShortest = 1.0 / 64;  ///< shorter ones do not see a jump any better
+};
+
 /// @tparam Tensors see tensor_source.h. @tparam Tableau see ode/tableau.h: with an embedded solution the
 /// steps are controlled by it, else there is one for each output point.
 template <class Tensors, class Tableau>
@@ -75,8 +81,6 @@ class TractWalk {
  private:
   static constexpr bool kControlled = Tableau::kEmbeddedOrder > 0;
   static constexpr double kPower = kControlled ? Tableau::kEmbeddedOrder : 1;
-  static constexpr double kLongestStep = 8.0;        // spacings
-  static constexpr double kShortestStep = 1.0 / 64;  // spacings: shorter ones do not see a jump any better
 
   /// All stages from here over `h`. Not kOk where a stage has no tensor.
   [[nodiscard]] SampleStatus try_step(double h) noexcept {
@@ -103,9 +107,9 @@ class TractWalk {
 
   /// One step that meets the tolerance, or is as short as steps get.
   [[nodiscard]] SampleStatus controlled_step() noexcept {
-    const double shortest = kShortestStep * spacing_;
+    const double shortest = TractStep::kShortest * spacing_;
     for (;;) {
-      step_ = std::clamp(step_, shortest, kLongestStep * spacing_);
+      step_ = std::clamp(step_, shortest, TractStep::kLongest * spacing_);
       const double h = step_;
       const SampleStatus status = try_step(h);
       if (status != SampleStatus::kOk) {

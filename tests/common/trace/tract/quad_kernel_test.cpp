@@ -194,6 +194,7 @@ void expect_the_walked_line(Integrator integrator) {
 TEST(QuadTracer, FollowsTheLinesOfOneWalkAfterAnother) {
   expect_the_walked_line<Euler>(Integrator::kEuler);
   expect_the_walked_line<Rk4>(Integrator::kRk4);
+  expect_the_walked_line<Dp54>(Integrator::kDp54);
 }
 
 TEST(QuadTracer, ALineDoesNotDependOnItsNeighbours) {
@@ -208,16 +209,18 @@ TEST(QuadTracer, ALineDoesNotDependOnItsNeighbours) {
   for (int n = 0; n < 60; ++n) {
     seeds.emplace_back(14.0 * unit(random), 14.0 * unit(random), 19.0 * unit(random));
   }
-  TractOptions options;
-  options.integrator = Integrator::kEuler;
-  const TractResult together = trace_tracts(*field, seeds, options);
-  ASSERT_GT(together.lines.line_count(), 20U);
-  ASSERT_LT(together.lines.line_count(), 60U);
-  for (std::size_t l = 0; l < together.lines.line_count(); ++l) {
-    const TractResult alone = trace_tracts(*field, std::span(&seeds[together.seeds[l]], 1), options);
-    const auto line = together.lines.line(l);
-    ASSERT_EQ(alone.lines.points, std::vector<Vec3f>(line.begin(), line.end()));
-    ASSERT_EQ(alone.ends[0], together.ends[l]);
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kDp54}) {
+    TractOptions options;
+    options.integrator = integrator;
+    const TractResult together = trace_tracts(*field, seeds, options);
+    ASSERT_GT(together.lines.line_count(), 20U);
+    ASSERT_LT(together.lines.line_count(), 60U);
+    for (std::size_t l = 0; l < together.lines.line_count(); ++l) {
+      const TractResult alone = trace_tracts(*field, std::span(&seeds[together.seeds[l]], 1), options);
+      const auto line = together.lines.line(l);
+      ASSERT_EQ(alone.lines.points, std::vector<Vec3f>(line.begin(), line.end()));
+      ASSERT_EQ(alone.ends[0], together.ends[l]);
+    }
   }
 }
 
