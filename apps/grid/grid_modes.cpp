@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/isosurface.h"
@@ -34,7 +35,9 @@ HapticChain make_density(const HapticScene& scene) {
 }  // namespace
 
 std::vector<HapticMode> grid_modes() {
-  return {{"isosurface", "stopped by surfaces of equal value, which give when pushed hard", make_isosurface},
+  return {grid_mode(),
+          plane_widget_mode(),
+          {"isosurface", "stopped by surfaces of equal value, which give when pushed hard", make_isosurface},
           {"density", "dragged the more, the higher the value", make_density},
           linear_mode()};
 }

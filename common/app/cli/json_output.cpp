@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/base/version.h"
+#include "common/haptics/widget/widget_text.h"
 
 namespace palpate {
 namespace {
@@ -407,6 +409,23 @@ std::string probe_json(const ProbeSummary& summary) {
   if (summary.mode == kLinearMode) {
     Json& linear = json["linear"] = Json::object();
     for (const auto& [option, value] : linear_options(summary.settings.linear)) linear[option] = value;
+  }
+  if (summary.mode == kGridMode) {
+    Json& grid = json["grid"] = Json::object();
+    for (const auto& [option, value] : grid_options(summary.settings.grid_axis)) grid[option] = value;
+    Json& landmarks = json["landmarks"] = Json::array();
+    for (const Vec4& plane : summary.landmarks) landmarks.push_back({plane.x, plane.y, plane.z, plane.w});
+  }
+  if (summary.mode == kPlaneWidgetMode) {
+    Json& planes = json["planes"] = Json::array();
+    for (int i = 0; i < summary.planes.count; ++i) {
+      const PlanePose& pose = summary.planes.pose[static_cast<std::size_t>(i)];
+      const Vec4 plane = plane_of_pose(pose);
+      planes.push_back({{"normal", {plane.x, plane.y, plane.z}},
+                        {"d", plane.w},
+                        {"center", {pose.center.x, pose.center.y, pose.center.z}},
+                        {"quaternion", {pose.turn.x, pose.turn.y, pose.turn.z, pose.turn.w}}});
+    }
   }
   if (!summary.tract.empty()) {
     json["tract"] = summary.tract;

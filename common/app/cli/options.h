@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/load/raw_layout.h"
 #include "common/scene/tensor_words.h"
@@ -135,6 +136,8 @@ struct TouchOptions {
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
   LinearWords linear;             ///< mode linear
+  GridWords grid;                 ///< mode grid
+  PlaneWords planes;              ///< mode plane-widget
   double field_force = 1.0;       ///< [N] of the force-field modes
   double field_damping = 5.0;     ///< [N s/m], likewise
   std::string density_curve;      ///< haptic transfer function; empty: straight

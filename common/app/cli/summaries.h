@@ -101,10 +101,12 @@ struct ProbeSummary {
   std::string input;
   std::string field;
   std::string mode;
-  std::string scalar;      ///< of which isosurfaces are felt; empty: of none
-  std::string output;      ///< empty: none
-  std::string tract;       ///< where the way of the proxy was saved; empty: nowhere
-  std::size_t tracts = 0;  ///< in it
+  std::string scalar;           ///< of which isosurfaces are felt; empty: of none
+  std::string output;           ///< empty: none
+  PlanePoses planes;            ///< of the plane widget at the end, data coordinates
+  std::vector<Vec4> landmarks;  ///< of the grid: n, d with n.x = d
+  std::string tract;            ///< where the way of the proxy was saved; empty: nowhere
+  std::size_t tracts = 0;       ///< in it
   std::size_t steps = 0;
   ChainSettings settings;
   DeviceLimits limits;

@@ -120,6 +120,51 @@ void add_linear(SceneOptions& options, TouchOptions& touch, FieldKind kind) {
               kGroup);
 }
 
+void add_grid(SceneOptions& options, GridWords& grid) {
+  options.add(
+      "--grid-frame", grid.frame,
+      "grid: how its axes run: as those of the data (default), as x, y and z (world), the third across a "
+      "plane, or the first along one vector and the second towards another",
+      "data|world|plane:nx,ny,nz,d|axes:x,y,z,x,y,z", kGroup);
+  options.add("--grid-spacing", grid.spacing, "grid: of its nodes in data units; default: that of the data",
+              "H[,H,H]", kGroup);
+  options.add("--grid-marks", grid.marks,
+              "grid: landmarks, felt as notches where an axis crosses them, with '/' between",
+              "x:AT|plane:nx,ny,nz,d", kGroup);
+  options.add("--grid-peaks", grid.peaks,
+              "grid: landmarks where the values along each axis pile up, so many at most; default 0", "N",
+              kGroup);
+  options.add(
+      "--grid-switch", grid.switch_at,
+      "grid: another axis may take over at nodes and landmarks (nodes, default), or at landmarks alone",
+      "nodes|marks", kGroup);
+  options.add("--grid-pull", grid.pull, "grid: pull in mm by which another axis takes over; default 6", "MM",
+              kGroup);
+  options.add("--grid-notch", grid.notch, "grid: reach of a landmark in mm; default 3; 0: not felt", "MM",
+              kGroup);
+  options.add("--grid-teeth", grid.teeth,
+              "grid: part of --stiffness with which nodes hold along the axis; default 0: none", "0..1",
+              kGroup);
+}
+
+void add_planes(SceneOptions& options, PlaneWords& planes) {
+  options.add("--planes", planes.planes,
+              "plane-widget: up to four planes to begin with: nx,ny,nz,d each, or three points, or centre "
+              "and unit quaternion, with "
+              "'/' between; default: across the third axis through the middle",
+              "nx,ny,nz,d|through:x,y,z,x,y,z,x,y,z|x,y,z,qx,qy,qz,qw", kGroup);
+  options.add(
+      "--detent", planes.detent,
+      "plane-widget: step in degrees at which turning is felt, and at the axes of the data; default 15; 0: "
+      "none",
+      "DEG", kGroup);
+  options.add("--plane-sphere", planes.sphere,
+              "plane-widget: radius in mm of the sphere that turns; default 25", "MM", kGroup);
+  options.add("--plane-reach", planes.reach,
+              "plane-widget: stretch in mm at which planes and sphere catch and let go; default 8", "MM",
+              kGroup);
+}
+
 void add_anisotropy(SceneOptions& options, TouchOptions& touch) {
   options.add(
       "--anisotropy-curve", touch.anisotropy_curve,
@@ -170,6 +215,9 @@ void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kin
   add_isosurface(options, touch, kind);
   add_linear(options, touch, kind);
   add_force_fields(options, touch);
+  if (kind != FieldKind::kScalar) return;
+  add_grid(options, touch.grid);
+  add_planes(options, touch.planes);
 }
 
 void check_not_negative(double value, const std::string& option) {

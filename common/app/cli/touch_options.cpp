@@ -78,6 +78,8 @@ ChainSettings touch_settings(const TouchOptions& options) {
                     .most_friction = kMetresPerMillimetre * options.most_friction};
   settings.ticks.stiffness = options.tick_stiffness;
   settings.linear = linear_settings(options.linear);
+  settings.grid_axis = grid_settings(options.grid);
+  settings.plane_widget = plane_settings(options.planes);
   settings.force_field.strength = options.field_force;
   settings.force_field.damping = options.field_damping;
   if (!options.density_curve.empty()) {
@@ -134,7 +136,19 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 30> kRecorded{"anisotropy-curve",
+  constexpr std::array<std::string_view, 42> kRecorded{"anisotropy-curve",
+                                                       "grid-frame",
+                                                       "grid-spacing",
+                                                       "grid-marks",
+                                                       "grid-switch",
+                                                       "grid-peaks",
+                                                       "grid-pull",
+                                                       "grid-notch",
+                                                       "grid-teeth",
+                                                       "planes",
+                                                       "detent",
+                                                       "plane-sphere",
+                                                       "plane-reach",
                                                        "fibre-spacing",
                                                        "least-friction",
                                                        "most-friction",

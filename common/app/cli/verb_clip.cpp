@@ -108,6 +108,12 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
                              ? "; " + counted(summary.outside, "voxel") + " cut away, at the lowest value"
                              : std::string()) +
                         "\n");
+  constexpr int kVtkComponents = 10;
+  if (options.out.extension() == ".nrrd" && n.x < kVtkComponents) {
+    context.console.note(summary.output + ": VTK's NRRD reader takes a first axis of fewer than " +
+                         std::to_string(kVtkComponents) +
+                         " samples for components of vectors, whatever the header says; write .vti for VTK");
+  }
   context.console.print_json(lattice_json(summary));
   return ExitCode::kDone;
 }

@@ -24,6 +24,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/layer.h"
+#include "common/haptics/widget/widget_text.h"
 #include "common/load/write_lines.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
@@ -82,6 +83,15 @@ std::string summary_text(const ProbeSummary& summary) {
       text.append(" ").append(option).append(" ").append(value);
     }
     text += "\n";
+  }
+  for (int i = 0; i < summary.planes.count; ++i) {
+    const Vec4 plane = plane_of_pose(summary.planes.pose[static_cast<std::size_t>(i)]);
+    text += "  plane      " + exact_number(plane.x) + "," + exact_number(plane.y) + "," +
+            exact_number(plane.z) + "," + exact_number(plane.w) + "\n";
+  }
+  for (const Vec4& plane : summary.landmarks) {
+    text += "  landmark   " + short_number(plane.x) + "," + short_number(plane.y) + "," +
+            short_number(plane.z) + "," + short_number(plane.w) + "\n";
   }
   if (!summary.tract.empty()) text += "  tract      " + summary.tract + "\n";
   if (!summary.device.empty()) text += "  device     " + summary.device + ", simulated\n";
@@ -356,6 +366,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   std::optional<OutputFile> file;
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
+  std::shared_ptr<WidgetNewsBuffer> planes;
   std::optional<TractPen> pen;
   if (!options.tract.empty()) {
     pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
@@ -371,6 +382,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
       links = std::max(links, made.chain->size());
+      planes = made.planes;
       return std::move(made.chain);
     });
     if (file) run.log_to(*file, links, logged);
@@ -390,6 +402,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     HapticChain haptics = mode.make(
         {felt.field, workspace, summary.settings, options.common.threads, felt.scalar, felt.tensor});
     if (file) run.log_to(*file, haptics.chain->size(), logged);
+    planes = haptics.planes;
+    summary.landmarks = haptics.landmarks;
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (simulated) {
       const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),
@@ -401,6 +415,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     }
   }
   run.finish();
+  if (WidgetNews news; planes && planes->read(news)) summary.planes = news.poses;
   if (path.empty() && options.replay.empty()) console.note(options.path.string() + ": the path has no rows");
   if (run.first_fault() > 0) {
     console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +

@@ -11,6 +11,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
 #include "common/haptics/proxy_chain.h"
+#include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/workspace.h"
 #include "common/trace/live_line.h"
 
@@ -24,6 +25,9 @@ struct HapticChain {
   /// where none are.
   std::shared_ptr<const ScalarField> surfaces_of = nullptr;
   Isovalues isovalues = {};
+  std::shared_ptr<WidgetNewsBuffer> planes =
+      nullptr;                       ///< cutting planes that the hand moves; null where none
+  std::vector<Vec4> landmarks = {};  ///< of a grid: planes n, d with n.x = d in data coordinates
 };
 
 /// What a chain is built over.

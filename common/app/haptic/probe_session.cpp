@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
@@ -169,6 +170,8 @@ void ProbeSession::follow_chain(const HapticChain& made) {
   if (made.followed) curve_.emplace(made.followed);
   surfaces_of_ = made.surfaces_of;
   chain_isovalues_ = made.isovalues;
+  planes_ = made.planes;
+  planes_news_.reset();
   felt_.clear();
 }
 
@@ -177,7 +180,47 @@ void ProbeSession::grab(double time, const Vec3& position) {
   target_ = position;
   noted_.reset();
   noted_points_.reset();
-  mouse_->grab(time, workspace().workspace_from_data(position), 1);
+  pressed_ = false;
+  mouse_->grab(time, workspace().workspace_from_data(position), buttons());
+}
+
+/// Modes that take hold of something wait for the button; in all others the hand itself is the button.
+std::uint32_t ProbeSession::buttons() const noexcept { return planes_ && !pressed_ ? 0U : 1U; }
+
+void ProbeSession::put_planes(const PlanePoses& poses) {
+  if (planes_news_) planes_before_.push_back(planes_news_->poses);
+  set_planes(poses);
+}
+
+void ProbeSession::set_planes(const PlanePoses& poses) {
+  TouchChoice choice = choice_;
+  choice.settings.plane_widget.poses = poses;
+  ++choice.settings.plane_widget.edit;
+  choose(choice);
+}
+
+double ProbeSession::sphere_radius() const {
+  return choice_.settings.plane_widget.radius / workspace().scale();
+}
+
+std::optional<Vec3> ProbeSession::gradient_at(const Vec3& x) const {
+  if (!open_.scalar) return std::nullopt;
+  CellHint hint;
+  const VectorSample sample = open_.scalar->gradient(x, hint);
+  const double size = glm::length(sample.value);
+  if (sample.status != SampleStatus::kOk || !(size > 0.0)) return std::nullopt;
+  return sample.value / size;
+}
+
+/// What is told of an edit that is not in place yet says nothing.
+void ProbeSession::read_planes() {
+  WidgetNews news;
+  if (!planes_ || !planes_->read(news) || news.edit != choice_.settings.plane_widget.edit) return;
+  const auto moves = [](const WidgetNews& told) {
+    return told.state == WidgetState::kTranslate || told.state == WidgetState::kRotate;
+  };
+  if (planes_news_ && moves(news) && !moves(*planes_news_)) planes_before_.push_back(planes_news_->poses);
+  planes_news_ = news;
 }
 
 void ProbeSession::let_go() noexcept {
@@ -195,9 +238,12 @@ void ProbeSession::arm() noexcept {
 void ProbeSession::choose(const TouchChoice& choice) {
   if (choice == choice_) return;
   const TouchChoice before = std::exchange(choice_, choice);
+  // Planes stay where the hand has put them while another mode is felt.
+  if (choice.mode != before.mode && planes_news_) choice_.settings.plane_widget.poses = planes_news_->poses;
   if (!servo_ || replay_) return;
   if (choice.mode != before.mode || choice.ticks != before.ticks ||
       choice.settings.linear.rebuilds(before.settings.linear) ||
+      choice.settings.grid_axis.rebuilds(before.settings.grid_axis) ||
       choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
@@ -236,6 +282,18 @@ std::pair<double, double> ProbeSession::measure_range() const {
 std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   if (!available()) return {};
   auto options = touch_options_of(choice_, options_.modes[choice_.mode].name, has_tensors());
+  const auto has = [this](const char* mode) {
+    return std::any_of(options_.modes.begin(), options_.modes.end(),
+                       [&](const HapticMode& each) { return each.name == mode; });
+  };
+  if (has(kGridMode)) {
+    for (auto& option : grid_options(choice_.settings.grid_axis)) options.push_back(std::move(option));
+  }
+  if (has(kPlaneWidgetMode)) {
+    PlaneWidgetSettings planes = choice_.settings.plane_widget;
+    if (planes_news_) planes.poses = planes_news_->poses;
+    for (auto& option : plane_options(planes)) options.push_back(std::move(option));
+  }
   if (options_.workspace_scale > 0.0)
     options.emplace_back("workspace-scale", exact_number(options_.workspace_scale));
   return options;
@@ -251,11 +309,12 @@ void ProbeSession::clear_path() {
 
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
   if (!servo_) return;
-  if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), 1);
+  if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), buttons());
   servo_->collect_retired();
   servo_->read(readout_.servo);
   if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);
   drain_steps();
+  read_planes();
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
     curve_->update(choice_.show_balls ? ball_interval(*open_.field, workspace()) : 0.0, color_by);
@@ -483,6 +542,11 @@ void ProbeSession::remove_kept(std::size_t index) {
 }
 
 bool ProbeSession::undo() {
+  if (planes_ && !planes_before_.empty()) {
+    set_planes(planes_before_.back());
+    planes_before_.pop_back();
+    return true;
+  }
   if (!pen_) return kept_.undo();
   const std::size_t before = list_edits_.empty() ? 0 : list_edits_.back().strokes;
   const bool of_list = !list_edits_.empty() && pen_->depth() == before;

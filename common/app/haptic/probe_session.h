@@ -97,6 +97,8 @@ class ProbeSession {
   void move(const Vec3& position) noexcept { target_ = position; }
   [[nodiscard]] const Vec3& target() const noexcept { return target_; }
   void let_go() noexcept;
+  /// The button of the mouse, while it has the probe: takes hold of planes.
+  void press(bool down) noexcept { pressed_ = down; }
   void force_off() noexcept;
   void arm() noexcept;
   /// @}
@@ -126,6 +128,17 @@ class ProbeSession {
   [[nodiscard]] const ProbeReadout& readout() const noexcept { return readout_; }
   /// Something moves without the user's doing: the line grows, a replay runs.
   [[nodiscard]] bool lively() const noexcept;
+
+  /// The cutting planes that the hand moves, and what it does with them; none in other modes.
+  [[nodiscard]] const std::optional<WidgetNews>& planes() const noexcept { return planes_news_; }
+  /// Puts the planes there; undo() takes that back, as it does with each hold that the hand took of one.
+  void put_planes(const PlanePoses& poses);
+  /// The same for those with which the mode begins: nothing to be taken back.
+  void begin_planes(const PlanePoses& poses) { set_planes(poses); }
+  /// Radius of the spheres of the planes [data units].
+  [[nodiscard]] double sphere_radius() const;
+  /// Direction in which the felt scalar grows fastest at `x`, unit; none where there is none.
+  [[nodiscard]] std::optional<Vec3> gradient_at(const Vec3& x) const;
 
   /// Which isosurfaces the mode feels now; of no field in modes that feel none.
   [[nodiscard]] FeltLevels felt_levels() const;
@@ -166,6 +179,9 @@ class ProbeSession {
 
  private:
   [[nodiscard]] Workspace workspace() const;
+  [[nodiscard]] std::uint32_t buttons() const noexcept;
+  void read_planes();
+  void set_planes(const PlanePoses& poses);
   [[nodiscard]] ChainSettings chain_settings() const;
   [[nodiscard]] HapticChain build(const std::string& description) const;
   void restart_chain();
@@ -211,6 +227,10 @@ class ProbeSession {
   std::vector<ListEdit> list_edits_;
   std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, replayed_isovalues_;
+  std::shared_ptr<WidgetNewsBuffer> planes_;  ///< of the chain that is felt
+  std::optional<WidgetNews> planes_news_;
+  std::vector<PlanePoses> planes_before_;  ///< what undo() goes back to
+  bool pressed_ = false;
   KeptLines kept_;
   ProbeReadout readout_;
   CellHint hint_, scalar_hint_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/app/window/plane_control.h"
 #include "common/render/tensor/tensor_pick.h"
 
 namespace palpate {
@@ -51,11 +52,31 @@ Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const Pictur
 }
 
 void TouchControl::grab(const PictureArea& area, const SceneView& view, double time) {
+  grab_at(start_of_hand(area, view), time);
+}
+
+void TouchControl::grab_at(const Vec3& place, double time) {
   grabbed_ = true;
   waiting_ = false;
   axis_.reset();
-  session_.grab(time, start_of_hand(area, view));
+  session_.grab(time, place);
   moved_ = time;
+}
+
+/// A press on a cutting plane: with the probe in the hand, wherever that is; else where its sphere and ring
+/// are in the picture.
+bool TouchControl::take_plane(const PictureArea& area, const SceneView& view, double time) {
+  if (!session_.planes() || !session_.by_mouse()) return false;
+  if (!grabbed_) {
+    const auto place = hold_of_planes(session_.planes()->poses, session_.sphere_radius(), view.camera,
+                                      size_of(area), {x_ - area.left, y_ - area.top});
+    if (!place) return false;
+    grab_at(*place, time);
+    plane_grab_ = true;
+  }
+  session_.press(true);
+  on_plane_ = true;
+  return true;
 }
 
 /// On the slice of tensors under the mouse, on the nearest isosurface there in modes that feel some, else
@@ -82,7 +103,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
 }
 
 void TouchControl::let_go() noexcept {
-  grabbed_ = by_shift_ = by_button_ = waiting_ = false;
+  grabbed_ = by_shift_ = by_button_ = waiting_ = on_plane_ = plane_grab_ = false;
   axis_.reset();
   session_.let_go();
 }
@@ -95,7 +116,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       const double dx = event.x - x_, dy = event.y - y_;
       x_ = event.x;
       y_ = event.y;
-      if (!grabbed_ || (buttons_ > 0 && !by_button_)) return false;
+      if (!grabbed_ || (buttons_ > 0 && !by_button_ && !on_plane_)) return false;
       dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDrag;
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
@@ -111,6 +132,9 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     case InputKind::kPress:
       ++buttons_;
+      if (event.button == MouseButton::kLeft && !waiting_ && !over_panel && area.contains(x_, y_) &&
+          take_plane(area, view, time))
+        return true;
       if (!waiting_ || event.button != MouseButton::kLeft || over_panel || !area.contains(x_, y_))
         return false;
       grab(area, view, time);
@@ -121,6 +145,12 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     case InputKind::kRelease: {
       buttons_ = std::max(0, buttons_ - 1);
+      if (on_plane_ && event.button == MouseButton::kLeft) {
+        on_plane_ = false;
+        session_.press(false);
+        if (plane_grab_) let_go();
+        return true;
+      }
       if (!by_button_ || event.button != MouseButton::kLeft) return false;
       // A click leaves the probe in the hand; a drag was a stroke, and the next one may begin.
       by_button_ = false;

@@ -37,6 +37,8 @@ class TouchControl {
 
  private:
   void grab(const PictureArea& area, const SceneView& view, double time);
+  void grab_at(const Vec3& place, double time);
+  bool take_plane(const PictureArea& area, const SceneView& view, double time);
   [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
   [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
   std::string choose_mode(std::size_t mode);
@@ -46,7 +48,9 @@ class TouchControl {
   bool by_shift_ = false;   ///< for as long as Shift is held
   bool waiting_ = false;    ///< asked for away from the picture: the next click into it grabs the probe there
   bool by_button_ = false;  ///< the press that grabbed the probe goes on
-  bool dragged_ = false;    ///< and has moved it
+  bool on_plane_ = false;   ///< the press holds a cutting plane
+  bool plane_grab_ = false;                   ///< and has grabbed the probe for it
+  bool dragged_ = false;                      ///< and has moved it
   double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it was [pixels]
   int buttons_ = 0;                           ///< that are down: the camera's then
   std::optional<int> axis_;

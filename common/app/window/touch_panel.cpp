@@ -15,6 +15,7 @@
 #include "common/app/haptic/servo_rows.h"
 #include "common/app/window/curve_panel.h"
 #include "common/app/window/isosurface_panel.h"
+#include "common/app/window/plane_panel.h"
 #include "common/app/window/readout_rows.h"
 #include "common/app/window/tensor_panel.h"
 #include "common/base/text.h"
@@ -129,7 +130,7 @@ void list_kept(ProbeSession& session) {
 
 }  // namespace
 
-TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file) {
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, const Camera& camera) {
   TouchActions actions;
   if (!session.available()) return actions;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -158,9 +159,11 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
                    session.has_flow());
+  edit_grid(choice, session.modes()[choice.mode].name, session);
   if (tensors) choose_stroke(choice.stroke);
   choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
   session.choose(choice);
+  edit_planes(session, camera);
   if (const std::string note = session.stiffness_note(); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 
@@ -168,7 +171,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
     actions.keep = ImGui::Button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
     ImGui::SameLine();
   }
-  if (tensors) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
+  if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
   list_kept(session);
   if (session.kept().entries().empty() && !session.has_drawn()) return actions;

@@ -20,7 +20,9 @@ struct TouchActions {
 /// Changes the session's choice and its kept lines.
 /// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
 /// edited.
-[[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file);
+/// @param camera of the picture.
+[[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file,
+                                            const Camera& camera);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
 /// @return its height; 0 where there is none.

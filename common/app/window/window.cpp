@@ -20,6 +20,7 @@
 #include "common/app/window/keys.h"
 #include "common/app/window/lens_control.h"
 #include "common/app/window/panel.h"
+#include "common/app/window/plane_control.h"
 #include "common/app/window/saved_files.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
@@ -279,6 +280,7 @@ class Window {
     if (actions.touch.undo) run_command(Command::kUndo);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
+    cut_volume();
     // Surfaces are solid: they would hide what is in a lens.
     const bool lenses = view_.volume && view_.volume->shown && !view_.volume->lenses.empty();
     view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_->surfaces().meshes);
@@ -300,6 +302,22 @@ class Window {
     draw_picture(parts, width, height);
     gui_->end_frame();
     glfw_.events().clear();
+  }
+
+  /// The volume is cut where the hand has put the planes. They begin where it is cut already.
+  void cut_volume() {
+    if (!touch_->planes() || !view_.volume) return;
+    if (touch_->choice().settings.plane_widget.poses.count == 0) {
+      const PlanePoses planes = planes_of(*view_.volume, view_.bounds.center());
+      if (planes.count > 0) {
+        touch_->begin_planes(planes);
+        return;
+      }
+    }
+    const WidgetState state = touch_->planes()->state;
+    if (state == WidgetState::kTranslate || state == WidgetState::kRotate) lens_moved_ = glfwGetTime();
+    cut_by_planes(*view_.volume, touch_->planes()->poses, cut_planes_);
+    cut_planes_ = touch_->planes()->poses.count;
   }
 
   [[nodiscard]] std::string popped_words() const {
@@ -456,6 +474,10 @@ class Window {
     SceneView picture = view_;
     const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
     if ((hand || !view_.surfaces.empty()) && touch_->choice().fade_rest) fade_lines(picture);
+    if (touch_->planes()) {
+      for (auto& line : lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius()))
+        picture.outline.push_back(std::move(line));
+    }
     return picture;
   }
 
@@ -508,6 +530,7 @@ class Window {
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
+  int cut_planes_ = 0;        // lenses that cut which stand for planes of the hand
   double lens_moved_ = -1.0;  // [s]
   std::optional<InputFiles> to_open_;
   int frame_ = 0, lively_frames_ = 3;

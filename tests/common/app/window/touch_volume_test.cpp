@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/grid/grid_modes.h"
+#include "common/app/haptic/grid_mode.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/scalar_threshold.h"
 #include "tests/common/app/window/touch_window.h"
@@ -50,7 +51,13 @@ class TouchVolume : public TouchWindowTest {
   void SetUp() override {
     TouchWindowTest::SetUp();
     options_.touch.modes = grid_modes();
+    options_.touch.choice.mode = mode_of("isosurface");
   }
+  static std::size_t mode_of(const std::string& name) {
+    const std::vector<HapticMode> modes = grid_modes();
+    return static_cast<std::size_t>(&find_mode(modes, name) - modes.data());
+  }
+  static int key_of(const std::string& name) { return '1' + static_cast<int>(mode_of(name)); }
   WindowResult run() { return run_model(blob_); }
 
   BlobModel blob_;
@@ -118,12 +125,12 @@ TEST_F(TouchVolume, SurfacesAreAddedAndSaved) {
 }
 
 TEST_F(TouchVolume, OtherModesShowNoSurface) {
-  key('2');
+  key(key_of("density"));
   EXPECT_TRUE(run().view.surfaces.empty());
 }
 
 TEST_F(TouchVolume, AnotherModeIsFeltAfterItsKey) {
-  key('2');
+  key(key_of("density"));
   grab();
   EXPECT_EQ(run().message.find("no line"), std::string::npos);
   key('K');
@@ -131,11 +138,48 @@ TEST_F(TouchVolume, AnotherModeIsFeltAfterItsKey) {
 }
 
 TEST_F(TouchVolume, TheSessionHoldsWhatIsFelt) {
-  options_.touch.choice.mode = 1;
+  options_.touch.choice.mode = mode_of("density");
   key('S', kModifierControl);
   const std::string saved = run().message;
   EXPECT_NE(saved.find("mode=density"), std::string::npos) << saved;
   EXPECT_NE(saved.find("stiffness=200"), std::string::npos) << saved;
+}
+
+TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
+  options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
+  const WindowResult before = run();
+  ASSERT_TRUE(before.view.volume);
+  ASSERT_EQ(before.view.volume->lenses.size(), 1U);
+  const Lens cut = before.view.volume->lenses[0];
+  EXPECT_TRUE(cut.cut);
+  // The sphere is in the middle of the picture, where the press takes hold of it.
+  move_by(next(), 12.0, -14.0);
+  at(next(), {.kind = InputKind::kPress});
+  lead_to(80.0, -60.0);
+  at(next(), {.kind = InputKind::kRelease});
+  last_ += kPause;
+  const WindowResult turned = run();
+  ASSERT_EQ(turned.view.volume->lenses.size(), 1U) << "the same plane";
+  EXPECT_FALSE(turned.view.volume->lenses[0].shape == cut.shape);
+  EXPECT_EQ(turned.view.camera.axes, before.view.camera.axes) << "the view stays";
+  // And back.
+  key('Z', kModifierControl);
+  last_ += kPause;
+  const WindowResult undone = run();
+  const auto& face = undone.view.volume->lenses[0].shape.half_spaces[0];
+  EXPECT_LT(glm::distance(face.outward, cut.shape.half_spaces[0].outward), 1e-12);
+  EXPECT_EQ(undone.message, "undone");
+}
+
+TEST_F(TouchVolume, TheSessionHoldsThePlanes) {
+  options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
+  options_.touch.choice.settings.plane_widget.poses.count = 1;
+  options_.touch.choice.settings.plane_widget.poses.pose[0].center = {0.1, 0.2, 0.3};
+  last_ += kPause;
+  key('S', kModifierControl);
+  const std::string saved = run().message;
+  EXPECT_NE(saved.find("mode=plane-widget"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("planes=0.1,0.2,0.3,0,0,0,1"), std::string::npos) << saved;
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include "common/app/window/plane_panel.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <imgui.h>
+
+#include "common/app/haptic/grid_mode.h"
+#include "common/haptics/widget/widget_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+/// A number field that answers when the user is done with it.
+bool field(const char* label, double* values, int count) {
+  ImGui::InputScalarN(label, ImGuiDataType_Double, values, count, nullptr, nullptr, "%.6g");
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+/// @return the pose after what the user did; nothing where that was nothing.
+std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& session, const Camera& camera) {
+  const Vec4 plane = plane_of_pose(pose);
+  // What is being typed stays until it is done: a widget's own memory, by plane.
+  std::array<double, 3> n{plane.x, plane.y, plane.z};
+  double d = plane.w;
+  std::optional<PlanePose> wanted;
+  const bool turned = field("normal", n.data(), 3);
+  const bool moved = field("d", &d, 1);
+  const Vec3 normal{n[0], n[1], n[2]};
+  const double size = glm::length(normal);
+  if (turned && size > 0.0 && std::isfinite(size)) wanted = turned_to(pose, normal / size);
+  if (moved && std::isfinite(d)) {
+    wanted = pose;
+    wanted->center += (d - plane.w) * Vec3{plane};
+  }
+  if (ImGui::SmallButton("flip")) wanted = turned_to(pose, -Vec3{plane});
+  ImGui::SameLine();
+  if (ImGui::SmallButton("to view")) wanted = turned_to(pose, camera.axes[2]);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("faces the viewer, who looks at what it leaves");
+  ImGui::SameLine();
+  if (ImGui::SmallButton("gradient")) {
+    if (const auto steepest = session.gradient_at(pose.center)) wanted = turned_to(pose, *steepest);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("across the steepest way of the values at its middle");
+  return wanted;
+}
+
+}  // namespace
+
+void edit_planes(ProbeSession& session, const Camera& camera) {
+  if (!session.planes()) return;
+  PlanePoses poses = session.planes()->poses;
+  bool edited = false;
+  std::optional<int> gone;
+  for (int i = 0; i < poses.count; ++i) {
+    ImGui::PushID(i);
+    PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    if (const auto wanted = edit_pose(pose, session, camera)) {
+      pose = *wanted;
+      edited = true;
+    }
+    if (poses.count > 1) {
+      ImGui::SameLine();
+      if (ImGui::SmallButton("remove")) gone = i;
+    }
+    ImGui::PopID();
+  }
+  if (gone) {
+    for (int i = *gone; i + 1 < poses.count; ++i)
+      poses.pose[static_cast<std::size_t>(i)] = poses.pose[static_cast<std::size_t>(i) + 1];
+    poses.pose[static_cast<std::size_t>(--poses.count)] = {};
+    edited = true;
+  }
+  if (poses.count < PlanePoses::kMax && ImGui::SmallButton("+ plane")) {
+    poses.pose[static_cast<std::size_t>(poses.count++)] =
+        turned_to({.center = camera.focal_point}, camera.axes[2]);
+    edited = true;
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("through what the view turns about, facing the viewer");
+  if (edited) session.put_planes(poses);
+}
+
+void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
+  if (mode != kGridMode) return;
+  GridAxisSettings& grid = choice.settings.grid_axis;
+  double pull = kMillimetres * grid.threshold, notch = kMillimetres * grid.notch;
+  constexpr double kNearest = 0.5, kFarthest = 30.0, kNone = 0.0, kFull = 1.0;
+  if (ImGui::SliderScalar("pulls over at", ImGuiDataType_Double, &pull, &kNearest, &kFarthest, "%.1f mm",
+                          ImGuiSliderFlags_AlwaysClamp))
+    grid.threshold = pull / kMillimetres;
+  if (ImGui::SliderScalar("landmarks reach", ImGuiDataType_Double, &notch, &kNone, &kFarthest, "%.1f mm",
+                          ImGuiSliderFlags_AlwaysClamp))
+    grid.notch = notch / kMillimetres;
+  ImGui::SliderScalar("teeth", ImGuiDataType_Double, &grid.teeth, &kNone, &kFull, "%.2f",
+                      ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderInt("peaks", &grid.peaks, 0, GridAxisSettings::kMostPeaks, "%d", ImGuiSliderFlags_AlwaysClamp);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("landmarks where the values along each axis pile up");
+  bool marks_alone = grid.switch_at == GridSwitch::kMarks;
+  if (ImGui::Checkbox("turn at landmarks alone", &marks_alone))
+    grid.switch_at = marks_alone ? GridSwitch::kMarks : GridSwitch::kNodes;
+  const bool room = grid.marks.count + 3 <= GridMarks::kMax;
+  if (session.readout().held && room && ImGui::SmallButton("landmarks here")) {
+    for (int a = 0; a < 3; ++a)
+      grid.marks.mark[static_cast<std::size_t>(grid.marks.count++)] = {.axis = a,
+                                                                       .at = session.readout().proxy[a]};
+  }
+  if (grid.marks.count > 0) {
+    ImGui::TextWrapped("%s", text_of(grid.marks).c_str());
+    if (ImGui::SmallButton("no landmarks")) grid.marks = {};
+  }
+}
+
+}  // namespace palpate
