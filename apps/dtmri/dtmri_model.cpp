@@ -90,7 +90,7 @@ void DtmriModel::describe_session(Session& session, const InputSpec& /*spec*/, c
     add_option(session, "volume", !volume.shown ? "none" : volume.colored ? "direction" : "fa");
     add_option(session, "transfer-function", options.volume.transfer);
     add_option(session, "focus-tf", options.volume.focus);
-    add_option(session, "lens", lenses_text(volume.lenses));
+    add_option(session, "lens", lenses_text(volume));
     add_option(session, "samples", exact_number(volume.samples_per_voxel));
     add_option(session, "shading", volume.shading ? "on" : "off");
   }

@@ -8,22 +8,34 @@
 #include "volume/surface.glsl"
 #include "volume/march.glsl"
 #include "volume/lens_segments.glsl"
+#ifdef MAGNIFIED
+#include "volume/magnify.glsl"
+#endif
 
 layout(location = 0) out vec4 color;  // associated
 
 void main() {
   Ray ray = pixel_ray();
-  if (!(ray.first < ray.last)) discard;
-  color = vec4(0.0);
   vec2 inside[kMostLenses];
   int count = volume.lens_count.x;
   for (int i = 0; i < count; ++i) inside[i] = lens_interval(i, ray);
+  float t = ray.first, end = ray.last;
+#ifdef MAGNIFIED
+  // What is seen enlarged reaches as far as its lens, out of the volume, too.
+  vec2 reach = ray.first < ray.last ? vec2(ray.first, ray.last) : vec2(1e30, -1e30);
+  for (int i = 0; i < count; ++i) {
+    if (magnifies(i) && inside[i].x < inside[i].y) reach = vec2(min(reach.x, inside[i].x), max(reach.y, inside[i].y));
+  }
+  t = max(reach.x, ray.from);
+  end = min(reach.y, ray.to);
+#endif
+  if (!(t < end)) discard;
+  color = vec4(0.0);
 
-  float t = ray.first;
-  for (int k = 0; k <= 2 * count && t < ray.last && color.a <= volume.lengths.z; ++k) {
+  for (int k = 0; k <= 2 * count && t < end && color.a <= volume.lengths.z; ++k) {
     // The first lens that holds t owns the stretch, up to its end or where one before it in the list begins.
     int owner = 0;
-    float stop = ray.last;
+    float stop = end;
     for (int i = 0; i < count; ++i) {
       if (!(inside[i].x < inside[i].y)) continue;
       if (inside[i].x > t) {
@@ -34,7 +46,17 @@ void main() {
         break;
       }
     }
-    if (volume.parts[owner].w != 1.0) march(ray, volume.parts[owner], t, stop, color);
+    bool seen = volume.parts[owner].w != 1.0;
+#ifdef MAGNIFIED
+    if (seen && owner > 0 && magnifies(owner - 1)) {
+      march_magnified(ray, owner - 1, volume.parts[owner], t, stop, color);
+      seen = false;
+    }
+    float first = max(t, ray.first), last = min(stop, ray.last);
+    if (seen && first < last) march(ray, volume.parts[owner], first, last, color);
+#else
+    if (seen) march(ray, volume.parts[owner], t, stop, color);
+#endif
     t = stop;
   }
 }

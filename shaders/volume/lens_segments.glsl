@@ -2,6 +2,7 @@
 // Needs volume/volume_block.glsl and volume/ray.glsl.
 layout(std140, binding = 2) uniform Lenses {
   mat4 unit_from_scene[kMostLenses];  // quadric: |x| <= 1; its last element is 1 where there is one, else 0
+  vec4 centers[kMostLenses];          // xyz: middle; w: magnification
   ivec4 faces[kMostLenses];           // x: first plane, y: planes
   vec4 planes[kMostLenses * kMostPlanes];  // outward unit normal, offset
 } lenses;

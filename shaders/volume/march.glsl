@@ -31,13 +31,14 @@ vec4 short_stretch(float front, float back, float first_layer, float stretch) {
              texture(tables, vec3(front, back, first_layer + below + 1.0)), place - below);
 }
 
-void gather(vec4 seen, Ray ray, vec4 part, float middle, inout vec4 gathered) {
+// @param g middle of the stretch, `direction` of the ray in N
+void gather(vec4 seen, vec3 direction, vec4 part, vec3 g, inout vec4 gathered) {
 #ifdef COLORED
   // Opacities stay those of the table; the colour is that of the stretch's middle.
-  if (part.w > 1.5) seen.rgb = seen.a * texture(colors, (ray.start + middle * ray.speed + 0.5) / volume.points.xyz).rgb;
+  if (part.w > 1.5) seen.rgb = seen.a * texture(colors, (g + 0.5) / volume.points.xyz).rgb;
 #endif
 #ifdef SHADED
-  if (part.z > 0.5) seen.rgb = shaded(seen, ray, middle);
+  if (part.z > 0.5) seen.rgb = shaded(seen, direction, g);
 #endif
   gathered += (1.0 - gathered.a) * seen;
 }
@@ -62,12 +63,16 @@ vec4 walk_on(inout Walk walk, Ray ray, float inside) {
   return seen;
 }
 
+// The layer of the longest length that still takes `samples` a voxel; some room for rounding.
+float layer_for(float samples, Ray ray) {
+  float layer = floor(1.0 / (samples * length(ray.speed) * volume.lengths.x) + 1e-3);
+  return clamp(layer, 1.0, volume.lengths.y - 1.0);
+}
+
 // Adds what lies between `from` and `to`.
 void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
   float first_layer = part.x * volume.lengths.y;
-  // The longest length of the table that still takes `part.y` samples a voxel; some room for rounding.
-  float layer = floor(1.0 / (part.y * length(ray.speed) * volume.lengths.x) + 1e-3);
-  layer = clamp(layer, 1.0, volume.lengths.y - 1.0);
+  float layer = layer_for(part.y, ray);
   Walk walk;
   walk.d = layer * volume.lengths.x;
   walk.layer = first_layer + layer;
@@ -77,8 +82,8 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
 
   float t = min(walk.n * walk.d, to);
   walk.front = value_at(ray.start + t * ray.speed);
-  gather(short_stretch(value_at(ray.start + from * ray.speed), walk.front, first_layer, t - from), ray, part,
-         0.5 * (from + t), gathered);
+  gather(short_stretch(value_at(ray.start + from * ray.speed), walk.front, first_layer, t - from),
+         ray.direction, part, ray.start + 0.5 * (from + t) * ray.speed, gathered);
 
   while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
     // The last sample that is still in empty bricks.
@@ -89,16 +94,16 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
       seen = walk_on(walk, ray, inside);
       if (seen.a > 0.0) break;
     }
-    gather(seen, ray, part, (walk.n - 0.5) * walk.d, gathered);
+    gather(seen, ray.direction, part, ray.start + (walk.n - 0.5) * walk.d * ray.speed, gathered);
 #else
-    gather(walk_on(walk, ray, inside), ray, part, 0.0, gathered);
-    gather(walk_on(walk, ray, inside), ray, part, 0.0, gathered);
+    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
+    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
 #endif
   }
 
   if (walk.n == walk.last && gathered.a <= volume.lengths.z) {
     t = walk.n * walk.d;
-    gather(short_stretch(walk.front, value_at(ray.start + to * ray.speed), first_layer, to - t), ray, part,
-           0.5 * (t + to), gathered);
+    gather(short_stretch(walk.front, value_at(ray.start + to * ray.speed), first_layer, to - t),
+           ray.direction, part, ray.start + 0.5 * (t + to) * ray.speed, gathered);
   }
 }

@@ -5,8 +5,10 @@ struct Ray {
   vec3 start;      // g at t = 0
   vec3 speed;      // g a unit of t
   vec3 pace;       // its reciprocal, large where there is no speed
-  float first;     // t between which the ray is to be cast; first > last: nowhere
+  float first;     // t between which the ray runs in the volume and may see something; first > last: nowhere
   float last;
+  float from;      // t between which nothing opaque and no eye is in the way, be it in the volume or not
+  float to;
 };
 
 // The t at which the opaque thing drawn at this pixel lies: depth z of the buffer gives the clip coordinate
@@ -36,14 +38,17 @@ Ray pixel_ray() {
   vec3 near = min(a, b), far = max(a, b);
   ray.first = max(near.x, max(near.y, near.z));
   ray.last = min(far.x, min(far.y, far.z));
-  if (perspective) ray.first = max(ray.first, 0.0);
-  if (volume.bricks.w > 0.5) {
+  ray.from = perspective ? 0.0 : -1e30;
+  ray.to = 1e30;
+  if (has_opaque_depth) ray.to = opaque_distance(ray, ray.to);
+  ray.first = max(ray.first, ray.from);
+  if (volume.lengths.w > 0.5) {
     const int kTilePixels = 8;
     vec2 span = texelFetch(tiles, ivec2(gl_FragCoord.xy) / kTilePixels, 0).xy;
     // Tiles know the shell of what is seen; a ray that begins in the volume may begin within the shell.
     if (!perspective || ray.first > 0.0) ray.first = max(ray.first, -span.x);
     ray.last = min(ray.last, span.y);
   }
-  if (has_opaque_depth) ray.last = min(ray.last, opaque_distance(ray, ray.last));
+  ray.last = min(ray.last, ray.to);
   return ray;
 }

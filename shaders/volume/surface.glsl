@@ -7,9 +7,8 @@
 // Needs include/frame.glsl, include/shade.glsl, volume/volume_block.glsl and volume/ray.glsl.
 float value_at(vec3 g);
 
-vec3 shaded(vec4 seen, Ray ray, float t) {
+vec3 shaded(vec4 seen, vec3 direction, vec3 g) {
   const float kAmbient = 0.35, kDiffuse = 0.70, kSpecular = 0.25, kGloss = 24.0, kFaint = 0.005;
-  vec3 g = ray.start + t * ray.speed;
   vec2 step = vec2(1.0, 0.0);
   vec3 slope = 0.5 * vec3(value_at(g + step.xyy) - value_at(g - step.xyy),
                           value_at(g + step.yxy) - value_at(g - step.yxy),
@@ -21,7 +20,7 @@ vec3 shaded(vec4 seen, Ray ray, float t) {
   normal /= size;
   vec3 light = light_direction();
   float ln = dot(light, normal);
-  float shine = max(dot(2.0 * ln * normal - light, -ray.direction), 0.0);
+  float shine = max(dot(2.0 * ln * normal - light, -direction), 0.0);
   float share = square / (square + kFaint * kFaint);
   vec3 lit = seen.rgb * (kAmbient + kDiffuse * abs(ln)) + seen.a * (kSpecular * pow(shine, kGloss));
   return min(mix(seen.rgb, lit, share), vec3(seen.a));

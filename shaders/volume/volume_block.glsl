@@ -12,7 +12,7 @@ layout(std140, binding = 1) uniform Volume {
   vec4 upper;         // xyz: opposite corner; w: table coordinate a number
   vec4 points;        // xyz: voxels an axis; w: table coordinate of the first entry
   vec4 bricks;        // xyz: bricks an axis; w: 1 leave out empty ones
-  vec4 lengths;       // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end
+  vec4 lengths;       // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end; w: 1 ask tiles
   vec4 parts[1 + kMostLenses];  // the context, then the lenses
   ivec4 lens_count;             // x: lenses
 } volume;

@@ -14,6 +14,18 @@ namespace {
 // The light of shaders/include/shade.glsl and shaders/volume/surface.glsl.
 constexpr double kAmbient = 0.35, kDiffuse = 0.70, kSpecular = 0.25, kGloss = 24.0, kFaint = 0.005;
 
+// Where the matter lies that `lens` shows at x (shaders/volume/magnify.glsl). How far the lens reaches from
+// its middle in the direction of x comes from its intersection with that line.
+Vec3 place_seen(const Lens& lens, const Vec3& x) {
+  constexpr double kCore = 0.5;
+  const Vec3 center = center_of(lens.shape, Vec3(0.0)), away = x - center;
+  if (away == Vec3(0.0)) return center;
+  const double u = std::min(1.0, 1.0 / clip_line(lens.shape, center, away).last);
+  const double outer = std::max(0.0, (u - kCore) / (1.0 - kCore));
+  const double f = u / lens.magnification + (1.0 - 1.0 / lens.magnification) * outer * outer;
+  return center + f / u * away;
+}
+
 }  // namespace
 
 ReferenceRay::ReferenceRay(const VolumeView& view, const Camera& camera, int width, int height,
@@ -88,13 +100,17 @@ Rgba ReferenceRay::cast(double x, double y) const {
     first = std::max(first, std::min(p, q));
     last = std::min(last, std::max(p, q));
   }
-  if (!(first < last)) return {};
 
-  std::vector<double> borders{first, last};
+  const double nearest = perspective ? 0.0 : -HUGE_VAL;
+  std::vector<double> borders;
+  if (first < last) borders = {first, last};
   for (const Lens& lens : view_.lenses) {
     const LineInterval inside = clip_line(lens.shape, origin, direction);
-    for (const double t : {inside.first, inside.last}) {
-      if (inside.first < inside.last && t > first && t < last) borders.push_back(t);
+    if (!(inside.first < inside.last)) continue;
+    for (double t : {inside.first, inside.last}) {
+      // What is enlarged may be seen out of the volume, too.
+      if (magnifies(lens)) t = std::max(t, nearest);
+      if (magnifies(lens) || (t > first && t < last)) borders.push_back(t);
     }
   }
   std::sort(borders.begin(), borders.end());
@@ -111,10 +127,25 @@ Rgba ReferenceRay::cast(double x, double y) const {
     if (focus && owner->cut) continue;
     const ColorTransfer& transfer = focus && owner->transfer ? *owner->transfer : view_.transfer;
     const bool shading = focus ? owner->shading : view_.shading;
-    const int steps = std::max(1, static_cast<int>(std::ceil(length * glm::length(speed) * samples_)));
-    const double h = length / steps;
+    const bool bent = focus && magnifies(*owner);
+    if (!bent && !(borders[part] >= first && borders[part + 1] <= last)) continue;
+    constexpr double kSqueezed = 2.0;
+    const int steps = std::max(
+        1, static_cast<int>(std::ceil(length * glm::length(speed) * samples_ * (bent ? kSqueezed : 1.0))));
+    const double step = length / steps;
     for (int i = 0; i < steps; ++i) {
-      const Vec3 g = g0 + (borders[part] + (i + 0.5) * h) * speed;
+      Vec3 g = g0 + (borders[part] + (i + 0.5) * step) * speed;
+      double h = step;
+      if (bent) {
+        const auto at = [&](double s) {
+          return place_seen(*owner, origin + (borders[part] + s * step) * direction);
+        };
+        g = grid_from_data_ * (at(i + 0.5) - image.origin);
+        h = glm::distance(at(i), at(i + 1.0));
+        bool out = false;
+        for (int a = 0; a < 3; ++a) out = out || g[a] < image.lower()[a] || g[a] > image.upper()[a];
+        if (out) continue;
+      }
       const double value = image.offset + image.scale * number_at(g);
       const ColorSample sample = transfer.at(value);
       const double thickness = optical_depth(sample.opacity) * h / opacity_length;

@@ -1,6 +1,7 @@
 #include "common/app/cli/lens_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -13,10 +14,9 @@ namespace palpate {
 namespace {
 
 constexpr const char* kGrammar =
-    "a lens is sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), cylinder:x,y,z,x,y,z,r or "
-    "halfspace:nx,ny,nz,d, "
-    "and ',cut' behind it where it cuts away";
-constexpr std::string_view kCut = ",cut";
+    "a lens is sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), cylinder:x,y,z,x,y,z,r, "
+    "polyhedron:nx,ny,nz,d,nx,ny,nz,d,... or halfspace:nx,ny,nz,d, and behind it ',cut' where it cuts away, "
+    "',magnify=M', ',samples=N' or ',shading=on' or 'off'";
 
 Vec3 vec_at(const std::vector<double>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
@@ -24,6 +24,31 @@ Vec3 vec_at(const std::vector<double>& numbers, std::size_t first) {
 
 void check_above_zero(double size, const std::string& text, const char* what) {
   if (!(size > 0.0)) throw usage_error("--lens " + text + ": the " + what + " must be above zero");
+}
+
+// Where n.x <= d for each n, d.
+ConvexShape polyhedron_of(std::string_view text, const std::string& refusal) {
+  const auto numbers = static_cast<std::size_t>(1 + std::count(text.begin(), text.end(), ','));
+  if (numbers % 4 != 0) throw usage_error(refusal);
+  if (numbers > 4 * kMostHalfSpaces)
+    throw usage_error(refusal + "; at most " + std::to_string(kMostHalfSpaces) + " faces are possible");
+  const auto v = parse_numbers(text, numbers, refusal);
+  std::vector<ConvexShape::HalfSpace> faces;
+  for (std::size_t i = 0; i < numbers; i += 4) {
+    const double length = glm::length(vec_at(v, i));
+    if (!(length > 0.0) || !std::isfinite(length)) throw usage_error(refusal + "; n must not be zero");
+    faces.push_back({vec_at(v, i), v[i + 3]});
+  }
+  return make_polyhedron(faces);
+}
+
+/// @param least, most of the numbers that are taken, `least` itself included.
+double number_from(double least, double most, std::string_view text, const std::string& refusal) {
+  const std::string bounds =
+      refusal + "; a number from " + short_number(least) + " to " + short_number(most) + " is expected";
+  const double value = parse_numbers(text, 1, bounds).front();
+  if (!(value >= least && value <= most)) throw usage_error(bounds);
+  return value;
 }
 
 ConvexShape shape_of(std::string_view text, const std::string& all) {
@@ -49,6 +74,7 @@ ConvexShape shape_of(std::string_view text, const std::string& all) {
     check_above_zero(v[6], all, "radius");
     return make_cylinder(vec_at(v, 0), vec_at(v, 3), v[6]);
   }
+  if (kind == "polyhedron") return polyhedron_of(rest, refusal);
   if (kind == "halfspace") return parse_beyond(rest, "--lens " + all);
   throw usage_error(refusal);
 }
@@ -82,18 +108,25 @@ std::optional<std::string> shape_text(const ConvexShape& shape) {
   }
   if (!shape.quadric && faces.size() == 6) {
     Vec3 lower{0.0}, upper{0.0};
+    bool upright = true;
     for (int axis = 0; axis < 3; ++axis) {
       // make_box() gives the faces of an axis one after the other, outward and back.
       const std::size_t face = 2 * static_cast<std::size_t>(axis);
-      if (std::abs(faces[face].outward[axis]) != 1.0) return std::nullopt;
+      upright = upright && std::abs(faces[face].outward[axis]) == 1.0 &&
+                faces[face + 1].outward == -faces[face].outward;
       const double a = faces[face].outward[axis] * faces[face].offset;
       const double b = faces[face + 1].outward[axis] * faces[face + 1].offset;
       lower[axis] = std::min(a, b);
       upper[axis] = std::max(a, b);
     }
-    return "box:" + joined({lower.x, lower.y, lower.z, upper.x, upper.y, upper.z});
+    if (upright) return "box:" + joined({lower.x, lower.y, lower.z, upper.x, upper.y, upper.z});
   }
-  return std::nullopt;
+  if (shape.quadric || faces.size() < 2) return std::nullopt;
+  std::string text;
+  for (const ConvexShape::HalfSpace& h : faces) {
+    text += (text.empty() ? "polyhedron:" : ",") + joined({h.outward.x, h.outward.y, h.outward.z, h.offset});
+  }
+  return text;
 }
 
 }  // namespace
@@ -109,25 +142,64 @@ ConvexShape parse_beyond(std::string_view text, const std::string& asked) {
   return shape;
 }
 
-Lens parse_lens(const std::string& text) {
-  std::string_view shape = text;
-  Lens lens;
-  lens.cut = shape.ends_with(kCut);
-  if (lens.cut) shape.remove_suffix(kCut.size());
-  lens.shape = shape_of(shape, text);
-  return lens;
+LensWords parse_lens(const std::string& text) {
+  LensWords words;
+  const std::string& all = text;
+  std::string_view rest = text;
+  // What is said of the lens stands behind its numbers, and begins with a letter.
+  const auto says = [&](std::string_view word, std::string_view what) {
+    if (what == "cut") {
+      words.lens.cut = true;
+    } else if (word == "magnify") {
+      words.lens.magnification = number_from(1.0, 100.0, what, "--lens " + all + ": magnify");
+    } else if (word == "samples") {
+      words.samples = number_from(0.01, 64.0, what, "--lens " + all + ": samples");
+    } else if (word == "shading" && (what == "on" || what == "off")) {
+      words.shading = what == "on";
+    } else {
+      throw usage_error("--lens " + all + ": " + kGrammar);
+    }
+  };
+  std::vector<std::string_view> said;
+  for (std::size_t comma = rest.rfind(','); comma != std::string_view::npos && comma + 1 < rest.size() &&
+                                            std::isalpha(static_cast<unsigned char>(rest[comma + 1])) != 0;
+       comma = rest.rfind(',')) {
+    const std::string_view one = rest.substr(comma + 1);
+    if (one == "nan" || one == "inf") break;  // a number, and refused as one
+    said.push_back(one);
+    rest = rest.substr(0, comma);
+  }
+  words.lens.shape = shape_of(rest, text);
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const std::size_t equal = said[i].find('=');
+    const std::string_view word = said[i].substr(0, equal);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (said[k].substr(0, said[k].find('=')) == word)
+        throw usage_error("--lens " + all + ": '" + std::string(word) + "' is said twice");
+    }
+    says(word, equal == std::string_view::npos ? word : said[i].substr(equal + 1));
+  }
+  const Lens& lens = words.lens;
+  if (!lens.cut && lens.magnification > 1.0 && !magnifies(lens))
+    throw usage_error("--lens " + all + ": only a shape with a middle and bounds can magnify");
+  return words;
 }
 
-std::optional<std::string> lens_text(const Lens& lens) {
+std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   auto text = shape_text(lens.shape);
-  if (text && lens.cut) *text += kCut;
+  if (!text) return text;
+  if (lens.cut) return *text + ",cut";
+  if (lens.magnification > 1.0) *text += ",magnify=" + exact_number(lens.magnification);
+  if (lens.samples_per_voxel != view.samples_per_voxel)
+    *text += ",samples=" + exact_number(lens.samples_per_voxel);
+  if (lens.shading != view.shading) *text += lens.shading ? ",shading=on" : ",shading=off";
   return text;
 }
 
-std::string lenses_text(const std::vector<Lens>& lenses) {
+std::string lenses_text(const VolumeView& view) {
   std::string all;
-  for (const Lens& lens : lenses) {
-    const auto text = lens_text(lens);
+  for (const Lens& lens : view.lenses) {
+    const auto text = lens_text(lens, view);
     if (text) all += (all.empty() ? "" : ";") + *text;
   }
   return all;
@@ -137,16 +209,17 @@ std::vector<Lens> make_lenses(const VolumeOptions& options, const std::optional<
   std::vector<Lens> lenses;
   for (const std::string& plane : options.clips)
     lenses.push_back({.shape = parse_beyond(plane, "--clip " + plane), .cut = true});
-  for (const std::string& text : options.lenses) lenses.push_back(parse_lens(text));
+  for (const std::string& text : options.lenses) {
+    const LensWords words = parse_lens(text);
+    Lens& lens = lenses.emplace_back(words.lens);
+    lens.samples_per_voxel = words.samples.value_or(options.samples);
+    lens.shading = words.shading.value_or(options.shading);
+    if (!lens.cut) lens.transfer = focus;
+  }
   std::stable_partition(lenses.begin(), lenses.end(), [](const Lens& lens) { return lens.cut; });
   if (lenses.size() > kMostLenses) {
     throw usage_error("--lens: " + std::to_string(lenses.size()) + " lenses and clipping planes; at most " +
                       std::to_string(kMostLenses) + " are possible");
-  }
-  for (Lens& lens : lenses) {
-    lens.samples_per_voxel = options.samples;
-    lens.shading = options.shading;
-    if (!lens.cut) lens.transfer = focus;
   }
   return lenses;
 }

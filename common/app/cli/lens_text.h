@@ -1,9 +1,10 @@
 /// Lenses as words: `--lens` and what a session keeps of those of a window.
 ///
 ///   sphere:x,y,z,r | box:x,y,z,x,y,z (two opposite corners) | cylinder:x,y,z,x,y,z,r (the middles of its
-///   ends) | halfspace:nx,ny,nz,d (where n.x > d)                 and ",cut" behind it: cut away
+///   ends) | polyhedron:nx,ny,nz,d,... (where n.x <= d for each) | halfspace:nx,ny,nz,d (where n.x > d)
 ///
-/// Places and lengths in data units.
+/// and behind it, in any order, ",cut": cut away; ",magnify=M"; ",samples=N" a voxel; ",shading=on" or "off",
+/// each as outside the lens where it is not said. Places and lengths in data units.
 #pragma once
 
 #include <optional>
@@ -13,16 +14,23 @@
 
 #include "common/app/cli/options.h"
 #include "common/render/lens/lens.h"
+#include "common/render/volume/volume_view.h"
 
 namespace palpate {
 
-/// A lens without a transfer function of its own.
+/// A lens without a transfer function of its own, and what was said of its rays.
+struct LensWords {
+  Lens lens;
+  std::optional<double> samples;  ///< a voxel
+  std::optional<bool> shading;
+};
 /// @throws Error (usage) for words of another kind, and for a shape without size.
-[[nodiscard]] Lens parse_lens(const std::string& text);
+[[nodiscard]] LensWords parse_lens(const std::string& text);
 /// The words for a lens that parse_lens() made, or that was moved or scaled since; nothing for other shapes.
-[[nodiscard]] std::optional<std::string> lens_text(const Lens& lens);
+/// @param view that the lens is part of: what it shares with the context is not said.
+[[nodiscard]] std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view);
 /// All that have words, with ';' between: as a session keeps them.
-[[nodiscard]] std::string lenses_text(const std::vector<Lens>& lenses);
+[[nodiscard]] std::string lenses_text(const VolumeView& view);
 
 /// The half-space n.x > d of "nx,ny,nz,d".
 /// @param asked what the user wrote, named where the text is no plane. @throws Error (usage).

@@ -15,8 +15,10 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
   options.add_several(
       "--lens", volume.lenses,
       "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
-      "cylinder:x,y,z,x,y,z,r or halfspace:nx,ny,nz,d (where n.x > d); ',cut' behind it cuts it away; may "
-      "be repeated, the first one wins",
+      "cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each) or halfspace:nx,ny,nz,d "
+      "(where n.x > d); behind it ',cut' cuts it away, ',magnify=M' enlarges, ',samples=N' and ',shading=on' "
+      "or "
+      "'off' are its own; may be repeated, the first one wins",
       "SHAPE", kGroup);
   options.add("--focus-tf", volume.focus, focus, "NAME|FILE", kGroup);
   options.add_several("--clip,--plane", volume.clips, "cut away what lies where n.x > d; may be repeated",

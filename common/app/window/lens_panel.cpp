@@ -14,7 +14,7 @@ namespace {
 
 const char* kind_of(const ConvexShape& shape) {
   if (shape.quadric) return shape.half_spaces.empty() ? "sphere" : "cylinder";
-  return shape.half_spaces.size() == 1 ? "half-space" : "box";
+  return shape.half_spaces.size() == 1 ? "half-space" : shape.half_spaces.size() == 6 ? "box" : "polyhedron";
 }
 
 /// How far a lens reaches from its middle along x; a half-space has no size.
@@ -37,6 +37,19 @@ bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
     ImGui::SameLine();
   }
   ImGui::TextUnformatted(kind_of(lens.shape));
+  if (!lens.cut) {
+    constexpr double kPlain = 1.0, kMostEnlarged = 8.0, kFewest = 0.5, kMost = 16.0;
+    Lens enlarged = lens;
+    enlarged.magnification = kMostEnlarged;
+    if (magnifies(enlarged)) {
+      ImGui::SliderScalar("magnify", ImGuiDataType_Double, &lens.magnification, &kPlain, &kMostEnlarged,
+                          "%.1f x", ImGuiSliderFlags_AlwaysClamp);
+    }
+    ImGui::SliderScalar("samples", ImGuiDataType_Double, &lens.samples_per_voxel, &kFewest, &kMost, "%.1f",
+                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::Checkbox("shading", &lens.shading);
+    ImGui::SameLine();
+  }
   if (ImGui::Checkbox("cut away", &lens.cut) && !lens.cut) {
     lens.transfer = model.transfer;
     lens.colored = model.colored;

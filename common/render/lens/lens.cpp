@@ -16,6 +16,90 @@ ConvexShape::HalfSpace half_space(const Vec3& point, const Vec3& outward) {
   return {n, glm::dot(n, point)};
 }
 
+// A half-space that nothing lies in: shapes without size hold no line.
+ConvexShape nothing() {
+  ConvexShape shape;
+  shape.half_spaces.push_back({Vec3(0.0, 0.0, 1.0), -kInfinity});
+  return shape;
+}
+
+// Whether faces stand in opposite pairs at right angles, as those of make_box() and make_cylinder() do.
+bool is_upright(const std::vector<ConvexShape::HalfSpace>& faces) {
+  constexpr double kRounding = 1e-9;
+  if (faces.size() % 2 != 0 || faces.size() > 6) return false;
+  for (std::size_t i = 0; i < faces.size(); i += 2) {
+    if (faces[i].outward != -faces[i + 1].outward) return false;
+    for (std::size_t k = 0; k < i; k += 2) {
+      if (std::abs(glm::dot(faces[i].outward, faces[k].outward)) > kRounding) return false;
+    }
+  }
+  return true;
+}
+
+// The mean of all corners; nothing where there is none.
+std::optional<Vec3> mean_of_corners(const std::vector<ConvexShape::HalfSpace>& faces) {
+  constexpr double kRounding = 1e-9;
+  double reach = 0.0;
+  for (const ConvexShape::HalfSpace& h : faces) reach = std::max(reach, std::abs(h.offset));
+  Vec3 sum{0.0};
+  int count = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const Vec3 &a = faces[i].outward, &b = faces[j].outward, &c = faces[k].outward;
+        const double volume = glm::dot(a, glm::cross(b, c));
+        if (!(std::abs(volume) > kRounding)) continue;
+        const Vec3 corner = (faces[i].offset * glm::cross(b, c) + faces[j].offset * glm::cross(c, a) +
+                             faces[k].offset * glm::cross(a, b)) /
+                            volume;
+        const bool inside = std::all_of(faces.begin(), faces.end(), [&](const ConvexShape::HalfSpace& h) {
+          return glm::dot(h.outward, corner) <= h.offset + kRounding * (reach + glm::length(corner));
+        });
+        if (!inside) continue;
+        sum += corner;
+        ++count;
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+// Whether a line in the direction `way` leaves all half-spaces in the end.
+bool blocks(const std::vector<ConvexShape::HalfSpace>& faces, const Vec3& way) {
+  constexpr double kRounding = 1e-9;
+  return std::any_of(faces.begin(), faces.end(), [&](const ConvexShape::HalfSpace& h) {
+    return glm::dot(h.outward, way) > kRounding * glm::length(way);
+  });
+}
+
+// A polyhedron that has corners and goes on for ever does so along one of its edges; a cylinder along its
+// axis.
+bool is_bounded(const ConvexShape& shape) {
+  constexpr double kRounding = 1e-9;
+  const auto& faces = shape.half_spaces;
+  if (shape.quadric) {
+    const Mat3 rows = glm::transpose(shape.quadric->unit_from_data);
+    Vec3 axis{0.0};
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 across = glm::cross(rows[i], rows[(i + 1) % 3]);
+      if (glm::length(across) > glm::length(axis)) axis = across;
+    }
+    const double size = std::sqrt(glm::length(axis));
+    if (std::abs(glm::determinant(rows)) > kRounding * size * size * size) return true;
+    return blocks(faces, axis) && blocks(faces, -axis);
+  }
+  if (!mean_of_corners(faces)) return false;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Vec3 edge = glm::cross(faces[i].outward, faces[k].outward);
+      if (!(glm::length(edge) > kRounding)) continue;
+      if (!blocks(faces, edge) || !blocks(faces, -edge)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool ConvexShape::contains(const Vec3& x) const noexcept {
@@ -60,19 +144,16 @@ LineInterval clip_line(const ConvexShape& shape, const Vec3& origin, const Vec3&
 
 ConvexShape make_sphere(const Vec3& center, double radius) {
   PALPATE_CHECK(is_finite(center) && std::isfinite(radius) && radius >= 0.0);
+  if (radius == 0.0) return nothing();
   ConvexShape shape;
-  // A sphere without size holds no line: a half-space that nothing lies in.
-  if (radius == 0.0) {
-    shape.half_spaces.push_back({Vec3(0.0, 0.0, 1.0), -kInfinity});
-  } else {
-    shape.quadric = ConvexShape::Quadric{Mat3(1.0 / radius), center};
-  }
+  shape.quadric = ConvexShape::Quadric{Mat3(1.0 / radius), center};
   return shape;
 }
 
 ConvexShape make_box(const Vec3& center, const Mat3& axes) {
   ConvexShape shape;
   for (int c = 0; c < 3; ++c) {
+    if (axes[c] == Vec3(0.0)) return nothing();
     shape.half_spaces.push_back(half_space(center + axes[c], axes[c]));
     shape.half_spaces.push_back(half_space(center - axes[c], -axes[c]));
   }
@@ -81,7 +162,7 @@ ConvexShape make_box(const Vec3& center, const Mat3& axes) {
 
 ConvexShape make_cylinder(const Vec3& from, const Vec3& to, double radius) {
   PALPATE_CHECK(std::isfinite(radius) && radius >= 0.0);
-  if (radius == 0.0) return make_sphere(from, 0.0);
+  if (radius == 0.0 || from == to) return nothing();
   ConvexShape shape;
   const Vec3 axis = glm::normalize(to - from);
   // I - axis axis^T takes the part across the axis.
@@ -112,7 +193,8 @@ Vec3 center_of(const ConvexShape& shape, const Vec3& near) noexcept {
   const auto& faces = shape.half_spaces;
   const auto room = [&](const ConvexShape::HalfSpace& h) { return h.offset - glm::dot(h.outward, center); };
   if (faces.size() == 1) return center + room(faces[0]) * faces[0].outward;
-  // Opposite faces stand in pairs; halfway between each pair.
+  if (!is_upright(faces)) return shape.quadric ? center : mean_of_corners(faces).value_or(near);
+  // Halfway between the faces of each pair.
   for (std::size_t i = 0; i + 1 < faces.size(); i += 2) {
     center += 0.5 * (room(faces[i]) - room(faces[i + 1])) * faces[i].outward;
   }
@@ -136,6 +218,15 @@ ConvexShape scaled(ConvexShape shape, double factor) noexcept {
     h.offset = at_center + factor * (h.offset - at_center);
   }
   return shape;
+}
+
+bool magnifies(const Lens& lens) {
+  if (lens.cut || !(lens.magnification > 1.0)) return false;
+  if (!is_bounded(lens.shape)) return false;
+  const auto& faces = lens.shape.half_spaces;
+  const Vec3 center = center_of(lens.shape, Vec3(0.0));
+  return std::all_of(faces.begin(), faces.end(),
+                     [&](const ConvexShape::HalfSpace& h) { return glm::dot(h.outward, center) < h.offset; });
 }
 
 }  // namespace palpate

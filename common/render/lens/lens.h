@@ -57,8 +57,8 @@ struct LineInterval {
 /// The tetrahedron, pyramid or other polyhedron that half-spaces enclose; normals need not be unit.
 [[nodiscard]] ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces);
 
-/// The middle of a shape that make_sphere(), make_box() or make_cylinder() made; of a half-space the point of
-/// its border nearest to `near`.
+/// The middle of a ball, box or cylinder, the mean of the corners of another polyhedron; of a half-space the
+/// point of its border nearest to `near`, which stands also where there are no corners.
 [[nodiscard]] Vec3 center_of(const ConvexShape& shape, const Vec3& near) noexcept;
 /// The shape moved by `shift` [data units].
 [[nodiscard]] ConvexShape moved(ConvexShape shape, const Vec3& shift) noexcept;
@@ -75,8 +75,14 @@ struct Lens {
   bool shading = true;
   bool cut = false;      ///< cut away: nothing is drawn inside
   bool colored = false;  ///< colours are those of the voxels; the transfer function gives opacities alone
+  /// >= 1: matter about center_of() is seen this many times as large (shaders/volume/magnify.glsl); it
+  /// takes its place among its neighbours again toward the border, which stays where it is.
+  double magnification = 1.0;
 
   bool operator==(const Lens&) const = default;
 };
+
+/// Whether the lens enlarges: cut away, without bounds or without room about its middle it does not.
+[[nodiscard]] bool magnifies(const Lens& lens);
 
 }  // namespace palpate

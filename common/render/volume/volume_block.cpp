@@ -92,7 +92,7 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, c
   block.bricks = {Vec3f(bricks), view.skip_empty ? 1.0F : 0.0F};
   const StepLengths steps = step_lengths(view);
   block.lengths = {steps.longest * to_scene / (steps.layers - 1), steps.layers,
-                   view.stop_where_opaque ? kOpaque : 2.0F, 0.0F};
+                   view.stop_where_opaque ? kOpaque : 2.0F, asks_tiles(view) ? 1.0F : 0.0F};
 
   block.parts[0] = part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored));
   int transfers = 1;
@@ -119,6 +119,8 @@ LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame) {
       block.unit_from_scene[i] = glm::mat4(Mat4(unit));
       block.unit_from_scene[i][3] = {Vec3f(unit * -frame.scene_from_data(shape.quadric->center)), 1.0F};
     }
+    const double magnification = magnifies(view.lenses[i]) ? view.lenses[i].magnification : 1.0;
+    block.centers[i] = {Vec3f(frame.scene_from_data(center_of(shape, frame.center))), magnification};
     block.faces[i] = {static_cast<int>(next), static_cast<int>(shape.half_spaces.size()), 0, 0};
     for (const ConvexShape::HalfSpace& h : shape.half_spaces) {
       const double offset = (h.offset - glm::dot(h.outward, frame.center)) * to_scene;

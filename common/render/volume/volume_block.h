@@ -44,6 +44,7 @@ struct VolumeBlock {
 /// Laid out as a std140 uniform block, bound to 2.
 struct LensBlock {
   std::array<glm::mat4, kMostLenses> unit_from_scene{};
+  std::array<glm::vec4, kMostLenses> centers{};  ///< middle, magnification
   std::array<glm::ivec4, kMostLenses> faces{};
   std::array<glm::vec4, kMostLenses * kMostHalfSpaces> planes{};
 };

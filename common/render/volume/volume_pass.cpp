@@ -29,14 +29,17 @@ enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 
 enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
 constexpr GLint kHasOpaqueDepth = 0;
 
-enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored };
-constexpr std::array<const char*, 4> kFragments{"volume/volume.frag", "volume/shaded.frag",
-                                                "volume/lenses.frag", "volume/colored.frag"};
+enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored, kMagnified, kMagnifiedColored };
+constexpr std::array<const char*, 6> kFragments{"volume/volume.frag",    "volume/shaded.frag",
+                                                "volume/lenses.frag",    "volume/colored.frag",
+                                                "volume/magnified.frag", "volume/magnified_colored.frag"};
 
 /// Whether the shader is told of lenses, be there none.
-bool knows_lenses(Variant variant) { return variant == Variant::kLenses || variant == Variant::kColored; }
+bool knows_lenses(Variant variant) { return variant != Variant::kPlain && variant != Variant::kShaded; }
 
 Variant variant_of(const VolumeView& view) {
+  if (has_magnified_parts(view))
+    return has_colored_parts(view) ? Variant::kMagnifiedColored : Variant::kMagnified;
   if (has_colored_parts(view)) return Variant::kColored;
   if (!view.lenses.empty()) return Variant::kLenses;
   return view.shading ? Variant::kShaded : Variant::kPlain;
@@ -150,7 +153,7 @@ struct VolumePass::State {
   std::vector<std::uint16_t> table;  // kept: it is large and asked for again while a function is dragged
   Variant variant = Variant::kPlain;
   SceneFrame frame;
-  bool skip_empty = true;
+  bool asks_tiles = true;
 
   void update_image(const VolumeView& view) {
     if (image == view.image) return;
@@ -243,7 +246,7 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   s.update_tables(view);
   s.update_program(view);
   s.frame = frame;
-  s.skip_empty = view.skip_empty;
+  s.asks_tiles = asks_tiles(view);
   s.volume_block = make_block_buffer(make_volume_block(view, frame, s.ranges.bricks));
   if (knows_lenses(s.variant)) s.lens_block = make_block_buffer(make_lens_block(view, frame));
 }
@@ -251,7 +254,7 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
 void VolumePass::draw(std::uint32_t opaque_depth) {
   State& s = *state_;
   PALPATE_CHECK(s.image != nullptr);
-  if (s.skip_empty) {
+  if (s.asks_tiles) {
     if (!s.tiles.compiled()) ++s.cost.programs;
     glBindTextureUnit(kTiles, s.tiles.draw(*s.image, s.frame));
   }
@@ -261,7 +264,8 @@ void VolumePass::draw(std::uint32_t opaque_depth) {
   glBindTextureUnit(kVoxels, s.voxels.name());
   glBindTextureUnit(kTables, s.tables.name());
   glBindTextureUnit(kEmptyBricks, s.empty_bricks.name());
-  if (s.variant == Variant::kColored) glBindTextureUnit(kColors, s.colors.name());
+  if (s.variant == Variant::kColored || s.variant == Variant::kMagnifiedColored)
+    glBindTextureUnit(kColors, s.colors.name());
   glBindTextureUnit(kOpaqueDepth, opaque_depth);
   glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
 

@@ -18,6 +18,13 @@ bool has_colored_parts(const VolumeView& view) noexcept {
          std::any_of(view.lenses.begin(), view.lenses.end(), [](const Lens& lens) { return lens.colored; });
 }
 
+bool has_magnified_parts(const VolumeView& view) {
+  return std::any_of(view.lenses.begin(), view.lenses.end(),
+                     [](const Lens& lens) { return magnifies(lens); });
+}
+
+bool asks_tiles(const VolumeView& view) { return view.skip_empty && !has_magnified_parts(view); }
+
 double opacity_length_of(const VolumeView& view) noexcept {
   constexpr double kPartOfDiagonal = 1.0 / 512.0;
   if (view.opacity_length > 0.0 || view.image == nullptr) return view.opacity_length;

@@ -35,6 +35,11 @@ struct VolumeView {
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
 
+/// Whether some lens enlarges.
+[[nodiscard]] bool has_magnified_parts(const VolumeView& view);
+/// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere.
+[[nodiscard]] bool asks_tiles(const VolumeView& view);
+
 /// Length in data units that `view` uses for its opacities.
 [[nodiscard]] double opacity_length_of(const VolumeView& view) noexcept;
 

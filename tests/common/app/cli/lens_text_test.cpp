@@ -1,6 +1,8 @@
 #include "common/app/cli/lens_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -11,10 +13,15 @@
 namespace palpate {
 namespace {
 
+Lens lens_of(const std::string& text) { return parse_lens(text).lens; }
+
+std::optional<std::string> words_of(const Lens& lens) { return lens_text(lens, VolumeView{}); }
+
 // Membership decides whether the words mean the shape: x in the ball is |x - c| <= r and so on.
 TEST(LensText, MeansTheShapesThatItNames) {
-  const Lens sphere = parse_lens("sphere:1,2,3,0.5"), box = parse_lens("box:2,0,0,1,4,8");
-  const Lens cylinder = parse_lens("cylinder:0,0,0,0,0,4,1.5"), half = parse_lens("halfspace:0,0,2,3");
+  const Lens sphere = lens_of("sphere:1,2,3,0.5"), box = lens_of("box:2,0,0,1,4,8");
+  const Lens cylinder = lens_of("cylinder:0,0,0,0,0,4,1.5"), half = lens_of("halfspace:0,0,2,3");
+  const Lens wedge = lens_of("polyhedron:-1,0,0,0,0,-2,0,0,0,0,-1,0,1,1,1,6");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1.0, 9.0);
   for (int i = 0; i < 5000; ++i) {
@@ -24,30 +31,33 @@ TEST(LensText, MeansTheShapesThatItNames) {
               x.x >= 1.0 && x.x <= 2.0 && x.y >= 0.0 && x.y <= 4.0 && x.z >= 0.0 && x.z <= 8.0);
     ASSERT_EQ(cylinder.shape.contains(x), std::hypot(x.x, x.y) <= 1.5 && x.z >= 0.0 && x.z <= 4.0);
     ASSERT_EQ(half.shape.contains(x), x.z >= 1.5);
+    ASSERT_EQ(wedge.shape.contains(x), std::min({x.x, x.y, x.z}) >= 0.0 && x.x + x.y + x.z <= 6.0);
   }
   EXPECT_FALSE(sphere.cut);
-  EXPECT_TRUE(parse_lens("halfspace:0,0,1,3,cut").cut);
+  EXPECT_TRUE(lens_of("halfspace:0,0,1,3,cut").cut);
   EXPECT_FALSE(sphere.transfer);
 }
 
 TEST(LensText, GivesTheWordsBack) {
   for (const std::string text :
-       {"sphere:1,-2,3,0.5", "box:-1,0,0.25,2,4,8", "cylinder:1,0,0,1,0,4,2,cut", "halfspace:0,0,1,-3,cut"}) {
-    EXPECT_EQ(lens_text(parse_lens(text)), text);
+       {"sphere:1,-2,3,0.5", "box:-1,0,0.25,2,4,8", "cylinder:1,0,0,1,0,4,2,cut", "halfspace:0,0,1,-3,cut",
+        "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,-1,0,0,2", "sphere:1,2,3,4,magnify=2.5"}) {
+    EXPECT_EQ(words_of(lens_of(text)), text);
   }
-  EXPECT_EQ(lenses_text({parse_lens("sphere:1,2,3,4"), parse_lens("halfspace:1,0,0,2,cut")}),
-            "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
-  const Lens oblique = parse_lens("cylinder:0.1,0.2,0.3,1,2,-3,0.7");
-  const Lens again = parse_lens(*lens_text(oblique));
+  VolumeView view;
+  view.lenses = {lens_of("sphere:1,2,3,4"), lens_of("halfspace:1,0,0,2,cut")};
+  EXPECT_EQ(lenses_text(view), "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
+  const Lens oblique = lens_of("cylinder:0.1,0.2,0.3,1,2,-3,0.7");
+  const Lens again = lens_of(*words_of(oblique));
   EXPECT_NEAR(glm::distance(center_of(oblique.shape, {}), center_of(again.shape, {})), 0.0, 1e-14);
   EXPECT_NEAR(again.shape.quadric->unit_from_data[0][0], oblique.shape.quadric->unit_from_data[0][0], 1e-14);
 }
 
 TEST(LensText, StaysTheSameShapeWhenMovedAndScaled) {
   const auto changed = [](const std::string& text) {
-    Lens lens = parse_lens(text);
+    Lens lens = lens_of(text);
     lens.shape = scaled(moved(lens.shape, {1.0, 2.0, 4.0}), 2.0);
-    return *lens_text(lens);
+    return *words_of(lens);
   };
   EXPECT_EQ(changed("sphere:1,2,3,4"), "sphere:2,4,7,8");
   EXPECT_EQ(changed("box:0,0,0,2,4,8"), "box:0,0,0,4,8,16");
@@ -66,10 +76,30 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(LensText, RefusesWhatIsNoLens) {
-  for (const std::string text :
-       {"", "sphere", "ball:1,2,3,4", "sphere:1,2,3", "sphere:1,2,3,4,5", "sphere:1,2,x,4",
-        "sphere:1,2,3,nan", "sphere:1,2,3,0", "sphere:1,2,3,-1", "box:0,0,0,1,1,0", "cylinder:1,1,1,1,1,1,2",
-        "cylinder:0,0,0,1,0,0,0", "halfspace:0,0,0,1", "halfspace:inf,0,0,1", "sphere:1,2,3,4,cut,cut"}) {
+  for (const std::string text : {"",
+                                 "sphere",
+                                 "ball:1,2,3,4",
+                                 "sphere:1,2,3",
+                                 "sphere:1,2,3,4,5",
+                                 "sphere:1,2,x,4",
+                                 "sphere:1,2,3,nan",
+                                 "sphere:1,2,3,0",
+                                 "sphere:1,2,3,-1",
+                                 "box:0,0,0,1,1,0",
+                                 "cylinder:1,1,1,1,1,1,2",
+                                 "cylinder:0,0,0,1,0,0,0",
+                                 "halfspace:0,0,0,1",
+                                 "halfspace:inf,0,0,1",
+                                 "sphere:1,2,3,4,cut,cut",
+                                 "sphere:1,2,3,4,magnify=0.5",
+                                 "sphere:1,2,3,4,magnify=nan",
+                                 "halfspace:0,0,1,3,magnify=2",
+                                 "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,magnify=2",
+                                 "polyhedron:1,0,0",
+                                 "polyhedron:0,0,0,1",
+                                 "sphere:1,2,3,4,samples=0",
+                                 "sphere:1,2,3,4,shading=dim",
+                                 "sphere:1,2,3,4,shading=on,shading=on"}) {
     EXPECT_NE(refusal(text).find("--lens " + text), std::string::npos) << text << ": " << refusal(text);
   }
 }
@@ -82,12 +112,31 @@ TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   const ColorTransfer focus = make_color_transfer(ColorPreset::kMr, 0.0, 1.0);
   const std::vector<Lens> lenses = make_lenses(options, focus);
   ASSERT_EQ(lenses.size(), 3U);
-  EXPECT_EQ(lenses_text(lenses), "halfspace:0,0,1,5,cut;sphere:0,0,0,2,cut;sphere:0,0,0,1");
+  VolumeView view;
+  view.lenses = lenses;
+  view.shading = false;
+  EXPECT_EQ(lenses_text(view), "halfspace:0,0,1,5,cut;sphere:0,0,0,2,cut;sphere:0,0,0,1");
   EXPECT_FALSE(lenses[0].transfer || lenses[1].transfer);
   EXPECT_EQ(lenses[2].transfer, focus);
   EXPECT_FALSE(lenses[2].shading);
   options.clips.assign(kMostLenses, "0,0,1,5");
   EXPECT_THROW((void)make_lenses(options, focus), Error);
+}
+
+// What a session keeps makes the same lenses again, whatever the context's rays are.
+TEST(Lenses, KeepRaysOfTheirOwn) {
+  VolumeOptions options;
+  options.lenses = {"sphere:0,0,0,1,samples=8,shading=off,magnify=3", "box:0,0,0,1,1,1"};
+  options.samples = 2.0;
+  VolumeView view;
+  view.samples_per_voxel = 2.0;
+  view.lenses = make_lenses(options, std::nullopt);
+  EXPECT_EQ(view.lenses[0].samples_per_voxel, 8.0);
+  EXPECT_FALSE(view.lenses[0].shading);
+  EXPECT_EQ(view.lenses[0].magnification, 3.0);
+  EXPECT_EQ(view.lenses[1].samples_per_voxel, 2.0);
+  EXPECT_TRUE(view.lenses[1].shading);
+  EXPECT_EQ(lenses_text(view), "sphere:0,0,0,1,magnify=3,samples=8,shading=off;box:0,0,0,1,1,1");
 }
 
 }  // namespace

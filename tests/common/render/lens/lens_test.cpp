@@ -74,5 +74,43 @@ TEST(ConvexShape, OfSphereHasItsRadius) {
   EXPECT_DOUBLE_EQ(inside.last, 1.5);
 }
 
+// The middle goes along when a shape is moved and scaled; that of a tetrahedron is the mean of its corners.
+TEST(ConvexShape, KnowsTheMiddleOfPolyhedra) {
+  const std::array<ConvexShape::HalfSpace, 4> faces{
+      {{{-2.0, 0.0, 0.0}, 0.0}, {{0.0, -1.0, 0.0}, 0.0}, {{0.0, 0.0, -1.0}, 0.0}, {{1.0, 1.0, 1.0}, 4.0}}};
+  const ConvexShape wedge = make_polyhedron(faces);
+  EXPECT_LT(glm::distance(center_of(wedge, Vec3(9.0)), Vec3(1.0)), 1e-12);
+  const ConvexShape other = scaled(moved(wedge, {1.0, 2.0, 3.0}), 3.0);
+  EXPECT_LT(glm::distance(center_of(other, Vec3(9.0)), Vec3(2.0, 3.0, 4.0)), 1e-12);
+}
+
+TEST(Magnification, NeedsBoundsAndRoom) {
+  const auto can = [](const ConvexShape& shape) {
+    Lens lens{shape};
+    lens.magnification = 2.0;
+    return magnifies(lens);
+  };
+  EXPECT_TRUE(can(make_sphere({1.0, 2.0, 3.0}, 1e-6)));
+  EXPECT_TRUE(can(make_box({1.0, 2.0, 3.0}, Mat3(0.5))));
+  EXPECT_TRUE(can(make_cylinder(Vec3(1.0), Vec3(2.0), 0.1)));
+  EXPECT_FALSE(can(make_half_space(Vec3(0.0), {0.0, 0.0, 1.0})));
+  EXPECT_FALSE(can(make_sphere(Vec3(0.0), 0.0)));
+  EXPECT_FALSE(can(make_box(Vec3(0.0), Mat3(0.0))));
+  std::vector<ConvexShape::HalfSpace> corner{
+      {{-1.0, 0.0, 0.0}, 0.0}, {{0.0, -1.0, 0.0}, 0.0}, {{0.0, 0.0, -1.0}, 0.0}};
+  EXPECT_FALSE(can(make_polyhedron(corner)));  // goes on for ever
+  corner.push_back({{1.0, 1.0, 1.0}, 1.0});
+  EXPECT_TRUE(can(make_polyhedron(corner)));
+  corner.back().offset = -1.0;  // and nothing is inside
+  EXPECT_FALSE(can(make_polyhedron(corner)));
+  ConvexShape tube = make_cylinder(Vec3(0.0), {0.0, 0.0, 1.0}, 0.1);
+  tube.half_spaces.pop_back();
+  EXPECT_FALSE(can(tube));
+  Lens cut{make_sphere(Vec3(0.0), 1.0)};
+  cut.magnification = 2.0;
+  cut.cut = true;
+  EXPECT_FALSE(magnifies(cut));
+}
+
 }  // namespace
 }  // namespace palpate

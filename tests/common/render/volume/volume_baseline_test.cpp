@@ -51,6 +51,15 @@ TEST(VolumeBaseline, Lenses) {
   expect_baseline(scene_of(volume), "volume_lenses");
 }
 
+// The middle three times as large, on its way back to its place toward the border of a cylinder.
+TEST(VolumeBaseline, Magnified) {
+  VolumeView volume = lit_blobs();
+  Lens lens{make_cylinder({-0.5, -0.8, 0.0}, {0.2, 0.8, 0.1}, 0.55)};
+  lens.magnification = 3.0;
+  volume.lenses = {lens};
+  expect_baseline(scene_of(volume), "volume_magnified");
+}
+
 // Lines go in and out of matter: each pixel of a line ends its ray.
 TEST(VolumeBaseline, LinesInside) {
   SceneView view = scene_of(lit_blobs());

@@ -1,0 +1,56 @@
+// Matter seen enlarged through a lens. With c the middle of the lens, m its magnification and u(x) the factor by
+// which the lens would have to be scaled about c for x to lie on its border, the place x shows the matter of
+//   y(x) = c + (x - c) f(u) / u,   f(u) = u / m + (1 - 1/m) max(0, (u - a) / (1 - a))^2            (1)
+// f grows and f(1) = 1: the lens is mapped on to itself, point for point, its border stays, and matter up to u = a is
+// m times as large. The ray is bent: it gathers along y(x(t)), whose own length counts, so that matter enlarged is as
+// opaque as it is. (Ikits 2006, sec. 5.7.1, displaces samples across the view alone: borders toward the eye jump.)
+// Needs volume/volume_block.glsl, volume/ray.glsl, volume/march.glsl and volume/lens_segments.glsl.
+const float kCore = 0.5;  // a
+
+bool magnifies(int i) { return lenses.centers[i].w > 1.0; }
+
+// (1), in N.
+vec3 place_seen(int i, vec3 x) {
+  vec3 c = lenses.centers[i].xyz, away = x - c;
+  float u = 1e-6;
+  mat4 unit = lenses.unit_from_scene[i];
+  if (unit[3][3] > 0.5) u = max(u, length(mat3(unit) * away));
+  ivec2 range = lenses.faces[i].xy;
+  for (int k = range.x; k < range.x + range.y; ++k) {
+    vec4 plane = lenses.planes[k];
+    u = max(u, dot(plane.xyz, away) / (plane.w - dot(plane.xyz, c)));
+  }
+  float shrunk = 1.0 / lenses.centers[i].w, outer = clamp((u - kCore) / (1.0 - kCore), 0.0, 1.0);
+  return c + away * (shrunk + (1.0 - shrunk) * outer * outer / u);
+}
+
+// Adds what lens `i` shows between `from` and `to`, on samples at t = n d. Near its border matter is squeezed by up to
+// f'(1) < 2 / (1 - a), and bent stretches are so much longer than straight ones.
+void march_magnified(Ray ray, int i, vec4 part, float from, float to, inout vec4 gathered) {
+  const float kSqueezed = 2.0 / (1.0 - kCore);
+  float first_layer = part.x * volume.lengths.y, longest = volume.lengths.x * (volume.lengths.y - 1.0);
+  float d = volume.lengths.x * max(1.0, floor(layer_for(part.y, ray) / kSqueezed));
+  float t = from;
+  vec3 x = place_seen(i, ray.origin + from * ray.direction);
+  while (t < to && gathered.a <= volume.lengths.z) {
+    float next = min((floor(t / d + 1e-3) + 1.0) * d, to);
+    vec3 y = place_seen(i, ray.origin + next * ray.direction);
+    // The part of the stretch that lies in the volume.
+    vec3 g = (volume.grid_from_scene * vec4(x, 1.0)).xyz, h = (volume.grid_from_scene * vec4(y, 1.0)).xyz;
+    vec3 way = h - g, pace = 1.0 / mix(way, vec3(1e-20), lessThan(abs(way), vec3(1e-20)));
+    vec3 a = (volume.lower.xyz - g) * pace, b = (volume.upper.xyz - g) * pace;
+    vec3 near = min(a, b), far = max(a, b);
+    vec2 part_in = clamp(vec2(max(near.x, max(near.y, near.z)), min(far.x, min(far.y, far.z))), 0.0, 1.0);
+    vec4 seen = vec4(0.0);
+    if (part_in.x < part_in.y) {
+      float stretch = (part_in.y - part_in.x) * distance(x, y);
+      seen = short_stretch(value_at(g + part_in.x * way), value_at(g + part_in.y * way), first_layer, stretch);
+      // Longer than all of the table: as several of its longest.
+      float over = max(1.0, stretch / longest);
+      seen *= over > 1.0 && seen.a > 0.0 ? (1.0 - pow(1.0 - seen.a, over)) / seen.a : 1.0;
+    }
+    gather(seen, ray.direction, part, g + 0.5 * (part_in.x + part_in.y) * way, gathered);
+    t = next;
+    x = y;
+  }
+}
