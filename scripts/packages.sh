@@ -7,6 +7,8 @@ packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev li
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev libnifti2-dev zlib1g-dev"
+# The mesher of cardiac.
+packages_mesher="libcgal-dev libtet1.5-dev"
 # The tests: framework, benchmarks, virtual display, style.
 packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy"
 

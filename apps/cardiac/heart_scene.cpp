@@ -36,14 +36,15 @@ std::optional<double> layer_of(const HeartOptions& options) {
   return parse_numbers(options.layer, 1, "--layer takes a depth from 0 (inner) to 1 (outer)").front();
 }
 
-Vec3 axis_of(const HeartOptions& options, const ScalarField& layer) {
+Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
   if (!options.axis.empty()) {
     const auto v = parse_numbers(options.axis, 3, "--axis takes the direction from apex to base: x,y,z");
     const Vec3 axis{v[0], v[1], v[2]};
     if (!(glm::length(axis) > 0.0)) throw usage_error("--axis " + options.axis + ": is no direction");
     return glm::normalize(axis);
   }
-  const auto axis = long_axis(layer);
+  if (heart.axis) return glm::normalize(*heart.axis);
+  const auto axis = long_axis(*heart.layer);
   if (!axis)
     throw usage_error("the wall is closed, so that it has no base: name the direction by --axis x,y,z");
   return *axis;
@@ -64,7 +65,7 @@ AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOpt
     throw usage_error("--convention " + options.convention + " has no " + options.angle + " angle");
   if (*angle_ == WallAngle::kSheet && !heart_->heart().sheets)
     throw usage_error("--angle sheet: there are no sheet directions in this file");
-  axis_ = axis_of(options, *heart_->heart().layer);
+  axis_ = axis_of(options, heart_->heart());
 }
 
 const char* AngleProbe::unit() const noexcept { return angle_ ? "degrees" : ""; }

@@ -32,9 +32,9 @@ inline constexpr double kViewFibreLength = 0.12;
 /// @throws Error (usage).
 [[nodiscard]] std::optional<double> layer_of(const HeartOptions& options);
 
-/// `--axis`, or as the wall opens.
+/// `--axis`, or the axis of the file's coordinates, or as the wall opens.
 /// @throws Error (usage) where it is no direction, or is not given for a closed wall.
-[[nodiscard]] Vec3 axis_of(const HeartOptions& options, const ScalarField& layer);
+[[nodiscard]] Vec3 axis_of(const HeartOptions& options, const Heart& heart);
 
 /// What `--angle` names, at a place. The directions of sheets are looked up for sheet angles only.
 class AngleProbe {

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
                     "fibres of one layer, for ParaView"},
                    {"cardiac map heart.exelem.gz --angle helix --out helix.vtu",
                     "how fibres turn through the wall"},
+                   {"cardiac mesh heart.exelem.gz --out heart.vtu", "tetrahedra, and how good they are"},
                    {"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
                     "feel along a recorded path"},
                    {"cardiac --example list", "the built-in hearts"}},
@@ -41,6 +42,10 @@ int main(int argc, char** argv) {
                {"cardiac map mesh.pts --angle sheet --convention bayer --axis 0,0,1 --out sheet.csv",
                 "by another convention, with the long axis stated"},
                {"cardiac map heart.exelem.gz --angle gap --json", "where fibres are undefined, in numbers"}}),
+          mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu",
+                      "eight cells along each axis of an element"},
+                     {"cardiac mesh heart.exelem.gz --mesher tetgen --json",
+                      "fill the surfaces anew; the report alone, as JSON"}}),
           render_layers_verb(
               {{"cardiac render heart.exelem.gz --layer 0.5 --out heart.png", "helix angle on a layer"},
                {"cardiac render --example ventricle --cut 0,1,0,0 --camera 0,20,0,1 --out half.png",

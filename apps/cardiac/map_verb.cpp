@@ -126,7 +126,7 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
     std::vector<Vec3> points;
     points.reserve(values.size());
     for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
-    std::vector<PointColumn> columns{{probe.name(), values}};
+    std::vector<MeshColumn> columns{{probe.name(), values}};
     if (probe.name() != "depth") columns.push_back({"depth", depths});
     write_mesh(options.out, points, mesh.cells(), columns, options.common.force);
     context.interrupt.keep(options.out);

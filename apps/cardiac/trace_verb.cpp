@@ -45,7 +45,7 @@ std::vector<PointColumn> columns_of(const std::shared_ptr<const LayeredHeart>& h
   HeartOptions asked = options;
   for (const char* angle : {"depth", "gap", "helix"}) {
     asked.angle = angle;
-    const bool axis = !asked.axis.empty() || long_axis(*heart->heart().layer).has_value();
+    const bool axis = !asked.axis.empty() || heart->heart().axis || long_axis(*heart->heart().layer);
     if (asked.angle == "helix" && !axis) continue;
     columns.push_back({angle, angles_along(AngleProbe(heart, asked), lines, threads)});
   }

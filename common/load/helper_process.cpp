@@ -166,13 +166,18 @@ std::optional<HelperProcess::Reply> HelperProcess::fail(HelperFailure::Kind kind
 }
 
 std::optional<HelperProcess::Reply> HelperProcess::ask(std::string_view json, Progress* progress) {
+  MemoryFile none;
+  return ask(none, json, progress, "reading");
+}
+
+std::optional<HelperProcess::Reply> HelperProcess::ask(MemoryFile& request, std::string_view json,
+                                                       Progress* progress, const std::string& doing) {
   using Clock = std::chrono::steady_clock;
   if (pid_ <= 0) return std::nullopt;
-  MemoryFile request;
   if (!send_message(socket_.get(), request, json)) return fail(HelperFailure::Kind::kEnded, how_it_ended());
 
   constexpr std::uint64_t kParts = 1000;
-  if (progress != nullptr) progress->begin("reading", kParts);
+  if (progress != nullptr) progress->begin(doing, kParts);
   std::uint64_t reported = 0;
   const auto deadline = Clock::now() + std::chrono::duration<double>(limits_.seconds);
   while (true) {

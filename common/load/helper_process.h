@@ -12,6 +12,7 @@
 #include "common/base/progress.h"
 #include "common/load/channel.h"
 #include "common/load/load.h"
+#include "common/load/memory_file.h"
 
 namespace palpate {
 
@@ -45,6 +46,9 @@ class HelperProcess {
   /// was ended then.
   /// @throws Cancelled, within a tenth of a second of `progress` being cancelled; the helper is ended.
   std::optional<Reply> ask(std::string_view json, Progress* progress);
+  /// The same with arrays that `json` speaks of. @param doing what the progress says.
+  std::optional<Reply> ask(MemoryFile& arrays, std::string_view json, Progress* progress,
+                           const std::string& doing);
 
   [[nodiscard]] const HelperFailure& failure() const noexcept { return failure_; }
   [[nodiscard]] pid_t pid() const noexcept { return pid_; }

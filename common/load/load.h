@@ -31,6 +31,7 @@ struct LoadRequest {
   std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file
   std::optional<RawLayout> raw;                   ///< the file holds voxels without a header
   std::optional<DiffusionRequest> diffusion;
+  int refine = 0;  ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
 };
 
 struct LoadLimits {
@@ -60,6 +61,8 @@ struct FileInfo {
   bool anatomical = false;         ///< coordinates are RAS+: x to the right, y to the front, z up
   std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
   DiffusionInfo diffusion;         ///< where the file holds tensors or what they are fitted to
+  double exact_volume = 0.0;       ///< of a model of curved elements, by quadrature; 0: not known
+  std::optional<Vec3> long_axis;   ///< of a heart, from apex to base, where the file's coordinates have one
 };
 
 /// An open input with its helper program. Movable; closing it ends the helper.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/error.h"
 #include "common/load/protocol_error.h"
 
 namespace palpate::message {
@@ -51,6 +52,14 @@ json parse(std::string_view text) {
   json value = json::parse(text, nullptr, false);
   if (!value.is_object()) malformed("message is not a JSON object");
   return value;
+}
+
+void throw_failure(const json& answer) {
+  const auto failed = answer.find("failed");
+  if (failed == answer.end()) return;
+  const std::uint64_t code = count_of(*failed, "failed");
+  const std::string line = string_at(answer, "line");
+  throw Error(code == 1 || code == 2 ? static_cast<ExitCode>(code) : ExitCode::kBadInput, line);
 }
 
 const json& member(const json& object, const char* key) {

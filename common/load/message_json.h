@@ -28,6 +28,8 @@ inline constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 46;
 
 /// A whole message, which must be one object of a sensible size.
 [[nodiscard]] json parse(std::string_view text);
+/// @throws Error where the answer is a failure: {"failed", "line"}.
+void throw_failure(const json& answer);
 
 [[nodiscard]] const json& member(const json& object, const char* key);
 /// Bytes from text: the reverse of text_from_bytes().

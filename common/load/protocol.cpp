@@ -10,13 +10,8 @@ namespace {
 
 using namespace message;
 
-void throw_failure(const json& answer) {
-  const auto failed = answer.find("failed");
-  if (failed == answer.end()) return;
-  const std::uint64_t code = count_of(*failed, "failed");
-  const std::string line = string_at(answer, "line");
-  throw Error(code == 1 || code == 2 ? static_cast<ExitCode>(code) : ExitCode::kBadInput, line);
-}
+/// Beyond it no element is sampled.
+constexpr std::uint64_t kMostRefine = 1000;
 
 json box_corner(const Vec3& corner) { return is_finite(corner) ? vector_json(corner) : json(nullptr); }
 
@@ -81,6 +76,7 @@ std::string encode(const RequestMessage& request) {
     message["files"] = json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
+    if (open->request.refine > 0) message["refine"] = open->request.refine;
     if (open->request.raw) message["raw"] = encode_raw(*open->request.raw);
     if (const auto& diffusion = open->request.diffusion) {
       message["diffusion"] = {{"bval", text_from_bytes(diffusion->bval.native())},
@@ -106,6 +102,11 @@ RequestMessage decode_request(std::string_view text) {
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
+    if (message.contains("refine")) {
+      const std::uint64_t refine = count_at(message, "refine");
+      if (refine > kMostRefine) malformed("a sampling too fine");
+      open.request.refine = static_cast<int>(refine);
+    }
     if (message.contains("raw")) open.request.raw = decode_raw(member(message, "raw"));
     if (message.contains("diffusion")) {
       const json& diffusion = member(message, "diffusion");
@@ -140,6 +141,8 @@ std::string encode_info(const FileInfo& info) {
   for (const std::string& note : info.notes) notes.push_back(text_from_bytes(note));
   return json{{"format", text_from_bytes(info.format)},
               {"loader", text_from_bytes(info.loader)},
+              {"exact_volume", info.exact_volume},
+              {"long_axis", info.long_axis ? vector_json(*info.long_axis) : json(nullptr)},
               {"times", info.times},
               {"units", text_from_bytes(info.units)},
               {"anatomical", info.anatomical},
@@ -165,6 +168,8 @@ FileInfo decode_info(std::string_view text) {
   info.units = string_at(answer, "units");
   info.anatomical = bool_at(answer, "anatomical");
   info.diffusion = decode_diffusion(member(answer, "diffusion"));
+  info.exact_volume = number_of(member(answer, "exact_volume"), "exact_volume");
+  if (!member(answer, "long_axis").is_null()) info.long_axis = vector_at(answer, "long_axis");
   for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
   for (const json& object : array_at(answer, "blocks")) {
     BlockInfo block;

@@ -1,11 +1,13 @@
 /// Messages between an explorer and a helper program, as JSON. The frames they travel in: channel.h.
 ///
 /// Requests
-///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?}
+///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
+///   "refine": n?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
 ///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool, "diffusion": G,
+///   "exact_volume": v, "long_axis": [x, y, z] or null,
 ///   "blocks": [{"name", "grid", "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"

@@ -36,30 +36,49 @@ struct Answer {
   std::string json;
 };
 
-Answer answer_to(const RequestMessage& request, Loader& loader) {
-  Answer answer;
-  if (const auto* open = std::get_if<OpenMessage>(&request)) {
-    FileInfo info = loader.open(open->request, open->format);
-    info.loader = helper_of(open->format);
-    answer.json = encode_info(info);
-  } else {
-    const auto& read = std::get<ReadMessage>(request);
-    answer.json = encode_blocks(loader.read(read.arrays, read.time_step), answer.memory);
-  }
-  return answer;
-}
-
 Answer failure(ExitCode code, const std::string& line) { return {MemoryFile(), encode_failure(code, line)}; }
 
 }  // namespace
 
-int serve_loader(Loader& loader) {
+int serve(Service& service) {
   if (::fcntl(kHelperSocket, F_GETFD) < 0) {
     std::fputs("This program reads data files for the explorers, which start it themselves.\n", stderr);
     return static_cast<int>(ExitCode::kUsage);
   }
   end_with_explorer();
 
+  while (true) {
+    Frame frame;
+    UniqueFd fd;
+    const Received received = receive_frame(kHelperSocket, -1, frame, fd);
+    if (received == Received::kTimeOut) continue;
+    if (received == Received::kClosed) return 0;
+    if (received == Received::kMalformed || frame.kind != Frame::kMessage) return 1;
+
+    Answer answer;
+    try {
+      const auto memory = MappedMemory::map(fd);
+      answer.json = service.answer(json_of(frame, memory->bytes()), memory->bytes(), answer.memory);
+    } catch (const Error& error) {
+      answer = failure(error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+      answer = failure(ExitCode::kBadInput,
+                       input_error({service.subject, "", "needs more memory than its size justifies", "",
+                                    "the file may be damaged, or the machine too small"})
+                           .what());
+    } catch (const std::system_error& error) {
+      answer = failure(
+          ExitCode::kBadInput,
+          input_error({service.subject, "", std::string("out of memory or files (") + error.what() + ")"})
+              .what());
+    } catch (const std::exception& error) {
+      answer = failure(ExitCode::kBadInput, input_error({service.subject, "", error.what()}).what());
+    }
+    if (!send_message(kHelperSocket, answer.memory, answer.json)) return 0;
+  }
+}
+
+int serve_loader(Loader& loader) {
   // At most some twenty reports a second: a reader may call for every cell.
   auto last = std::chrono::steady_clock::now();
   loader.on_progress = [&last](double fraction) {
@@ -72,40 +91,19 @@ int serve_loader(Loader& loader) {
     (void)send_frame(kHelperSocket, frame, -1);  // a lost explorer ends this process anyway
   };
 
-  std::string file;  // the first file, for messages that come from below any reader
-  while (true) {
-    Frame frame;
-    UniqueFd fd;
-    const Received received = receive_frame(kHelperSocket, -1, frame, fd);
-    if (received == Received::kTimeOut) continue;
-    if (received == Received::kClosed) return 0;
-    if (received == Received::kMalformed || frame.kind != Frame::kMessage) return 1;
-
-    Answer answer;
-    try {
-      const auto memory = MappedMemory::map(fd);
-      const RequestMessage request = decode_request(json_of(frame, memory->bytes()));
-      if (const auto* open = std::get_if<OpenMessage>(&request);
-          open != nullptr && !open->request.files.empty()) {
-        file = open->request.files.front().string();
-      }
-      answer = answer_to(request, loader);
-    } catch (const Error& error) {
-      answer = failure(error.code(), error.what());
-    } catch (const std::bad_alloc&) {
-      answer =
-          failure(ExitCode::kBadInput, input_error({file, "", "needs more memory than its size justifies", "",
-                                                    "the file may be damaged, or the machine too small"})
-                                           .what());
-    } catch (const std::system_error& error) {
-      answer = failure(
-          ExitCode::kBadInput,
-          input_error({file, "", std::string("out of memory or files (") + error.what() + ")"}).what());
-    } catch (const std::exception& error) {
-      answer = failure(ExitCode::kBadInput, input_error({file, "", error.what()}).what());
+  Service service;
+  service.answer = [&](std::string_view text, std::span<const std::byte>, MemoryFile& memory) {
+    const RequestMessage request = decode_request(text);
+    if (const auto* open = std::get_if<OpenMessage>(&request)) {
+      if (!open->request.files.empty()) service.subject = open->request.files.front().string();
+      FileInfo info = loader.open(open->request, open->format);
+      info.loader = helper_of(open->format);
+      return encode_info(info);
     }
-    if (!send_message(kHelperSocket, answer.memory, answer.json)) return 0;
-  }
+    const auto& read = std::get<ReadMessage>(request);
+    return encode_blocks(loader.read(read.arrays, read.time_step), memory);
+  };
+  return serve(service);
 }
 
 }  // namespace palpate

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/load/format.h"
 #include "common/load/load.h"
+#include "common/load/memory_file.h"
 
 namespace palpate {
 
@@ -29,6 +32,18 @@ class Loader {
   /// Called with the part done, 0 to 1, now and then; may be empty.
   std::function<void(double)> on_progress;
 };
+
+/// What a helper program does with a request.
+struct Service {
+  /// @param arrays the memory of the request. @param memory gets the arrays of the answer.
+  /// @return the JSON of the answer. @throws Error, and whatever else: the explorer gets it as a failure.
+  std::function<std::string(std::string_view json, std::span<const std::byte> arrays, MemoryFile& memory)>
+      answer;
+  std::string subject;  ///< a file, for messages that come from below any reader
+};
+
+/// Answers requests on kHelperSocket until the explorer goes away; the exit status of the helper program.
+int serve(Service& service);
 
 /// Answers requests on kHelperSocket until the explorer goes away; the exit status of the helper program.
 /// The helper ends as soon as its explorer does, in the middle of a reading too.

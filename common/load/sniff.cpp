@@ -13,6 +13,7 @@
 
 #include "common/base/errno_text.h"
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 #include "common/base/unique_fd.h"
 #include "common/load/gzip_head.h"
 #include "common/load/plot3d_layout.h"
@@ -109,6 +110,22 @@ std::optional<Format> bare_mesh(std::string_view trimmed, std::string_view endin
   if (std::find(kCarp.begin(), kCarp.end(), ending) != kCarp.end()) return Format::kCarp;
   if (std::find(kTetgen.begin(), kTetgen.end(), ending) != kTetgen.end()) return Format::kTetgen;
   return {};
+}
+
+/// Results of openCARP: .igb begins with words as "x:2502 t:101 type:float", .dat holds a number a line.
+bool looks_like_carp_result(std::string_view text, std::string_view ending) {
+  if (ending == ".igb")
+    return text.find("x:") != std::string_view::npos && text.find("type:") != std::string_view::npos;
+  if (ending != ".dat") return false;
+  constexpr int kLines = 4;  // grids of PLOT3D in text have several numbers on one of them
+  for (int line = 0; line < kLines && !text.empty(); ++line) {
+    const std::string_view here = trimmed(text.substr(0, text.find('\n')));
+    const bool none = here == "nan" || here == "NaN";
+    if (!none && !number(here)) return false;
+    const std::size_t end = text.find('\n');
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return true;
 }
 
 /// NIfTI's mark stands at the end of its 348 bytes, in version 2 behind the size of the header.
@@ -216,6 +233,7 @@ Sniffed sniff(const FileHead& head) {
   }
   if (looks_like_ex(text)) return {Format::kEx, "", ""};
   if (const auto mesh = bare_mesh(trimmed, head.ending)) return {mesh, "", ""};
+  if (looks_like_carp_result(trimmed, head.ending)) return {Format::kCarp, "", ""};
   const Plot3dBytes bytes{head.bytes, head.tail, head.file_size};
   if (find_plot3d_layout(bytes, Plot3dFile::kGrid) || may_be_plot3d_text(bytes, Plot3dFile::kGrid))
     return {Format::kPlot3d, "", ""};

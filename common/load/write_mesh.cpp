@@ -22,7 +22,7 @@ std::string text_of(double value) {
 
 /// VTK XML, UnstructuredGrid, raw appended data.
 void write_vtu(OutputFile& file, std::span<const Vec3> points,
-               std::span<const std::array<std::uint32_t, 4>> cells, std::span<const PointColumn> columns) {
+               std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns) {
   const std::uint64_t per_point = points.size() * sizeof(double);
   const std::uint64_t per_cell = cells.size() * sizeof(std::int64_t);
   VtpAppendix appendix;
@@ -32,15 +32,17 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
       std::to_string(points.size()) + "\" NumberOfCells=\"" + std::to_string(cells.size()) +
       "\">\n<PointData>\n";
-  for (const PointColumn& column : columns) head += appendix.declare("Float64", column.name, 1, per_point);
+  for (const MeshColumn& column : columns)
+    head += appendix.declare("Float64", column.name, static_cast<int>(column.components),
+                             column.components * per_point);
   head += "</PointData>\n<Points>\n" + appendix.declare("Float64", "Points", 3, 3 * per_point);
   head += "</Points>\n<Cells>\n" + appendix.declare("Int64", "connectivity", 1, 4 * per_cell);
   head += appendix.declare("Int64", "offsets", 1, per_cell);
   head += appendix.declare("UInt8", "types", 1, cells.size());
   head += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   file.write(head);
-  for (const PointColumn& column : columns) {
-    file.write_number(per_point);
+  for (const MeshColumn& column : columns) {
+    file.write_number(column.components * per_point);
     for (const double value : column.values) file.write_number(value);
   }
   file.write_number(3 * per_point);
@@ -56,13 +58,18 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
   file.write("\n</AppendedData>\n</VTKFile>\n");
 }
 
-void write_csv(OutputFile& file, std::span<const Vec3> points, std::span<const PointColumn> columns) {
+void write_csv(OutputFile& file, std::span<const Vec3> points, std::span<const MeshColumn> columns) {
   std::string row = "x,y,z";
-  for (const PointColumn& column : columns) (row += ',') += column.name;
+  for (const MeshColumn& column : columns) {
+    for (std::size_t c = 1; c <= column.components; ++c)
+      (row += ',') += column.components == 1 ? column.name : column.name + "_" + std::to_string(c);
+  }
   file.write(row + "\n");
   for (std::size_t p = 0; p < points.size(); ++p) {
     row = text_of(points[p].x) + "," + text_of(points[p].y) + "," + text_of(points[p].z);
-    for (const PointColumn& column : columns) (row += ',') += text_of(column.values[p]);
+    for (const MeshColumn& column : columns)
+      for (std::size_t c = 0; c < column.components; ++c)
+        (row += ',') += text_of(column.values[column.components * p + c]);
     file.write(row + "\n");
   }
 }
@@ -77,10 +84,11 @@ void check_mesh_output(const std::filesystem::path& path, bool overwrite) {
 }
 
 void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
-                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const PointColumn> columns,
+                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
                 bool overwrite) {
   check_mesh_output(path, overwrite);
-  for (const PointColumn& column : columns) PALPATE_CHECK(column.values.size() == points.size());
+  for (const MeshColumn& column : columns)
+    PALPATE_CHECK(column.values.size() == column.components * points.size());
   OutputFile file(path, overwrite);
   if (lower_ending(path) == ".vtu") {
     write_vtu(file, points, cells, columns);

@@ -6,22 +6,30 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
-#include "common/load/write_lines.h"
 #include "common/math/vec.h"
 
 namespace palpate {
+
+/// Numbers at the points of a mesh.
+struct MeshColumn {
+  std::string name;
+  std::vector<double> values;  ///< of all points, `components` each
+  std::size_t components = 1;
+};
 
 /// Checks that `path` has a known ending, may be written, and does not exist unless `overwrite`; call it
 /// before the work starts.
 /// @throws Error (usage, or work failed where the folder cannot be written).
 void check_mesh_output(const std::filesystem::path& path, bool overwrite);
 
-/// .vtu is VTK XML with raw appended data; .csv has the header x,y,z and the names of the columns.
-/// @param columns of one number a point.
+/// .vtu is VTK XML with raw appended data; .csv has the header x,y,z and the names of the columns, several
+/// numbers a point as name_1, name_2, ….
 /// @throws Error as check_mesh_output(); (work failed) where the disk refuses.
 void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
-                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const PointColumn> columns,
+                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
                 bool overwrite);
 
 }  // namespace palpate

@@ -115,7 +115,7 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
 }
 
 void Input::open_files(Progress* progress) {
-  LoadRequest request{.files = spec_.files, .solution = spec_.solution};
+  LoadRequest request{.files = spec_.files, .solution = spec_.solution, .refine = spec_.refine};
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {
     (void)parse_tensor_words(spec_.tensor);  // a misspelt option is refused first
@@ -298,6 +298,7 @@ Heart Input::load_heart(int threads, Progress* progress) {
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads);
+  heart.axis = file()->long_axis;
   seconds_field_ = watch.seconds();
   return heart;
 }

@@ -42,6 +42,7 @@ struct InputSpec {
   FieldKind kind = FieldKind::kVector;
   RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
   TensorWords tensor;  ///< how tensors are read and fitted
+  int refine = 0;      ///< LoadRequest::refine
 };
 
 /// A time step and whether it is the very one that was asked for.

@@ -10,6 +10,7 @@
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
 #include "loaders/cardiac/carp_reader.h"
+#include "loaders/cardiac/carp_results.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
 #include "loaders/cardiac/mesh_text.h"
@@ -53,10 +54,10 @@ class CardiacLoader : public Loader {
     info.format = name_of(format);
     switch (format) {
       case Format::kEx:
-        open_ex(named, info);
+        open_ex(named, request.refine > 0 ? request.refine : kRefine, info);
         break;
       case Format::kCarp:
-        mesh_ = read_carp(find_carp_files(named), info.notes);
+        open_carp(find_carp_files(named), info);
         info.units = "coordinates in mm";
         break;
       default:
@@ -65,32 +66,57 @@ class CardiacLoader : public Loader {
     }
     if (mesh_.cell_count() == 0) throw input_error({named.front(), "", "holds no element"});
     info.blocks.push_back(describe_mesh(mesh_));
+    for (const IgbFile& series : series_) info.blocks.back().arrays.push_back(series.info());
     return info;
   }
 
-  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
     DataSet chosen;
     chosen.topology = mesh_.topology;
     for (const DataArray& array : mesh_.arrays)
       if (std::find(names.begin(), names.end(), array.name) != names.end()) chosen.arrays.push_back(array);
+    for (const IgbFile& series : series_)
+      if (std::find(names.begin(), names.end(), series.info().name) != names.end())
+        chosen.arrays.push_back(series.read(step));
     std::vector<DataSet> blocks;
     blocks.push_back(std::move(chosen));
     return blocks;
   }
 
  private:
-  void open_ex(const std::vector<std::string>& named, FileInfo& info) {
+  void open_carp(const CarpFiles& files, FileInfo& info) {
+    mesh_ = read_carp(files, info.notes);
+    for (const std::string& file : files.results) {
+      if (ending_of(file) == ".dat") {
+        mesh_.arrays.push_back(read_dat(file, mesh_.point_count(), mesh_.cell_count()));
+        continue;
+      }
+      series_.emplace_back(file, mesh_.point_count());
+      const IgbFile& series = series_.back();
+      if (series_.size() > 1 && series.times() != series_.front().times())
+        throw input_error(
+            {file, "header", "has other times than " + series_.front().file(), "the same ones"});
+      if (!series.unit().empty()) info.notes.push_back(series.info().name + " in " + series.unit());
+    }
+    if (series_.empty()) return;
+    info.times = series_.front().times();
+    if (!series_.front().time_unit().empty()) info.notes.push_back("times in " + series_.front().time_unit());
+  }
+
+  void open_ex(const std::vector<std::string>& named, int refine, FileInfo& info) {
     ex::Model model;
     const std::vector<std::string> files = ex_files(named);
     for (const std::string& file : files) ex::read_ex_file(file, model);
-    ex::SampledModel sampled = ex::sample(model, kRefine, files.back());
+    ex::SampledModel sampled = ex::sample(model, refine, files.back());
     info.notes = std::move(sampled.notes);
-    info.notes.push_back("volume of the curved model " +
-                         short_number(ex::exact_volume(model, kQuadrature, files.back())));
+    info.exact_volume = ex::exact_volume(model, kQuadrature, files.back());
+    info.notes.push_back("volume of the curved model " + short_number(info.exact_volume));
+    info.long_axis = ex::long_axis(model);
     mesh_ = std::move(sampled.mesh);
   }
 
   DataSet mesh_;
+  std::vector<IgbFile> series_;  ///< of which a step is read when it is asked for
 };
 
 }  // namespace

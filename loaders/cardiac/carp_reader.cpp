@@ -108,6 +108,10 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
   CarpFiles files;
   for (const std::string& file : named) {
     const std::string ending = ending_of(file);
+    if (ending == ".igb" || ending == ".dat") {
+      files.results.push_back(file);
+      continue;
+    }
     std::string* part = ending == ".pts" ? &files.pts : ending == ".elem" ? &files.elem : &files.lon;
     if (!part->empty()) throw input_error({file, "", "plays the same part as " + *part, "one of them"});
     *part = file;
@@ -116,6 +120,12 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
   if (files.pts.empty()) files.pts = sibling(any, ".pts");
   if (files.elem.empty()) files.elem = sibling(any, ".elem");
   if (files.lon.empty()) files.lon = sibling(any, ".lon");
+  for (const char* ending : {".igb", ".dat"}) {
+    const std::string beside = sibling(any, ending);
+    if (!beside.empty() &&
+        std::find(files.results.begin(), files.results.end(), beside) == files.results.end())
+      files.results.push_back(beside);
+  }
   if (files.pts.empty())
     throw input_error({any, "", "has no .pts file beside it", stem_of(any) + ".pts", "name it too"});
   if (files.elem.empty())

@@ -1,4 +1,4 @@
-/// Meshes of openCARP: .pts, .elem and .lon.
+/// Meshes of openCARP: .pts, .elem and .lon; which results go with them.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace palpate {
 struct CarpFiles {
   std::string pts;
   std::string elem;
-  std::string lon;  ///< may be empty
+  std::string lon;                   ///< may be empty
+  std::vector<std::string> results;  ///< .igb and .dat (carp_results.h)
 };
 
 /// The set that `named` belongs to: files with the same stem beside it, unless they are named themselves.

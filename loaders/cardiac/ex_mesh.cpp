@@ -13,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/grid/point_merge.h"
+#include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex_element.h"
 #include "loaders/cardiac/mesh_text.h"
 
@@ -158,6 +159,35 @@ std::vector<double> surfaces_of(const std::vector<std::int64_t>& point_of, const
   return tags;
 }
 
+/// The depth in the wall at each point, from the elements' own third axis; empty where elements do not stand
+/// in layers, or a point would have two depths.
+std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const Lattice& lattice,
+                              std::size_t elements, const std::vector<double>& tags, int& deep) {
+  const std::size_t n = lattice.side;
+  std::vector<std::array<std::int64_t, 8>> corners(elements);
+  for (std::size_t e = 0; e < elements; ++e)
+    for (std::size_t c = 0; c < 8; ++c)
+      corners[e][c] = point_of[e * lattice.count() +
+                               lattice.at((c & 1U) * (n - 1), (c >> 1U & 1U) * (n - 1), (c >> 2U) * (n - 1))];
+  const std::vector<int> levels = layer_levels(corners);
+  if (levels.empty()) return {};
+  deep = *std::max_element(levels.begin(), levels.end()) + 1;
+  std::vector<double> depth(tags.size(), kNaN);
+  constexpr double kRounding = 1e-12;
+  for (std::size_t e = 0; e < elements; ++e) {
+    for (std::size_t p = 0; p < lattice.count(); ++p) {
+      const double xi = static_cast<double>(p / (n * n)) / static_cast<double>(n - 1);
+      const double here = (levels[e] + xi) / deep;
+      double& there = depth[static_cast<std::size_t>(point_of[e * lattice.count() + p])];
+      if (std::isnan(there)) there = here;
+      if (std::abs(there - here) > kRounding) return {};
+    }
+  }
+  for (std::size_t p = 0; p < tags.size(); ++p)
+    if (tags[p] != 0.0 && std::abs(depth[p] - (tags[p] - 1.0)) > kRounding) return {};
+  return depth;
+}
+
 bool disagree(const Place& a, const Place& b) {
   for (int c = 0; c < 3; ++c)
     if (std::abs(std::remainder(a.angles[c] - b.angles[c], std::numbers::pi)) > kSameAngle) return true;
@@ -185,6 +215,71 @@ std::vector<std::pair<double, double>> gauss_legendre(int order) {
 }
 
 }  // namespace
+
+std::vector<int> layer_levels(const std::vector<std::array<std::int64_t, 8>>& corners) {
+  struct Side {
+    std::size_t element, axis, end;
+  };
+  std::map<std::array<std::int64_t, 4>, std::vector<Side>> sides;
+  for (std::size_t e = 0; e < corners.size(); ++e) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        std::array<std::int64_t, 4> face{};
+        std::size_t count = 0;
+        for (std::size_t c = 0; c < 8; ++c)
+          if ((c >> axis & 1U) == end) face[count++] = corners[e][c];
+        std::sort(face.begin(), face.end());
+        // A face that is collapsed to an edge joins nothing.
+        if (std::unique(face.begin(), face.end()) - face.begin() < 3) continue;
+        sides[face].push_back({e, axis, end});
+      }
+    }
+  }
+  std::vector<std::vector<std::pair<std::size_t, int>>> joined_to(corners.size());
+  for (const auto& [face, of] : sides) {
+    if (of.size() == 1) continue;
+    if (of.size() > 2) return {};
+    const Side &a = of[0], &b = of[1];
+    const bool through = a.axis == 2, other = b.axis == 2;
+    if (through != other || (through && a.end == b.end)) return {};
+    const int up = !through ? 0 : a.end == 1 ? 1 : -1;
+    joined_to[a.element].emplace_back(b.element, up);
+    joined_to[b.element].emplace_back(a.element, -up);
+  }
+  constexpr int kUnset = std::numeric_limits<int>::min();
+  std::vector<int> level(corners.size(), kUnset);
+  for (std::size_t start = 0; start < level.size(); ++start) {
+    if (level[start] != kUnset) continue;
+    std::vector<std::size_t> part{start};
+    level[start] = 0;
+    int lowest = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      for (const auto& [next, up] : joined_to[part[i]]) {
+        const int wanted = level[part[i]] + up;
+        if (level[next] == kUnset) {
+          level[next] = wanted;
+          lowest = std::min(lowest, wanted);
+          part.push_back(next);
+        } else if (level[next] != wanted) {
+          return {};
+        }
+      }
+    }
+    for (const std::size_t e : part) level[e] -= lowest;
+  }
+  return level;
+}
+
+std::optional<Vec3> long_axis(const Model& model) {
+  for (const Element& element : model.elements) {
+    const auto& fields = model.element_headers[element.header];
+    const bool prolate = std::any_of(fields.begin(), fields.end(), [](const ElementField& field) {
+      return field.name == "coordinates" && field.system == System::kProlate;
+    });
+    if (!prolate) return std::nullopt;
+  }
+  return model.elements.empty() ? std::nullopt : std::optional(Vec3{-1.0, 0.0, 0.0});
+}
 
 SampledModel sample(const Model& model, int refine, const std::string& file) {
   bool with_fibres = false;
@@ -260,8 +355,15 @@ SampledModel sample(const Model& model, int refine, const std::string& file) {
     sampled.mesh.arrays.push_back(array_of("imbrication angle", 1, angles[1]));
     sampled.mesh.arrays.push_back(array_of("sheet angle", 1, angles[2]));
   }
-  sampled.mesh.arrays.push_back(
-      array_of("surface", 1, surfaces_of(point_of, lattice, shapes.size(), points)));
+  const std::vector<double> tags = surfaces_of(point_of, lattice, shapes.size(), points);
+  sampled.mesh.arrays.push_back(array_of("surface", 1, tags));
+  int deep = 0;
+  const std::vector<double> depth = depths_of(point_of, lattice, shapes.size(), tags, deep);
+  if (!depth.empty()) {
+    sampled.mesh.arrays.push_back(array_of(kLayerArray, 1, depth));
+    sampled.notes.push_back("layers by the elements' third axis, " +
+                            counted(static_cast<std::uint64_t>(deep), "element") + " deep");
+  }
   sampled.mesh.arrays.push_back(
       make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
 

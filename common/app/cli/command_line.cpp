@@ -91,6 +91,7 @@ class VerbParser {
     if (verb.groups.fibres) add_fibre_options(scene_options_, options_.tracing, options_.heart);
     if (verb.groups.layer) add_layer_option(scene_options_, options_.heart);
     if (verb.groups.angle) add_angle_options(scene_options_, options_.heart);
+    if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);
     if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.path) add_path();
@@ -157,6 +158,7 @@ class VerbParser {
           "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
           "NAME", group);
     if (kind == FieldKind::kScalar) add_raw_options(scene_options_, input.raw);
+    if (kind == FieldKind::kFibre) add_refine_option(scene_options_, input);
     if (kind == FieldKind::kTensor) add_tensor_input_options(scene_options_, input.tensor);
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);

@@ -39,8 +39,31 @@ void add_angle_options(SceneOptions& options, HeartOptions& heart) {
       .add("--convention", heart.convention,
            "what the angle is measured from: streeter (default), bayer, piersanti or doste", "NAME", group)
       ->check(CLI::IsMember({"streeter", "bayer", "piersanti", "doste"}));
-  options.add("--axis", heart.axis, "long axis from apex to base; default: as the wall opens", "X,Y,Z",
-              group);
+  options.add("--axis", heart.axis,
+              "long axis from apex to base; default: that of the file's coordinates, or as the wall opens",
+              "X,Y,Z", group);
+}
+
+void add_mesher_options(SceneOptions& options, HeartOptions& heart) {
+  const char* group = "Mesh";
+  options
+      .add("--mesher", heart.mesher,
+           "delaunay (default) joins the points of the wall's cells; tetgen keeps its surfaces and fills it "
+           "anew",
+           "delaunay|tetgen", group)
+      ->check(CLI::IsMember({"delaunay", "tetgen"}));
+  options
+      .add("--largest-volume", heart.largest_volume,
+           "of a tetrahedron, with tetgen; default: twice the mean of the cells that are there", "V", group)
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_refine_option(SceneOptions& options, InputOptions& input) {
+  constexpr int kFinest = 64;
+  options
+      .add("--refine", input.refine, "cells along each axis of a curved element (EX); default 4, mesh: 8",
+           "N", "Input")
+      ->check(CLI::Range(1, kFinest));
 }
 
 }  // namespace palpate

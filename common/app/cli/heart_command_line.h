@@ -15,4 +15,10 @@ void add_layer_option(SceneOptions& options, HeartOptions& heart);
 /// Which angle, and what it is measured from. Binds the options to `heart`, which outlives `options`.
 void add_angle_options(SceneOptions& options, HeartOptions& heart);
 
+/// What fills a wall with tetrahedra. Binds the options to `heart`, which outlives `options`.
+void add_mesher_options(SceneOptions& options, HeartOptions& heart);
+
+/// How finely curved elements are sampled. Binds the option to `input`, which outlives `options`.
+void add_refine_option(SceneOptions& options, InputOptions& input);
+
 }  // namespace palpate

@@ -366,6 +366,44 @@ std::string map_json(const MapSummary& summary) {
                   {"version", version()}});
 }
 
+std::string mesh_json(const MeshSummary& summary) {
+  const MeshQuality& quality = summary.quality;
+  const bool curved = summary.exact_volume > 0.0;
+  const double reference = curved ? summary.exact_volume : summary.cells_volume;
+  return text_of({{"input", summary.input},
+                  {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                  {"mesher", summary.mesher},
+                  {"points", quality.points},
+                  {"tetrahedra", quality.cells},
+                  {"volume", quality.volume},
+                  {"volume_exact", curved ? Json(summary.exact_volume) : Json(nullptr)},
+                  {"volume_cells", summary.cells_volume},
+                  {"volume_error", quality.volume / reference - 1.0},
+                  {"outside", summary.outside},
+                  {"border_slivers", summary.flat},
+                  {"in_one_cell", summary.shared},
+                  {"angle_min", quality.least_angle},
+                  {"angle_max", quality.largest_angle},
+                  {"angles_min_by_10", quality.least_angles},
+                  {"angles_max_by_10", quality.largest_angles},
+                  {"slivers", quality.slivers},
+                  {"zero_volume", quality.zero_volume},
+                  {"components", quality.components},
+                  {"largest_component", quality.largest_component},
+                  {"border_faces", quality.border_faces},
+                  {"open_edges", quality.open_edges},
+                  {"manifold_faults", quality.manifold_faults},
+                  {"layer_cells", summary.layer_cells},
+                  {"backward_cells", summary.backward_cells},
+                  {"notes", summary.notes},
+                  {"seconds_load", summary.seconds_load},
+                  {"seconds_mesh", summary.seconds_mesh},
+                  {"seconds_triangulate", summary.seconds_triangulate},
+                  {"seconds_choose", summary.seconds_choose},
+                  {"seconds_report", summary.seconds_report},
+                  {"version", version()}});
+}
+
 std::string probe_json(const ProbeSummary& summary) {
   Json states = Json::object();
   for (int s = 0; s < kHoldStateCount; ++s) {

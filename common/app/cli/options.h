@@ -33,6 +33,7 @@ struct InputOptions {
   std::string example;
   std::string field;
   std::string time = "first";
+  int refine = 0;      ///< cells along each axis of a curved element; 0: the loader's own choice
   RawWords raw;        ///< --raw-size and its like
   TensorWords tensor;  ///< --bval, --tensor-order and their like
 };
@@ -115,6 +116,8 @@ struct HeartOptions {
   std::string convention = "streeter";  ///< name_of(AngleConvention)
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
   double least_gap = 0.05;
+  std::string mesher = "delaunay";  ///< delaunay, tetgen
+  double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
 };
 
 /// What the hand feels, and how the workspace lies over the data.

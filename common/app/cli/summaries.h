@@ -9,6 +9,7 @@
 
 #include "common/base/needs.h"
 #include "common/device/device.h"
+#include "common/field/grid/mesh_quality.h"
 #include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
 #include "common/scene/input.h"
@@ -196,6 +197,25 @@ struct MapSummary {
   std::vector<Band> bands;
   double seconds_load = 0.0;
   double seconds_map = 0.0;
+};
+
+/// A wall that was filled with tetrahedra.
+struct MeshSummary {
+  std::string input;
+  std::string output;  ///< empty: none
+  std::string mesher;
+  MeshQuality quality;
+  double exact_volume = 0.0;                        ///< of the curved model; 0: not known
+  double cells_volume = 0.0;                        ///< of the cells as sampled
+  std::uint64_t outside = 0, flat = 0, shared = 0;  ///< FinishedMesh of the mesher
+  std::size_t layer_cells = 0;                      ///< that have a depth
+  std::size_t backward_cells = 0;  ///< of these: where it falls along the way out of the wall
+  std::vector<std::string> notes;
+  double seconds_load = 0.0;
+  double seconds_mesh = 0.0;  ///< the next two and passing arrays to and fro
+  double seconds_triangulate = 0.0;
+  double seconds_choose = 0.0;
+  double seconds_report = 0.0;
 };
 
 struct RenderSummary {

@@ -23,7 +23,7 @@ StopRule stop_plane(const std::string& text) {
 
 InputSpec input_spec(const InputOptions& options, FieldKind kind) {
   return {options.files, options.solution, options.example, options.field, options.time,
-          kind,          options.raw,      options.tensor};
+          kind,          options.raw,      options.tensor,  options.refine};
 }
 
 bool list_examples(const Options& options, const VerbContext& context) {

@@ -96,6 +96,9 @@ bool ProbeSession::set_field(NamedField open) {
   if (same) return false;
   let_go();
   open_ = std::move(open);
+  // A heart's layer is in the picture with its fibres: all that are felt would lie over it.
+  const bool heart = open_.tensor && open_.scalar && !open_.field;
+  if (heart && !servo_) choice_.show_surface = false;
   hint_ = scalar_hint_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
@@ -377,8 +380,10 @@ void ProbeSession::take(const HandStep& step) {
   readout_.residual = step.chain.residual / workspace.scale();
   readout_.force = force;
   constexpr double kMillimetres = 1e3;
+  // What the hand is pulled by is the last proxy; those before it lie on the way.
+  const auto last = static_cast<std::size_t>(step.chain.links) - 1;
   readout_.stretch =
-      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[0], step.probe) : 0.0;
+      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;
 }
 
 /// In a replay the chains change by themselves: draws the line of the one that is in place.

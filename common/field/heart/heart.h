@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,7 @@ struct Heart {
   std::shared_ptr<const TensorField> fibres;
   std::shared_ptr<const TensorField> sheets;  ///< null: not known
   std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray
+  std::optional<Vec3> axis;                   ///< from apex to base, where the file says it; data coordinates
   std::vector<std::string> notes;             ///< of mesh, fibres and layers, for the user
 };
 

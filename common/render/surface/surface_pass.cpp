@@ -74,6 +74,9 @@ void SurfacePass::draw() {
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
   glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  // A little back, so that lines that lie on a surface are before it.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0F, 2.0F);
   glUseProgram(program_.name());
   for (const Uploaded& surface : uploaded_) {
     const Rgb& color = surface.view.color;
@@ -82,6 +85,7 @@ void SurfacePass::draw() {
     glBindVertexArray(surface.vertex_array.name());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(surface.corners), GL_UNSIGNED_INT, nullptr);
   }
+  glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glBindVertexArray(0);
 }

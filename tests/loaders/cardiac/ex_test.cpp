@@ -270,6 +270,58 @@ TEST(ExElement, EdgesOnEitherSideOfTheSeamStayTogether) {
   EXPECT_NEAR(exact_volume(model, 8, "ring"), 0.5 * (4.0 - 1.0) * mean_width, 1e-4);
 }
 
+/// A box of n elements one upon the other and m beside each other; corners first axis fastest.
+std::vector<std::array<std::int64_t, 8>> stacked(int beside, int deep) {
+  std::vector<std::array<std::int64_t, 8>> elements;
+  for (int k = 0; k < deep; ++k) {
+    for (int i = 0; i < beside; ++i) {
+      std::array<std::int64_t, 8> corners{};
+      for (int c = 0; c < 8; ++c)
+        corners[static_cast<std::size_t>(c)] = i + (c & 1) + 10 * ((c >> 1) & 1) + 100 * (k + (c >> 2));
+      elements.push_back(corners);
+    }
+  }
+  return elements;
+}
+
+TEST(ExLayers, ElementsAreNumberedThroughTheWall) {
+  EXPECT_EQ(layer_levels(stacked(2, 3)), (std::vector<int>{0, 0, 1, 1, 2, 2}));
+  // One that stands on its side has no place among layers.
+  auto turned = stacked(2, 1);
+  turned[1] = {turned[1][0], turned[1][2], turned[1][4], turned[1][6],
+               turned[1][1], turned[1][3], turned[1][5], turned[1][7]};
+  EXPECT_TRUE(layer_levels(turned).empty());
+  // A face that is collapsed to an edge joins nothing.
+  auto apex = stacked(2, 1);
+  for (auto& corners : apex)
+    for (const std::size_t c : {0U, 2U, 4U, 6U}) corners[c] = c < 4 ? 1000 : 1001;
+  EXPECT_EQ(layer_levels(apex), (std::vector<int>{0, 0}));
+}
+
+TEST(ExLayers, OneVentriclesDepthIsItsThirdAxisAndTwoVentriclesHaveNone) {
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n)
+    places[n] = Vec3(static_cast<double>(n & 1U), static_cast<double>((n >> 1U) & 1U),
+                     3.0 * static_cast<double>(n >> 2U));
+  const DataSet box = sample(made(folder, node_file("rectangular cartesian", places, 0.0),
+                                  element_file("rectangular cartesian")),
+                             2, "box")
+                          .mesh;
+  const DataArray* depth = box.find("layer", Association::kPoint);
+  ASSERT_NE(depth, nullptr);
+  const auto& positions = std::get<UnstructuredTopology>(box.topology).positions;
+  for (std::size_t p = 0; p < depth->tuples; ++p) EXPECT_NEAR(depth->at(p), positions.at(p, 2) / 3.0, 1e-12);
+  EXPECT_FALSE(long_axis(
+      made(folder, node_file("rectangular cartesian", places, 0.0), element_file("rectangular cartesian"))));
+
+  // Between the ventricles and in the right one's wall there is one element, elsewhere there are two.
+  PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+  const Model dog = heart(nodes);
+  EXPECT_EQ(sample(dog, 2, "dog").mesh.find("layer", Association::kPoint), nullptr);
+  EXPECT_EQ(long_axis(dog), std::optional(Vec3(-1.0, 0.0, 0.0)));
+}
+
 TEST(ExReader, MistakesAreNamedWithFileAndLine) {
   const test::TempFolder folder;
   std::array<Vec3, 8> places{};

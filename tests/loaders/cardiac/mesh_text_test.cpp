@@ -1,5 +1,8 @@
 // openCARP, TetGen and Chaste meshes through the helper program.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +65,101 @@ TEST(Carp, MicrometresRegionsAndDirectionsAreRead) {
   expect_refused(elem, "Xx");
   folder.write("m.elem", "1\nTt 0 1 2 3 9\n");
   expect_refused(elem, "m.lon");
+}
+
+/// A .igb file of four points; `big` in the other byte order than x86.
+std::string igb(const std::string& words, const std::vector<float>& values, bool big) {
+  std::string file = "# made by a test\r\n" + words +
+                     " type:float systeme:" + (big ? "big_endian" : "little_endian") + "\r\n";
+  file.resize(1023, ' ');
+  file += '\f';
+  for (const float value : values) {
+    std::array<char, sizeof value> bytes{};
+    std::memcpy(bytes.data(), &value, sizeof value);
+    if (big) std::reverse(bytes.begin(), bytes.end());
+    file.append(bytes.data(), bytes.size());
+  }
+  return file;
+}
+
+class CarpResults : public testing::Test {
+ protected:
+  CarpResults() {
+    folder_.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");
+    folder_.write("m.elem", "1\nTt 0 1 2 3 9\n");
+  }
+  [[nodiscard]] Source together(const std::string& result) const {
+    return Source::open({.files = {folder_.path("m.pts"), folder_.path(result)}, .solution = {}, .raw = {}});
+  }
+  void expect_result_refused(const std::string& name, const std::string& content,
+                             const std::string& word) const {
+    folder_.write(name, content);
+    try {
+      (void)together(name);
+      ADD_FAILURE() << word << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+  test::TempFolder folder_;
+};
+
+TEST_F(CarpResults, PotentialsAreReadAStepAtATime) {
+  const std::vector<float> values{-85.0F, -80.0F, NAN, 20.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 8.0F};
+  for (const bool big : {false, true}) {
+    folder_.write(
+        "vm.igb",
+        igb("x:4 y:1 z:1 t:3 org_t:10 dim_t:4 inc_t:2 units_t:ms unites:mV facteur:2 zero:1", values, big));
+    Source source = together("vm.igb");
+    EXPECT_EQ(source.info().times, (std::vector<double>{10.0, 12.0, 14.0}));
+    for (const std::size_t step : {2U, 0U, 1U}) {  // in any order
+      const auto blocks = source.read({"vm"}, step);
+      const DataArray* vm = blocks.at(0).find("vm", Association::kPoint);
+      ASSERT_NE(vm, nullptr);
+      for (std::size_t p = 0; p < 4; ++p) {
+        const double stored = static_cast<double>(values[4 * step + p]);
+        if (std::isnan(stored))
+          EXPECT_TRUE(std::isnan(vm->at(p)));
+        else
+          EXPECT_DOUBLE_EQ(vm->at(p), 2.0 * stored + 1.0) << step << " " << p;
+      }
+    }
+  }
+  // One of the mesh's own name comes along without being named.
+  folder_.write("m.igb", igb("x:4 t:3", values, false));
+  EXPECT_EQ(open(folder_.path("m.elem")).info().times.size(), 3U);
+}
+
+TEST_F(CarpResults, HeadersThatDoNotFitAreNamed) {
+  const std::vector<float> values(12, 1.0F);
+  expect_result_refused("a.igb", igb("x:5 t:2", values, false), "4");
+  expect_result_refused("b.igb", igb("x:4 t:4", values, false), "time steps");
+  expect_result_refused("c.igb", igb("x:4 t:1000000000000", values, false), "time steps");
+  expect_result_refused("d.igb", igb("x:4 t:3 inc_t:-1", values, false), "rise");
+  expect_result_refused("e.igb", igb("x:4 t:3 inc_t:0", values, false), "rise");
+  expect_result_refused("f.igb", igb("x:4 t:nan", values, false), "t:");
+  expect_result_refused("g.igb", igb("x:4 t:3", values, false).substr(0, 500), "1024");
+}
+
+TEST_F(CarpResults, ActivationTimesAreANumberALine) {
+  folder_.write("act.dat", "1.5\nnan\n-2\n1e3\n");
+  Source source = together("act.dat");
+  EXPECT_TRUE(source.info().times.empty());
+  const auto blocks = source.read({"act"});
+  const DataArray* act = blocks.at(0).find("act", Association::kPoint);
+  ASSERT_NE(act, nullptr);
+  EXPECT_EQ(act->at(0), 1.5);
+  EXPECT_TRUE(std::isnan(act->at(1)));
+  EXPECT_EQ(act->at(3), 1000.0);
+  folder_.write("strain.dat", "0.25\n");
+  Source of_cells = together("strain.dat");
+  const auto cell_blocks = of_cells.read({"strain"});
+  EXPECT_NE(cell_blocks.at(0).find("strain", Association::kCell), nullptr);
+  expect_result_refused("short.dat", "1\n2\n3\n", "ends after 3");
+  expect_result_refused("long.dat", "1\n2\n3\n4\n5\n", "line 5");
+  expect_result_refused("word.dat", "1\n2\n3\n4\nx\n", "line 5");
 }
 
 std::string tetrahedron(int first, bool quadratic) {

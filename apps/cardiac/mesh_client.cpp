@@ -1,0 +1,62 @@
+#include "apps/cardiac/mesh_client.h"
+
+#include <algorithm>
+
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/load/helper_process.h"
+#include "common/load/protocol_error.h"
+
+namespace palpate {
+namespace {
+
+/// Address space: libraries and their arenas, and for each point what the job (twice: mapped and unpacked),
+/// the triangulation and the answer take. CGAL's needs some 600 bytes a point; TetGen adds points of its own.
+constexpr std::uint64_t kBaseMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMemoryPerPoint = 4096;
+constexpr std::uint64_t kMemoryPerTetgenPoint = 65536;
+/// On a loaded machine; a million points take some ten seconds of processor time.
+constexpr double kBaseSeconds = 60.0;
+constexpr double kSecondsPerPoint = 1e-3;
+
+std::uint64_t machine_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
+                               : ~std::uint64_t{0};
+}
+
+const char* other_mesher(Mesher mesher) { return mesher == Mesher::kTetgen ? "delaunay" : "tetgen"; }
+
+}  // namespace
+
+FinishedMesh run_mesher(const MeshJob& job, const std::string& file, Progress* progress) {
+  const std::filesystem::path program = find_helper(kMesherProgram);
+  if (program.empty())
+    throw usage_error(file + ": the mesher " + kMesherProgram +
+                      " is not installed; it is built where libcgal-dev and libtet1.5-dev are");
+  const auto points = static_cast<std::uint64_t>(job.wall.points.size());
+  const std::uint64_t wanted =
+      kBaseMemory + points * (job.mesher == Mesher::kTetgen ? kMemoryPerTetgenPoint : kMemoryPerPoint);
+  const LoadLimits limits{std::min(wanted, machine_memory() / 4 * 3),
+                          kBaseSeconds + kSecondsPerPoint * static_cast<double>(points)};
+  HelperProcess process(program, limits);
+  MemoryFile memory;
+  const std::string json = encode(job, memory);
+  const auto reply = process.ask(memory, json, progress, "meshing");
+  const std::string advice =
+      std::string("; try --mesher ") + other_mesher(job.mesher) + " or another --refine";
+  if (!reply) throw work_error(file + ": the mesher " + process.failure().what + advice);
+  try {
+    FinishedMesh mesh = decode_finished_mesh(reply->json, reply->memory->bytes(), job.wall.points.size());
+    if (mesh.tets.empty()) throw work_error("the mesh has no tetrahedron");
+    return mesh;
+  } catch (const ProtocolError& error) {
+    throw work_error(file + ": the mesher gave an answer that makes no sense: " + error.what());
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                file + ": " + error.what() + (error.code() == ExitCode::kWorkFailed ? advice : ""));
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,165 @@
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/wall_mesh.h"
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/summaries.h"
+#include "common/app/cli/verbs.h"
+#include "common/base/clock.h"
+#include "common/base/text.h"
+#include "common/field/field_grid.h"
+#include "common/field/grid/scalar_cell.h"
+#include "common/field/heart/wall_frame.h"
+
+namespace palpate {
+namespace {
+
+/// Cells along each axis of a curved element: the volume is right to half a percent.
+constexpr int kMeshRefine = 8;
+
+std::string percent(double part) { return short_number(100.0 * part) + " %"; }
+
+std::string summary_text(const MeshSummary& summary) {
+  const MeshQuality& quality = summary.quality;
+  std::string text = summary.input + ": " + std::to_string(quality.cells) + " tetrahedra" + " over " +
+                     counted(quality.points, "point") +
+                     (summary.output.empty() ? "\n" : " -> " + summary.output + "\n");
+  text += "  mesher     " + summary.mesher;
+  if (summary.mesher == "delaunay")
+    text += ", " + std::to_string(summary.outside) + " tetrahedra outside the wall and " +
+            std::to_string(summary.flat) + " slivers on its border left out";
+  text += "\n  volume     " + short_number(quality.volume);
+  if (summary.exact_volume > 0.0)
+    text += ", " + percent(quality.volume / summary.exact_volume - 1.0) + " from the curved model's " +
+            short_number(summary.exact_volume);
+  else
+    text += ", " + percent(quality.volume / summary.cells_volume - 1.0) + " from the file's cells";
+  text += "\n  angles     between faces from " + short_number(quality.least_angle) + " to " +
+          short_number(quality.largest_angle) + " degrees\n";
+  text += "  slivers    " + std::to_string(quality.slivers) + " (" +
+          percent(static_cast<double>(quality.slivers) / static_cast<double>(quality.cells)) +
+          ") with an angle below " + short_number(kSliverAngle) + " or above " +
+          short_number(180.0 - kSliverAngle) + " degrees, " + std::to_string(quality.zero_volume) +
+          " of no volume\n";
+  text += "  parts      " + std::to_string(quality.components) + "; border of " +
+          counted(quality.border_faces, "face") + ", " + counted(quality.open_edges, "open edge") + ", " +
+          counted(quality.manifold_faults, "place") + " where the border touches itself\n";
+  if (summary.layer_cells > 0)
+    text += "  layers     " + counted(summary.backward_cells, "cell") + " of " +
+            std::to_string(summary.layer_cells) + " rise the wrong way (" +
+            percent(static_cast<double>(summary.backward_cells) / static_cast<double>(summary.layer_cells)) +
+            ")\n";
+  for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
+  text += "  seconds    load " + short_number(summary.seconds_load) + ", mesh " +
+          short_number(summary.seconds_mesh) + " (triangulate " + short_number(summary.seconds_triangulate) +
+          ", choose " + short_number(summary.seconds_choose) + "), report " +
+          short_number(summary.seconds_report) + "\n";
+  return text;
+}
+
+/// Counts cells in which the depth falls along the smoothed way out of the wall.
+void check_layers(const Heart& heart, MeshSummary& summary) {
+  const SmoothNormals normals(heart.layer);
+  const TetMesh& mesh = *heart.layer->tet_mesh();
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    const auto cell = static_cast<CellIndex>(c);
+    if (mesh.zero_volume(cell)) continue;
+    const ScalarTet s = load_scalar_tet(heart.layer->values(), mesh.cells()[c]);
+    if (s.bad_data) continue;
+    const Vec3 gradient =
+        mesh.barycentric_gradients(cell) * Vec3{s.s[1] - s.s[0], s.s[2] - s.s[0], s.s[3] - s.s[0]};
+    const Vec3 way = normals.at({cell, Vec4{0.25}});
+    ++summary.layer_cells;
+    summary.backward_cells += glm::dot(gradient, way) > 0.0 ? 0 : 1;
+  }
+}
+
+std::vector<ArrayInfo> infos_of(const DataSet& data) {
+  std::vector<ArrayInfo> infos;
+  for (const DataArray& array : data.arrays)
+    infos.push_back({array.name, array.association, array.components, array.type, array.tuples});
+  return infos;
+}
+
+ExitCode run_mesh(const Options& given, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(given, context)) return ExitCode::kDone;
+  if (given.out.empty() && !given.common.json)
+    throw usage_error("mesh needs an output: try --out heart.vtu (or --json to get the report alone)");
+  if (!given.out.empty()) check_mesh_output(given.out, given.common.force);
+  Options options = given;
+  if (options.input.refine == 0) options.input.refine = kMeshRefine;
+  Input input = open_input(options, context);
+  if (!input.not_volume().empty())
+    throw input_error({input.title(), "", input.not_volume(), "a mesh of the wall"});
+
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : input.arrays())
+    if (array.association == Association::kPoint) names.push_back(array.name);
+  std::optional<HeartChoice> choice;
+  if (!fibre_choices(input.arrays()).empty()) {
+    choice = input.heart_choice();
+    for (const std::string& name : choice->arrays())
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  const std::vector<DataSet> blocks = input.read_timed(names, &context.progress);
+  if (blocks.size() != 1)
+    throw input_error({input.title(), "", "has " + counted(blocks.size(), "block"), "one mesh"});
+
+  Stopwatch watch;
+  WallMesh mesh =
+      make_wall_mesh(blocks.front(), choice ? &*choice : nullptr,
+                     {.mesher = options.heart.mesher == "tetgen" ? Mesher::kTetgen : Mesher::kDelaunay,
+                      .largest_volume = options.heart.largest_volume,
+                      .threads = options.common.threads},
+                     input.title(), &context.progress);
+  MeshSummary summary;
+  summary.input = input.title();
+  summary.output = options.out.string();
+  summary.mesher = mesh.kept ? "none: the file's own tetrahedra are kept" : options.heart.mesher;
+  summary.cells_volume = mesh.cells_volume;
+  summary.exact_volume = input.file()->exact_volume;
+  summary.outside = mesh.counts.outside;
+  summary.flat = mesh.counts.flat;
+  summary.shared = mesh.counts.shared;
+  summary.seconds_triangulate = mesh.counts.seconds_triangulate;
+  summary.seconds_choose = mesh.counts.seconds_choose;
+  summary.seconds_load = input.seconds_open() + input.seconds_read();
+  summary.seconds_mesh = watch.seconds();
+
+  watch.restart();
+  context.progress.begin("looking at the mesh", 0);
+  summary.quality = mesh_quality(TetMesh(mesh.points, mesh.tets, options.common.threads));
+  summary.notes = std::move(mesh.notes);
+  if (choice) {
+    const DataSet data = data_set_of(mesh);
+    const Heart heart = make_heart(data, choose_heart(infos_of(data), "", input.title()), input.title(),
+                                   options.common.threads);
+    check_layers(heart, summary);
+  } else {
+    summary.notes.emplace_back("no fibres, so nothing is said of layers");
+  }
+  summary.seconds_report = watch.seconds();
+  if (!options.out.empty()) {
+    write_mesh(options.out, mesh.points, mesh.tets, mesh.columns, options.common.force);
+    context.interrupt.keep(options.out);
+  }
+  console.print(summary_text(summary));
+  console.print_json(mesh_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb mesh_verb(std::vector<UsageExample> examples) {
+  return {.name = "mesh",
+          .summary = "fill the wall with tetrahedra, and say how good they are",
+          .groups = {.mesher = true, .out = true},
+          .examples = std::move(examples),
+          .run = run_mesh};
+}
+
+}  // namespace palpate

@@ -1,0 +1,60 @@
+// `cardiac mesh`, run as a user runs it, on the measured dog heart and the Chaste ellipsoid.
+
+#include <cmath>
+
+#include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
+
+namespace palpate::test {
+namespace {
+
+class CardiacMesh : public ExplorerTest {
+ protected:
+  CardiacMesh() : ExplorerTest("cardiac") {}
+};
+
+// The volume by quadrature over the Hermite elements is 198 965.65; meshes approach it from below.
+TEST_F(CardiacMesh, TheDogsWallConvergesToTheCurvedModelsVolumeAtSecondOrder) {
+  PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
+  std::vector<double> errors;
+  for (const char* refine : {"2", "4", "8"}) {
+    const Json mesh = json({"mesh", elements.string(), "--refine", refine, "--out", "heart.vtu", "--force"});
+    EXPECT_NEAR(mesh["volume_exact"].get<double>(), 198'965.6508, 1e-3);
+    errors.push_back(std::abs(mesh["volume_error"].get<double>()));
+    EXPECT_EQ(mesh["components"], 1);
+    EXPECT_EQ(mesh["zero_volume"], 0);
+    EXPECT_EQ(mesh["open_edges"], 0);
+    EXPECT_GT(mesh["outside"], 0);
+  }
+  EXPECT_LT(errors[2], 5e-3);
+  EXPECT_GT(std::log2(errors[0] / errors[1]), 1.8);
+  EXPECT_GT(std::log2(errors[1] / errors[2]), 1.8);
+}
+
+TEST_F(CardiacMesh, ItsMeshIsAHeartAgain) {
+  const Json made = json({"mesh", "--example", "ventricle", "--out", "heart.vtu"});
+  EXPECT_LT(made["backward_cells"].get<double>(), 1e-3 * made["layer_cells"].get<double>());
+  EXPECT_LT(std::abs(made["volume_error"].get<double>()), 1e-9);  // the example's border is that of its cells
+  const Json map = json({"map", "heart.vtu", "--angle", "helix"});
+  EXPECT_EQ(map["points"], made["points"]);
+  // The example's fibres run from 60 to -60 degrees.
+  EXPECT_NEAR(map["bands"].front()["mean"].get<double>(), 60.0, 0.5);
+  EXPECT_NEAR(map["bands"].back()["mean"].get<double>(), -60.0, 0.5);
+
+  const Json kept = json({"mesh", "heart.vtu"});
+  EXPECT_EQ(kept["tetrahedra"], made["tetrahedra"]);
+  EXPECT_EQ(kept["outside"], 0);
+  EXPECT_EQ(run({"mesh", "heart.vtu", "--out", "heart.stl"}).exit_code, 2);
+  EXPECT_EQ(run({"mesh", "heart.vtu"}).exit_code, 2);
+}
+
+TEST_F(CardiacMesh, SurfacesThatTouchAreRefusedByTetgenAndNotByDelaunay) {
+  PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
+  const ProgramResult refused =
+      run({"mesh", elements.string(), "--mesher", "tetgen", "--refine", "2", "--json"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("cross or touch"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace palpate::test
