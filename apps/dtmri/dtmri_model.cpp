@@ -25,9 +25,10 @@ DtmriContent DtmriModel::read(Input& input, const Options& options, Progress& pr
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
   if (!options.tract_look.file.empty()) {
-    state.tracts = TractView{.bundle = read_view_tracts(options.tract_look, &progress).bundle,
-                             .width = options.tract_look.width,
-                             .opacity = options.tract_look.opacity};
+    const ViewTracts read = read_view_tracts(options.tract_look, &progress);
+    if (!read.left_out.empty()) state.notes.push_back(read.left_out);
+    state.tracts = TractView{
+        .bundle = read.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
   }
   return std::make_shared<const SceneState>(std::move(state));
 }
@@ -57,6 +58,7 @@ SceneState DtmriModel::present(Input& /*input*/, const DtmriContent& content, co
   state.seeds = traced.seeds;
   state.seconds_trace = traced.seconds;
   if (traced.bundle->order.empty()) state.notes.push_back("no tract: " + traced.why_none);
+  if (!traced.left_out.empty()) state.notes.push_back(traced.left_out);
   return state;
 }
 

@@ -31,6 +31,7 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
       read ? read_view_tracts(options.tract_look, &context.progress)
            : trace_view_tracts(options.tracts, options.common, *voxels, &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
+  if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
   drawn.lines = tracts.bundle->order.size();
   drawn.points = tracts.bundle->lines->points.size();
   drawn.seconds_trace = tracts.seconds;

@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/read_tractogram.h"
+#include "common/render/tract/tract_room.h"
 
 namespace palpate {
 
@@ -27,6 +28,7 @@ ViewTracts read_view_tracts(const TractLook& look, Progress* progress) {
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(file.lines)));
   if (tracts.bundle->order.empty())
     throw input_error({look.file, "", "holds no line of two points and more", "tracts", ""});
+  tracts.left_out = tracts_left_out(*tracts.bundle);
   return tracts;
 }
 
@@ -39,9 +41,11 @@ ViewTracts trace_view_tracts(const TractTracingOptions& options, const CommonOpt
   const std::vector<Vec3> seeds =
       tract_seeds(options, common.seed, *voxels.field, lattice, common.threads, progress);
   TractResult result = trace_tracts(*voxels.field, seeds, how, progress);
-  ViewTracts tracts{.bundle = nullptr, .seeds = seeds.size(), .seconds = result.seconds, .why_none = {}};
+  ViewTracts tracts{
+      .bundle = nullptr, .seeds = seeds.size(), .seconds = result.seconds, .why_none = {}, .left_out = {}};
   if (result.lines.line_count() == 0) tracts.why_none = why_no_tract(result, how);
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(result.lines)));
+  tracts.left_out = tracts_left_out(*tracts.bundle);
   return tracts;
 }
 

@@ -17,6 +17,7 @@ struct ViewTracts {
   std::size_t seeds = 0;                      ///< none of a file
   double seconds = 0.0;                       ///< that tracing took
   std::string why_none;                       ///< what became of the seeds, where there is no line
+  std::string left_out;                       ///< what a picture has no room for; empty: it shows all lines
 };
 
 /// Checks what can be checked before anything is read. @throws Error (usage).

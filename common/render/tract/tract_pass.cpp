@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
+#include "common/render/tract/tract_room.h"
 
 namespace palpate {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 // Points that no picture shows are left out on the way to the GPU [scene frame, whose longest side is about
 // one]: a twentieth of a pixel of a picture of the whole.
 constexpr double kThinning = 5e-5;
-// 64 Mi points as they come, 8 to 16 Mi of them after thinning: half a gigabyte.
-constexpr std::size_t kMostPieces = (std::size_t{1} << 26U) / TractBundle::kPiecePoints;
 
 }  // namespace
 
@@ -24,7 +23,7 @@ void TractPass::update(const TractView& view, const SceneFrame& frame) {
   bundle_ = view.bundle;
   frame_ = frame;
   sets_.clear();
-  sets_.resize(std::min(bundle_->pieces.size(), kMostPieces));
+  sets_.resize(pieces_with_room(*bundle_));
 }
 
 std::size_t TractPass::draw(LineProgram& program, const TractView& view, const LineDraw& base, float unit,

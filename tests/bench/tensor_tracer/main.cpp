@@ -1,6 +1,9 @@
 // Tracts beside tckgen -algorithm Tensor_Det of MRtrix3: same images, seeds, step and cuts, one thread each.
 //
-//   tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T]
+//   tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T] [--grid N]
+//
+// --grid N takes N^3 seeds a voxel in place of its centre, and measures the times alone. README.md has
+// figures.
 //
 // tckgen interpolates the signals and fits a tensor to their logarithms at every step; palpate interpolates
 // tensors that were fitted once (here by dwi2tensor, on both sides the same; the ratios are given without and
@@ -165,7 +168,7 @@ void print_agreement(const char* name, const LinesBySeed& theirs, const LinesByS
   std::printf(" %5.1f %%\n", 100.0 * agreement(theirs, ours, HUGE_VAL));
 }
 
-int run(const std::string& dwi, const std::string& bvec, const std::string& bval, double least_fa) {
+int run(const std::string& dwi, const std::string& bvec, const std::string& bval, double least_fa, int grid) {
   if (std::system("command -v tckgen dwi2tensor mrconvert > /dev/null 2>&1") != 0) {
     std::printf("skipped: MRtrix3 (tckgen) is not installed; it is the Debian package mrtrix3\n");
     return 0;
@@ -211,7 +214,10 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
         if (fa < least_fa || fa > 0.95) continue;
         in_mask[signals.index(voxel)] = 1.0F;
         if (seeds.empty()) in_one[signals.index(voxel)] = 1.0F;
-        seeds.push_back(x);
+        for (int n = 0; n < grid * grid * grid; ++n) {
+          const Vec3 part = (Vec3(n % grid, n / grid % grid, n / (grid * grid)) + 0.5) / Vec3(grid) - 0.5;
+          seeds.push_back(x + signals.axes * part);
+        }
       }
     }
   }
@@ -229,6 +235,7 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
                 .gradients = at("grad.txt"),
                 .mask = at("one.nii"),
                 .out = at("peer.tck"),
+                .grid = grid,
                 .step = kStep,
                 .angle = kAngle,
                 .cutoff = kCutoff,
@@ -253,7 +260,7 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
     }
   }
   const double peer = median_of(peer_seconds), fit = fit_seconds(signals, gradients);
-  const LinesBySeed theirs = by_seed(read_tck(at("peer.tck")), signals);
+  std::vector<std::vector<Vec3>> peer_lines = read_tck(at("peer.tck"));
   const double count = static_cast<double>(seeds.size());
   std::array<double, 3> load{};
   (void)getloadavg(load.data(), 3);
@@ -262,7 +269,7 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
   std::printf("processor time, medians of %d runs in turn; %ld processors, load %.1f\n", kRepeats,
               sysconf(_SC_NPROCESSORS_ONLN), load[0]);
   std::printf("  %-34s %8.0f seeds/s, %zu lines (its start, %.2f s, left out)\n", "tckgen Tensor_Det",
-              count / peer, theirs.size(), start);
+              count / peer, peer_lines.size(), start);
   for (const Integrator integrator : kIntegrators) {
     const double own = median_of(own_seconds[integrator]);
     const Tractogram& lines = results[integrator].lines;
@@ -285,6 +292,11 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
                 std::string(name_of(integrator)).c_str(), 2 * kRepeats, one, two, one / two);
   }
 
+  if (grid > 1) {
+    std::filesystem::remove_all(folder);
+    return 0;
+  }
+  const LinesBySeed theirs = by_seed(std::move(peer_lines), signals);
   std::printf("lines within half a voxel, within      3 mm   10 mm   30 mm   whole\n");
   options.threads = 1;
   options.integrator = Integrator::kEuler;
@@ -304,16 +316,23 @@ int run(const std::string& dwi, const std::string& bvec, const std::string& bval
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   double least_fa = 0.3;
-  if (words.size() >= 2 && words[words.size() - 2] == "--fa") {
-    least_fa = std::atof(words.back().c_str());
-    words.resize(words.size() - 2);
+  int grid = 1;
+  for (; words.size() >= 5; words.resize(words.size() - 2)) {
+    const std::string& name = words[words.size() - 2];
+    if (name == "--fa") {
+      least_fa = std::atof(words.back().c_str());
+    } else if (name == "--grid") {
+      grid = std::atoi(words.back().c_str());
+    } else {
+      break;
+    }
   }
-  if (words.size() != 3) {
-    std::printf("usage: tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T]\n");
+  if (words.size() != 3 || grid < 1) {
+    std::printf("usage: tensor_tracer_bench DWI.nii.gz BVEC BVAL [--fa T] [--grid N]\n");
     return 2;
   }
   try {
-    return palpate::bench::run(words[0], words[1], words[2], least_fa);
+    return palpate::bench::run(words[0], words[1], words[2], least_fa, grid);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -87,9 +87,9 @@ void write_mask(const std::string& file, const NiftiImage& like, const std::vect
 double tckgen_seconds(const TckgenRun& run) {
   std::ostringstream command;
   command << "tckgen -quiet -force -nthreads 0 -algorithm Tensor_Det " << run.dwi << " -grad "
-          << run.gradients << " -seed_grid_per_voxel " << run.mask << " 1 -select 0 -step " << run.step
-          << " -angle " << run.angle << " -cutoff " << run.cutoff << " -minlength " << run.min_length
-          << " -maxlength " << run.max_length << " " << run.out;
+          << run.gradients << " -seed_grid_per_voxel " << run.mask << " " << run.grid << " -select 0 -step "
+          << run.step << " -angle " << run.angle << " -cutoff " << run.cutoff << " -minlength "
+          << run.min_length << " -maxlength " << run.max_length << " " << run.out;
   const double before = processor_seconds(RUSAGE_CHILDREN);
   shell(command.str());
   return processor_seconds(RUSAGE_CHILDREN) - before;

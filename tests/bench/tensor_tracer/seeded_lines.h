@@ -35,6 +35,7 @@ void write_mask(const std::string& file, const NiftiImage& like, const std::vect
 /// One run of tckgen -algorithm Tensor_Det, one thread, from the voxels of a mask: its processor time.
 struct TckgenRun {
   std::string dwi, gradients, mask, out;
+  int grid = 1;  ///< seeds along each axis of a voxel
   double step = 0.3, angle = 45.0, cutoff = 0.2, min_length = 1.0, max_length = 300.0;
 };
 double tckgen_seconds(const TckgenRun& run);

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 
 #include <gtest/gtest.h>
+
+#include "common/render/tract/tract_room.h"
 
 namespace palpate::test {
 namespace {
@@ -56,6 +59,29 @@ TEST(TractBundle, EveryFirstPartIsAnEvenSample) {
     EXPECT_NEAR(sum / static_cast<double>(part), 0.5, 5.0 / std::sqrt(12.0 * static_cast<double>(part)));
   }
   EXPECT_EQ(bundle->order, make_tract_bundle(straight_lines(kLines, 2))->order) << "the same each time";
+}
+
+TEST(TractRoom, SaysWhatIsNotDrawn) {
+  constexpr std::size_t kLines = 9000;
+  const auto bundle = make_tract_bundle(straight_lines(kLines, 30));
+  const std::size_t pieces = bundle->pieces.size();
+  ASSERT_GT(pieces, 3U);
+  EXPECT_EQ(tracts_left_out(*bundle), "") << "room for all";
+  EXPECT_EQ(tracts_left_out(*bundle, pieces), "");
+  EXPECT_EQ(pieces_with_room(*bundle, pieces + 1), pieces);
+  for (const std::size_t room : {std::size_t{1}, pieces - 1}) {
+    EXPECT_EQ(pieces_with_room(*bundle, room), room);
+    // Lines of 30 points: a piece ends with the first one that fills it.
+    const std::size_t drawn = room * ((TractBundle::kPiecePoints + 29) / 30);
+    const std::string said = tracts_left_out(*bundle, room);
+    EXPECT_EQ(said.substr(0, said.find(" tracts")), std::to_string(drawn) + " of 9000") << said;
+    EXPECT_NE(said.find("270000 points"), std::string::npos) << said;
+  }
+}
+
+// Only lines that a picture has room for are uploaded and drawn: 64 Mi points and not many more.
+TEST(TractRoom, HoldsSixtyFourMebipoints) {
+  EXPECT_EQ(kTractPiecesOfRoom * TractBundle::kPiecePoints, std::size_t{64} << 20U);
 }
 
 TEST(TractBundle, LeavesOutWhatIsNoLine) {
