@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/app/window/panel.h"
+#include "common/app/window/picture_panels.h"
 #include "common/app/window/window.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/color_transfer_file.h"
