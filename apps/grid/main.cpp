@@ -1,6 +1,7 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_modes.h"
 #include "apps/grid/open_verb.h"
+#include "common/app/cli/verb_report_volume.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -57,6 +58,9 @@ int main(int argc, char** argv) {
                             "a picture without what lies where y > 45"},
                            {"grid clip head.nii.gz --box -40,-60,0,40,20,50 --out part.nii.gz",
                             "a part of the volume, in its place"}}),
+                volume_report_verb({{"grid report tooth.nhdr --out report",
+                                     "error of the picture against milliseconds a frame"},
+                                    {"grid report --example shells --quick --out report", "a first look"}}),
                 open_verb({{"grid tooth.nhdr", "a file in the window"},
                            {"grid --example shells", "a built-in volume"},
                            {"grid open --session tooth.palpate.toml", "what Ctrl+S saved"}})},

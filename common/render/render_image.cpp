@@ -5,16 +5,40 @@
 
 namespace palpate {
 
-RenderedImage render_image(const SceneView& view, int width, int height, int repeat) {
+namespace {
+
+// The quality at which frames of `view` keep the budget.
+FrameQuality settled_quality(SceneRenderer& renderer, const SceneView& view, int width, int height,
+                             double milliseconds) {
+  constexpr int kMostFrames = 120, kStill = 22;  // frames of one quality, by which time it has settled
+  FrameBudget budget(milliseconds);
+  const bool volume = view.volume && view.volume->shown;
+  budget.show(volume, volume && !view.volume->lenses.empty());
+  int still = 0;
+  for (int i = 0; i < kMostFrames && still < kStill; ++i) {
+    const FrameQuality quality = budget.quality();
+    renderer.draw(with_quality(view, quality), width, height, quality.resolution);
+    budget.drawn(renderer.finish());
+    still = budget.quality() == quality ? still + 1 : 0;
+  }
+  return budget.quality();
+}
+
+}  // namespace
+
+RenderedImage render_image(const SceneView& view, int width, int height, int repeat, double budget) {
   OffscreenContext context;
   RenderedImage result;
   result.renderer = gl_description();
   SceneRenderer renderer;
   renderer.draw(view, width, height);
   result.first_frame_ms = renderer.finish();
-  for (int i = 0; i < repeat; ++i) {
-    renderer.draw(view, width, height);
-    result.frame_ms.push_back(renderer.finish());
+  if (budget > 0.0) result.quality = settled_quality(renderer, view, width, height, budget);
+  const SceneView drawn = with_quality(view, result.quality);
+  for (int i = 0; i < repeat + (budget > 0.0 ? 1 : 0); ++i) {
+    renderer.draw(drawn, width, height, result.quality.resolution);
+    const double milliseconds = renderer.finish();
+    if (i > 0 || budget == 0.0) result.frame_ms.push_back(milliseconds);
   }
   result.image = renderer.read();
   return result;

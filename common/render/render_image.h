@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/render/frame_budget.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -12,12 +13,15 @@ struct RenderedImage {
   Image image;
   double first_frame_ms = 0.0;   ///< with the upload and the compiling of shaders
   std::vector<double> frame_ms;  ///< of the repeated frames, by the clock
+  FrameQuality quality;          ///< that the budget left
   std::string renderer;          ///< the OpenGL driver
 };
 
-/// Draws `view` off-screen, `repeat` times after the first frame. Usable from any one thread; leaves no
-/// context current.
+/// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does
+/// while something moves: the frames that settle its quality come before those that are timed. Usable from
+/// any one thread; leaves no context current.
 /// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.
-[[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0);
+[[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0,
+                                         double budget = 0.0);
 
 }  // namespace palpate

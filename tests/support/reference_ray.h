@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "common/render/camera.h"
+#include "common/render/volume/volume_picture.h"
 #include "common/render/volume/volume_view.h"
-#include "tests/support/volume_picture.h"
 
 namespace palpate::test {
 

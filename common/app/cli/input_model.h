@@ -78,6 +78,8 @@ class InputModel : public WindowModel {
     const auto& times = scene_->input.times();
     if (times.size() > 1) add_option(session, "time", exact_number(times[settings.time_step]));
     describe_session(session, spec, options_, settings, view);
+    if (options_.view.frame_budget > 0.0)
+      add_option(session, "frame-budget", exact_number(options_.view.frame_budget));
     for (const auto& [option, value] : touch) add_option(session, option.c_str(), value);
     return store_session(session, spec);
   }

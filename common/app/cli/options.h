@@ -69,8 +69,9 @@ struct TractTracingOptions {
 
 /// How it is looked at.
 struct ViewOptions {
-  std::string camera;  ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
-  std::string color;   ///< array that colours the lines; empty: speed
+  std::string camera;         ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
+  std::string color;          ///< array that colours the lines; empty: speed
+  double frame_budget = 0.0;  ///< [ms] that a picture may take while something moves; 0: the default
 };
 
 /// How a volume is drawn.

@@ -120,11 +120,13 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   context.progress.begin("drawing", 0);
   const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
-  const RenderedImage rendered = render_image(drawn.view, size.width, size.height, repeat);
+  const RenderedImage rendered =
+      render_image(drawn.view, size.width, size.height, repeat, options.view.frame_budget);
   summary.first_frame_ms = rendered.first_frame_ms;
   summary.frames_timed = static_cast<int>(rendered.frame_ms.size());
   summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
   summary.renderer = rendered.renderer;
+  summary.quality = rendered.quality;
   context.progress.check();
   write_png(options.out, rendered.image,
             {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});

@@ -12,6 +12,7 @@
 #include "common/field/grid/mesh_quality.h"
 #include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
+#include "common/render/frame_budget.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
@@ -230,6 +231,7 @@ struct RenderSummary {
   double first_frame_ms = 0.0;
   double frame_ms = 0.0;
   int frames_timed = 0;
+  FrameQuality quality;  ///< that --frame-budget left
   double image_error = 0.0;
   std::string image_error_kind;
   double seconds_load = 0.0;

@@ -34,12 +34,14 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   }
   if (!window_available()) refuse_window(options, context);
   const auto model = verb.model(options, context.explorer.name);
-  WindowOptions window{.program = context.explorer.name,
-                       .angles = angles,
-                       .command_line = context.command_line,
-                       .version = version_text(context.explorer.name),
-                       .touch = std::move(touch),
-                       .stop_requested = [] { return InterruptGuard::interrupted(); }};
+  WindowOptions window{
+      .program = context.explorer.name,
+      .frame_budget = options.view.frame_budget > 0.0 ? options.view.frame_budget : kFrameBudget,
+      .angles = angles,
+      .command_line = context.command_line,
+      .version = version_text(context.explorer.name),
+      .touch = std::move(touch),
+      .stop_requested = [] { return InterruptGuard::interrupted(); }};
   verb.style(options, window.view);
   const WindowResult result = run_user_window(*model, std::move(window),
                                               [&](const std::string& line) { context.console.note(line); });

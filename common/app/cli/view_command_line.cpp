@@ -95,6 +95,13 @@ void add_tract_look(SceneOptions& options, TractLook& tracts) {
 void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
   options.add("--camera", bound.view.camera, "direction of view in degrees, and zoom",
               "azimuth,elevation,roll,zoom", kGroup);
+  options
+      .add("--frame-budget", bound.view.frame_budget,
+           "milliseconds that a picture may take while something moves: samples along rays are given up "
+           "first, "
+           "then pixels, in lenses last; default 60. A picture in a file is drawn as such a one",
+           "MS", kGroup)
+      ->check(CLI::Range(1.0, 1e5));
   switch (kind) {
     case FieldKind::kScalar:
       add_volume(options, bound.volume);

@@ -10,6 +10,7 @@
 #include "common/app/window/transfer_panel.h"
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
+#include "common/render/frame_budget.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"
 
@@ -25,7 +26,7 @@ struct PanelState {
   std::string message;
   bool message_is_error = false;
   double frame_ms = 0.0;
-  double resolution = 1.0;  ///< share of the pixels along either edge that were drawn
+  FrameQuality quality;  ///< of the picture that was drawn
   double frames_per_second = 0.0;
   bool show_help = false;
   bool show_rates = false;

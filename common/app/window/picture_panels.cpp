@@ -56,12 +56,14 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::SetNextWindowPos(place(layout.picture.left, layout.picture.top + layout.picture.height));
   ImGui::SetNextWindowSize(place(layout.picture.width, layout.status_height));
   ImGui::Begin("status", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  std::array<char, 64> frame{};
-  if (state.resolution < 1.0) {
-    std::snprintf(frame.data(), frame.size(), "%.0f %% of the resolution, %.1f ms", 100.0 * state.resolution,
-                  state.frame_ms);
-  } else {
+  std::array<char, 80> frame{};
+  const FrameQuality& quality = state.quality;
+  if (quality == FrameQuality{}) {
     std::snprintf(frame.data(), frame.size(), "%.1f ms", state.frame_ms);
+  } else {
+    // What is given up first is said first.
+    std::snprintf(frame.data(), frame.size(), "%.0f %% of the samples, %.0f %% of the resolution, %.1f ms",
+                  100.0 * quality.context, 100.0 * quality.resolution, state.frame_ms);
   }
   const float frame_width = ImGui::CalcTextSize(frame.data()).x;
   const float right = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;

@@ -29,6 +29,7 @@
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/render/frame_budget.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
@@ -39,9 +40,6 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
-// Frames slower than this lower the resolution while the camera moves [ms], down to this share of the
-// pixels along either edge.
-constexpr double kSlowFrame = 60.0, kCoarsest = 0.35;
 // What a picture may spend on tracts [ms]; what is left of them is added by the next ones.
 constexpr double kTractTime = 30.0;
 // Rest between two looks at the world while nothing happens [s].
@@ -56,7 +54,8 @@ class Window {
         options_(options),
         files_(options.picture_folder, options.program),
         glfw_(options),
-        view_(options.view) {
+        view_(options.view),
+        budget_(options.frame_budget) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
@@ -483,26 +482,27 @@ class Window {
 
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
-    // While the camera moves, a picture that takes long is drawn coarser; it is sharp again at rest.
+    // While something moves, a picture that takes long is drawn coarser; it is as asked for again at rest.
     const bool moving = control_.dragging() || slice_control_.dragging() || state_.playing ||
                         glfwGetTime() - lens_moved_ < kLensRest;
     dirty_ = glfw_.take_damage() || dirty_;
-    const SceneView picture = with_focus();
+    SceneView picture = with_focus();
+    const bool volume = picture.volume && picture.volume->shown;
+    budget_.show(volume, volume && !picture.volume->lenses.empty());
+    const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
+    picture = with_quality(std::move(picture), quality);
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
-        (!moving && state_.resolution < 1.0) || !renderer_->complete()) {
-      if (!moving) {
-        state_.resolution = 1.0;
-      } else if (state_.frame_ms > kSlowFrame) {
-        state_.resolution = std::max(kCoarsest, 0.7 * state_.resolution);
-      }
-      renderer_->draw(picture, w, h, state_.resolution, kTractTime);
+        quality.resolution != state_.quality.resolution || !renderer_->complete()) {
+      renderer_->draw(picture, w, h, quality.resolution, kTractTime);
       state_.frame_ms = renderer_->finish();
+      if (moving) budget_.drawn(state_.frame_ms);
+      state_.quality = quality;
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();
       state_.frames_per_second = now > last_drawn_ ? 1.0 / (now - last_drawn_) : 0.0;
       last_drawn_ = now;
       state_.automatic_range = renderer_->range();
-      shown_ = picture;
+      shown_ = std::move(picture);
       picture_width_ = w;
       picture_height_ = h;
       dirty_ = false;
@@ -522,6 +522,7 @@ class Window {
   SceneView view_;   // as the user wants it
   SceneView shown_;  // as it was drawn last
   PictureArea picture_;
+  FrameBudget budget_;
   int picture_width_ = 0, picture_height_ = 0;
   bool dirty_ = true, needs_camera_ = true;
   std::optional<SceneState> scene_;

@@ -13,12 +13,15 @@
 
 namespace palpate {
 
+inline constexpr double kFrameBudget = 60.0;  ///< [ms], where no other is asked for
+
 struct WindowOptions {
   std::string program = "palpate";  ///< in the title bar
   int width = 1440;                 ///< [screen coordinates]
   int height = 900;
   /// Style, background and what is shown at the start; its lines, bounds and camera are set by the scene.
   SceneView view;
+  double frame_budget = kFrameBudget;          ///< [ms] that a picture may take while something moves
   CameraAngles angles;                         ///< the first view, and that of a reset
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise

@@ -19,8 +19,8 @@
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/png.h"
+#include "common/render/volume/volume_picture.h"
 #include "tests/bench/volume/vtk_side.h"
-#include "tests/support/volume_picture.h"
 
 namespace palpate::bench {
 namespace {
@@ -29,7 +29,7 @@ struct Row {
   double cpu_ms = 0.0, ms = 0.0, error = 0.0;
 };
 
-Picture bytes_of(const test::FloatImage& image) {
+Picture bytes_of(const FloatImage& image) {
   Picture picture{image.width, image.height, {}};
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     if (i % 4 != 3)
@@ -92,7 +92,7 @@ void compare(const std::string& name, VolumeView view, int pixels, int repeats, 
   const Camera camera = make_camera(view.image->bounds(), {.azimuth = 30.0, .elevation = 20.0}, 1.0);
   VtkSide vtk(view, camera, pixels, pixels);
   vtk.make_current();
-  test::VolumePicture ours(pixels, pixels, test::VolumePicture::Context::kCurrent);
+  VolumePicture ours(pixels, pixels, VolumePicture::Context::kCurrent);
 
   std::printf("%s\n", gl_description().c_str());
   constexpr double kConverged = 32.0;

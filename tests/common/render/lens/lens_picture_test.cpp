@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "common/render/lens/lens.h"
+#include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/support/reference_ray.h"
-#include "tests/support/volume_picture.h"
 
 namespace palpate::test {
 namespace {

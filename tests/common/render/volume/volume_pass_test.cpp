@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "common/math/power_of_two.h"
+#include "common/render/volume/volume_picture.h"
 #include "tests/common/render/volume/sample_volumes.h"
 #include "tests/support/reference_ray.h"
-#include "tests/support/volume_picture.h"
 
 namespace palpate::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/render/camera.h"
 #include "common/render/volume/volume_pass.h"
 
-namespace palpate::test {
+namespace palpate {
 
 /// Associated colour and opacity of a pixel.
 using Rgba = std::array<double, 4>;
@@ -49,4 +49,4 @@ class VolumePicture {
 /// The largest difference of any component of any pixel.
 [[nodiscard]] double worst_difference(const FloatImage& a, const FloatImage& b);
 
-}  // namespace palpate::test
+}  // namespace palpate

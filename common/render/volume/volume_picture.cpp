@@ -1,4 +1,4 @@
-#include "tests/support/volume_picture.h"
+#include "common/render/volume/volume_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include "common/render/gl/object.h"
 #include "common/render/palette.h"
 
-namespace palpate::test {
+namespace palpate {
 
 struct VolumePicture::State {
   explicit State(Context which) {
@@ -111,4 +111,4 @@ double worst_difference(const FloatImage& a, const FloatImage& b) {
   return worst;
 }
 
-}  // namespace palpate::test
+}  // namespace palpate

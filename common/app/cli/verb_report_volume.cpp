@@ -1,0 +1,73 @@
+#include "common/app/cli/verb_report_volume.h"
+
+#include <string>
+#include <utility>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/verbs.h"
+#include "common/app/cli/volume_scene.h"
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/report/report.h"
+#include "common/report/volume_quality.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+std::string results_text(const Report& report, const VolumeQuality& quality, const std::string& out) {
+  std::string text = report.title + " -> " + out + "/index.html\n";
+  for (const VolumeQualityRow& row : quality.rows) {
+    text += "  " + row.method + " " + short_number(row.parameter) + ": error " + short_number(row.rms) +
+            " in " + short_number(row.milliseconds) + " ms\n";
+  }
+  return text;
+}
+
+ExitCode run_volume_report(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.out.empty()) throw usage_error("report needs a folder to make: try --out report");
+  const Effort effort = effort_from_name(options.effort);
+  check_volume_options(options.volume);
+  check_report_folder(options.out, options.common.force);
+
+  const Stopwatch watch;
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  (void)input.scalar_choice();  // an unknown --field is refused before anything is read
+  if (options.common.explain) {
+    console.print(plan_text(plan_scene(
+        input, {.verb = "report", .threads = resolve_threads(options.common.threads), .drawing = true})));
+  }
+  const SceneView scene = make_volume_scene(input, load_volume(input, &context.progress), options, 1.0);
+  Report report;
+  report.title = context.explorer.name + ": " + input.title();
+  report.command_line = context.command_line;
+  report.machine = this_machine();
+  report.scene = {input.choice_sentence(), scene.subtitle + "."};
+  const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, &context.progress);
+  report.sections.push_back(volume_quality_section(quality));
+  report.seconds = watch.seconds();
+
+  context.interrupt.unfinished(unfinished_report_folder(options.out));
+  write_report(report, options.out, options.common.force);
+  context.interrupt.keep(options.out);
+  console.print(results_text(report, quality, options.out.string()));
+  if (options.common.explain) console.print(measured_text(measured_costs(input, nullptr)));
+  console.print_json(report_summary_json(options.out.string(), quality.rows.size(), 0, report.seconds));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb volume_report_verb(std::vector<UsageExample> examples) {
+  return {.name = "report",
+          .summary = "measure what ways to draw this volume faster cost in errors of its picture",
+          .groups = {.view = true, .out = true, .effort = true},
+          .examples = std::move(examples),
+          .run = run_volume_report};
+}
+
+}  // namespace palpate

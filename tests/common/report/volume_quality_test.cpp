@@ -1,0 +1,76 @@
+#include "common/report/volume_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/common/render/volume/sample_volumes.h"
+
+namespace palpate::test {
+namespace {
+
+std::vector<VolumeQualityRow> rows_of(const VolumeQuality& quality, const std::string& method) {
+  std::vector<VolumeQualityRow> rows;
+  for (const VolumeQualityRow& row : quality.rows) {
+    if (row.method == method) rows.push_back(row);
+  }
+  return rows;
+}
+
+class VolumeQualityOfBlobs : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    VolumeView view = sampled_view(blobs, ScalarType::kFloat32, 25);
+    quality_ = run_volume_quality(view, "blobs", Effort::kQuick, nullptr);
+  }
+  static VolumeQuality quality_;
+};
+VolumeQuality VolumeQualityOfBlobs::quality_;
+
+// What is finer is nearer to the converged picture, down to a few steps of a byte, and no error is larger
+// than 1.
+TEST_F(VolumeQualityOfBlobs, ErrorsFallWithEffort) {
+  for (const char* method : {"samples a voxel", "entries of the table", "resolution"}) {
+    const auto rows = rows_of(quality_, method);
+    ASSERT_GE(rows.size(), 4U) << method;
+    EXPECT_LT(rows.back().rms, 0.5 * rows.front().rms) << method;
+    EXPECT_LT(rows.back().rms, 1.0 / 255.0) << method;
+    for (const VolumeQualityRow& row : rows) {
+      EXPECT_GE(row.worst, row.rms) << method << " " << row.parameter;
+      EXPECT_LE(row.worst, 1.0 + 1e-6);
+      EXPECT_GT(row.milliseconds, 0.0);
+    }
+  }
+}
+
+// At full resolution nothing is enlarged: the picture is that of the default number of samples.
+TEST_F(VolumeQualityOfBlobs, FullResolutionIsThePictureItself) {
+  const auto samples = rows_of(quality_, "samples a voxel"), scales = rows_of(quality_, "resolution");
+  const auto plain = std::find_if(samples.begin(), samples.end(),
+                                  [](const VolumeQualityRow& row) { return row.parameter == 4.0; });
+  ASSERT_NE(plain, samples.end());
+  EXPECT_EQ(scales.back().rms, plain->rms);
+  EXPECT_EQ(scales.back().worst, plain->worst);
+}
+
+TEST_F(VolumeQualityOfBlobs, SectionHoldsEveryRowAndBothTablesOfTheReference) {
+  const ReportSection section = volume_quality_section(quality_);
+  EXPECT_EQ(section.table.size(), quality_.rows.size());
+  EXPECT_EQ(section.work_precision.size(), quality_.rows.size());
+  for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size());
+  ASSERT_EQ(section.plots.size(), 1U);
+  std::string text;
+  for (const std::string& paragraph : section.paragraphs) text += paragraph;
+  for (const char* printed : {"4554", "63.29", "8.45"})
+    EXPECT_NE(text.find(printed), std::string::npos) << printed;
+  ASSERT_EQ(quality_.focus.size(), 5U);
+  ASSERT_EQ(quality_.tables.size(), 3U);
+  for (const TableTime& row : quality_.tables) EXPECT_GT(row.milliseconds, 0.0);
+  for (const FocusRate& row : quality_.focus) EXPECT_TRUE(std::isfinite(row.rate));
+}
+
+}  // namespace
+}  // namespace palpate::test
