@@ -24,7 +24,8 @@ struct TractBundle {
   std::vector<std::pair<std::size_t, std::size_t>> pieces;
   Box bounds;  ///< of the finite points
 
-  static constexpr std::size_t kPiecePoints = 1U << 16U;
+  /// So few that a picture in motion, of at least one piece, keeps to its time without a graphics card too.
+  static constexpr std::size_t kPiecePoints = 1U << 14U;
 };
 
 /// @param lines not null.

@@ -50,7 +50,9 @@ std::size_t TractPass::draw(LineProgram& program, const TractView& view, const L
     if (!std::isfinite(milliseconds)) continue;
     // The driver takes calls faster than it draws: without waiting there is nothing to measure.
     glFinish();
-    if (1e3 * watch.seconds() > milliseconds) break;
+    // Ends where the next piece would end too late, as those so far let one expect.
+    const auto drawn = static_cast<double>(piece - first);
+    if (1e3 * watch.seconds() * (drawn + 1.0) / drawn > milliseconds) break;
   }
   return piece;
 }

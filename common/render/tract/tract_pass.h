@@ -16,7 +16,8 @@ class TractPass {
  public:
   /// Takes the lines of `view`; those of another bundle, or in another frame, are uploaded as they are drawn.
   void update(const TractView& view, const SceneFrame& frame);
-  /// Draws pieces from `first` on, one at least, until `milliseconds` have gone by or all are drawn.
+  /// Draws pieces from `first` on, one at least, until the next would take longer than `milliseconds` in all,
+  /// or all are drawn.
   /// @param base tolerance of lines in the scene. @param unit pixels in a thousandth of the picture's height.
   /// @pre update(). @return the piece to go on with; pieces() when all are drawn.
   std::size_t draw(LineProgram& program, const TractView& view, const LineDraw& base, float unit,
