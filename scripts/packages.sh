@@ -6,7 +6,7 @@ packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev li
 packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
-packages_loaders="libvtk9-dev libteem-dev libnifti2-dev zlib1g-dev"
+packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev zlib1g-dev"
 # The mesher of cardiac.
 packages_mesher="libcgal-dev libtet1.5-dev"
 # The tests: framework, benchmarks, virtual display, style.

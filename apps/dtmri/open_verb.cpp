@@ -24,7 +24,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
              check_tensor_options(options);
              check_view_tracts(options.tracts, options.tract_look);
            },
-       .use = [](const Input&, const Options&) { return SceneUse{}; },
+       .use = [](const Input& input, const Options&) { return SceneUse{.field = !input.fields().empty()}; },
        .model = [](const Options& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); },
        .style = style_projection},

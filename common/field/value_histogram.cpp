@@ -99,4 +99,12 @@ double value_below_which(const ValueHistogram& histogram, double part, double fr
   return histogram.upper;
 }
 
+ValueWindow default_window(const ValueHistogram& histogram) noexcept {
+  constexpr double kBrightest = 0.995;
+  double white = value_below_which(histogram, kBrightest, histogram.lower);
+  if (!(white > histogram.lower)) white = histogram.upper;
+  const double width = white > histogram.lower ? white - histogram.lower : 1.0;
+  return {width, histogram.lower + 0.5 * width};
+}
+
 }  // namespace palpate

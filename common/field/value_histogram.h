@@ -44,4 +44,16 @@ struct ValueHistogram {
 /// `upper` where there are none.
 [[nodiscard]] double value_below_which(const ValueHistogram& histogram, double part, double from) noexcept;
 
+/// Which values a grey picture shows: black at `level` - `width` / 2, white at `level` + `width` / 2.
+struct ValueWindow {
+  double width = 1.0;  ///< > 0
+  double level = 0.5;
+
+  bool operator==(const ValueWindow&) const = default;
+};
+
+/// From `histogram.lower` to the value that only the brightest two hundredth pass, so that a few bright
+/// voxels do not leave the rest in the dark; one wide about the value where all are the same.
+[[nodiscard]] ValueWindow default_window(const ValueHistogram& histogram) noexcept;
+
 }  // namespace palpate

@@ -14,7 +14,8 @@ std::string_view name_of(Format format) noexcept {
                                                                      "MRtrix image",    "EX",
                                                                      "openCARP",        "TetGen",
                                                                      "MRtrix tracks",   "TrackVis tracks",
-                                                                     "TRX tracks",      "raw voxels"};
+                                                                     "TRX tracks",      "DICOM",
+                                                                     "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -42,6 +43,8 @@ std::string_view helper_of(Format format) noexcept {
     case Format::kTrk:
     case Format::kTrx:
       return "palpate-load-tract";
+    case Format::kDicom:
+      return "palpate-load-dicom";
     case Format::kRaw:
       return "palpate-load-raw";
     default:

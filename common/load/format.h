@@ -26,9 +26,10 @@ enum class Format : std::uint8_t {
   kTck,          ///< MRtrix tracks
   kTrk,          ///< TrackVis
   kTrx,          ///< tractograms as a folder or zip file
+  kDicom,        ///< a series of slices, in files of one folder
   kRaw           ///< voxels without a header: never found by content
 };
-inline constexpr int kFormatCount = 20;
+inline constexpr int kFormatCount = 21;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

@@ -43,7 +43,8 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
                      format == Format::kParaviewSeries || format == Format::kEnsight ||
                      format == Format::kOpenFoam || format == Format::kNrrd || format == Format::kNifti ||
                      format == Format::kMetaImage || format == Format::kMrtrixImage ||
-                     format == Format::kEx || format == Format::kCarp || format == Format::kTetgen ||
+                     format == Format::kDicom || format == Format::kEx || format == Format::kCarp ||
+                     format == Format::kTetgen ||
                      (format == Format::kTrx && std::filesystem::is_directory(request.files.front()));
   if (!index) return bytes;
   std::filesystem::path folder = request.files.front();

@@ -31,7 +31,8 @@ struct LoadRequest {
   std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file
   std::optional<RawLayout> raw;                   ///< the file holds voxels without a header
   std::optional<DiffusionRequest> diffusion;
-  int refine = 0;  ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
+  int refine = 0;      ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
+  std::string series;  ///< DICOM: a series of the folder by its number there or its UID; empty: the only one
 };
 
 struct LoadLimits {

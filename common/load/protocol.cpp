@@ -75,6 +75,7 @@ std::string encode(const RequestMessage& request) {
     message["format"] = static_cast<int>(open->format);
     message["files"] = json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
+    if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
     if (open->request.refine > 0) message["refine"] = open->request.refine;
     if (open->request.raw) message["raw"] = encode_raw(*open->request.raw);
@@ -101,6 +102,7 @@ RequestMessage decode_request(std::string_view text) {
     if (format >= kFormatCount) malformed("unknown format");
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
+    if (message.contains("series")) open.request.series = string_at(message, "series");
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
     if (message.contains("refine")) {
       const std::uint64_t refine = count_at(message, "refine");

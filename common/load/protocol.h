@@ -2,7 +2,7 @@
 ///
 /// Requests
 ///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
-///   "refine": n?}
+///   "refine": n?, "series": text?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}

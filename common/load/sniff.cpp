@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -21,13 +22,15 @@
 namespace palpate {
 namespace {
 
-constexpr const char* kReadableFolder = "a file, or the folder of an OpenFOAM case or of TRX tracts";
+constexpr const char* kReadableFolder =
+    "a file, or the folder of an OpenFOAM case, of a DICOM series or of TRX tracts";
 
 /// What the points of a TRX folder may be called.
 constexpr std::array kPositions{"positions.3.float16", "positions.3.float32", "positions.3.float64"};
 
 constexpr const char* kReadable =
-    "a VTK, NRRD, NIfTI, MetaImage, MRtrix, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or TetGen "
+    "a VTK, NRRD, NIfTI, DICOM, MetaImage, MRtrix, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or "
+    "TetGen "
     "file, or "
     "tracts (.tck, .trk, .trx)";
 
@@ -139,6 +142,12 @@ bool looks_like_nifti(std::string_view text) {
   return has(kMark1, '1') || has(kMark2, '2');
 }
 
+/// DICOM's mark stands behind a preamble of any bytes.
+bool looks_like_dicom(std::string_view text) {
+  constexpr std::size_t kPreamble = 128;
+  return text.size() > kPreamble && text.substr(kPreamble, 4) == "DICM";
+}
+
 /// A zip file one of whose first members is one that every TRX file has.
 bool looks_like_trx(std::string_view text, std::string_view ending) {
   if (!starts_with(text, "PK\3\4")) return false;
@@ -185,6 +194,24 @@ bool is_trx_folder(const std::filesystem::path& folder) {
                      [&](const char* name) { return std::filesystem::exists(folder / name, ignored); });
 }
 
+/// Whether one of the first files of the folder is DICOM.
+bool is_dicom_folder(const std::filesystem::path& folder) {
+  constexpr int kMostFiles = 64;
+  constexpr std::size_t kHead = 132;
+  std::error_code error;
+  int files = 0;
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator() && files < kMostFiles; it.increment(error)) {
+    std::error_code ignored;
+    if (!it->is_regular_file(ignored)) continue;
+    ++files;
+    std::ifstream file(it->path(), std::ios::binary);
+    std::array<char, kHead> head{};
+    if (file.read(head.data(), kHead) && looks_like_dicom({head.data(), kHead})) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Sniffed sniff(const FileHead& head) {
@@ -197,6 +224,7 @@ Sniffed sniff(const FileHead& head) {
   if (starts_with(text, std::string_view("TRACK\0", 6))) return {Format::kTrk, "", ""};
   if (looks_like_trx(text, head.ending)) return {Format::kTrx, "", ""};
   if (starts_with(text, "PK\3\4")) return {{}, "a zip file without tracts", "unpack it first"};
+  if (looks_like_dicom(text)) return {Format::kDicom, "", ""};
   if (looks_like_nifti(text)) return {Format::kNifti, "", ""};
   if (looks_like_analyze(text, head.file_size))
     return {{}, "an Analyze header, which does not say how its axes lie", "convert it to NIfTI"};
@@ -284,6 +312,7 @@ Format find_format(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     if (is_openfoam_case(path)) return Format::kOpenFoam;
     if (is_trx_folder(path)) return Format::kTrx;
+    if (is_dicom_folder(path)) return Format::kDicom;
     refuse(path, "is a folder", kReadableFolder);
   }
   HeadOfFile head = read_head(path, kSniffBytes, kPlot3dTailBytes);

@@ -294,10 +294,10 @@ void draw_directions(const Pen& pen, bool anatomical, float right, float middle)
 }
 
 // The colours of slices and glyphs.
-void draw_tensor_colors(const Pen& pen, const TensorView& tensors, bool anatomical, float right, float middle,
-                        float length) {
-  if (tensors.color == TensorColor::kDirection) {
-    draw_directions(pen, anatomical, right, middle);
+void draw_tensor_colors(const Pen& pen, const SceneView& view, float right, float middle, float length) {
+  const bool tensors = view.tensors && view.tensors->image->field;
+  if (!tensors || view.tensors->color == TensorColor::kDirection) {
+    draw_directions(pen, view.anatomical, right, middle);
     return;
   }
   const std::array<Rgb, 2> greys{Rgb(0.0F), Rgb(1.0F)};
@@ -317,9 +317,8 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
     draw_volume_colors(pen, view, right, (both ? 0.6F : 0.5F) * h, 0.46F * h);
     return;
   }
-  if (view.tensors && !legend.has_lines) {
-    draw_tensor_colors(pen, *view.tensors, view.anatomical, right, shows_path(view) ? 0.31F * h : 0.5F * h,
-                       0.30F * h);
+  if ((view.tensors || view.tracts) && !legend.has_lines) {
+    draw_tensor_colors(pen, view, right, shows_path(view) ? 0.31F * h : 0.5F * h, 0.30F * h);
   }
   if (!shows_path(view)) {
     if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);

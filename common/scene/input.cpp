@@ -116,6 +116,7 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
 
 void Input::open_files(Progress* progress) {
   LoadRequest request{.files = spec_.files, .solution = spec_.solution, .refine = spec_.refine};
+  request.series = spec_.series;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {
     (void)parse_tensor_words(spec_.tensor);  // a misspelt option is refused first
@@ -206,6 +207,8 @@ std::vector<std::string> Input::field_arrays() const {
 
 std::string Input::choice_sentence() const {
   if (!file()) return title_ + ": field " + kFormulaField + ", a formula";
+  if (spec_.kind == FieldKind::kTensor && fields_.empty())
+    return title_ + ": " + file()->format + ", without tensors";
   const std::string chosen = field_label();
   std::string text = title_ + ": field " + chosen;
   Association on = Association::kPoint;

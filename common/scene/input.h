@@ -43,6 +43,7 @@ struct InputSpec {
   RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
   TensorWords tensor;  ///< how tensors are read and fitted
   int refine = 0;      ///< LoadRequest::refine
+  std::string series;  ///< LoadRequest::series
 };
 
 /// A time step and whether it is the very one that was asked for.

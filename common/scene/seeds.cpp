@@ -180,11 +180,12 @@ std::vector<double> parse_numbers(std::string_view text, std::size_t count, cons
   return numbers;
 }
 
-SeedSpec parse_seeds(const std::string& text) {
+SeedSpec parse_seeds(const std::string& text, const std::string& grammar) {
+  const std::string known = grammar.empty() ? kGrammar : grammar;
   const auto colon = text.find(':');
   const std::string kind = colon == std::string::npos ? std::string() : text.substr(0, colon);
   const auto numbers = [&](std::size_t count) {
-    return parse_numbers(std::string_view(text).substr(colon + 1), count, kGrammar);
+    return parse_numbers(std::string_view(text).substr(colon + 1), count, known);
   };
   if (kind == "point") return SeedList{{vec_at(numbers(3), 0)}};
   if (kind == "line") {
@@ -221,7 +222,7 @@ SeedSpec parse_seeds(const std::string& text) {
   std::error_code ignored;
   if (text.ends_with(".csv") || text.ends_with(".vtp") || std::filesystem::exists(text, ignored))
     return SeedList{read_seed_file(text, kMostSeeds)};
-  throw usage_error("--seeds " + text + ": not understood; " + kGrammar);
+  throw usage_error("--seeds " + text + ": not understood; " + known);
 }
 
 std::size_t seed_count(const SeedSpec& spec) noexcept {

@@ -46,8 +46,9 @@ struct SeedRandom {
 using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 
 /// Reads `text`; a file is read at once.
+/// @param grammar what refusals show; empty: all kinds.
 /// @throws Error (usage) that shows the grammar, (bad input) naming the file, and the line of a table.
-[[nodiscard]] SeedSpec parse_seeds(const std::string& text);
+[[nodiscard]] SeedSpec parse_seeds(const std::string& text, const std::string& grammar = {});
 
 /// How many seeds make_seeds() gives (for a mesh that has a volume).
 [[nodiscard]] std::size_t seed_count(const SeedSpec& spec) noexcept;

@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/load/gzip_head.h"
 #include "common/load/sniff.h"
+#include "loaders/nrrd/gzip_rest.h"
 
 namespace palpate {
 namespace {
@@ -137,6 +138,8 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
       claims.problem = "has values of type '" + value.substr(0, 40) + "', expected numbers";
   } else if (field == "encoding") {
     claims.encoding = lower(value);
+  } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
+    claims.skips = true;
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
     const std::vector<std::string> parts = words(value);
@@ -214,7 +217,7 @@ std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available)
          " bytes of values, but there are " + std::to_string(available) + " bytes of " + encoded + " data";
 }
 
-void check_nrrd(const std::string& file) {
+std::string check_nrrd(const std::string& file) {
   const HeadOfFile head = read_head(file, kHeadBytes);
   NrrdClaims claims = read_nrrd_claims(head.bytes);
   if (!claims.problem.empty())
@@ -235,6 +238,12 @@ void check_nrrd(const std::string& file) {
   }
   const std::string problem = nrrd_size_problem(claims, available);
   if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+  const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
+  if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
+  std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()
+  for (const std::uint64_t size : claims.sizes) wanted *= size;
+  if (!claims.detached) return gzip_rest(file, claims.header_bytes, wanted);
+  return gzip_rest(std::filesystem::path(file).parent_path() / claims.data_files.front(), 0, wanted);
 }
 
 }  // namespace palpate

@@ -19,6 +19,7 @@ struct NrrdClaims {
   std::string encoding = "raw";
   bool detached = false;
   std::vector<std::string> data_files;  ///< as the header names them
+  bool skips = false;                   ///< lines or bytes before the values are left out
   std::uint64_t header_bytes = 0;       ///< where attached data begins
   std::string problem;                  ///< what is wrong, or empty
 };
@@ -30,6 +31,7 @@ struct NrrdClaims {
 [[nodiscard]] std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available);
 
 /// @throws Error (bad input).
-void check_nrrd(const std::string& file);
+/// @return what the user should know of data beyond what the header claims, or empty.
+std::string check_nrrd(const std::string& file);
 
 }  // namespace palpate

@@ -150,13 +150,14 @@ class NrrdLoader : public Loader {
       throw input_error({request.files[1].string(), "", "is a second NRRD file", "one file"});
     }
     file_ = request.files.front().string();
-    check_nrrd(file_);
+    const std::string rest = check_nrrd(file_);
     const NrrdPtr nrrd = load_nrrd(file_, true);
     axes_ = sort_axes(*nrrd, file_);
 
     FileInfo info;
     info.format = name_of(Format::kNrrd);
     info.units = units_of(*nrrd, axes_);
+    if (!rest.empty()) info.notes.push_back(rest);
     place(*nrrd, info.notes);
     info.anatomical = anatomical_;
     describe_values(*nrrd, info.notes);
@@ -292,7 +293,7 @@ class NrrdLoader : public Loader {
   }
 
   DataArray values() const {
-    check_nrrd(file_);
+    (void)check_nrrd(file_);
     NrrdPtr nrrd = load_nrrd(file_, false);
     if (axes_.components && *axes_.components != 0) {
       // Components first, the others in their order.

@@ -6,3 +6,8 @@ layout(location = 6) uniform int axis;         // across which the slice lies
 layout(location = 7) uniform vec4 cross_line;  // sRGB of the crosshair; w: half its width in pixels, 0: none
 layout(location = 8) uniform vec4 border;      // the same for the slice's edges
 layout(location = 9) uniform float brightness; // of the voxels
+layout(location = 10) uniform mat4 under_from_grid;  // grid coordinates of the image below
+layout(location = 14) uniform vec3 under_points;     // its voxels along each axis
+layout(location = 15) uniform vec2 under_grey;       // grey = x number + y
+layout(location = 16) uniform int under_blend;       // 0: there is none; 1 + UnderlayBlend
+layout(location = 17) uniform bool anisotropy_grey;  // the voxels' colours are FA as grey

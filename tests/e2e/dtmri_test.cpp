@@ -134,6 +134,45 @@ TEST_F(Dtmri, ReportsOnExamplesAndAtTheGradientsOfAFile) {
             std::string::npos);
 }
 
+TEST_F(Dtmri, ShowsTractsAndUnderlaysWithAndWithoutTensors) {
+  (void)json({"trace", "--example", "helix", "--seeds", "fa:0.6", "--out", "t.tck"});
+  (void)json({"measure", "--example", "helix", "--measure", "md", "--out", "md.nii.gz"});
+  const auto picture = [&](const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--size", "160x120", "--out", name});
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return pixels_of(name);
+  };
+  const std::string tensors = picture("1.png", {"--example", "helix"});
+  const std::string blended = picture("2.png", {"--example", "helix", "--underlay", "md.nii.gz"});
+  EXPECT_NE(blended, tensors);
+  EXPECT_NE(picture("3.png", {"--example", "helix", "--underlay", "md.nii.gz", "--blend", "none"}), blended);
+  EXPECT_NE(picture("4.png", {"--example", "helix", "--underlay", "md.nii.gz", "--level", "0"}), blended);
+  const std::string tracts = picture("5.png", {"t.tck"});
+  const std::string both = picture("6.png", {"t.tck", "--underlay", "md.nii.gz"});
+  EXPECT_NE(tracts, both);
+  EXPECT_NE(picture("7.png", {"t.tck", "--slices", "none", "--underlay", "md.nii.gz"}), both);
+  const Json scalar =
+      json({"render", "md.nii.gz", "--tracts", "t.tck", "--size", "160x120", "--out", "8.png"});
+  EXPECT_EQ(scalar["lines"], json({"info", "t.tck"})["tracts"]["lines"]);
+  EXPECT_TRUE(json({"info", "t.tck", "--explain"}).is_object());
+
+  EXPECT_EQ(run({"render", "md.nii.gz", "--out", "x.png"}).exit_code, 3);  // neither tensors nor tracts
+  EXPECT_EQ(run({"render", "t.tck", "--seeds", "fa:0.5", "--out", "x.png"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "t.tck", "--tracts", "t.tck", "--out", "x.png"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "t.tck", "--underlay", "none.nii", "--out", "x.png"}).exit_code, 3);
+  EXPECT_EQ(run({"render", "--example", "helix", "--underlay", "t.tck", "--out", "x.png"}).exit_code, 3);
+  EXPECT_EQ(run({"render", "--example", "helix", "--blend", "much", "--out", "x.png"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "--example", "helix", "--window", "0", "--out", "x.png"}).exit_code, 2);
+  // Kinds of seeds that tracts cannot have are not among those that a refusal names.
+  const ProgramResult seeds = run({"trace", "--example", "helix", "--seeds", "nowhere", "--out", "x.tck"});
+  EXPECT_EQ(seeds.exit_code, 2);
+  EXPECT_NE(seeds.err.find("fa:T"), std::string::npos) << seeds.err;
+  EXPECT_EQ(seeds.err.find("grid:"), std::string::npos) << seeds.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("x.png")));
+}
+
 TEST_F(Dtmri, RefusesToWriteOverFilesAndUnknownMeasures) {
   folder_.write("fa.nii", "precious");
   EXPECT_EQ(run({"measure", "--example", "straight", "--out", "fa.nii"}).exit_code, 2);

@@ -92,6 +92,7 @@ const std::vector<Foreign> kForeign{
      "OpenGL or the window"},
     {std::regex("^vtk"), {"loaders/vtk/"}, "VTK"},
     {std::regex("^teem/"), {"loaders/nrrd/"}, "Teem"},
+    {std::regex("^gdcm"), {"loaders/dicom/"}, "GDCM"},
     {std::regex("^openvdb/"), {"loaders/vdb/"}, "OpenVDB"},
     {std::regex("^nanovdb/"), {"loaders/vdb/", "common/field/grid/"}, "NanoVDB"},
     {std::regex("^(CGAL/|tetgen)"), {"apps/cardiac/mesher/"}, "CGAL or TetGen"},

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include "common/base/error.h"
 #include "common/load/load.h"
@@ -51,6 +52,40 @@ TEST(Nrrd, RawAsciiAndDetachedFilesGiveTheSameValues) {
     EXPECT_EQ(std::get<UniformTopology>(blocks[0].topology).points, Index3(2, 3, 4));
     ASSERT_EQ(blocks[0].arrays.size(), 1U);
     for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(blocks[0].arrays[0].at(p), static_cast<double>(p)) << file;
+  }
+}
+
+std::string gzip(const std::string& content) {
+  const test::TempFolder folder;
+  const auto file = folder.path("packed.gz");
+  gzFile gz = gzopen(file.c_str(), "wb");
+  gzwrite(gz, content.data(), static_cast<unsigned>(content.size()));
+  gzclose(gz);
+  return test::read_file(file);
+}
+
+TEST(Nrrd, SaysWhatItsGzipDataHoldsBeyondTheHeader) {
+  const test::TempFolder folder;
+  const std::string head = kScalarHead + "encoding: gzip\n", values = raw(counting(24));
+  const auto said = [&](const std::string& name, const std::string& packed, bool detached) {
+    if (detached) folder.write(name + ".gz", packed);
+    const auto file =
+        folder.write(name + ".nrrd", detached ? head + "data file: " + name + ".gz\n" : head + "\n" + packed);
+    const auto blocks = read_all(file);
+    EXPECT_EQ(blocks[0].arrays[0].at(23), 23.0) << name;
+    std::string notes;
+    const Source source = Source::open({{file}, {}});
+    for (const std::string& note : source.info().notes) notes += note + "; ";
+    return notes;
+  };
+  for (const bool detached : {false, true}) {
+    EXPECT_EQ(said("good", gzip(values), detached).find("left out"), std::string::npos);
+    EXPECT_NE(said("more", gzip(values + "more"), detached).find("more than the 96 bytes"),
+              std::string::npos);
+    EXPECT_NE(said("behind", gzip(values) + "12345", detached).find("5 bytes after"), std::string::npos);
+    // Two members make one stream, as RFC 1952 has it.
+    const std::string two = gzip(values.substr(0, 40)) + gzip(values.substr(40));
+    EXPECT_EQ(said("two", two, detached).find("left out"), std::string::npos);
   }
 }
 

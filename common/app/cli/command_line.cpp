@@ -160,6 +160,11 @@ class VerbParser {
     if (kind == FieldKind::kScalar) add_raw_options(scene_options_, input.raw);
     if (kind == FieldKind::kFibre) add_refine_option(scene_options_, input);
     if (kind == FieldKind::kTensor) add_tensor_input_options(scene_options_, input.tensor);
+    if (kind == FieldKind::kScalar || kind == FieldKind::kTensor) {
+      scene("--series", input.series,
+            "DICOM: which series of the folder, by its number in the list or its UID; default: that of FILE",
+            "N|UID", group);
+    }
     scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
           "first|last|T", group);
     app_.add_option("--session", options_.session,

@@ -38,6 +38,13 @@ class InputModel : public WindowModel {
   SceneState start(Progress& progress) final { return show(options_, progress); }
 
   SceneState open(const InputFiles& files, Progress& progress) final {
+    if (scene_) {
+      if (const std::optional<SceneSettings> with = join(files, scene_->shown.settings, progress)) {
+        SceneState state = update(*with, progress);
+        state.joined = true;
+        return state;
+      }
+    }
     // A new input starts afresh: fields, times and settings of the old one mean nothing to it.
     Options options;
     options.common = options_.common;
@@ -77,6 +84,7 @@ class InputModel : public WindowModel {
     add_option(session, "field", settings.field);
     const auto& times = scene_->input.times();
     if (times.size() > 1) add_option(session, "time", exact_number(times[settings.time_step]));
+    add_option(session, "series", spec.series);
     describe_session(session, spec, options_, settings, view);
     if (options_.view.frame_budget > 0.0)
       add_option(session, "frame-budget", exact_number(options_.view.frame_budget));
@@ -106,6 +114,14 @@ class InputModel : public WindowModel {
   [[nodiscard]] virtual SceneState present(Input& input, const Content& content, const Options& options,
                                            const SceneSettings& settings, const SceneState* before,
                                            Progress& progress) const = 0;
+
+  /// The settings by which `files` are shown beside what is open; nothing where they are to take its place.
+  /// @throws Error, Cancelled.
+  [[nodiscard]] virtual std::optional<SceneSettings> join(const InputFiles& /*files*/,
+                                                          const SceneSettings& /*now*/,
+                                                          Progress& /*progress*/) const {
+    return std::nullopt;
+  }
 
   /// Fills in the settings that a new input starts with, but for its field and time step.
   virtual void begin(SceneSettings& /*settings*/, const Input& /*input*/, const Options& /*options*/) const {}

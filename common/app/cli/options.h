@@ -36,6 +36,7 @@ struct InputOptions {
   int refine = 0;      ///< cells along each axis of a curved element; 0: the loader's own choice
   RawWords raw;        ///< --raw-size and its like
   TensorWords tensor;  ///< --bval, --tensor-order and their like
+  std::string series;  ///< LoadRequest::series
 };
 
 /// Where lines start and how they are traced.
@@ -95,11 +96,14 @@ struct SliceOptions {
 
 /// How diffusion tensors are drawn.
 struct TensorOptions {
-  std::string slices = "all";       ///< grammar of parse_slices()
-  std::string color = "direction";  ///< name_of(TensorColor)
-  std::string glyphs = "none";      ///< name_of(GlyphShape)
-  std::string voxels = "nearest";   ///< nearest, linear: how colours go on between the centres of voxels
-  std::string volume = "auto";      ///< auto: with a lens; none, fa, direction: of what is outside lenses
+  std::string slices = "all";           ///< grammar of parse_slices()
+  std::string color = "direction";      ///< name_of(TensorColor)
+  std::string glyphs = "none";          ///< name_of(GlyphShape)
+  std::string voxels = "nearest";       ///< nearest, linear: how colours go on between the centres of voxels
+  std::string underlay;                 ///< a scalar image below the slices; empty: none
+  std::string blend = "anisotropy";     ///< name_of(UnderlayBlend)
+  std::optional<double> window, level;  ///< of the underlay; absent: from its histogram
+  std::string volume = "auto";          ///< auto: with a lens; none, fa, direction: of what is outside lenses
 };
 
 /// Tracts of a file, and how tracts are drawn.

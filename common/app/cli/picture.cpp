@@ -102,10 +102,10 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   maker.check(options);
 
   Input input = open_input(options, context);
-  console.note(input.choice_sentence());
   RenderSummary summary{
       .input = input.title(), .output = options.out.string(), .width = size.width, .height = size.height};
   const SceneUse use = maker.use(options, input);
+  console.note(input.choice_sentence());
   if (options.common.explain) {
     summary.plan = plan_scene(input, use);
     console.print(plan_text(summary.plan));

@@ -61,6 +61,7 @@ void check_tensor_options(const Options& options) {
   (void)parse_slices(options.tensors.slices);
   (void)tensor_color_from_name(options.tensors.color);
   (void)glyph_shape_from_name(options.tensors.glyphs);
+  check_underlay_options(options.tensors);
   check_volume_options(options.volume);
 }
 
@@ -114,26 +115,55 @@ TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const Te
   return view;
 }
 
-SceneView make_tensor_scene(const Input& input, TensorView tensors, const Options& options, double aspect) {
-  const TensorVoxels& voxels = *tensors.image;
+SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Options& options,
+                            double aspect) {
   SceneView view;
-  view.bounds = voxels.shown_bounds();  // a head fills a part of its image
-  view.outline = image_outline(voxels.origin, voxels.axes, Vec3(voxels.first_shown) - 0.5,
-                               Vec3(voxels.last_shown) + 0.5);
   view.title = input.title();
-  view.subtitle = input.field_label() + ", " + std::to_string(voxels.points.x) + " x " +
-                  std::to_string(voxels.points.y) + " x " + std::to_string(voxels.points.z) + " voxels";
-  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   const FileInfo* file = input.file();
   view.anatomical = file != nullptr && file->anatomical;
+  view.style.color_by = ColorBy::kDirection;
+  if (parts.tensors) {
+    const TensorVoxels& voxels = *parts.tensors->image;
+    view.bounds = voxels.shown_bounds();  // a head fills a part of its image
+    view.outline = image_outline(voxels.origin, voxels.axes, Vec3(voxels.first_shown) - 0.5,
+                                 Vec3(voxels.last_shown) + 0.5);
+    view.subtitle = std::to_string(voxels.points.x) + " x " + std::to_string(voxels.points.y) + " x " +
+                    std::to_string(voxels.points.z) + " voxels";
+    if (voxels.field) {
+      view.subtitle.insert(0, input.field_label() + ", ");
+      view.volume = make_tensor_volume(parts.tensors->image, options);
+      view.volume_label = "FA";
+    }
+  } else if (parts.tracts) {
+    view.bounds = parts.tracts->bundle->bounds;
+  }
+  if (parts.tracts && !(parts.tensors && parts.tensors->image->field)) {
+    view.bounds.include(parts.tracts->bundle->bounds.lower);
+    view.bounds.include(parts.tracts->bundle->bounds.upper);
+    const std::string count = counted(parts.tracts->bundle->order.size(), "tract");
+    view.subtitle = view.subtitle.empty() ? count : count + ", " + view.subtitle;
+  }
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   view.camera = make_camera(
       view.bounds, camera_angles(options.view.camera), aspect,
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
-  view.style.color_by = ColorBy::kDirection;
-  view.volume = make_tensor_volume(tensors.image, options);
-  view.volume_label = "FA";
-  view.tensors = std::move(tensors);
+  view.tensors = std::move(parts.tensors);
+  view.tracts = std::move(parts.tracts);
   return view;
+}
+
+std::vector<std::string> show_underlay(const Underlay& underlay, const Options& options,
+                                       std::optional<TensorView>& tensors) {
+  std::vector<std::string> notes = underlay.notes;
+  if (!tensors) tensors = make_tensor_view(make_slice_lattice(*underlay.image), options.tensors);
+  tensors->underlay = make_underlay_view(underlay.image, options.tensors, options.common.threads);
+  const Box slices = tensors->image->bounds(), below = underlay.image->bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (below.upper[axis] >= slices.lower[axis] && below.lower[axis] <= slices.upper[axis]) continue;
+    notes.emplace_back("the underlay lies beside the image: nothing of it can be seen on the slices");
+    break;
+  }
+  return notes;
 }
 
 }  // namespace palpate

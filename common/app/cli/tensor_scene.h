@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/app/cli/options.h"
+#include "common/app/cli/underlay.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_volume.h"
 #include "common/scene/input.h"
@@ -43,9 +45,19 @@ void check_tensor_options(const Options& options);
 [[nodiscard]] TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels,
                                           const TensorOptions& options);
 
-/// A scene of `tensors` seen by the camera that `options` name.
+/// Puts `underlay` below the slices of `tensors`, or where there are none makes slices through it.
+/// @pre underlay.image is not null. @return what the user should know. @throws Error (usage) for --slices.
+std::vector<std::string> show_underlay(const Underlay& underlay, const Options& options,
+                                       std::optional<TensorView>& tensors);
+
+/// What a scene consists of; tensors, tracts or both.
+struct TensorSceneParts {
+  std::optional<TensorView> tensors;
+  std::optional<TractView> tracts;
+};
+/// The scene seen by the camera that `options` name. The anisotropy of tensors is there as a volume.
 /// @param aspect width / height of the picture.
-[[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorView tensors, const Options& options,
+[[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Options& options,
                                           double aspect);
 
 }  // namespace palpate

@@ -146,7 +146,7 @@ std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t 
     const TractRegion region(MaskRegion{mask.field});
     return seeds_in(voxels_of(mask.image, text), [&](const Vec3& x) { return region.contains(x); });
   }
-  const SeedSpec spec = parse_seeds(text);
+  const SeedSpec spec = parse_seeds(text, kSeedGrammar);
   const auto* const list = std::get_if<SeedList>(&spec);
   if (list == nullptr) throw usage_error("--seeds " + text + ": " + kSeedGrammar);
   return list->points;

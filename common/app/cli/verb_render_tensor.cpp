@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include "common/app/cli/picture.h"
@@ -11,33 +12,52 @@ namespace palpate {
 namespace {
 
 SceneUse use_of(const Options& options, const Input& input) {
-  (void)input.tensor_source();  // an unknown --field is refused before anything is read
-  return {.verb = "render", .threads = resolve_threads(options.common.threads), .drawing = true};
+  (void)with_input_role(options, input);  // what cannot be shown is refused before anything is read
+  return {.verb = "render",
+          .field = role_of(input) == FileRole::kTensors,
+          .threads = resolve_threads(options.common.threads),
+          .drawing = true};
 }
 
-DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
-  auto field = input.load_tensor(options.common.threads, &context.progress);
-  for (const std::string& line : field->notes().lines) context.console.note(line);
-  auto voxels = make_tensor_voxels(std::move(field), input.title(), options.common.threads);
-  DrawnScene drawn;
-  drawn.field = input.field_label();
-  drawn.voxels = voxels->directions.size();
-  drawn.what = counted(drawn.voxels, "voxel");
-  drawn.measured = measured_costs(input, nullptr);
-  drawn.view = make_tensor_scene(input, make_tensor_view(voxels, options.tensors), options, aspect);
-  const bool read = !options.tract_look.file.empty();
-  if (!read && options.tracts.seeds.empty()) return drawn;
-  const ViewTracts tracts =
-      read ? read_view_tracts(options.tract_look, &context.progress)
-           : trace_view_tracts(options.tracts, options.common, *voxels, &context.progress);
+ViewTracts tracts_of(const Options& options, const VerbContext& context,
+                     const std::optional<TensorView>& tensors) {
+  if (!options.tract_look.file.empty()) return read_view_tracts(options.tract_look, &context.progress);
+  ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
-  if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
-  drawn.lines = tracts.bundle->order.size();
-  drawn.points = tracts.bundle->lines->points.size();
-  drawn.seconds_trace = tracts.seconds;
-  drawn.what += ", " + counted(drawn.lines, "tract");
-  drawn.view.tracts = TractView{
-      .bundle = tracts.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
+  return tracts;
+}
+
+DrawnScene make_scene(Input& input, const Options& given, const VerbContext& context, double aspect) {
+  const Options options = with_input_role(given, input);
+  DrawnScene drawn;
+  TensorSceneParts parts;
+  if (role_of(input) == FileRole::kTensors) {
+    auto field = input.load_tensor(options.common.threads, &context.progress);
+    for (const std::string& line : field->notes().lines) context.console.note(line);
+    auto voxels = make_tensor_voxels(std::move(field), input.title(), options.common.threads);
+    drawn.field = input.field_label();
+    drawn.voxels = voxels->directions.size();
+    drawn.what = counted(drawn.voxels, "voxel");
+    parts.tensors = make_tensor_view(std::move(voxels), options.tensors);
+  }
+  drawn.measured = measured_costs(input, nullptr);
+  if (!options.tract_look.file.empty() || !options.tracts.seeds.empty()) {
+    const ViewTracts tracts = tracts_of(options, context, parts.tensors);
+    if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
+    drawn.lines = tracts.bundle->order.size();
+    drawn.points = tracts.bundle->lines->points.size();
+    drawn.seconds_trace = tracts.seconds;
+    drawn.what += (drawn.what.empty() ? "" : ", ") + counted(drawn.lines, "tract");
+    parts.tracts = TractView{
+        .bundle = tracts.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
+  }
+  if (!options.tensors.underlay.empty()) {
+    const Underlay underlay = load_underlay(options.tensors.underlay, &context.progress);
+    for (const std::string& note : show_underlay(underlay, options, parts.tensors))
+      context.console.note(note);
+    drawn.what += ", an underlay of " + counted(underlay.image->point_count(), "voxel");
+  }
+  drawn.view = make_tensor_scene(input, std::move(parts), options, aspect);
   return drawn;
 }
 

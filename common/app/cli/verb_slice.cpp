@@ -60,17 +60,15 @@ Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) 
     greys.highest = std::max(greys.highest, v);
   }
   if (greys.lowest > greys.highest) greys.lowest = greys.highest = 0.0;
+  ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
   constexpr std::size_t kBins = 1024;
-  constexpr double kBrightest = 0.995;
-  double white = greys.highest;
   if (greys.lowest < greys.highest) {
-    const ValueHistogram histogram = count_values(
+    histogram = count_values(
         values.tuples, [&values](std::size_t i) { return values.at(i); }, greys.lowest, greys.highest, kBins,
         threads);
-    white = value_below_which(histogram, kBrightest, greys.lowest);
   }
-  if (!(white > greys.lowest)) white = greys.highest;
-  greys.window = slice.window.value_or(white > greys.lowest ? white - greys.lowest : 1.0);
+  const ValueWindow window = default_window(histogram);
+  greys.window = slice.window.value_or(window.width);
   greys.level = slice.level.value_or(greys.lowest + 0.5 * greys.window);
   return greys;
 }

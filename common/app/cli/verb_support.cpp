@@ -22,8 +22,8 @@ StopRule stop_plane(const std::string& text) {
 }  // namespace
 
 InputSpec input_spec(const InputOptions& options, FieldKind kind) {
-  return {options.files, options.solution, options.example, options.field, options.time,
-          kind,          options.raw,      options.tensor,  options.refine};
+  return {options.files, options.solution, options.example, options.field,  options.time,
+          kind,          options.raw,      options.tensor,  options.refine, options.series};
 }
 
 bool list_examples(const Options& options, const VerbContext& context) {

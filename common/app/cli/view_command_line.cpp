@@ -76,6 +76,18 @@ void add_tensors(SceneOptions& options, TensorOptions& tensors) {
            "colours between the centres of voxels: nearest (default), each voxel has its own; or linear",
            "nearest|linear", kGroup)
       ->check(CLI::IsMember({"nearest", "linear"}));
+  options.add(
+      "--underlay", tensors.underlay,
+      "a scalar image, such as a T1, below the colours of the slices, in its own place and resolution",
+      "FILE", kGroup);
+  options.add("--blend", tensors.blend,
+              "colours over the underlay: anisotropy (default), as opaque as FA says; solid; or none",
+              "anisotropy|solid|none", kGroup);
+  options.add(
+      "--window", tensors.window,
+      "values of the underlay from black to white; default: up to all but the brightest two hundredth", "W",
+      kGroup);
+  options.add("--level", tensors.level, "value in the middle of them", "L", kGroup);
 }
 
 void add_tract_look(SceneOptions& options, TractLook& tracts) {

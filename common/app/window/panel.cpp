@@ -249,21 +249,40 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
 
 void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors,
                   std::optional<TractView>& tracts) {
-  section("TENSORS");
-  choose("field", state.settings.field, scene.info->fields);
-  draw_time(state, scene.info->times);
+  const bool field = tensors.image->field != nullptr;
+  section(field ? "TENSORS" : "SLICES");
+  if (field) {
+    choose("field", state.settings.field, scene.info->fields);
+    draw_time(state, scene.info->times);
+  }
   draw_tensor_panel(tensors, scene.info->anatomical);
+  section("UNDERLAY");
+  if (draw_underlay_panel(tensors, state.settings.underlay)) state.settings.underlay.clear();
   section("TRACTS");
-  draw_tract_panel(state.tract_seeds, state.settings, tensors, tracts);
+  if (field) {
+    draw_tract_panel(state.tract_seeds, state.settings, tensors, tracts);
+  } else if (tracts) {
+    draw_tract_look(*tracts);
+  }
 }
 
-void draw_anisotropy(const SceneState& scene, VolumeView& volume) {
+void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume) {
   section("ANISOTROPY AS A VOLUME");
   ImGui::Checkbox("volume", &volume.shown);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
   ImGui::Checkbox("in colour", &volume.colored);
+  const ValueHistogram* const histogram = state.histogram.of(volume.image);
+  constexpr ValueSpan kAnisotropies{0.0, 1.0};
+  (void)draw_transfer_editor("anisotropy", kAnisotropies, histogram, volume.transfer);
   draw_rays(volume);
   draw_lens_panel(volume, scene.lens, scene.info->bounds);
+  if (volume.lenses.empty()) return;
+  ColorTransfer focus = focus_of(volume, scene);
+  ImGui::TextDisabled("inside lenses");
+  if (!draw_transfer_editor("focus", kAnisotropies, histogram, focus)) return;
+  for (Lens& lens : volume.lenses) {
+    if (!lens.cut) lens.transfer = focus;
+  }
 }
 
 void draw_line_look(LineStyle& style) {
@@ -279,7 +298,7 @@ void draw_line_look(LineStyle& style) {
 
 void draw_look(SceneView& view, PanelActions& actions) {
   section("LOOK");
-  if (!view.volume && !view.tensors) draw_line_look(view.style);
+  if (!view.volume && !view.tensors && !view.tracts) draw_line_look(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
@@ -345,7 +364,10 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     }
     if (state.scene->tensors && view.tensors) {
       draw_tensors(state, *state.scene, *view.tensors, view.tracts);
-      if (view.volume) draw_anisotropy(*state.scene, *view.volume);
+      if (view.volume) draw_anisotropy(state, *state.scene, *view.volume);
+    } else if (view.tracts) {
+      section("TRACTS");
+      draw_tract_look(*view.tracts);
     } else if (state.scene->volume && view.volume) {
       draw_volume(state, *state.scene, *view.volume, actions);
     } else {

@@ -27,9 +27,9 @@ std::string status_text(const SceneState& scene) {
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
            short_number(image.highest) + "   loaded in " + seconds_text(scene.seconds_load);
   }
-  if (scene.tensors) {
+  if (scene.tensors || scene.tracts) {
     std::string text = size_text(scene) + "   loaded in " + seconds_text(scene.seconds_load);
-    if (scene.tracts) {
+    if (scene.tracts && scene.tensors) {
       text += "   " + counted(scene.tracts->bundle->order.size(), "tract");
       if (scene.seeds > 0)
         text += " from " + counted(scene.seeds, "seed") + " in " + seconds_text(scene.seconds_trace);
@@ -154,6 +154,7 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
 }  // namespace
 
 std::string size_text(const SceneState& scene) {
+  if (scene.tracts && !scene.tensors) return counted(scene.tracts->bundle->order.size(), "tract");
   if (!scene.volume && !scene.tensors) return counted(scene.lines->size(), "line");
   const Index3& n = scene.volume ? scene.volume->image->points : scene.tensors->image->points;
   return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";

@@ -19,6 +19,11 @@ void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   view.volume->samples_per_voxel = before->samples_per_voxel;
   view.volume->shown = before->shown;
   view.volume->lenses = before->lenses;
+  if (scene.tensors) {  // edited in the view alone
+    view.volume->transfer = before->transfer;
+    view.volume->colored = before->colored;
+    return;
+  }
   for (Lens& lens : view.volume->lenses) {
     if (!lens.cut) lens.transfer = scene.lens.transfer;
   }
@@ -43,6 +48,11 @@ void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
   const TensorVoxels& voxels = *view.tensors->image;
   TensorView kept = *before;
   kept.image = view.tensors->image;
+  kept.underlay = view.tensors->underlay;
+  if (kept.underlay && before->underlay) {
+    kept.underlay->blend = before->underlay->blend;
+    if (kept.underlay->image == before->underlay->image) kept.underlay->window = before->underlay->window;
+  }
   if (!voxels.contains(voxels.grid_coordinates(kept.position))) kept.position = view.tensors->position;
   view.tensors = std::move(kept);
 }
@@ -68,7 +78,8 @@ void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
   view.outline = scene.info->outline;
   view.units = scene.info->units;
   view.title = scene.info->name;
-  view.subtitle = scene.settings.field + ", " + size_text(scene);
+  const std::string& field = scene.settings.field;
+  view.subtitle = (field.empty() ? "" : field + ", ") + size_text(scene);
   const std::vector<double>& times = scene.info->times;
   if (times.size() > 1 && scene.settings.time_step < times.size()) {
     view.subtitle += ", time " + short_number(times[scene.settings.time_step]);

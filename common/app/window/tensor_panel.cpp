@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <imgui.h>
@@ -54,6 +55,7 @@ void draw_tensor_panel(TensorView& view, bool anatomical) {
   ImGui::Checkbox("crosshair", &view.crosshair);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
   ImGui::Checkbox("smooth", &view.smooth);
+  if (!view.image->field) return;  // a lattice alone
   choose("colour", view.color, kTensorColorCount);
   choose("glyphs", view.glyphs, kGlyphShapeCount);
   if (view.glyphs == GlyphShape::kNone) return;
@@ -62,6 +64,27 @@ void draw_tensor_panel(TensorView& view, bool anatomical) {
                       ImGuiSliderFlags_AlwaysClamp);
   ImGui::SliderScalar("spacing", ImGuiDataType_Double, &view.glyph_spacing, &kClose, &kFar, "%.0f",
                       ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool draw_underlay_panel(TensorView& view, const std::string& file) {
+  if (!view.underlay) {
+    ImGui::TextDisabled("none: drop an image on the window");
+    return false;
+  }
+  UnderlayView& underlay = *view.underlay;
+  ImGui::TextWrapped("%s", std::filesystem::path(file).filename().string().c_str());
+  const double span = underlay.image->highest - underlay.image->lowest;
+  if (span > 0.0) {
+    constexpr double kNarrowest = 1e-3, kWidest = 2.0;  // of the values
+    const double narrow = kNarrowest * span, wide = kWidest * span;
+    ImGui::SliderScalar("window", ImGuiDataType_Double, &underlay.window.width, &narrow, &wide, "%.4g",
+                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderScalar("level", ImGuiDataType_Double, &underlay.window.level, &underlay.image->lowest,
+                        &underlay.image->highest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (!view.image->field) return false;  // there is nothing to blend with, and no slice without it
+  choose("colours over it", underlay.blend, kUnderlayBlendCount);
+  return ImGui::Button("Remove underlay");
 }
 
 void add_tensor_rows(const Mat3& tensor, ReadoutRows& rows) {
@@ -92,7 +115,8 @@ float draw_tensor_readout(const TensorPick& pick, float left, float top) {
   ReadoutRows rows("voxel");
   rows.add("voxel", "%d  %d  %d", pick.voxel.x, pick.voxel.y, pick.voxel.z);
   rows.add("at", "%.4g  %.4g  %.4g", pick.position.x, pick.position.y, pick.position.z);
-  add_tensor_rows(pick.tensor, rows);
+  if (pick.tensor) add_tensor_rows(*pick.tensor, rows);
+  if (pick.underlay) rows.add("underlay", "%.5g", *pick.underlay);
   rows.finish();
   const float height = ImGui::GetWindowHeight();
   ImGui::End();

@@ -173,8 +173,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
-  list_kept(session);
-  if (session.kept().entries().empty() && !session.has_drawn()) return actions;
+  // What is kept stands below all buttons, which so do not move when it becomes more.
+  ImGui::BeginDisabled(session.kept().entries().empty() && !session.has_drawn());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
     ImGui::SameLine();
@@ -185,6 +185,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
     ImGui::SameLine();
     actions.save_lines = ImGui::Button("Save lines", size);
   }
+  ImGui::EndDisabled();
+  list_kept(session);
   return actions;
 }
 

@@ -61,13 +61,26 @@ void draw_tract_panel(TractSeedChoice& choice, SceneSettings& settings, const Te
   slider("end at FA", settings.cutoff, 0.0, 1.0, "%.2f");
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
-  if (ImGui::Button("Trace", size)) settings.seeds = tract_seed_words(choice, tensors);
+  if (ImGui::Button("Trace", size)) {
+    settings.seeds = tract_seed_words(choice, tensors);
+    settings.tracts.clear();
+  }
   ImGui::SameLine();
-  if (ImGui::Button("Remove", size)) settings.seeds.clear();
-  if (!look) return;
+  if (ImGui::Button("Remove", size)) {
+    settings.seeds.clear();
+    settings.tracts.clear();
+  }
+  // Always there, so that nothing below moves when tracts come and go.
+  TractView none;
+  ImGui::BeginDisabled(!look);
+  draw_tract_look(look ? *look : none);
+  ImGui::EndDisabled();
+}
+
+void draw_tract_look(TractView& look) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
-  slider("width", look->width, kThin, kThick, "%.1f", ImGuiSliderFlags_Logarithmic);
-  slider("opacity", look->opacity, kFaint, kFull, "%.2f");
+  slider("width", look.width, kThin, kThick, "%.1f", ImGuiSliderFlags_Logarithmic);
+  slider("opacity", look.opacity, kFaint, kFull, "%.2f");
 }
 
 }  // namespace palpate

@@ -23,4 +23,7 @@ struct TractSeedChoice {
 void draw_tract_panel(TractSeedChoice& choice, SceneSettings& settings, const TensorView& tensors,
                       std::optional<TractView>& look);
 
+/// Edits how tracts are drawn.
+void draw_tract_look(TractView& look);
+
 }  // namespace palpate

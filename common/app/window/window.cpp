@@ -179,6 +179,10 @@ class Window {
 
   void adopt(SceneState scene) {
     scene_ = std::move(scene);
+    if (scene_->joined) {
+      job_kind_ = JobKind::kUpdate;
+      state_.settings = requested_ = scene_->settings;
+    }
     show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
       // Edits made while the input was being read belonged to the old one.

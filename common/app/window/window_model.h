@@ -45,6 +45,8 @@ struct SceneSettings {
   std::uint64_t random_seed = 1;
   int seeds_per_voxel = 1;  ///< of tracts, as --seeds-per-voxel; `seeds` is empty where none are wanted
   double cutoff = 0.2;      ///< of tracts, as --cutoff
+  std::string tracts;       ///< a file of tracts, as --tracts; empty where they are traced, or none are there
+  std::string underlay;     ///< a scalar image below slices, as --underlay; empty: none
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
   double layer = 0.5;       ///< of a heart: the depth that is shown
   std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
@@ -89,6 +91,7 @@ struct SceneState {
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;
   double error_max = 0.0;  ///< data units
+  bool joined = false;     ///< of open(): the files came beside what was open, in place of nothing
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
   std::vector<std::string> notes;  ///< what the user should know, one line each
@@ -106,7 +109,7 @@ class WindowModel {
   virtual SceneState start(Progress& progress) = 0;
 
   /// Opens other files, dropped on the window or opened before, with the program's own settings for a new
-  /// input.
+  /// input; or shows them with what is open, where they belong beside it (SceneState::joined).
   /// @throws Error, Cancelled; what was open before then stays open.
   virtual SceneState open(const InputFiles& files, Progress& progress) = 0;
 

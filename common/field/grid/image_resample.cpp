@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/field/grid/grid_from_data.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -14,26 +15,6 @@ namespace {
 
 // Points this near to a border, in voxels, are on it: a slice of the outermost layer is not outside.
 constexpr double kRounding = 1e-6;
-
-/// g of x. Exponents first: spacings may be tiny.
-class GridFromData {
- public:
-  explicit GridFromData(const UniformTopology& image) : origin_(image.origin) {
-    double largest = 0.0;
-    for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(image.axes[c][r]));
-    }
-    unit_ = power_of_two(-binary_exponent(largest));
-    inverse_ = glm::inverse(image.axes * unit_);
-  }
-  [[nodiscard]] Vec3 point(const Vec3& x) const { return inverse_ * ((x - origin_) * unit_); }
-  [[nodiscard]] Vec3 direction(const Vec3& v) const { return inverse_ * (v * unit_); }
-
- private:
-  Mat3 inverse_{1.0};
-  Vec3 origin_;
-  double unit_ = 1.0;
-};
 
 double length_of(const Vec3& v) {
   const double unit = power_of_two(binary_exponent(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})));
@@ -111,7 +92,7 @@ std::optional<UniformTopology> plane_lattice(const UniformTopology& image, const
 }
 
 std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) {
-  const GridFromData grid(image);
+  const GridFromData grid(image.axes, image.origin);
   Box reach;
   for (unsigned i = 0; i < 8; ++i) {
     reach.include(
@@ -141,7 +122,7 @@ ResampledImage resample(const UniformTopology& image, const DataArray& values, i
     return static_cast<std::size_t>(p.x) * static_cast<std::size_t>(p.y) * static_cast<std::size_t>(p.z);
   };
   PALPATE_CHECK(values.tuples == count(n) && component >= 0 && component < values.components);
-  const GridFromData grid(image);
+  const GridFromData grid(image.axes, image.origin);
   const Vec3 start = grid.point(lattice.origin);
   const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
                   grid.direction(lattice.axes[2]));

@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "common/base/error.h"
+#include "common/field/grid/grid_from_data.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -18,8 +19,9 @@ namespace {
 
 // Of shaders/tensor/slice_block.glsl.
 constexpr GLint kSceneFromGrid = 0, kPoints = 4, kCrossAt = 5, kAxis = 6, kCrossLine = 7, kBorder = 8,
-                kBrightness = 9;
-constexpr GLuint kVoxelsUnit = 0;
+                kBrightness = 9, kUnderFromGrid = 10, kUnderPoints = 14, kUnderGrey = 15, kUnderBlend = 16,
+                kAnisotropyGrey = 17;
+constexpr GLuint kVoxelsUnit = 0, kUnderUnit = 1;
 constexpr GLsizei kCorners = 4;
 // Slices step back behind glyphs in the same colours.
 constexpr float kBehindGlyphs = 0.4F;
@@ -42,12 +44,8 @@ std::vector<std::array<std::uint8_t, 4>> grey_voxels(const TensorVoxels& image) 
   return voxels;
 }
 
-}  // namespace
-
-void SlicePass::upload(const TensorView& view) {
-  if (image_ == view.image && color_ == view.color) return;
-  const TensorVoxels& image = *view.image;
-  const Index3 n = image.points;
+/// A texture of `n` voxels, not filled yet. @throws Error (usage) where it is larger than the driver's.
+GlTexture make_voxel_texture(GLenum format, const Index3& n) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
   if (std::max({n.x, n.y, n.z}) > largest) {
@@ -57,21 +55,86 @@ void SlicePass::upload(const TensorView& view) {
   }
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &name);
-  voxels_ = GlTexture(name);
-  glTextureStorage3D(name, 1, GL_RGBA8, n.x, n.y, n.z);
+  GlTexture texture(name);
+  glTextureStorage3D(name, 1, format, n.x, n.y, n.z);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+    glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+  }
+  return texture;
+}
+
+}  // namespace
+
+void SlicePass::upload(const TensorView& view) {
+  if (image_ == view.image && color_ == view.color) return;
+  const TensorVoxels& image = *view.image;
+  const bool tensors = !image.directions.empty();  // else a lattice alone: one open voxel
+  const Index3 n = tensors ? image.points : Index3{1};
+  voxels_ = make_voxel_texture(GL_RGBA8, n);
+  image_ = view.image;
+  color_ = view.color;
+  const GLuint name = voxels_.name();
   const auto send = [&](const std::vector<std::array<std::uint8_t, 4>>& voxels) {
     glTextureSubImage3D(name, 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_UNSIGNED_BYTE, voxels.data());
   };
-  if (view.color == TensorColor::kFa) {
+  if (!tensors) {
+    send({{0, 0, 0, 0}});
+  } else if (view.color == TensorColor::kFa) {
     send(grey_voxels(image));
   } else {
     send(image.directions);
   }
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-    glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
+}
+
+void SlicePass::upload_underlay(const VolumeImage& image) {
+  struct Layout {
+    GLenum internal, type;
+  };
+  const Layout layout = image.type == ScalarType::kUint8    ? Layout{GL_R8, GL_UNSIGNED_BYTE}
+                        : image.type == ScalarType::kUint16 ? Layout{GL_R16, GL_UNSIGNED_SHORT}
+                                                            : Layout{GL_R32F, GL_FLOAT};
+  const Index3 n = image.points;
+  under_ = make_voxel_texture(layout.internal, n);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTextureSubImage3D(under_.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RED, layout.type, image.bytes.data());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+void SlicePass::set_underlay(const TensorView& view) {
+  if (!view.underlay) {
+    under_image_.reset();
+    under_ = GlTexture();
+    glUniform1i(kUnderBlend, 0);
+    return;
   }
-  image_ = view.image;
-  color_ = view.color;
+  const UnderlayView& under = *view.underlay;
+  const VolumeImage& image = *under.image;
+  if (under_image_ != under.image) upload_underlay(image);
+  under_image_ = under.image;
+  const GLint filter = view.smooth ? GL_LINEAR : GL_NEAREST;
+  glTextureParameteri(under_.name(), GL_TEXTURE_MIN_FILTER, filter);
+  glTextureParameteri(under_.name(), GL_TEXTURE_MAG_FILTER, filter);
+
+  // Its grid coordinates are affine in those of the slices.
+  const GridFromData grid(image.axes, image.origin);
+  glm::mat4 matrix{1.0F};
+  for (int axis = 0; axis < 3; ++axis)
+    matrix[axis] = glm::vec4(Vec3f(grid.direction(view.image->axes[axis])), 0.0F);
+  matrix[3] = glm::vec4(Vec3f(grid.point(view.image->origin)), 1.0F);
+  glUniformMatrix4fv(kUnderFromGrid, 1, GL_FALSE, glm::value_ptr(matrix));
+  const Vec3f points(image.points);
+  glUniform3fv(kUnderPoints, 1, glm::value_ptr(points));
+
+  // The texture's whole numbers come as parts of the largest one.
+  constexpr double kMost8 = 255.0, kMost16 = 65535.0;
+  const double most = image.type == ScalarType::kUint8    ? kMost8
+                      : image.type == ScalarType::kUint16 ? kMost16
+                                                          : 1.0;
+  const double black = under.window.level - 0.5 * under.window.width;
+  glUniform2f(kUnderGrey, static_cast<float>(most * (image.scale / under.window.width)),
+              static_cast<float>((image.offset - black) / under.window.width));
+  glUniform1i(kUnderBlend, 1 + static_cast<GLint>(under.blend));
+  glBindTextureUnit(kUnderUnit, under_.name());
 }
 
 void SlicePass::draw(const TensorView& view, const SceneFrame& frame, const Palette& colors, float unit) {
@@ -90,6 +153,8 @@ void SlicePass::draw(const TensorView& view, const SceneFrame& frame, const Pale
   const glm::mat4 matrix = scene_from_grid(image, frame);
   const Vec3f points(image.points), cross(image.grid_coordinates(view.position));
   glUseProgram(program_.name());
+  set_underlay(view);
+  glUniform1i(kAnisotropyGrey, view.color == TensorColor::kFa ? 1 : 0);
   glUniformMatrix4fv(kSceneFromGrid, 1, GL_FALSE, glm::value_ptr(matrix));
   glUniform3fv(kPoints, 1, glm::value_ptr(points));
   glUniform3fv(kCrossAt, 1, glm::value_ptr(cross));

@@ -29,9 +29,13 @@ std::optional<TensorPick> pick_slice(const TensorView& view, const Camera& camer
     g[axis] = cross[axis];
     if (!is_finite(g) || !image.contains(g)) continue;
     const Index3 voxel = glm::clamp(Index3(glm::round(g)), Index3{0}, image.points - 1);
-    if (!image.shows(voxel)) continue;
+    TensorPick pick{
+        .position = image.position(g), .voxel = voxel, .axis = axis, .tensor = {}, .underlay = {}};
+    if (image.shows(voxel)) pick.tensor = image.field->voxel(voxel).value;
+    if (view.underlay) pick.underlay = voxel_value(*view.underlay->image, pick.position);
+    if (!pick.tensor && !pick.underlay) continue;
     nearest_t = t;
-    nearest = TensorPick{image.position(g), voxel, axis, image.field->voxel(voxel).value};
+    nearest = pick;
   }
   return nearest;
 }

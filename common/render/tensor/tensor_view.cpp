@@ -2,27 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "common/base/error.h"
+#include "common/base/words.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::array<std::string_view, kTensorColorCount> kColors{"direction", "fa"};
 constexpr std::array<std::string_view, kGlyphShapeCount> kShapes{"none", "ellipsoid", "superquadric"};
-
-template <std::size_t N>
-std::size_t find_word(const std::array<std::string_view, N>& words, std::string_view word, const char* what) {
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  std::string known;
-  for (const std::string_view one : words) {
-    if (!known.empty()) known += ", ";
-    known += one;
-  }
-  throw usage_error("unknown " + std::string(what) + " '" + std::string(word) + "'; known are " + known);
-}
 
 }  // namespace
 
@@ -39,7 +26,8 @@ GlyphShape glyph_shape_from_name(std::string_view name) {
 bool same_picture(const TensorView& a, const TensorView& b) {
   return a.image == b.image && a.position == b.position && a.slices == b.slices && a.color == b.color &&
          a.smooth == b.smooth && a.crosshair == b.crosshair && a.glyphs == b.glyphs &&
-         a.glyph_least_fa == b.glyph_least_fa && a.glyph_spacing == b.glyph_spacing;
+         a.glyph_least_fa == b.glyph_least_fa && a.glyph_spacing == b.glyph_spacing &&
+         a.underlay == b.underlay;
 }
 
 std::array<int, 3> slice_axes(const Mat3& axes) noexcept {

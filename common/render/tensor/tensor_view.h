@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "common/render/tensor/tensor_voxels.h"
+#include "common/render/tensor/underlay_view.h"
 
 namespace palpate {
 
@@ -42,6 +44,7 @@ struct TensorView {
   double glyph_least_fa = 0.15;           ///< tensors below have no glyph
   /// Glyphs stand no closer than this [thousandths of the picture's height at the focal point].
   double glyph_spacing = 24.0;
+  std::optional<UnderlayView> underlay;  ///< on the slices, below the colours of tensors
 };
 
 /// Whether both give the same picture; images count as the same where they are the same objects.

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/field/grid/grid_from_data.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/math/symmetric3.h"
 
@@ -50,17 +51,7 @@ void find_shown(TensorVoxels& voxels) {
 Rgb direction_color(const Vec3& direction) noexcept { return {glm::abs(direction)}; }
 
 Vec3 TensorVoxels::grid_coordinates(const Vec3& x) const noexcept {
-  // Cramer's rule on axes of unit length: voxels of 1e-30 must not underflow.
-  Mat3 unit{1.0};
-  Vec3 length{1.0};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3& a = axes[axis];
-    const double scale =
-        power_of_two(binary_exponent(glm::max(std::abs(a.x), glm::max(std::abs(a.y), std::abs(a.z)))));
-    length[axis] = glm::length(a / scale) * scale;
-    unit[axis] = a / length[axis];
-  }
-  return (glm::inverse(unit) * (x - origin)) / length;
+  return GridFromData(axes, origin).point(x);
 }
 
 bool TensorVoxels::contains(const Vec3& g) const noexcept {
@@ -71,6 +62,7 @@ bool TensorVoxels::contains(const Vec3& g) const noexcept {
 }
 
 bool TensorVoxels::shows(const Index3& voxel) const noexcept {
+  if (directions.empty()) return false;
   const auto row = static_cast<std::size_t>(points.x);
   const auto line = static_cast<std::size_t>(voxel.y) +
                     static_cast<std::size_t>(points.y) * static_cast<std::size_t>(voxel.z);
@@ -115,6 +107,15 @@ std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const Ten
   find_shown(*image);
   image->field = std::move(field);
   return image;
+}
+
+std::shared_ptr<const TensorVoxels> make_slice_lattice(const VolumeImage& image) {
+  auto lattice = std::make_shared<TensorVoxels>();
+  lattice->points = image.points;
+  lattice->origin = image.origin;
+  lattice->axes = image.axes;
+  lattice->last_shown = image.points - 1;
+  return lattice;
 }
 
 }  // namespace palpate

@@ -10,6 +10,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/math/vec.h"
 #include "common/render/color_map.h"
+#include "common/render/volume/volume_image.h"
 
 namespace palpate {
 
@@ -17,10 +18,11 @@ namespace palpate {
 /// @pre a unit vector.
 [[nodiscard]] Rgb direction_color(const Vec3& direction) noexcept;
 
-/// Immutable where shared. Symbols.  g grid coordinates, whole numbers at the voxels' centres;
-/// x = origin + axes g data coordinates. A voxel reaches from g - 1/2 to g + 1/2.
+/// Immutable where shared. Without a field it is a lattice for the slices of another image: `directions` and
+/// `anisotropies` are empty then, and no voxel shows. Symbols.  g grid coordinates, whole numbers at the
+/// voxels' centres; x = origin + axes g data coordinates. A voxel reaches from g - 1/2 to g + 1/2.
 struct TensorVoxels {
-  std::shared_ptr<const TensorField> field;
+  std::shared_ptr<const TensorField> field;  ///< may be null
   Index3 points{0};
   Vec3 origin{0.0};
   Mat3 axes{1.0};  ///< columns: steps along i, j, k [data units]
@@ -48,5 +50,8 @@ struct TensorVoxels {
 [[nodiscard]] std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const TensorField> field,
                                                                      const std::string& file,
                                                                      int threads = 0);
+
+/// The lattice of `image` alone, for slices through it.
+[[nodiscard]] std::shared_ptr<const TensorVoxels> make_slice_lattice(const VolumeImage& image);
 
 }  // namespace palpate

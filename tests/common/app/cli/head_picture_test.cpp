@@ -22,8 +22,9 @@ constexpr int kWidth = 480, kHeight = 360;
 SceneView head_from_above(const std::filesystem::path& file, const Options& options) {
   Input input = Input::open({.files = {file}, .kind = FieldKind::kTensor});
   auto voxels = make_tensor_voxels(input.load_tensor(2), input.title(), 2);
-  SceneView view = make_tensor_scene(input, make_tensor_view(std::move(voxels), options.tensors), options,
-                                     static_cast<double>(kWidth) / kHeight);
+  SceneView view = make_tensor_scene(
+      input, {.tensors = make_tensor_view(std::move(voxels), options.tensors), .tracts = {}}, options,
+      static_cast<double>(kWidth) / kHeight);
   view.tensors->crosshair = false;
   view.show_axes = view.show_color_bar = view.show_outline = false;
   view.title = view.subtitle = "";

@@ -2,7 +2,9 @@
 // people.
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -69,6 +71,95 @@ TEST(SlicePicture, VoxelsHaveEdgesUnlessSmooth) {
   EXPECT_EQ(beside_edge()[2], 0);
   view.tensors->smooth = true;
   EXPECT_GT(beside_edge()[2], 60);
+}
+
+/// An image of `value(x)` on a lattice, in single precision.
+template <typename Value>
+std::shared_ptr<const VolumeImage> scalar_image(const UniformTopology& lattice, const Value& value) {
+  std::vector<float> values;
+  for (int k = 0; k < lattice.points.z; ++k) {
+    for (int j = 0; j < lattice.points.y; ++j) {
+      for (int i = 0; i < lattice.points.x; ++i)
+        values.push_back(static_cast<float>(value(lattice.origin + lattice.axes * Vec3(i, j, k))));
+    }
+  }
+  DataSet block;
+  block.topology = lattice;
+  block.arrays.push_back(make_array("t1", Association::kPoint, 1, std::span<const float>(values)));
+  return make_volume_image(block, "t1", "test");
+}
+
+// A linear function has one value at each place, however its image is turned and whatever its steps: shown
+// below slices of another lattice, its greys are those of the function at the pixels' places.
+TEST(SlicePicture, TheUnderlayIsSampledInItsOwnPlaceAndResolution) {
+  const auto value = [](const Vec3& x) { return 100.0 + 40.0 * x.x + 25.0 * x.z - 10.0 * x.y; };
+  const Mat3 turn(0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6);
+  Mat3 oblique = turn;
+  oblique[0] *= 0.07;
+  oblique[1] *= 0.15;
+  oblique[2] *= -0.11;  // left-handed
+  const auto under = scalar_image(centred_lattice({71, 31, 43}, oblique), value);
+  const auto lattice = make_slice_lattice(*scalar_image(centred_lattice({9, 9, 9}, Mat3(0.2)), value));
+  SceneView view = front_slice({.image = lattice});
+  view.tensors->smooth = true;
+  view.tensors->underlay = UnderlayView{.image = under, .window = {.width = 160.0, .level = 100.0}};
+  const Image picture = render_image(view, kSize, kSize).image;
+  for (const double x : {-0.7, -0.1, 0.45, 0.8}) {
+    for (const double z : {-0.75, 0.05, 0.6}) {
+      const auto seen = at(picture, x, z);
+      const double grey = 255.0 * (value({x, 0.0, z}) - 20.0) / 160.0;
+      constexpr double kPixel =
+          255.0 * 2.0 * (40.0 + 25.0) / 160.0 / kSize + 1.0;  // places are those of pixels
+      for (const std::size_t c : {0U, 1U, 2U}) EXPECT_NEAR(seen[c], grey, kPixel) << x << " " << z;
+    }
+  }
+}
+
+TEST(SlicePicture, TensorsLieOverTheUnderlayAsTheBlendSays) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const Mat3 half = linear_tensor(Vec3(1.0, 0.0, 0.0));
+  const auto image = sampled_tensors(centred_lattice({10, 10, 10}, Mat3(0.2)),
+                                     [&](const Vec3& x) { return x.z > 0.6 ? Mat3(nothing) : half; });
+  const auto under = scalar_image(centred_lattice({10, 10, 10}, Mat3(0.2)),
+                                  [](const Vec3& x) { return x.x < 0.0 ? 0.5 : 0.25; });
+  SceneView view = front_slice({.image = image});
+  view.tensors->underlay = UnderlayView{.image = under, .window = {.width = 1.0, .level = 0.5}};
+  // Of the tensor 1.7, 0.3, 0.3: FA by its definition.
+  const double mean = 2.3 / 3.0;
+  const double fa = std::sqrt(1.5 * ((1.7 - mean) * (1.7 - mean) + 2.0 * (0.3 - mean) * (0.3 - mean)) /
+                              (1.7 * 1.7 + 2.0 * 0.3 * 0.3));
+  const auto expect = [&](double x, double z, double red, double rest) {
+    const auto seen = at(render_image(view, kSize, kSize).image, x, z);
+    EXPECT_NEAR(seen[0], 255.0 * red, 1.5) << name_of(view.tensors->underlay->blend);
+    EXPECT_NEAR(seen[1], 255.0 * rest, 1.5) << name_of(view.tensors->underlay->blend);
+    EXPECT_NEAR(seen[2], 255.0 * rest, 1.5) << name_of(view.tensors->underlay->blend);
+  };
+  expect(-0.5, 0.1, fa + (1.0 - fa) * 0.5, (1.0 - fa) * 0.5);
+  expect(0.5, 0.1, fa + (1.0 - fa) * 0.25, (1.0 - fa) * 0.25);
+  expect(-0.5, 0.9, 0.5, 0.5);  // where there is no tensor, the image alone
+  view.tensors->underlay->blend = UnderlayBlend::kSolid;
+  expect(-0.5, 0.1, fa, 0.0);
+  expect(0.5, 0.9, 0.25, 0.25);
+  view.tensors->underlay->blend = UnderlayBlend::kNone;
+  expect(-0.5, 0.1, 0.5, 0.5);
+  view.tensors->underlay->blend = UnderlayBlend::kAnisotropy;
+  view.tensors->color = TensorColor::kFa;
+  expect(0.5, 0.1, fa + (1.0 - fa) * 0.25, fa + (1.0 - fa) * 0.25);
+}
+
+TEST(SlicePicture, TheUnderlayEndsWithItsVoxelsAndItsHoles) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto lattice = make_slice_lattice(
+      *scalar_image(centred_lattice({10, 10, 10}, Mat3(0.2)), [](const Vec3&) { return 0.0; }));
+  // Half as large as the slices, with a hole to the right.
+  const auto under = scalar_image(centred_lattice({10, 10, 10}, Mat3(0.1)),
+                                  [&](const Vec3& x) { return x.x > 0.2 ? nothing : 1.0; });
+  SceneView view = front_slice({.image = lattice});
+  view.tensors->underlay = UnderlayView{.image = under, .window = {.width = 1.0, .level = 0.5}};
+  const Image picture = render_image(view, kSize, kSize).image;
+  EXPECT_EQ(at(picture, -0.4, 0.3)[0], 255);
+  EXPECT_TRUE(is_background(at(picture, 0.35, 0.3)));
+  EXPECT_TRUE(is_background(at(picture, -0.6, 0.3)));
 }
 
 TEST(SlicePicture, CrosshairMarksThePosition) {

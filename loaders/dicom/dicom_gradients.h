@@ -1,0 +1,21 @@
+/// The diffusion weighting of DICOM images: the standard's attributes, and those of vendors before it.
+///
+///   standard   (0018,9087) b, (0018,9089) direction in LPS, (0018,9075) directionality
+///   Siemens    (0019,100c) b, (0019,100e) direction in LPS           creator "SIEMENS MR HEADER"
+///   GE         (0043,1039) b, (0019,10bb..10bd) direction            creators "GEMS_PARM_01", "GEMS_ACQU_01"
+///
+/// GE's direction (x, y, z) is relative to the image: with X, Y the directions along rows and columns and
+/// N = X x Y, it is x X + y Y - z N where phases are encoded along columns, and y X - x Y - z N along rows.
+#pragma once
+
+#include <optional>
+
+#include "loaders/dicom/dicom_elements.h"
+#include "loaders/dicom/dicom_frames.h"
+
+namespace palpate {
+
+/// @param frame its directions X and Y; what a reader should know goes into its notes.
+[[nodiscard]] std::optional<DicomGradient> dicom_gradient(const DicomScope& scope, DicomFrame& frame);
+
+}  // namespace palpate

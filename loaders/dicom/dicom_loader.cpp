@@ -1,0 +1,227 @@
+#include "loaders/dicom/dicom_loader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <gdcmTrace.h>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/load/volume_block.h"
+#include "loaders/dicom/dicom_pixels.h"
+#include "loaders/dicom/dicom_series.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMostFiles = 200'000;
+
+bool is_dicom(const std::filesystem::path& path) {
+  constexpr std::size_t kHead = 132;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::string head(kHead, '\0');
+  std::ifstream file(path, std::ios::binary);
+  return file.read(head.data(), kHead) && head.ends_with("DICM");
+}
+
+/// DICOM files of a folder by name.
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator() && files.size() < kMostFiles;
+       it.increment(error)) {
+    if (is_dicom(it->path())) files.push_back(it->path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+struct Listed {
+  std::string series, title;
+  std::vector<std::string> files;
+};
+
+std::string list_of(const std::vector<Listed>& all) {
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    text += (i > 0 ? ", " : "") + std::to_string(i + 1) + " (" + all[i].title + ", " +
+            counted(all[i].files.size(), "file") + ")";
+  }
+  return text;
+}
+
+/// Series with images, in the order of their first files.
+std::vector<Listed> list_series(const std::vector<std::string>& files) {
+  std::vector<Listed> all;
+  for (const std::string& file : files) {
+    DicomLabel label = read_dicom_label(file);
+    if (label.series.empty() && label.title.empty()) continue;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Listed& one) { return one.series == label.series; });
+    if (found == all.end()) {
+      all.push_back({std::move(label.series), std::move(label.title), {file}});
+    } else {
+      found->files.push_back(file);
+    }
+  }
+  return all;
+}
+
+const Listed& chosen(const std::vector<Listed>& all, const std::string& asked, const std::string& place) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
+  if (error == std::errc() && end == asked.data() + asked.size() && number >= 1 && number <= all.size())
+    return all[number - 1];
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Listed& one) { return one.series == asked; });
+  if (found == all.end()) throw usage_error("--series " + asked + ": " + place + " has " + list_of(all));
+  return *found;
+}
+
+class DicomLoader : public Loader {
+ public:
+  FileInfo open(const LoadRequest& request, Format) override {
+    gdcm::Trace::WarningOff();
+    gdcm::Trace::ErrorOff();
+    std::string title;
+    const std::vector<std::string> files = choose_files(request, title);
+    std::vector<DicomFrame> frames;
+    for (const std::string& file : files) {
+      const std::vector<DicomFrame> of_file = read_dicom_frames(file);
+      frames.insert(frames.end(), of_file.begin(), of_file.end());
+    }
+    series_ = sort_dicom_series(std::move(frames));
+
+    FileInfo info;
+    info.format = name_of(Format::kDicom);
+    info.anatomical = true;
+    info.units = "coordinates in mm";
+    info.notes.push_back("series " + title + ", " + counted(files.size(), "file") + "; LPS turned into RAS+");
+    info.notes.insert(info.notes.end(), series_.notes.begin(), series_.notes.end());
+    const Index3& n = series_.topology.points;
+    const auto points =
+        static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
+    array_ = {"scalars", Association::kPoint, 1, dicom_value_type(series_), points};
+    volumes_ = {0};
+    if (request.diffusion) {
+      describe_diffusion(info);
+    } else {
+      for (std::size_t v = 0; v < series_.volumes && series_.volumes > 1; ++v)
+        info.times.push_back(static_cast<double>(v));
+    }
+    info.blocks.push_back(describe_image(series_.topology, array_));
+    return info;
+  }
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    DataSet block;
+    block.topology = series_.topology;
+    if (std::find(names.begin(), names.end(), array_.name) != names.end()) {
+      DataArray values =
+          read_dicom_values(series_, signals_ ? volumes_ : std::vector<std::size_t>{step}, on_progress);
+      values.name = array_.name;
+      block.arrays.push_back(std::move(values));
+    }
+    std::vector<DataSet> blocks;
+    blocks.push_back(std::move(block));
+    return blocks;
+  }
+
+ private:
+  /// The files of the series that is meant: all of a folder's one, that of a file, or those that are named.
+  static std::vector<std::string> choose_files(const LoadRequest& request, std::string& title) {
+    const std::filesystem::path& first = request.files.front();
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(first, ignored);
+    std::vector<std::string> files;
+    if (request.files.size() > 1) {
+      for (const auto& file : request.files) {
+        if (std::filesystem::is_directory(file, ignored))
+          throw input_error({file.string(), "", "is a folder among files", "one folder, or files", ""});
+        files.push_back(file.string());
+      }
+    } else {
+      files = files_in(folder ? first : first.has_parent_path() ? first.parent_path() : ".");
+    }
+    const std::vector<Listed> all = list_series(files);
+    const std::string place = first.string();
+    if (all.empty()) throw input_error({place, "", "holds no image", "DICOM images", ""});
+    const Listed* series = nullptr;
+    if (!request.series.empty()) {
+      series = &chosen(all, request.series, place);
+    } else if (folder || request.files.size() > 1) {
+      if (all.size() > 1) {
+        throw usage_error(place + ": holds " + std::to_string(all.size()) + " series: " + list_of(all) +
+                          "; choose one by --series NUMBER");
+      }
+      series = &all.front();
+    } else {
+      const std::string uid = read_dicom_label(place).series;
+      for (const Listed& one : all) {
+        if (one.series == uid) series = &one;
+      }
+      if (series == nullptr) throw input_error({place, "", "holds no image", "a DICOM image", ""});
+    }
+    title = series->title;
+    return series->files;
+  }
+
+  void describe_diffusion(FileInfo& info) {
+    if (series_.volumes > kMostGradients) {
+      throw input_error({series_.frames.front().file, "",
+                         "belongs to a series of " + std::to_string(series_.volumes) + " volumes",
+                         std::to_string(kMostGradients) + " at most", ""});
+    }
+    info.diffusion.layout = TensorLayout::kUnstated;
+    if (!series_.gradients) {
+      if (series_.volumes > 1) {
+        info.notes.push_back("no b-values in its images: no tensor can be fitted to its " +
+                             std::to_string(series_.volumes) + " volumes");
+        array_.components = static_cast<int>(series_.volumes);
+        volumes_.resize(series_.volumes);
+        std::iota(volumes_.begin(), volumes_.end(), 0);
+        signals_ = true;
+      }
+      return;
+    }
+    volumes_.clear();
+    GradientTable table;
+    for (std::size_t v = 0; v < series_.volumes; ++v) {
+      if (std::find(series_.traces.begin(), series_.traces.end(), v) != series_.traces.end()) continue;
+      volumes_.push_back(v);
+      table.weightings.push_back(series_.gradients->weightings[v]);
+      table.directions.push_back(series_.gradients->directions[v]);
+    }
+    if (!series_.traces.empty())
+      info.notes.push_back(counted(series_.traces.size(), "weighted volume") +
+                           " without a direction left out");
+    if (volumes_.empty()) {
+      throw input_error({series_.frames.front().file, "",
+                         "belongs to a series whose weighted volumes have no direction",
+                         "diffusion gradients", "trace images have no directions in them"});
+    }
+    signals_ = true;
+    array_.name = kSignalArray;
+    array_.components = static_cast<int>(volumes_.size());
+    info.diffusion.gradients = std::move(table);
+  }
+
+  DicomSeries series_;
+  ArrayInfo array_;
+  std::vector<std::size_t> volumes_;  ///< of a tuple
+  bool signals_ = false;              ///< a tuple holds several volumes
+};
+
+}  // namespace
+
+std::unique_ptr<Loader> make_dicom_loader() { return std::make_unique<DicomLoader>(); }
+
+}  // namespace palpate

@@ -1,0 +1,192 @@
+#include "loaders/dicom/dicom_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+// Headers state positions and directions with five digits or so.
+constexpr double kSameDirection = 1e-3, kSameStep = 1e-3;
+// Of the distance of slices: closer ones are at one place, and those farther from an even place are not even.
+constexpr double kSamePlace = 0.05, kEven = 0.05;
+
+[[noreturn]] void refuse(const DicomFrame& frame, const std::string& found, const std::string& expected,
+                         const std::string& remedy = "") {
+  throw input_error({frame.file, "", found, expected, remedy});
+}
+
+void check_alike(const std::vector<DicomFrame>& frames) {
+  const DicomFrame& a = frames.front();
+  const auto close = [](double x, double y) { return std::abs(x - y) <= kSameStep * std::abs(x); };
+  for (const DicomFrame& b : frames) {
+    const char* differs = nullptr;
+    if (b.rows != a.rows || b.columns != a.columns) {
+      differs = "size";
+    } else if (b.bits != a.bits || b.is_signed != a.is_signed) {
+      differs = "type of pixels";
+    } else if (glm::distance(a.along_row, b.along_row) > kSameDirection ||
+               glm::distance(a.along_column, b.along_column) > kSameDirection) {
+      differs = "orientation";
+    } else if (!close(a.row_step, b.row_step) || !close(a.column_step, b.column_step)) {
+      differs = "pixel spacing";
+    }
+    if (differs != nullptr) {
+      refuse(b, std::string("has another ") + differs + " than " + a.file + " of the same series",
+             "images of one volume", "name the files that belong together");
+    }
+  }
+}
+
+/// Where the slices lie along the normal, rising, each once.
+std::vector<double> places_of(const std::vector<std::pair<double, std::size_t>>& along) {
+  std::vector<double> places;
+  double least = HUGE_VAL;
+  constexpr double kClose = 1e-2;  // [mm] nearer than this nothing is scanned twice on purpose
+  for (std::size_t i = 1; i < along.size(); ++i) {
+    const double gap = along[i].first - along[i - 1].first;
+    if (gap > kClose) least = std::min(least, gap);
+  }
+  for (const auto& [place, frame] : along) {
+    if (places.empty() ||
+        place - places.back() > std::max(kClose, kSamePlace * (least < HUGE_VAL ? least : 0.0)))
+      places.push_back(place);
+  }
+  return places;
+}
+
+void check_even(const std::vector<double>& places, const DicomFrame& first) {
+  if (places.size() < 3) return;
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < places.size(); ++k) gaps.push_back(places[k] - places[k - 1]);
+  std::vector<double> sorted = gaps;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const double step = sorted[sorted.size() / 2];
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    if (std::abs(gaps[k] - step) <= kEven * step) continue;
+    const double steps = gaps[k] / step;
+    const auto missing = static_cast<long>(std::lround(steps)) - 1;
+    const std::string between = "between " + short_number(places[k]) + " and " + short_number(places[k + 1]) +
+                                " mm along the normal of the slices";
+    if (missing > 0 && std::abs(steps - static_cast<double>(missing) - 1.0) <= kEven * steps) {
+      refuse(first,
+             "belongs to a series in which " + counted(static_cast<std::size_t>(missing), "slice") + " of " +
+                 short_number(step) + " mm lack" + (missing == 1 ? "s " : " ") + between,
+             "all slices of the volume", "copy the missing files here");
+    }
+    refuse(first,
+           "belongs to a series that is not evenly spaced: " + short_number(gaps[k]) + " mm " + between +
+               ", " + short_number(step) + " mm elsewhere",
+           "slices at even distances", "name the files that belong together");
+  }
+}
+
+Vec3 ras(const Vec3& lps) { return {-lps.x, -lps.y, lps.z}; }
+
+void take_gradients(DicomSeries& series, std::size_t slices) {
+  const auto stated =
+      static_cast<std::size_t>(std::count_if(series.frames.begin(), series.frames.end(),
+                                             [](const DicomFrame& f) { return f.gradient.has_value(); }));
+  if (stated == 0) return;
+  if (stated < series.frames.size()) {
+    series.notes.push_back(counted(series.frames.size() - stated, "image") + " of " +
+                           std::to_string(series.frames.size()) + " state no b-value: taken as 0");
+  }
+  GradientTable table;
+  for (std::size_t v = 0; v < series.volumes; ++v) {
+    const DicomGradient first = series.frames[v * slices].gradient.value_or(DicomGradient{});
+    for (std::size_t k = 1; k < slices; ++k) {
+      const DicomFrame& frame = series.frames[v * slices + k];
+      const DicomGradient other = frame.gradient.value_or(DicomGradient{});
+      const bool same = std::abs(other.weighting - first.weighting) <= 1.0 + 1e-2 * first.weighting &&
+                        glm::distance(other.direction, first.direction) <= 1e-2;
+      if (!same) {
+        refuse(frame,
+               "has another diffusion gradient than " + series.frames[v * slices].file +
+                   ", which is to be of the same volume",
+               "one gradient a volume", "files may be missing or belong to another series");
+      }
+    }
+    table.weightings.push_back(first.weighting);
+    table.directions.push_back(ras(first.direction));
+  }
+  const double largest = table.largest_weighting();
+  if (!(largest > 0.0)) return;
+  constexpr double kUnweighted = 0.05;  // as GradientTable::unweighted()
+  for (std::size_t v = 0; v < series.volumes; ++v) {
+    if (table.weightings[v] >= kUnweighted * largest && table.directions[v] == Vec3(0.0))
+      series.traces.push_back(v);
+  }
+  series.gradients = std::move(table);
+}
+
+}  // namespace
+
+DicomSeries sort_dicom_series(std::vector<DicomFrame> frames) {
+  check_alike(frames);
+  const DicomFrame first = frames.front();
+  const Vec3 normal = glm::normalize(glm::cross(first.along_row, first.along_column));
+  std::vector<std::pair<double, std::size_t>> along;
+  for (std::size_t i = 0; i < frames.size(); ++i) along.emplace_back(glm::dot(normal, frames[i].position), i);
+  std::sort(along.begin(), along.end());
+  const std::vector<double> places = places_of(along);
+  check_even(places, first);
+
+  // The images of each place in the order in which they were taken: the same number of each is a volume.
+  std::vector<std::vector<DicomFrame>> at(places.size());
+  for (const auto& [place, i] : along) {
+    std::size_t k = 0;
+    while (k + 1 < places.size() && std::abs(places[k + 1] - place) < std::abs(places[k] - place)) ++k;
+    at[k].push_back(frames[i]);
+  }
+  DicomSeries series;
+  series.volumes = at.front().size();
+  for (const auto& images : at) series.volumes = std::max(series.volumes, images.size());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    auto& images = at[k];
+    if (images.size() != series.volumes) {
+      refuse(images.front(),
+             "lies where there " + std::string(images.size() == 1 ? "is one image, " : "are ") +
+                 (images.size() == 1 ? "" : std::to_string(images.size()) + " images, ") +
+                 std::to_string(series.volumes) + " elsewhere in the series",
+             "all slices of all volumes", "files are missing or doubled");
+    }
+    std::stable_sort(images.begin(), images.end(), [](const DicomFrame& a, const DicomFrame& b) {
+      return std::tie(a.temporal, a.acquisition, a.instance, a.number) <
+             std::tie(b.temporal, b.acquisition, b.instance, b.number);
+    });
+  }
+  for (std::size_t v = 0; v < series.volumes; ++v) {
+    for (const auto& images : at) series.frames.push_back(images[v]);
+  }
+
+  const std::size_t slices = at.size();
+  Vec3 step = normal;
+  if (slices > 1) {
+    const Vec3 low = at.front().front().position, high = at.back().front().position;
+    step = (high - low) / static_cast<double>(slices - 1);
+    for (std::size_t k = 0; k < slices; ++k) {
+      const double off = glm::distance(at[k].front().position, low + step * static_cast<double>(k));
+      if (off > kEven * glm::length(step) + 0.1 * std::min(first.row_step, first.column_step))
+        refuse(at[k].front(), "lies beside the row of the other slices by " + short_number(off) + " mm",
+               "slices in a straight row");
+    }
+  }
+  series.topology.points = {first.columns, first.rows, static_cast<int>(slices)};
+  series.topology.origin = ras(at.front().front().position);
+  series.topology.axes[0] = ras(first.along_row * first.column_step);
+  series.topology.axes[1] = ras(first.along_column * first.row_step);
+  series.topology.axes[2] = ras(step);
+  if (!first.notes.empty()) series.notes.push_back(first.notes);
+  if (first.inverted) series.notes.emplace_back("large numbers are dark by its photometric interpretation");
+  take_gradients(series, slices);
+  return series;
+}
+
+}  // namespace palpate

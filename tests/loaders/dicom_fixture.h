@@ -1,0 +1,163 @@
+/// DICOM images written byte by byte (PS3.5), for tests of their reader.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/math/vec.h"
+#include "tests/loaders/nifti_fixture.h"
+
+namespace palpate::test {
+
+/// An element with an explicit type, little endian. Values are padded to even length.
+inline std::string dicom_element(std::uint16_t group, std::uint16_t element, const std::string& type,
+                                 std::string value) {
+  if (value.size() % 2 == 1) value += type == "UI" || type == "OB" || type == "UN" ? '\0' : ' ';
+  std::string bytes;
+  put(bytes, group);
+  put(bytes, element);
+  bytes += type;
+  if (type == "OB" || type == "OW" || type == "SQ" || type == "UN" || type == "UT") {
+    put(bytes, std::uint16_t{0});
+    put(bytes, static_cast<std::uint32_t>(value.size()));
+  } else {
+    put(bytes, static_cast<std::uint16_t>(value.size()));
+  }
+  return bytes + value;
+}
+
+template <typename T>
+std::string as_bytes_of(std::initializer_list<T> values) {
+  std::string bytes;
+  for (const T value : values) put(bytes, value);
+  return bytes;
+}
+
+/// Numbers with '\' between.
+inline std::string decimals(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) {
+    std::array<char, 32> word{};
+    std::snprintf(word.data(), word.size(), "%.10g", value);
+    text += (text.empty() ? "" : "\\") + std::string(word.data());
+  }
+  return text;
+}
+
+enum class DicomVendor { kNone, kStandard, kSiemens, kGe };
+
+struct DicomImage {
+  int columns = 4, rows = 3;
+  std::vector<std::uint16_t> pixels;  ///< columns fastest; as many as there are
+  Vec3 position{0.0};                 ///< LPS
+  Vec3 along_row{1, 0, 0}, along_column{0, 1, 0};
+  double row_step = 2.0, column_step = 1.5;
+  int instance = 1;
+  std::string series = "1.2.3", title = "T1", image_type = "ORIGINAL\\PRIMARY\\M\\ND";
+  std::string syntax = "1.2.840.10008.1.2.1";
+  int bits_stored = 16;
+  bool is_signed = false;
+  std::optional<double> slope, intercept;
+  DicomVendor vendor = DicomVendor::kNone;
+  double weighting = 0.0;
+  std::optional<Vec3> gradient;            ///< as the vendor's attribute says it
+  std::string phase = "COL";               ///< GE
+  std::optional<std::string> pixel_bytes;  ///< in place of `pixels`, already an element's value or fragments
+
+  [[nodiscard]] std::string gradient_elements() const {
+    std::string bytes;
+    const Vec3 g = gradient.value_or(Vec3(0.0));
+    if (vendor == DicomVendor::kStandard) {
+      bytes += dicom_element(0x0018, 0x9087, "FD", as_bytes_of({weighting}));
+      if (gradient) bytes += dicom_element(0x0018, 0x9089, "FD", as_bytes_of({g.x, g.y, g.z}));
+    } else if (vendor == DicomVendor::kSiemens) {
+      bytes += dicom_element(0x0019, 0x0010, "LO", "SIEMENS MR HEADER");
+      bytes += dicom_element(0x0019, 0x100c, "IS", decimals({weighting}));
+      if (gradient) bytes += dicom_element(0x0019, 0x100e, "FD", as_bytes_of({g.x, g.y, g.z}));
+    } else if (vendor == DicomVendor::kGe) {
+      bytes += dicom_element(0x0018, 0x1312, "CS", phase);
+      bytes += dicom_element(0x0019, 0x0010, "LO", "GEMS_ACQU_01");
+      bytes += dicom_element(0x0019, 0x10bb, "DS", decimals({g.x}));
+      bytes += dicom_element(0x0019, 0x10bc, "DS", decimals({g.y}));
+      bytes += dicom_element(0x0019, 0x10bd, "DS", decimals({g.z}));
+    }
+    return bytes;
+  }
+
+  [[nodiscard]] std::string bytes() const {
+    const std::string uid = series + "." + std::to_string(instance);
+    const auto whole = [](int value) { return as_bytes_of({static_cast<std::uint16_t>(value)}); };
+    std::string meta = dicom_element(0x0002, 0x0001, "OB", std::string("\0\1", 2)) +
+                       dicom_element(0x0002, 0x0002, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+                       dicom_element(0x0002, 0x0003, "UI", uid) + dicom_element(0x0002, 0x0010, "UI", syntax);
+    std::string file(128, '\0');
+    file += "DICM" +
+            dicom_element(0x0002, 0x0000, "UL", as_bytes_of({static_cast<std::uint32_t>(meta.size())})) +
+            meta;
+    file += dicom_element(0x0008, 0x0008, "CS", image_type);
+    file += dicom_element(0x0008, 0x0016, "UI", "1.2.840.10008.5.1.4.1.1.4");
+    file += dicom_element(0x0008, 0x0018, "UI", uid);
+    file += dicom_element(0x0008, 0x0060, "CS", "MR");
+    file += dicom_element(0x0008, 0x103e, "LO", title);
+    file += gradient_elements();
+    file += dicom_element(0x0020, 0x000e, "UI", series);
+    file += dicom_element(0x0020, 0x0013, "IS", std::to_string(instance));
+    file += dicom_element(0x0020, 0x0032, "DS", decimals({position.x, position.y, position.z}));
+    file += dicom_element(
+        0x0020, 0x0037, "DS",
+        decimals({along_row.x, along_row.y, along_row.z, along_column.x, along_column.y, along_column.z}));
+    file += dicom_element(0x0028, 0x0002, "US", whole(1));
+    file += dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2");
+    file += dicom_element(0x0028, 0x0010, "US", whole(rows));
+    file += dicom_element(0x0028, 0x0011, "US", whole(columns));
+    file += dicom_element(0x0028, 0x0030, "DS", decimals({row_step, column_step}));
+    file += dicom_element(0x0028, 0x0100, "US", whole(16));
+    file += dicom_element(0x0028, 0x0101, "US", whole(bits_stored));
+    file += dicom_element(0x0028, 0x0102, "US", whole(bits_stored - 1));
+    file += dicom_element(0x0028, 0x0103, "US", whole(is_signed ? 1 : 0));
+    if (intercept) file += dicom_element(0x0028, 0x1052, "DS", decimals({*intercept}));
+    if (slope) file += dicom_element(0x0028, 0x1053, "DS", decimals({*slope}));
+    if (vendor == DicomVendor::kGe) {
+      file += dicom_element(0x0043, 0x0010, "LO", "GEMS_PARM_01");
+      file += dicom_element(0x0043, 0x1039, "IS", decimals({weighting + 1e9, 8, 0, 0}));
+    }
+    if (pixel_bytes) return file + *pixel_bytes;
+    std::string numbers;
+    for (const std::uint16_t pixel : pixels) put(numbers, pixel);
+    return file + dicom_element(0x7fe0, 0x0010, "OW", numbers);
+  }
+};
+
+/// `pixels` as one frame of run lengths (PS3.5 annex G), literal runs alone: high bytes, then low ones.
+inline std::string rle_pixels(const std::vector<std::uint16_t>& pixels) {
+  std::vector<std::string> planes(2);
+  for (int plane = 0; plane < 2; ++plane) {
+    std::string& packed = planes[static_cast<std::size_t>(plane)];
+    constexpr std::size_t kRun = 128;
+    for (std::size_t i = 0; i < pixels.size(); i += kRun) {
+      const std::size_t count = std::min(kRun, pixels.size() - i);
+      packed += static_cast<char>(count - 1);
+      for (std::size_t k = i; k < i + count; ++k)
+        packed += static_cast<char>(plane == 0 ? pixels[k] >> 8U : pixels[k] & 0xFFU);
+    }
+    if (packed.size() % 2 == 1) packed += '\0';
+  }
+  std::string frame;
+  put(frame, std::uint32_t{2});
+  put(frame, std::uint32_t{64});
+  put(frame, static_cast<std::uint32_t>(64 + planes[0].size()));
+  frame.resize(64, '\0');
+  frame += planes[0] + planes[1];
+  const auto item = [](const std::string& value) {
+    return as_bytes_of<std::uint16_t>({0xFFFE, 0xE000}) +
+           as_bytes_of({static_cast<std::uint32_t>(value.size())}) + value;
+  };
+  return as_bytes_of<std::uint16_t>({0x7fe0, 0x0010}) + "OB" + as_bytes_of<std::uint16_t>({0}) +
+         as_bytes_of<std::uint32_t>({0xFFFFFFFF}) + item("") + item(frame) +
+         as_bytes_of<std::uint16_t>({0xFFFE, 0xE0DD}) + as_bytes_of<std::uint32_t>({0});
+}
+
+}  // namespace palpate::test

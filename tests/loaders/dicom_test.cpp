@@ -1,0 +1,330 @@
+// DICOM series as volumes and as diffusion-weighted series: what images written byte by byte say, and what a
+// peer program makes of the same files.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/loaders/dicom_fixture.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+// Turned against the patient: about an axis of no special direction.
+const Vec3 kRow{0.36, 0.48, -0.8}, kColumn{-0.8, 0.6, 0.0};
+const Vec3 kNormal = glm::cross(kRow, kColumn);
+constexpr double kStep = 2.5;
+
+/// What a scan of this function shows, whole numbers of the places in LPS.
+double truth(const Vec3& lps) { return 500.0 + 7.0 * lps.x - 3.0 * lps.y + 5.0 * lps.z; }
+
+DicomImage slice(int k, int volume = 0, int slices = 4) {
+  DicomImage image;
+  image.along_row = kRow;
+  image.along_column = kColumn;
+  image.position = Vec3(-3.0, 4.0, 5.0) + kNormal * (kStep * k);
+  image.instance = 1 + k + slices * volume;
+  for (int j = 0; j < image.rows; ++j) {
+    for (int i = 0; i < image.columns; ++i) {
+      const Vec3 x = image.position + kRow * (image.column_step * i) + kColumn * (image.row_step * j);
+      image.pixels.push_back(static_cast<std::uint16_t>(std::lround(truth(x)) + 1000 * volume));
+    }
+  }
+  return image;
+}
+
+class DicomTest : public ::testing::Test {
+ protected:
+  /// Writes images with names in no order of theirs.
+  std::vector<std::filesystem::path> write(const std::vector<DicomImage>& images) {
+    std::vector<std::filesystem::path> files;
+    for (const DicomImage& image : images) {
+      ++count_;
+      const std::string name = "im" + std::to_string((7 * count_ + 3) % 97) + "-" + std::to_string(count_);
+      files.push_back(folder_.write(name, image.bytes()));
+    }
+    return files;
+  }
+  std::vector<std::filesystem::path> write_volume(const std::function<void(DicomImage&)>& change = {}) {
+    std::vector<DicomImage> images;
+    for (int k : {2, 0, 3, 1}) {
+      images.push_back(slice(k));
+      if (change) change(images.back());
+    }
+    return write(images);
+  }
+  static Source open(const std::filesystem::path& path, bool diffusion = false,
+                     const std::string& series = "") {
+    LoadRequest request;
+    request.files = {path};
+    request.series = series;
+    if (diffusion) request.diffusion.emplace();
+    return Source::open(request);
+  }
+  /// The line that refuses `path`.
+  static std::string refusal(const std::filesystem::path& path, ExitCode code = ExitCode::kBadInput) {
+    try {
+      Source source = open(path);
+      (void)source.read({"scalars"});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << error.what();
+      return error.what();
+    }
+    ADD_FAILURE() << path << " was read";
+    return {};
+  }
+  /// Every voxel shows the function at its place in RAS+, which LPS is turned into.
+  static void expect_truth(const DataSet& block, double more = 0.0) {
+    const auto& grid = std::get<UniformTopology>(block.topology);
+    ASSERT_EQ(block.arrays.size(), 1U);
+    std::size_t at = 0;
+    for (int k = 0; k < grid.points.z; ++k) {
+      for (int j = 0; j < grid.points.y; ++j) {
+        for (int i = 0; i < grid.points.x; ++i, ++at) {
+          const Vec3 ras = grid.origin + grid.axes * Vec3(i, j, k);
+          ASSERT_NEAR(block.arrays.front().at(at), truth({-ras.x, -ras.y, ras.z}) + more, 0.5 + 1e-6);
+        }
+      }
+    }
+  }
+
+  TempFolder folder_;
+  int count_ = 0;
+};
+
+TEST_F(DicomTest, PlacesSlicesInRasWhateverTheOrderOfFiles) {
+  const auto files = write_volume();
+  for (const auto& path : {folder_.path(), files[0], files[2]}) {
+    Source source = open(path);
+    EXPECT_TRUE(source.info().anatomical);
+    EXPECT_EQ(source.info().blocks.front().points, Index3(4, 3, 4));
+    expect_truth(source.read({"scalars"}).front());
+  }
+}
+
+TEST_F(DicomTest, SeveralVolumesAreTimesOfOneSeries) {
+  std::vector<DicomImage> images;
+  for (int k = 0; k < 4; ++k) {
+    for (int v : {2, 0, 1}) images.push_back(slice(k, v));
+  }
+  (void)write(images);
+  Source source = open(folder_.path());
+  ASSERT_EQ(source.info().times.size(), 3U);
+  for (std::size_t v = 0; v < 3; ++v)
+    expect_truth(source.read({"scalars"}, v).front(), 1000.0 * static_cast<double>(v));
+}
+
+TEST_F(DicomTest, AFolderOfSeveralSeriesListsThemAndTakesTheOneThatIsNamed) {
+  (void)write_volume();
+  const auto others = write_volume([](DicomImage& image) {
+    image.series = "1.2.4";
+    image.title = "T2";
+    for (auto& pixel : image.pixels) pixel = static_cast<std::uint16_t>(pixel + 2000);
+  });
+  const std::string line = refusal(folder_.path(), ExitCode::kUsage);
+  for (const char* word : {"2 series", "T1", "T2", "4 files", "--series"})
+    EXPECT_NE(line.find(word), std::string::npos) << line;
+  expect_truth(open(folder_.path(), false, "1.2.4").read({"scalars"}).front(), 2000.0);
+  expect_truth(open(others.front()).read({"scalars"}).front(), 2000.0);
+  std::vector<double> first_values;
+  for (const char* number : {"1", "2"})
+    first_values.push_back(
+        open(folder_.path(), false, number).read({"scalars"}).front().arrays.front().at(0));
+  EXPECT_NEAR(std::abs(first_values[0] - first_values[1]), 2000.0, 1e-9);
+  EXPECT_THROW((void)open(folder_.path(), false, "3"), Error);
+}
+
+TEST_F(DicomTest, RescalesAndExtendsTheSign) {
+  (void)write_volume([](DicomImage& image) {
+    // 12 bits with a sign; what stands above them is none of the number's.
+    image.bits_stored = 12;
+    image.is_signed = true;
+    image.slope = 0.5;
+    image.intercept = 100.0;
+    for (auto& pixel : image.pixels)
+      pixel = static_cast<std::uint16_t>(((2 * (pixel - 600)) & 0x0FFF) | 0x5000);
+  });
+  expect_truth(open(folder_.path()).read({"scalars"}).front(), -500.0);
+}
+
+TEST_F(DicomTest, ReadsCompressedPixels) {
+  (void)write_volume([](DicomImage& image) {
+    image.syntax = "1.2.840.10008.1.2.5";
+    image.pixel_bytes = rle_pixels(image.pixels);
+  });
+  expect_truth(open(folder_.path()).read({"scalars"}).front());
+}
+
+TEST_F(DicomTest, SaysWhatIsMissingOrMixed) {
+  const auto refused = [](const std::vector<DicomImage>& images, const char* words) {
+    const TempFolder folder;
+    int n = 0;
+    for (const DicomImage& image : images) folder.write(std::to_string(n++), image.bytes());
+    const std::string line = refusal(folder.path());
+    EXPECT_NE(line.find(words), std::string::npos) << line;
+    EXPECT_NE(line.find(folder.path().string()), std::string::npos) << line;
+  };
+  refused({slice(0), slice(1), slice(2), slice(4), slice(5)}, "1 slice of 2.5 mm lacks");
+  refused({slice(0), slice(1), slice(2), slice(2)}, "doubled");
+  DicomImage odd = slice(3);
+  odd.position += 0.4 * kStep * kNormal;
+  refused({slice(0), slice(1), slice(2), odd}, "not evenly spaced");
+  DicomImage turned = slice(3);
+  turned.along_row = {1, 0, 0};
+  turned.along_column = {0, 1, 0};
+  refused({slice(0), slice(1), turned}, "orientation");
+  DicomImage wide = slice(1);
+  wide.columns = 3;
+  wide.rows = 4;
+  refused({slice(0), wide}, "size");
+  DicomImage mosaic = slice(0);
+  mosaic.image_type = "ORIGINAL\\PRIMARY\\M\\MOSAIC";
+  refused({mosaic}, "mosaic");
+}
+
+// The three ways of saying it give one table in RAS+.
+TEST_F(DicomTest, GradientsOfVendorsAreThoseOfTheStandard) {
+  const std::vector<Vec3> directions{{0, 0, 0}, {0.6, 0.8, 0.0}, {0.0, -0.6, 0.8}, {0.48, 0.64, 0.6}};
+  for (const DicomVendor vendor : {DicomVendor::kStandard, DicomVendor::kSiemens, DicomVendor::kGe}) {
+    for (const char* phase : {"COL", "ROW"}) {
+      const TempFolder folder;
+      int n = 0;
+      for (int k = 0; k < 4; ++k) {
+        for (int v = 0; v < 4; ++v) {
+          DicomImage image = slice(k, v);
+          const Vec3& g = directions[static_cast<std::size_t>(v)];
+          image.vendor = vendor;
+          image.phase = phase;
+          image.weighting = v == 0 ? 0.0 : 1000.0;
+          if (v > 0) image.gradient = g;
+          if (v > 0 && vendor == DicomVendor::kGe) {
+            // Along the encoded directions of the image; the slice's is turned around.
+            const double x = glm::dot(g, kRow), y = glm::dot(g, kColumn), z = -glm::dot(g, kNormal);
+            image.gradient = std::string(phase) == "COL" ? Vec3(x, y, z) : Vec3(-y, x, z);
+          }
+          folder.write(std::to_string(n++), image.bytes());
+        }
+      }
+      Source source = open(folder.path(), true);
+      ASSERT_TRUE(source.info().diffusion.gradients);
+      const GradientTable& table = *source.info().diffusion.gradients;
+      ASSERT_EQ(table.weightings.size(), 4U);
+      for (std::size_t v = 0; v < 4; ++v) {
+        EXPECT_EQ(table.weightings[v], v == 0 ? 0.0 : 1000.0);
+        const Vec3& g = directions[v];
+        EXPECT_LT(glm::distance(table.directions[v], Vec3(-g.x, -g.y, g.z)), 1e-8)
+            << static_cast<int>(vendor);
+      }
+      const DataSet block = source.read({kSignalArray}).front();
+      const DataArray& signals = block.arrays.front();
+      ASSERT_EQ(signals.components, 4);
+      for (int v = 1; v < 4; ++v) EXPECT_EQ(signals.at(5, v) - signals.at(5, 0), 1000.0 * v);
+    }
+  }
+}
+
+TEST_F(DicomTest, TraceImagesAreLeftOutAndMixedGradientsRefused) {
+  std::vector<DicomImage> images;
+  for (int k = 0; k < 4; ++k) {
+    for (int v = 0; v < 3; ++v) {
+      images.push_back(slice(k, v));
+      images.back().vendor = DicomVendor::kStandard;
+      images.back().weighting = v == 0 ? 0.0 : 1000.0;
+      if (v == 1) images.back().gradient = Vec3(0, 0, 1);
+    }
+  }
+  (void)write(images);
+  const Source source = open(folder_.path(), true);
+  EXPECT_EQ(source.info().diffusion.gradients->weightings, (std::vector<double>{0.0, 1000.0}));
+  const auto& notes = source.info().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("without a direction left out") != std::string::npos;
+  }));
+
+  const TempFolder mixed;
+  images[4].gradient = Vec3(1, 0, 0);
+  int n = 0;
+  for (const DicomImage& image : images) mixed.write(std::to_string(n++), image.bytes());
+  const std::string line = refusal(mixed.path());
+  EXPECT_NE(line.find("another diffusion gradient"), std::string::npos) << line;
+}
+
+TEST_F(DicomTest, ClaimsAreHeldAgainstTheFile) {
+  const std::string good = slice(0).bytes();
+  const auto refused = [&](const std::string& bytes, const char* words) {
+    const TempFolder folder;
+    const std::string line = refusal(folder.write("bad.dcm", bytes));
+    EXPECT_NE(line.find(words), std::string::npos) << line;
+  };
+  // The last element claims 4 GB but for a little.
+  std::string long_pixels = good;
+  put_at(long_pixels, good.size() - 24 - 4, std::uint32_t{0xFFFFFFF0});
+  refused(long_pixels, "more than there are");
+  DicomImage huge = slice(0);
+  huge.rows = huge.columns = 65535;
+  refused(huge.bytes(), "pixels");
+  DicomImage deep = slice(0);
+  std::string nested;
+  for (int n = 0; n < 40; ++n) {
+    nested += as_bytes_of<std::uint16_t>({0x0040, 0x0100}) + "SQ" + as_bytes_of<std::uint16_t>({0}) +
+              as_bytes_of<std::uint32_t>({0xFFFFFFFF}) + as_bytes_of<std::uint16_t>({0xFFFE, 0xE000}) +
+              as_bytes_of<std::uint32_t>({0xFFFFFFFF});
+  }
+  deep.pixel_bytes = nested;
+  refused(deep.bytes(), "nested");
+  for (std::size_t size = 133; size < good.size(); size += 37) {
+    const TempFolder folder;
+    (void)refusal(folder.write("cut.dcm", good.substr(0, size)));
+  }
+}
+
+// pydicom and numpy place every voxel by the standard's equation, file by file.
+TEST_F(DicomTest, APeerReadsTheSamePlacesAndNumbers) {
+  if (std::system("/usr/bin/python3 -c 'import pydicom, numpy' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no python3-pydicom here: nothing was compared";
+  (void)write_volume([](DicomImage& image) {
+    image.slope = 0.25;
+    image.intercept = -40.0;
+  });
+  const auto script = folder_.path().parent_path() / (folder_.path().filename().string() + ".py");
+  std::ofstream(script) << R"(
+import glob, sys, numpy, pydicom
+for name in sorted(glob.glob(sys.argv[1] + '/*')):
+    d = pydicom.dcmread(name)
+    p, o, s = [numpy.array(v, float) for v in (d.ImagePositionPatient, d.ImageOrientationPatient, d.PixelSpacing)]
+    for j in range(d.Rows):
+        for i in range(d.Columns):
+            x = p + o[:3] * s[1] * i + o[3:] * s[0] * j
+            print(*x, d.pixel_array[j, i] * float(d.RescaleSlope) + float(d.RescaleIntercept))
+)";
+  FILE* pipe = ::popen(("/usr/bin/python3 " + script.string() + " " + folder_.path().string()).c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  Source source = open(folder_.path());
+  const DataSet block = source.read({"scalars"}).front();
+  const auto& grid = std::get<UniformTopology>(block.topology);
+  const Mat3 inverse = glm::inverse(grid.axes);
+  double x = 0.0, y = 0.0, z = 0.0, value = 0.0;
+  int compared = 0;
+  while (std::fscanf(pipe, "%lf %lf %lf %lf", &x, &y, &z, &value) == 4) {
+    const Vec3 g = inverse * (Vec3(-x, -y, z) - grid.origin);
+    const Vec3 voxel = glm::round(g);
+    EXPECT_LT(glm::distance(g, voxel), 1e-6);
+    const auto at = static_cast<std::size_t>(voxel.x + grid.points.x * (voxel.y + grid.points.y * voxel.z));
+    EXPECT_NEAR(block.arrays.front().at(at), value, 1e-3);
+    ++compared;
+  }
+  EXPECT_EQ(::pclose(pipe), 0);
+  EXPECT_EQ(compared, 48);
+  std::filesystem::remove(script);
+}
+
+}  // namespace
+}  // namespace palpate::test
