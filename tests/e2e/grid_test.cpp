@@ -1,6 +1,8 @@
 // `grid`, run as a user runs it.
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include <stb_image.h>
@@ -21,6 +23,7 @@ TEST_F(Grid, HelpsWithExamplesAndListsItsVerbs) {
                                                     {"info", "--help"},
                                                     {"probe", "-h"},
                                                     {"render", "-h"},
+                                                    {"report", "-h"},
                                                     {"open", "-h"}}) {
     const ProgramResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 0);
@@ -141,6 +144,42 @@ TEST_F(Grid, RenderStatesItsErrorAndRefusesNonsense) {
 }
 
 // Through the outermost shell of the example "shells", radius 0.86, and on to the middle.
+// A budget that no picture keeps leaves the coarsest one, a generous one all that was asked for.
+TEST_F(Grid, GivesUpQualityForABudgetAndSaysHowMuch) {
+  const auto render = [this](const std::string& budget, const std::string& name) {
+    return json({"render", "--example", "shells", "--size", "200x150", "--lens", "sphere:0,0,0,0.5",
+                 "--frame-budget", budget, "--out", name});
+  };
+  const Json hasty = render("1", "hasty.png"), patient = render("60000", "patient.png");
+  EXPECT_EQ(hasty["quality"],
+            Json({{"context_samples", 0.25}, {"focus_samples", 0.5}, {"resolution", 0.25}}));
+  EXPECT_EQ(patient["quality"],
+            Json({{"context_samples", 1.0}, {"focus_samples", 1.0}, {"resolution", 1.0}}));
+  EXPECT_GT(hasty["image_error"].get<double>(), 2.0 * patient["image_error"].get<double>());
+  EXPECT_EQ(run({"render", "--example", "shells", "--frame-budget", "0", "--out", "c.png"}).exit_code, 2);
+}
+
+TEST_F(Grid, EnlargesInALensAndRefusesWhereThereIsNoMiddle) {
+  EXPECT_EQ(run({"render", "--example", "shells", "--size", "64x48", "--lens", "sphere:0,0,0,0.5,magnify=2",
+                 "--out", "a.png"})
+                .exit_code,
+            0);
+  const ProgramResult refused =
+      run({"render", "--example", "shells", "--lens", "halfspace:1,0,0,0,magnify=2", "--out", "b.png"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("magnify"), std::string::npos) << refused.err;
+}
+
+TEST_F(Grid, ReportsErrorsAgainstTheTimeOfAFrame) {
+  const Json summary = json({"report", "--example", "shells", "--quick", "--out", "report"});
+  EXPECT_GT(summary["work_precision_rows"].get<int>(), 10);
+  std::ifstream file(folder_.path() / "report" / "report.json");
+  const Json report = Json::parse(file, nullptr, false);
+  EXPECT_EQ(report["work_precision"].size(), summary["work_precision_rows"].get<std::size_t>());
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report" / "volume_error.svg"));
+  EXPECT_EQ(run({"report", "--example", "shells", "--out", "report"}).exit_code, 2);  // is there already
+}
+
 TEST_F(Grid, ProbesIsosurfacesAndDensities) {
   std::string path = "t,x,y,z\n";
   for (int i = 0; i <= 300; ++i)
