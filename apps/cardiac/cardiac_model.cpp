@@ -12,7 +12,7 @@ CardiacModel::CardiacModel(Options options, std::string program)
     : InputModel(std::move(options), std::move(program), FieldKind::kFibre) {}
 
 CardiacContent CardiacModel::read(Input& input, const Options& options, Progress& progress) const {
-  return load_layered_heart(input, options.common.threads, &progress);
+  return load_layered_heart(input, options.heart, options.common.threads, &progress);
 }
 
 void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
@@ -43,6 +43,9 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& heart, cons
   info->layers = ValueRange{depth.lowest(), depth.highest()};
   info->color_arrays = {"helix", "transverse", "gap", "depth"};
   if (heart->heart().sheets) info->color_arrays.insert(info->color_arrays.begin() + 2, "sheet");
+  // A scalar of the file is read with the heart: the one that was named.
+  const HeartOptions& named = options.heart;
+  if (heart->heart().value) info->color_arrays.push_back(named.angle);
   info->bounds = layer.view.bounds;
   info->units = layer.view.units;
   SceneState state = begin_state(input, settings);

@@ -25,10 +25,35 @@ constexpr double kDegrees = 57.29577951308232;
 constexpr std::size_t kMostTriangles = 4'000'000;
 constexpr Rgb kMuscle{0.55F, 0.30F, 0.27F};
 
+/// What is not the name of a scalar of the file.
+bool is_own_word(const std::string& angle) {
+  for (int i = 0; i < kWallAngleCount; ++i)
+    if (name_of(static_cast<WallAngle>(i)) == angle) return true;
+  return angle == "gap" || angle == "depth";
+}
+
+/// As stored, at the points of its mesh.
+std::vector<double> point_values(const ScalarField& field) {
+  std::vector<double> values(field.tet_mesh()->points().size());
+  std::visit(
+      [&](const auto& stored) {
+        for (std::size_t p = 0; p < values.size(); ++p) values[p] = static_cast<double>(stored[p]);
+      },
+      field.values().values);
+  return values;
+}
+
+double sampled(const ScalarField& field, const Vec3& x, CellHint& hint) {
+  const ScalarSample sample = field.sample(x, hint);
+  return sample.status == SampleStatus::kOk ? sample.value : kNaN;
+}
+
 }  // namespace
 
-std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, int threads, Progress* progress) {
-  return std::make_shared<const LayeredHeart>(input.load_heart(threads, progress));
+std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, const HeartOptions& options, int threads,
+                                                       Progress* progress) {
+  const std::string value = is_own_word(options.angle) ? std::string() : options.angle;
+  return std::make_shared<const LayeredHeart>(input.load_heart(threads, progress, value));
 }
 
 std::optional<double> layer_of(const HeartOptions& options) {
@@ -60,6 +85,8 @@ AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOpt
     const auto convention = static_cast<AngleConvention>(i);
     if (name_of(convention) == options.convention) convention_ = convention;
   }
+  if (!angle_ && !is_own_word(options.angle) && !heart_->heart().value)
+    throw usage_error("--angle " + options.angle + ": was not read with the heart");
   if (!angle_) return;
   if (!defines(convention_, *angle_))
     throw usage_error("--convention " + options.convention + " has no " + options.angle + " angle");
@@ -72,10 +99,8 @@ const char* AngleProbe::unit() const noexcept { return angle_ ? "degrees" : ""; 
 
 double AngleProbe::at(const Vec3& x, CellHint& hint) const {
   const LocalFrame& frame = heart_->frame();
-  if (options_.angle == "depth") {
-    const ScalarSample depth = heart_->heart().layer->sample(x, hint);
-    return depth.status == SampleStatus::kOk ? depth.value : kNaN;
-  }
+  if (options_.angle == "depth") return sampled(*heart_->heart().layer, x, hint);
+  if (!is_own_word(options_.angle)) return sampled(*heart_->heart().value, x, hint);
   const FibreSample fibre = heart_->sample(frame.local_from_data(x), hint);
   if (fibre.status != SampleStatus::kOk) return kNaN;
   if (!angle_) return fibre.gap;
@@ -96,14 +121,7 @@ double AngleProbe::at(const Vec3& x, CellHint& hint) const {
 std::vector<double> AngleProbe::map() const {
   if (angle_) return map_angle(heart_->heart(), heart_->normals(), axis_, *angle_, convention_);
   if (options_.angle == "gap") return map_gap(heart_->heart());
-  const ScalarField& layer = *heart_->heart().layer;
-  std::vector<double> depths(layer.tet_mesh()->points().size());
-  std::visit(
-      [&](const auto& values) {
-        for (std::size_t p = 0; p < depths.size(); ++p) depths[p] = static_cast<double>(values[p]);
-      },
-      layer.values().values);
-  return depths;
+  return point_values(options_.angle == "depth" ? *heart_->heart().layer : *heart_->heart().value);
 }
 
 std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line>& lines, int threads) {

@@ -24,8 +24,10 @@ inline constexpr double kViewLayer = 0.5;
 inline constexpr const char* kViewFibres = "random:2500";
 inline constexpr double kViewFibreLength = 0.12;
 
+/// With the scalar that `--angle` names, where it is none of cardiac's own words.
 /// @throws Error, Cancelled.
-[[nodiscard]] std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, int threads,
+[[nodiscard]] std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input,
+                                                                     const HeartOptions& options, int threads,
                                                                      Progress* progress);
 
 /// `--layer`; none where it is not given.
@@ -42,11 +44,12 @@ class AngleProbe {
   /// @throws Error (usage) where the convention does not define the angle, sheets are not known, or there is
   /// no axis.
   AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options);
-  /// Degrees, or a number without a unit for "gap" and "depth"; NaN where it is not defined.
+  /// Degrees, a number without a unit for "gap" and "depth", or the value of a scalar of the file; NaN where
+  /// it is not defined.
   /// @param x data coordinates.
   [[nodiscard]] double at(const Vec3& x, CellHint& hint) const;
   [[nodiscard]] const std::string& name() const noexcept { return options_.angle; }
-  /// Empty for "gap" and "depth".
+  /// Empty for what is no angle.
   [[nodiscard]] const char* unit() const noexcept;
   /// Of the points of the heart's mesh.
   [[nodiscard]] std::vector<double> map() const;

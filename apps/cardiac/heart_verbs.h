@@ -1,4 +1,4 @@
-/// The verbs of hearts: tetrahedra, lines along fibres, maps of angles, pictures of layers.
+/// The verbs of hearts: tetrahedra, values over time, lines along fibres, maps of angles, pictures of layers.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,7 @@
 namespace palpate {
 
 [[nodiscard]] Verb trace_fibres_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb series_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb mesh_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);

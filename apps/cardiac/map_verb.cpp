@@ -99,7 +99,7 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
   if (!options.out.empty()) check_mesh_output(options.out, options.common.force);
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
-  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
   for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
   const AngleProbe probe(heart, options.heart);
 

@@ -31,7 +31,7 @@ void check(const Options& options) {
 }
 
 DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
-  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
   LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);
   DrawnScene drawn;
   drawn.field = input.field_label();

@@ -74,7 +74,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
         input, {.verb = "trace", .tracing = true, .lines = 2 * seed_count(spec), .threads = summary.threads});
     console.print(plan_text(summary.plan));
   }
-  const auto heart = load_layered_heart(input, options.common.threads, &context.progress);
+  const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
   for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
   const ScalarField& depth = *heart->heart().layer;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();

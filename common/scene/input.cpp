@@ -10,6 +10,7 @@
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/field/analytic/volume_examples.h"
+#include "common/field/field_on_grid.h"
 #include "common/load/volume_block.h"
 #include "common/scene/raw_file.h"
 
@@ -289,11 +290,17 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   return image;
 }
 
-Heart Input::load_heart(int threads, Progress* progress) {
+Heart Input::load_heart(int threads, Progress* progress, const std::string& value) {
   Stopwatch watch;
   const HeartChoice chosen = heart_choice();
+  std::vector<std::string> names = chosen.arrays();
+  std::optional<ScalarChoice> scalar;
+  if (!value.empty()) {
+    scalar = choose_scalar(arrays_, value, file_name());
+    names.push_back(scalar->array);
+  }
   if (progress) progress->begin("reading " + title_, 0);
-  const std::vector<DataSet> blocks = read(chosen.arrays(), progress);
+  const std::vector<DataSet> blocks = read(names, progress);
   if (blocks.size() != 1) {
     throw input_error({file_name(), "", "has " + std::to_string(blocks.size()) + " blocks", "one mesh", ""});
   }
@@ -302,6 +309,8 @@ Heart Input::load_heart(int threads, Progress* progress) {
   if (progress) progress->begin("finding fibres and layers", 0);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads);
   heart.axis = file()->long_axis;
+  if (scalar)
+    heart.value = make_scalar_field(heart.fibres->grid(), blocks.front(), *scalar, file_name(), threads);
   seconds_field_ = watch.seconds();
   return heart;
 }

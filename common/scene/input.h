@@ -108,7 +108,8 @@ class Input {
   /// The same for the tensor field. @pre file().
   [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr);
   /// Fibres, sheets and layers of a heart. @pre file().
-  [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr);
+  /// @param value a scalar to come along as Heart::value (label_of() of scalar_choice.h); empty: none.
+  [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr, const std::string& value = {});
   /// The image that load_tensor() makes its field of. @pre file().
   [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.

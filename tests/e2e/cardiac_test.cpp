@@ -1,5 +1,6 @@
 // `cardiac`, run as a user runs it: the built-in ventricle, the measured dog heart, the Chaste ellipsoid.
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -127,6 +128,39 @@ TEST_F(Cardiac, OpensMeshesWhoseFibresLieInTheirCells) {
   const Json map = json({"map", mesh.string(), "--angle", "helix"});
   EXPECT_GT(map["points"].get<int>(), 1000);
   EXPECT_GT(map["bands"].size(), 5U);
+}
+
+// A potential that rises with x and with time; the value at the tetrahedron's middle is known.
+TEST_F(Cardiac, ShowsAPotentialOverTimeAndOnTheWall) {
+  (void)folder_.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");
+  (void)folder_.write("m.elem", "1\nTt 0 1 2 3 9\n");
+  (void)folder_.write("m.lon", "1\n1 0 0\n");
+  std::string igb = "x:4 t:3 org_t:5 inc_t:2 type:float systeme:little_endian";
+  igb.resize(1024, ' ');
+  for (int t = 0; t < 3; ++t) {
+    for (const float v : {0.0F, 4.0F, 0.0F, 0.0F}) {
+      const float value = v + 10.0F * static_cast<float>(t);
+      igb.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  }
+  (void)folder_.write("vm.igb", igb);
+  const Json series = json({"series", "m.pts", "vm.igb", "--value", "vm", "--at", "0.25,0.25,0.25", "--at",
+                            "9,9,9", "--out", "vm.csv"});
+  EXPECT_EQ(series["times"], Json({5.0, 7.0, 9.0}));
+  for (std::size_t t = 0; t < 3; ++t)
+    EXPECT_NEAR(series["places"][0]["values"][t].get<double>(), 1.0 + 10.0 * static_cast<double>(t), 1e-6);
+  EXPECT_TRUE(series["places"][1]["values"][0].is_null());
+  const std::string table = read_file(folder_.path("vm.csv"));
+  EXPECT_EQ(table.substr(0, table.find('\n')), "time,place,x,y,z,vm");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
+  EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--json"}).exit_code, 2);
+  EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--value", "no", "--at", "0,0,0", "--json"}).exit_code, 2);
+  EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--value", "vm", "--at", "9,9,9", "--json"}).exit_code, 1);
+
+  // Any scalar of the file in place of an angle.
+  const Json map = json({"map", "--example", "ventricle", "--angle", "layer", "--out", "layer.vtu"});
+  EXPECT_NEAR(band(map, 0.5)["mean"].get<double>(), 0.5, 0.05);
+  EXPECT_EQ(run({"map", "--example", "ventricle", "--angle", "potential", "--json"}).exit_code, 2);
 }
 
 TEST_F(Cardiac, RendersALayerCutOpen) {

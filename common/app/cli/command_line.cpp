@@ -91,6 +91,7 @@ class VerbParser {
     if (verb.groups.fibres) add_fibre_options(scene_options_, options_.tracing, options_.heart);
     if (verb.groups.layer) add_layer_option(scene_options_, options_.heart);
     if (verb.groups.angle) add_angle_options(scene_options_, options_.heart);
+    if (verb.groups.series) add_series_options(scene_options_, options_.series);
     if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);
     if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);

@@ -30,11 +30,11 @@ void add_layer_option(SceneOptions& options, HeartOptions& heart) {
 
 void add_angle_options(SceneOptions& options, HeartOptions& heart) {
   const char* group = "Angles";
-  options
-      .add("--angle", heart.angle,
-           "helix (default), transverse, sheet, or gap (how well fibres are defined) and depth",
-           "helix|transverse|sheet|gap|depth", group)
-      ->check(CLI::IsMember({"helix", "transverse", "sheet", "gap", "depth"}));
+  options.add(
+      "--angle", heart.angle,
+      "helix (default), transverse, sheet; gap (how well fibres are defined), depth; or a scalar of the "
+      "file, such as a potential",
+      "helix|transverse|sheet|gap|depth|NAME", group);
   options
       .add("--convention", heart.convention,
            "what the angle is measured from: streeter (default), bayer, piersanti or doste", "NAME", group)
@@ -64,6 +64,13 @@ void add_refine_option(SceneOptions& options, InputOptions& input) {
       .add("--refine", input.refine, "cells along each axis of a curved element (EX); default 4, mesh: 8",
            "N", "Input")
       ->check(CLI::Range(1, kFinest));
+}
+
+void add_series_options(SceneOptions& options, SeriesOptions& series) {
+  const char* group = "Series";
+  options.add("--value", series.value, "the scalar whose time series it is; without it the likeliest one",
+              "NAME", group);
+  options.add_several("--at", series.places, "a place; may be repeated", "x,y,z", group);
 }
 
 }  // namespace palpate

@@ -21,4 +21,7 @@ void add_mesher_options(SceneOptions& options, HeartOptions& heart);
 /// How finely curved elements are sampled. Binds the option to `input`, which outlives `options`.
 void add_refine_option(SceneOptions& options, InputOptions& input);
 
+/// Which scalar over time, and where. Binds the options to `series`, which outlives `options`.
+void add_series_options(SceneOptions& options, SeriesOptions& series);
+
 }  // namespace palpate

@@ -370,6 +370,26 @@ std::string map_json(const MapSummary& summary) {
                   {"version", version()}});
 }
 
+std::string series_json(const SeriesSummary& summary) {
+  Json places = Json::array();
+  for (std::size_t p = 0; p < summary.places.size(); ++p) {
+    Json values = Json::array();
+    for (std::size_t t = 0; t < summary.times.size(); ++t) {
+      const double value = summary.values[t * summary.places.size() + p];
+      values.push_back(std::isfinite(value) ? Json(value) : Json(nullptr));
+    }
+    places.push_back({{"position", vec_json(summary.places[p])}, {"values", std::move(values)}});
+  }
+  return text_of({{"input", summary.input},
+                  {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                  {"value", summary.value},
+                  {"times", summary.times},
+                  {"unordered", summary.unordered},
+                  {"places", std::move(places)},
+                  {"seconds", summary.seconds},
+                  {"version", version()}});
+}
+
 std::string mesh_json(const MeshSummary& summary) {
   const MeshQuality& quality = summary.quality;
   const bool curved = summary.exact_volume > 0.0;

@@ -19,6 +19,7 @@ namespace palpate {
 [[nodiscard]] std::string tract_fit_json(const TractFitSummary& summary);
 [[nodiscard]] std::string image_json(const ImageSummary& summary);
 [[nodiscard]] std::string map_json(const MapSummary& summary);
+[[nodiscard]] std::string series_json(const SeriesSummary& summary);
 [[nodiscard]] std::string mesh_json(const MeshSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
 [[nodiscard]] std::string open_json(const OpenSummary& summary);

@@ -125,6 +125,12 @@ struct HeartOptions {
   double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
 };
 
+/// What is looked at over time.
+struct SeriesOptions {
+  std::string value;                ///< a scalar; empty: the likeliest one
+  std::vector<std::string> places;  ///< x,y,z
+};
+
 /// What the hand feels, and how the workspace lies over the data.
 struct TouchOptions {
   std::string mode;                ///< empty: the program's first one
@@ -169,6 +175,7 @@ struct Options {
   TensorOptions tensors;
   TractLook tract_look;
   HeartOptions heart;
+  SeriesOptions series;
   TouchOptions touch;
   std::filesystem::path path;    ///< probe: the recorded path
   std::filesystem::path record;  ///< open: where the run is recorded

@@ -200,6 +200,18 @@ struct MapSummary {
   double seconds_map = 0.0;
 };
 
+/// A scalar at places over time.
+struct SeriesSummary {
+  std::string input;
+  std::string output;  ///< empty: none
+  std::string value;   ///< its name
+  std::vector<Vec3> places;
+  std::vector<double> times;   ///< rising; several alike in the order of the file
+  std::vector<double> values;  ///< time after time, of each place; NaN outside and where there is none
+  std::size_t unordered = 0;   ///< steps that the file has out of order
+  double seconds = 0.0;
+};
+
 /// A wall that was filled with tetrahedra.
 struct MeshSummary {
   std::string input;

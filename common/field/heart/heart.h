@@ -48,8 +48,9 @@ struct Heart {
   std::shared_ptr<const TensorField> fibres;
   std::shared_ptr<const TensorField> sheets;  ///< null: not known
   std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray
-  std::optional<Vec3> axis;                   ///< from apex to base, where the file says it; data coordinates
-  std::vector<std::string> notes;             ///< of mesh, fibres and layers, for the user
+  std::shared_ptr<const ScalarField> value;  ///< a potential, an activation time: what else is shown; or null
+  std::optional<Vec3> axis;                  ///< from apex to base, where the file says it; data coordinates
+  std::vector<std::string> notes;            ///< of mesh, fibres and layers, for the user
 };
 
 /// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without an inner and an outer
