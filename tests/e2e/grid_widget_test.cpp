@@ -130,6 +130,34 @@ TEST_F(GridWidget, FindsLandmarksWhereValuesPileUp) {
   EXPECT_LE(marked["landmarks"].size(), 4U);
 }
 
+TEST_F(GridWidget, MeasuresAndWritesAnnotations) {
+  const std::vector<std::string> marks{"annotate",
+                                       "--example",
+                                       "shells",
+                                       "--annotation",
+                                       "length:0,0,0,0.3,0.4,0=from the middle",
+                                       "--annotation",
+                                       "angle:1,0,0,0,0,0,0,1,0",
+                                       "--annotation",
+                                       "point:9,9,9"};
+  std::vector<std::string> arguments = marks;
+  arguments.insert(arguments.end(), {"--out", "notes.csv"});
+  const Json summary = json(arguments);
+  ASSERT_EQ(summary["annotations"].size(), 3U);
+  EXPECT_NEAR(summary["annotations"][0]["measure"].get<double>(), 0.5, 1e-15);
+  EXPECT_EQ(summary["annotations"][0]["label"], "from the middle");
+  EXPECT_NEAR(summary["annotations"][1]["measure"].get<double>(), 90.0, 1e-12);
+  EXPECT_EQ(summary["outside"], 1);
+  EXPECT_TRUE(summary["annotations"][2]["values"][0].is_null()) << "no value outside";
+  EXPECT_NE(read_file(folder_.path("notes.csv")).find("0,length,\"from the middle\",0.5,1,0.3,0.4,0"),
+            std::string::npos);
+  arguments = marks;
+  arguments.insert(arguments.end(), {"--out", "notes.txt"});
+  EXPECT_EQ(run(arguments).exit_code, 2);
+  EXPECT_EQ(run({"annotate", "--example", "shells"}).exit_code, 2);
+  EXPECT_EQ(run({"annotate", "--example", "shells", "--annotation", "length:1,2"}).exit_code, 2);
+}
+
 TEST_F(GridWidget, RefusesWhatMakesNoGridOrPlane) {
   folder_.write("path.csv", "t,x,y,z\n0,0,0,0\n");
   const auto refused = [this](const std::string& option, const std::string& value) {

@@ -95,6 +95,7 @@ class VerbParser {
     if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);
     if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
+    if (verb.groups.notes) add_notes();
     if (verb.groups.path) add_path();
     if (verb.groups.path && explorer.kind == FieldKind::kTensor) add_tract();
     if (verb.groups.hand) add_operator();
@@ -200,6 +201,14 @@ class VerbParser {
         ->check(CLI::PositiveNumber);
     scene_options_.add_several("--stop-plane", tracing.stop_planes,
                                "end lines on the plane n.x = d; may be repeated", "nx,ny,nz,d", group);
+  }
+
+  void add_notes() {
+    scene_options_.add_several("--annotation", options_.touch.annotations,
+                               "a place, length, angle (at the second place), curve or area in the data, "
+                               "with '=WORDS' behind it for a "
+                               "label; may be repeated",
+                               "point|length|angle|curve|area:x,y,z,...", "Annotations");
   }
 
   void add_path() {

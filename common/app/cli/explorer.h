@@ -48,6 +48,7 @@ struct VerbGroups {
   bool hand = false;    ///< --device and --rate, for a hand on that path
   bool record = false;  ///< --record
   bool replay = false;  ///< --replay
+  bool notes = false;   ///< --annotation
   bool out = false;
   bool picture = false;  ///< --size, --repeat
   bool effort = false;   ///< --quick, --thorough

@@ -428,6 +428,30 @@ std::string mesh_json(const MeshSummary& summary) {
                   {"version", version()}});
 }
 
+std::string annotation_json(const AnnotationSummary& summary) {
+  Json list = Json::array();
+  std::size_t at = 0;
+  for (const Annotation& each : summary.annotations) {
+    Json points = Json::array(), values = Json::array();
+    for (const Vec3& x : each.points) {
+      points.push_back({x.x, x.y, x.z});
+      values.push_back(std::isfinite(summary.values[at]) ? Json(summary.values[at]) : Json());
+      ++at;
+    }
+    const double measured = measure_of(each);
+    list.push_back({{"kind", name_of(each.kind)},
+                    {"label", each.label},
+                    {"measure", std::isfinite(measured) ? Json(measured) : Json()},
+                    {"points", points},
+                    {"values", values}});
+  }
+  return text_of(Json{{"input", summary.input},
+                      {"out", summary.output},
+                      {"annotations", list},
+                      {"outside", summary.outside},
+                      {"version", version()}});
+}
+
 std::string probe_json(const ProbeSummary& summary) {
   Json states = Json::object();
   for (int s = 0; s < kHoldStateCount; ++s) {

@@ -21,6 +21,7 @@ namespace palpate {
 [[nodiscard]] std::string map_json(const MapSummary& summary);
 [[nodiscard]] std::string series_json(const SeriesSummary& summary);
 [[nodiscard]] std::string mesh_json(const MeshSummary& summary);
+[[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
 [[nodiscard]] std::string open_json(const OpenSummary& summary);
 [[nodiscard]] std::string report_summary_json(const std::string& folder, std::size_t rows,

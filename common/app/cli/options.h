@@ -149,19 +149,20 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  LinearWords linear;             ///< mode linear
-  GridWords grid;                 ///< mode grid
-  PlaneWords planes;              ///< mode plane-widget
-  double field_force = 1.0;       ///< [N] of the force-field modes
-  double field_damping = 5.0;     ///< [N s/m], likewise
-  std::string density_curve;      ///< haptic transfer function; empty: straight
-  std::string anisotropy_curve;   ///< haptic transfer function [mm]; empty: that of AnisotropySettings
-  double fibre_spacing = 4.0;     ///< [mm]
-  double least_friction = 0.5;    ///< [mm]
-  double most_friction = 6.0;     ///< [mm]
-  std::string stroke = "append";  ///< name_of(StrokeUse)
-  double force_cap = 4.0;         ///< [N]
-  double slew_cap = 200.0;        ///< [N/s]
+  LinearWords linear;                    ///< mode linear
+  GridWords grid;                        ///< mode grid
+  PlaneWords planes;                     ///< mode plane-widget
+  double field_force = 1.0;              ///< [N] of the force-field modes
+  double field_damping = 5.0;            ///< [N s/m], likewise
+  std::string density_curve;             ///< haptic transfer function; empty: straight
+  std::string anisotropy_curve;          ///< haptic transfer function [mm]; empty: that of AnisotropySettings
+  double fibre_spacing = 4.0;            ///< [mm]
+  double least_friction = 0.5;           ///< [mm]
+  double most_friction = 6.0;            ///< [mm]
+  std::string stroke = "append";         ///< name_of(StrokeUse)
+  std::vector<std::string> annotations;  ///< grammar of geometry/annotation.h
+  double force_cap = 4.0;                ///< [N]
+  double slew_cap = 200.0;               ///< [N/s]
 };
 
 struct Options {

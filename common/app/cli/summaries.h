@@ -10,6 +10,7 @@
 #include "common/base/needs.h"
 #include "common/device/device.h"
 #include "common/field/grid/mesh_quality.h"
+#include "common/geometry/annotation.h"
 #include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
 #include "common/render/frame_budget.h"
@@ -132,6 +133,15 @@ struct OpenSummary {
   ServoState servo;    ///< as the window was closed
   std::string fault;   ///< where the seconds before a fault were saved; empty: there was none
   std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
+};
+
+/// What was marked and measured.
+struct AnnotationSummary {
+  std::string input;
+  std::string output;  ///< empty: none
+  std::vector<Annotation> annotations;
+  std::vector<double> values;  ///< of the volume at their points, one after the other; NaN outside
+  std::size_t outside = 0;     ///< points
 };
 
 /// An image that was written.

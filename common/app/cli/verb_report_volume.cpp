@@ -9,6 +9,8 @@
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/haptics/workspace.h"
+#include "common/report/plane_placing.h"
 #include "common/report/report.h"
 #include "common/report/volume_quality.h"
 #include "common/scene/plan.h"
@@ -23,6 +25,16 @@ std::string results_text(const Report& report, const VolumeQuality& quality, con
             " in " + short_number(row.milliseconds) + " ms\n";
   }
   return text;
+}
+
+/// Planes are placed among the voxels of the image, in the default workspace.
+PlacingSettings placing_settings(const VolumeImage& image, Effort effort, std::uint64_t seed) {
+  PlacingSettings settings{.seed = seed};
+  settings.voxel = Workspace::default_scale(image.bounds().diagonal()) * glm::length(image.axes[0]);
+  constexpr int kFew = 6, kMany = 200;
+  if (effort == Effort::kQuick) settings.trials = kFew;
+  if (effort == Effort::kThorough) settings.trials = kMany;
+  return settings;
 }
 
 ExitCode run_volume_report(const Options& options, const VerbContext& context) {
@@ -49,6 +61,10 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
   report.scene = {input.choice_sentence(), scene.subtitle + "."};
   const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, &context.progress);
   report.sections.push_back(volume_quality_section(quality));
+  const PlacingSettings placing = placing_settings(*scene.volume->image, effort, options.common.seed);
+  const std::vector<PlacingRow> placed = run_plane_placing(placing, &context.progress);
+  report.sections.push_back(plane_placing_section(placed, placing));
+  report.stability = plane_placing_cases(placed);
   report.seconds = watch.seconds();
 
   context.interrupt.unfinished(unfinished_report_folder(options.out));
@@ -56,7 +72,9 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
   context.interrupt.keep(options.out);
   console.print(results_text(report, quality, options.out.string()));
   if (options.common.explain) console.print(measured_text(measured_costs(input, nullptr)));
-  console.print_json(report_summary_json(options.out.string(), quality.rows.size(), 0, report.seconds));
+  std::size_t failed = 0;
+  for (const StabilityCase& c : report.stability) failed += c.row.holds ? 0 : 1;
+  console.print_json(report_summary_json(options.out.string(), quality.rows.size(), failed, report.seconds));
   return ExitCode::kDone;
 }
 

@@ -8,6 +8,7 @@
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
+#include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/servo_rows.h"
 #include "common/base/version.h"
 #include "common/scene/session.h"
@@ -59,6 +60,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;
+  touch.notes = annotations_of(options.touch.annotations, "--annotation");
   check_replay_options(options);
   touch.path = device_path(options.device);
   touch.simulated = simulated_option(options.device);

@@ -54,6 +54,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
     : options_(std::move(options)),
       wake_(std::move(wake)),
       choice_(options_.choice),
+      notes_(options_.notes),
       mouse_(std::make_unique<MouseDevice>(options_.limits)) {
   if (!available()) return;
   options_.recorded.limits = options_.limits;
@@ -297,6 +298,7 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
     if (planes_news_) planes.poses = planes_news_->poses;
     for (auto& option : plane_options(planes)) options.push_back(std::move(option));
   }
+  if (!notes_.entries().empty()) options.emplace_back("annotation", text_of(notes_.entries()));
   if (options_.workspace_scale > 0.0)
     options.emplace_back("workspace-scale", exact_number(options_.workspace_scale));
   return options;

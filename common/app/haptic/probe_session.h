@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
@@ -51,6 +52,7 @@ struct ProbeSessionOptions {
   /// Where the seconds before a fault are saved (fault_recorder.h); empty: nowhere. With the same header.
   std::filesystem::path fault_folder;
   std::optional<Recording> replay;
+  std::vector<Annotation> notes;  ///< annotations that are there at the start
 };
 
 /// What is read out beside the picture. Data units unless stated.
@@ -135,6 +137,11 @@ class ProbeSession {
   void put_planes(const PlanePoses& poses);
   /// The same for those with which the mode begins: nothing to be taken back.
   void begin_planes(const PlanePoses& poses) { set_planes(poses); }
+  /// What is marked in the data.
+  [[nodiscard]] AnnotationList& notes() noexcept { return notes_; }
+  [[nodiscard]] const AnnotationList& notes() const noexcept { return notes_; }
+  /// What modes of a scalar feel; null where there is none.
+  [[nodiscard]] const std::shared_ptr<const ScalarField>& scalar() const noexcept { return open_.scalar; }
   /// Radius of the spheres of the planes [data units].
   [[nodiscard]] double sphere_radius() const;
   /// Direction in which the felt scalar grows fastest at `x`, unit; none where there is none.
@@ -231,6 +238,7 @@ class ProbeSession {
   std::optional<WidgetNews> planes_news_;
   std::vector<PlanePoses> planes_before_;  ///< what undo() goes back to
   bool pressed_ = false;
+  AnnotationList notes_;
   KeptLines kept_;
   ProbeReadout readout_;
   CellHint hint_, scalar_hint_;

@@ -360,7 +360,8 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       section("TOUCH");
-      actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view.camera);
+      actions.touch =
+          draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view.camera, state.marking);
     }
     if (state.scene->tensors && view.tensors) {
       draw_tensors(state, *state.scene, *view.tensors, view.tracts);

@@ -33,6 +33,7 @@ struct PanelState {
   bool playing = false;
   ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
+  bool marking = false;                     ///< clicks mark places
   TractSeedChoice tract_seeds;              ///< edited; goes into the settings when tracts are traced
   std::optional<TensorPick> tensor;         ///< under the mouse
   std::vector<InputFiles> recent;           ///< newest first

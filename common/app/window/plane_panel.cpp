@@ -84,6 +84,47 @@ void edit_planes(ProbeSession& session, const Camera& camera) {
   if (edited) session.put_planes(poses);
 }
 
+void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {
+  ImGui::Separator();
+  const std::string now(name_of(notes.kind()));
+  if (ImGui::BeginCombo("annotation", now.c_str())) {
+    for (int i = 0; i < kAnnotationKindCount; ++i) {
+      const auto kind = static_cast<AnnotationKind>(i);
+      const std::string word(name_of(kind));
+      if (ImGui::Selectable(word.c_str(), kind == notes.kind())) notes.choose(kind);
+    }
+    ImGui::EndCombo();
+  }
+  actions.mark = ImGui::Button(marking ? "Stop marking" : "Mark by clicks");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("on a cut, else on the surface between object and background");
+  if (points_needed(notes.kind()).most == 0 && !notes.pending().empty()) {
+    ImGui::SameLine();
+    if (ImGui::Button("Done")) notes.finish();
+  }
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < notes.entries().size(); ++i) {
+    const Annotation& each = notes.entries()[i];
+    ImGui::PushID(static_cast<int>(i));
+    const std::string word(name_of(each.kind));
+    if (each.kind == AnnotationKind::kPoint) {
+      const Vec3& x = each.points.front();
+      ImGui::Text("point %.5g %.5g %.5g", x.x, x.y, x.z);
+    } else {
+      ImGui::Text("%s %.5g%s %s", word.c_str(), measure_of(each),
+                  each.kind == AnnotationKind::kAngle ? " deg" : "", each.label.c_str());
+    }
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x")) gone = i;
+    ImGui::PopID();
+  }
+  if (gone) notes.remove(*gone);
+  if (notes.entries().empty()) return;
+  if (ImGui::SmallButton("Save .csv")) actions.save_notes = ".csv";
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Save .vtp")) actions.save_notes = ".vtp";
+}
+
 void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
   if (mode != kGridMode) return;
   GridAxisSettings& grid = choice.settings.grid_axis;

@@ -6,6 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/field/color_transfer_file.h"
+#include "common/load/write_annotations.h"
 
 namespace palpate {
 
@@ -30,6 +31,15 @@ std::filesystem::path SavedFiles::save_transfer(const std::string& name,
   OutputFile file(path, false);
   file.write(color_transfer_text(transfer));
   file.finish();
+  return path;
+}
+
+std::filesystem::path SavedFiles::save_annotations(std::span<const Annotation> annotations,
+                                                   const std::string& ending) const {
+  std::filesystem::path path = folder_ / ("annotations" + ending);
+  for (int number = 2; std::filesystem::exists(path); ++number)
+    path = folder_ / ("annotations-" + std::to_string(number) + ending);
+  write_annotations(path, annotations, false);
   return path;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/app/haptic/kept_lines.h"
 #include "common/field/color_transfer.h"
+#include "common/geometry/annotation.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
 
@@ -25,6 +27,9 @@ class SavedFiles {
   /// Saves a transfer function as a table under `name`.
   [[nodiscard]] std::filesystem::path save_transfer(const std::string& name,
                                                     const ColorTransfer& transfer) const;
+  /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
+  [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
+                                                       const std::string& ending) const;
   /// Saves a picture under the first number that is free.
   [[nodiscard]] std::filesystem::path save_picture(const Image& image,
                                                    const std::vector<PngText>& texts) const;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/app/window/pick_volume.h"
 #include "common/app/window/plane_control.h"
+#include "common/field/scalar_threshold.h"
 #include "common/render/tensor/tensor_pick.h"
 
 namespace palpate {
@@ -61,6 +63,16 @@ void TouchControl::grab_at(const Vec3& place, double time) {
   axis_.reset();
   session_.grab(time, place);
   moved_ = time;
+}
+
+/// A click marks the place of the volume that is seen there.
+bool TouchControl::mark_place(const PictureArea& area, const SceneView& view) {
+  if (!marking_ || !view.volume || !session_.scalar()) return false;
+  const auto place =
+      pick_volume(*view.volume, view.bounds, session_.scalar(), otsu_threshold(*session_.scalar()),
+                  view.camera, size_of(area), {x_ - area.left, y_ - area.top});
+  if (place) session_.notes().add(*place);
+  return place.has_value();
 }
 
 /// A press on a cutting plane: with the probe in the hand, wherever that is; else where its sphere and ring
@@ -133,7 +145,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
     case InputKind::kPress:
       ++buttons_;
       if (event.button == MouseButton::kLeft && !waiting_ && !over_panel && area.contains(x_, y_) &&
-          take_plane(area, view, time))
+          (mark_place(area, view) || take_plane(area, view, time)))
         return true;
       if (!waiting_ || event.button != MouseButton::kLeft || over_panel || !area.contains(x_, y_))
         return false;
@@ -249,6 +261,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
              std::to_string(session_.kept().entries().back().number) + "; Ctrl+E saves all that are kept";
     }
     case Command::kUndo:
+      if (marking_ && session_.notes().undo()) return "undone";
       return session_.undo() ? "undone" : "nothing to undo";
     case Command::kLocalLines: {
       TouchChoice choice = session_.choice();

@@ -32,12 +32,16 @@ class TouchControl {
   [[nodiscard]] bool grabbed() const noexcept { return grabbed_; }
   /// The next press into the picture grabs the probe.
   [[nodiscard]] bool waiting() const noexcept { return waiting_; }
+  /// Whether clicks into the picture mark places for annotations.
+  [[nodiscard]] bool marking() const noexcept { return marking_; }
+  void mark(bool marking) noexcept { marking_ = marking; }
   [[nodiscard]] std::optional<int> locked_axis() const noexcept { return axis_; }
   void let_go() noexcept;
 
  private:
   void grab(const PictureArea& area, const SceneView& view, double time);
   void grab_at(const Vec3& place, double time);
+  bool mark_place(const PictureArea& area, const SceneView& view);
   bool take_plane(const PictureArea& area, const SceneView& view, double time);
   [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
   [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
@@ -48,7 +52,8 @@ class TouchControl {
   bool by_shift_ = false;   ///< for as long as Shift is held
   bool waiting_ = false;    ///< asked for away from the picture: the next click into it grabs the probe there
   bool by_button_ = false;  ///< the press that grabbed the probe goes on
-  bool on_plane_ = false;   ///< the press holds a cutting plane
+  bool marking_ = false;
+  bool on_plane_ = false;                     ///< the press holds a cutting plane
   bool plane_grab_ = false;                   ///< and has grabbed the probe for it
   bool dragged_ = false;                      ///< and has moved it
   double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it was [pixels]

@@ -130,7 +130,8 @@ void list_kept(ProbeSession& session) {
 
 }  // namespace
 
-TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, const Camera& camera) {
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, const Camera& camera,
+                              bool marking) {
   TouchActions actions;
   if (!session.available()) return actions;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -173,6 +174,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
+  if (session.scalar() && !session.has_flow()) edit_notes(session.notes(), marking, actions);
   // What is kept stands below all buttons, which so do not move when it becomes more.
   ImGui::BeginDisabled(session.kept().entries().empty() && !session.has_drawn());
   if (tensors) {

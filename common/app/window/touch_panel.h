@@ -15,14 +15,16 @@ struct TouchActions {
   bool keep = false;
   bool undo = false;
   bool save_lines = false;
+  bool mark = false;       ///< clicks into the picture mark places, or no longer do
+  std::string save_notes;  ///< ending of the file; empty: they are not saved
 };
 
 /// Changes the session's choice and its kept lines.
 /// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
 /// edited.
-/// @param camera of the picture.
+/// @param camera of the picture.  @param marking clicks mark places.
 [[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file,
-                                            const Camera& camera);
+                                            const Camera& camera, bool marking);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
 /// @return its height; 0 where there is none.

@@ -258,6 +258,7 @@ class Window {
     }
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
+    state_.marking = touch_control_->marking();
     state_.grabbed = touch_control_->grabbed() || touch_control_->waiting();
     const bool looking =
         view_.tensors && !control_.dragging() && !touch_->readout().held && !ImGui::GetIO().WantCaptureMouse;
@@ -282,6 +283,9 @@ class Window {
     if (actions.touch.keep) run_command(Command::kKeepLine);
     if (actions.touch.undo) run_command(Command::kUndo);
     if (actions.touch.save_lines) run_command(Command::kSaveLines);
+    if (actions.touch.mark) touch_control_->mark(!touch_control_->marking());
+    if (!actions.touch.save_notes.empty())
+      attempt([&] { return files_.save_annotations(touch_->notes().entries(), actions.touch.save_notes); });
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
     // Surfaces are solid: they would hide what is in a lens.
@@ -386,6 +390,7 @@ class Window {
         slice_control_.let_go();
         lens_control_.let_go();
         touch_control_->let_go();
+        touch_control_->mark(false);
         state_.show_help = state_.playing = false;
         if (job_->running() && job_kind_ != JobKind::kStart) job_->cancel();
         say({}, false);
@@ -477,6 +482,9 @@ class Window {
     SceneView picture = view_;
     const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
     if ((hand || !view_.surfaces.empty()) && touch_->choice().fade_rest) fade_lines(picture);
+    constexpr double kMark = 0.008;  // half a stroke, diagonals
+    for (auto& line : lines_of(touch_->notes(), kMark * picture.bounds.diagonal()))
+      picture.outline.push_back(std::move(line));
     if (touch_->planes()) {
       for (auto& line : lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius()))
         picture.outline.push_back(std::move(line));

@@ -8,6 +8,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
 
 #include "common/base/error.h"
 #include "tests/support/temp_folder.h"
@@ -61,6 +66,36 @@ TEST(Annotation, IsWrittenAsTable) {
             "1,length,\"\",2,1,0,0,2\n");
   EXPECT_THROW(write_annotations(folder.path("notes.csv"), notes, false), Error) << "never over a file";
   EXPECT_THROW(write_annotations(folder.path("notes.txt"), notes, false), Error);
+}
+
+// Read by VTK: a vertex, a line and a polygon, each with its value, kind and label.
+TEST(Annotation, IsReadByVtk) {
+  TempFolder folder;
+  const std::vector<Annotation> notes{read("area:0,0,0,3,0,0,3,4,0,0,4,0=slice"), read("length:0,0,0,0,0,2"),
+                                      read("point:1,2,3=apex")};
+  const std::string path = folder.path("notes.vtp").string();
+  write_annotations(path, notes, false);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkPolyData* const data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfCells(), 3);
+  EXPECT_EQ(data->GetNumberOfVerts(), 1);
+  EXPECT_EQ(data->GetNumberOfLines(), 1);
+  EXPECT_EQ(data->GetNumberOfPolys(), 1);
+  EXPECT_EQ(data->GetNumberOfPoints(), 7);
+  const auto text = [&](const char* name, int cell) {
+    return std::string(
+        vtkStringArray::SafeDownCast(data->GetCellData()->GetAbstractArray(name))->GetValue(cell));
+  };
+  EXPECT_EQ(text("kind", 0), "point");
+  EXPECT_EQ(text("label", 0), "apex");
+  EXPECT_EQ(text("kind", 2), "area");
+  EXPECT_EQ(text("label", 2), "slice");
+  EXPECT_EQ(data->GetCellData()->GetArray("value")->GetTuple1(1), 2.0);
+  EXPECT_EQ(data->GetCellData()->GetArray("value")->GetTuple1(2), 12.0);
+  EXPECT_EQ(data->GetCell(2)->GetNumberOfPoints(), 4);
+  EXPECT_EQ(data->GetPoint(0)[2], 3.0);
 }
 
 }  // namespace
