@@ -432,6 +432,12 @@ class Window {
 
   void run_lens(Command command) {
     if (!scene_ || !view_.volume) return;
+    // Cuts that are planes of the hand are moved by that alone: the mouse gets a lens of its own.
+    std::vector<Lens>& lenses = view_.volume->lenses;
+    const bool cuts_alone =
+        std::all_of(lenses.begin(), lenses.end(), [](const Lens& lens) { return lens.cut; });
+    if (command == Command::kLens && touch_->planes() && cuts_alone && lenses.size() < kMostLenses)
+      lenses.push_back(new_lens(scene_->lens, view_.camera.focal_point, view_.bounds));
     say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
     lens_moved_ = glfwGetTime();
   }
