@@ -1,9 +1,9 @@
 #include "common/calibration/arm_fit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/calibration/arm_advice.h"
@@ -76,7 +76,7 @@ ErrorRow error_row(const std::string& method, bool left_out, std::vector<double>
 
 ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhChain& nominal,
                      const ArmFitOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::vector<ArmMeasurement>& rows = table.rows;
   const std::vector<DhhPlace> free =
       options.offsets_only ? offset_parameters(nominal) : full_parameters(nominal);
@@ -146,8 +146,7 @@ ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhCha
   const std::vector<double> residuals = errors_of(best.estimate, rows);
   constexpr double kNoOutlier = 1e-3;  // [m], what placing a tip by hand may be off
   report.outliers = outlying(residuals, kNoOutlier);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  report.seconds = spent.count();
+  report.seconds = watch.seconds();
   return out;
 }
 

@@ -1,10 +1,10 @@
 #include "common/calibration/registration.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/calibration/point_alignment.h"
@@ -245,7 +245,7 @@ ErrorRow error_row(const std::string& method, bool left_out, const std::vector<d
 
 Registration calibrate_registration(const MeasurementTable<MarkerMeasurement>& table, RegistrationKind kind,
                                     const RegistrationOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   require_enough(table.rows, table.source);
   const Solved solved = solve(table.rows, options);
 
@@ -261,8 +261,7 @@ Registration calibrate_registration(const MeasurementTable<MarkerMeasurement>& t
                        "measure poses that turn about two axes at least, by 30 degrees and more, at places "
                        "well apart");
   describe(report, found);
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  report.seconds = spent.count();
+  report.seconds = watch.seconds();
 
   double chi_square = 0.0;
   for (const double r : linear.residuals) chi_square += r * r;

@@ -1,8 +1,8 @@
 #include "common/calibration/sighting_fit.h"
 
-#include <chrono>
 #include <cmath>
 
+#include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 
@@ -102,7 +102,7 @@ LeastSquaresProblem eye_problem(const std::vector<SightingMeasurement>& rows, co
 }  // namespace
 
 PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const PointFitOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::string remedy =
       "keep the tip in its place and tilt the stylus by 30 degrees and more to all four sides";
   require_rows(table.rows.size(), 4, table.source, "", remedy);
@@ -115,8 +115,7 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
   report.kind = "pivot";
   report.source = table.source;
   report.measurements = table.rows.size();
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  report.seconds = spent.count();
+  report.seconds = watch.seconds();
 
   struct Points {
     Vec3 tip{0.0}, pivot{0.0};
@@ -144,7 +143,7 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
 }
 
 EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const PointFitOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::string remedy =
       "sight along lines that differ by 30 degrees and more as seen from the head: turn the head, not only "
       "the "
@@ -187,8 +186,7 @@ EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const 
     left_out.insert(left_out.end(), part.begin(), part.end());
   }
   report.condition_number = worst;
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  report.seconds = spent.count();
+  report.seconds = watch.seconds();
   report.errors.push_back(error_row(false, residuals));
   if (!left_out.empty()) report.errors.push_back(error_row(true, left_out));
   if (out.left && out.right) {

@@ -34,7 +34,8 @@ struct SyntheticTracker {
 /// in seeded places, scaled so that the mean errors are 42.3 mm and 4.72 degrees (table 4.1).
 [[nodiscard]] SyntheticTracker synthetic_tracker(std::uint64_t seed);
 
-/// 480 poses on a 12 x 10 x 5 grid of 0.15 m and 120 random ones for validation, orientations random.
+/// 480 poses on four of every five nodes of a 12 x 10 x 5 grid of 0.15 m and 120 random ones for validation,
+/// orientations random.
 [[nodiscard]] std::vector<TrackerMeasurement> synthetic_tracker_measurements(const SyntheticTracker& tracker,
                                                                              std::uint64_t seed);
 

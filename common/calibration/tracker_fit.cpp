@@ -1,12 +1,12 @@
 #include "common/calibration/tracker_fit.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include <Eigen/Dense>
 
+#include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 
@@ -262,11 +262,10 @@ void add_rows(FitReport& report, const std::string& method, bool left_out, const
 double evaluation_seconds(const TrackerCorrection& correction, const std::vector<TrackerMeasurement>& rows) {
   constexpr std::size_t kTimes = 2000;
   double sum = 0.0;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   for (std::size_t i = 0; i < kTimes; ++i)
     sum += correction.corrected(rows[i % rows.size()].reported).position.x;
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  return std::isfinite(sum) ? spent.count() / kTimes : 0.0;
+  return std::isfinite(sum) ? watch.seconds() / kTimes : 0.0;
 }
 
 }  // namespace
@@ -304,16 +303,20 @@ TrackerCorrection fit_tracker(const std::vector<TrackerMeasurement>& rows, const
 
 TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
                              const TrackerFitOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::vector<TrackerMeasurement> fit, validation;
-  for (const TrackerMeasurement& row : table.rows) (row.validation ? validation : fit).push_back(row);
+  std::vector<std::size_t> fit_rows;  // in the table, from 1
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    (table.rows[i].validation ? validation : fit).push_back(table.rows[i]);
+    if (!table.rows[i].validation) fit_rows.push_back(i + 1);
+  }
   TrackerFit out;
   out.correction = fit_tracker(fit, options, table.source);
   FitReport& report = out.report;
   report.kind = "tracker";
   report.source = table.source;
   report.measurements = fit.size();
-  const std::chrono::duration<double> fitting = std::chrono::steady_clock::now() - begin;
+  report.seconds = watch.seconds();
 
   const std::vector<TrackerMeasurement>& judged = validation.empty() ? fit : validation;
   const auto all_left = [](const TrackerCorrection& correction, const std::vector<TrackerMeasurement>& rows) {
@@ -369,7 +372,7 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
   std::vector<double> residuals;
   for (const Left& e : seen) residuals.push_back(e.position);
   constexpr double kNoOutlier = 1e-3;  // [m], what a tracker's noise may be
-  report.outliers = outlying(residuals, kNoOutlier);
+  for (const std::size_t row : outlying(residuals, kNoOutlier)) report.outliers.push_back(fit_rows[row - 1]);
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const double distance = glm::length(judged[i].reported.position);
     report.position_errors.push_back({distance, before[i].position, after[i].position});
@@ -394,7 +397,6 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
                                      sigma * found.standard_deviations[j], "m"});
     }
   }
-  report.seconds = fitting.count();
   return out;
 }
 

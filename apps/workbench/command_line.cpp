@@ -1,0 +1,170 @@
+#include "apps/workbench/command_line.h"
+
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#include "common/base/error.h"
+#include "common/base/version.h"
+#include "common/math/quaternion.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  workbench                                             a report of made calibrations, in "
+    "workbench-report\n"
+    "  workbench calibrate tracker poses.csv --out workbench.toml --report report\n"
+    "  workbench calibrate arm grid.csv --out workbench.toml\n"
+    "  workbench calibrate pivot --example                   what a calibration says, on made measurements\n"
+    "  workbench example arm --out grid.csv                  how a table of measurements looks\n"
+    "  workbench screen --distance 0.7 --position-error 5,5 --orientation-error 1\n"
+    "  workbench stability --out stability                   how stiff walls may be\n";
+
+constexpr const char* kCalibrateExamples =
+    "Measurements (CSV with a header; metres, radians, unit quaternions):\n"
+    "  tracker     tx,ty,tz,tqw,tqx,tqy,tqz (reported), mx,my,mz,mqw,mqx,mqy,mqz (measured)[,validation]\n"
+    "  apparatus   px,py,pz,qw,qx,qy,qz (tracker), v1x,v1y,v1z,... (markers as the camera sees them; nan: "
+    "not)\n"
+    "  arm         x,y,z (where the tip was put), j1,...,jn (readings)[,grid]\n"
+    "  coregister  px,py,pz,qw,qx,qy,qz (arm), v1x,v1y,v1z (the tracker's sensor)\n"
+    "  pivot       px,py,pz,qw,qx,qy,qz (sensor; the tip rests)\n"
+    "  eyes        px,py,pz,qw,qx,qy,qz (head), eye (0 left, 1 right), ax,ay,az,bx,by,bz (points seen in "
+    "line)\n"
+    "Examples:\n"
+    "  workbench calibrate tracker poses.csv --degree 4 --method combined --out workbench.toml\n"
+    "  workbench calibrate arm grid.csv --nominal workbench.toml --out workbench.toml --force\n"
+    "  workbench calibrate coregister --example --json\n";
+
+template <typename Value>
+CLI::Validator words(std::map<std::string, Value> known) {
+  return CLI::CheckedTransformer(std::move(known), CLI::ignore_case);
+}
+
+void add_common(CLI::App& verb, WorkbenchOptions& o) {
+  verb.add_flag("--json", o.json, "one JSON object on stdout");
+  verb.add_flag("--quiet", o.quiet, "errors only on stderr");
+  verb.add_flag("--force", o.force, "replace what is there already");
+  verb.add_option("--seed", o.seed, "of made measurements");
+  verb.add_option("--threads", o.threads, "0: all cores");
+}
+
+void add_kind(CLI::App& verb, WorkbenchOptions& o) {
+  verb.add_option("KIND", o.kind, "tracker, apparatus, arm, coregister, pivot or eyes")
+      ->required()
+      ->check(CLI::IsMember({"tracker", "apparatus", "arm", "coregister", "pivot", "eyes"}));
+}
+
+}  // namespace
+
+WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
+  WorkbenchOptions o;
+  CLI::App app("Calibrate devices and displays, and judge what their errors do", "workbench");
+  app.footer(kExamples);
+  app.set_version_flag("--version", version_text("workbench"));
+  add_common(app, o);
+
+  CLI::App& calibrate = *app.add_subcommand("calibrate", "fit a model to a table of measurements");
+  add_common(calibrate, o);
+  add_kind(calibrate, o);
+  calibrate.footer(kCalibrateExamples);
+  calibrate.add_option("FILE", o.file, "table of measurements");
+  calibrate.add_flag("--example", o.example, "made measurements of known truth in place of FILE");
+  calibrate.add_option("--out", o.out, "workbench.toml whose section is written; the rest of it stays");
+  calibrate.add_option("--report", o.report, "folder for a report with pictures");
+  calibrate.add_option("--loss", o.loss, "how measurements far from the fit count: square, huber or cauchy")
+      ->transform(
+          words<Loss>({{"square", Loss::kSquare}, {"huber", Loss::kHuber}, {"cauchy", Loss::kCauchy}}));
+  calibrate
+      .add_option("--method", o.method, "tracker: polynomial, table, spline, combined or combined-spline")
+      ->transform(words<TrackerMethod>({{"polynomial", TrackerMethod::kPolynomial},
+                                        {"table", TrackerMethod::kTable},
+                                        {"spline", TrackerMethod::kSpline},
+                                        {"combined", TrackerMethod::kCombined},
+                                        {"combined-spline", TrackerMethod::kCombinedSpline}}));
+  calibrate.add_option("--degree", o.degree, "tracker: of the polynomial")->check(CLI::Range(0, kMaxDegree));
+  calibrate
+      .add_option("--nodes", o.nodes, "tracker: of the table along its longest side; 0: by the measurements")
+      ->check(CLI::Range(0, 100));
+  calibrate.add_flag("--offsets", o.offsets_only, "arm: the joints' offsets alone");
+  calibrate.add_option("--nominal", o.nominal,
+                       "arm: a workbench.toml whose [arm] the search starts from (default: PHANToM 3.0)");
+  std::vector<double> noise;
+  CLI::Option* noise_option =
+      calibrate
+          .add_option("--noise", noise,
+                      "apparatus, coregister: standard deviations an axis of position [mm], orientation "
+                      "[degrees] and markers [mm]")
+          ->delimiter(',')
+          ->expected(3)
+          ->check(CLI::PositiveNumber);
+
+  CLI::App& example = *app.add_subcommand("example", "write a made table of measurements");
+  add_common(example, o);
+  add_kind(example, o);
+  example.add_option("--out", o.out, "CSV file")->required();
+
+  CLI::App& report = *app.add_subcommand("report", "made calibrations of every kind, and head tracking");
+  add_common(report, o);
+  report.add_option("--out", o.out, "folder (default: workbench-report)");
+
+  CLI::App& screen = *app.add_subcommand("screen", "what errors of head tracking do before your screen");
+  add_common(screen, o);
+  HeadErrorSetup& s = o.screen;
+  screen.add_option("--distance", s.eye_distance, "of the eyes from the screen [m]");
+  screen.add_option("--separation", s.separation, "of the eyes [m]");
+  screen.add_option("--width", s.screen_width, "of the screen [m]");
+  screen.add_option("--front", s.front, "how far objects stand out [m]");
+  screen.add_option("--behind", s.behind, "how far they lie behind the screen [m]");
+  screen.add_option("--pixel", s.pixel, "size of a pixel [m]");
+  std::vector<double> position;
+  double degrees = s.orientation_error / kDegree;
+  screen.add_option("--position-error", position, "of the tracked head: along the screen, away from it [mm]")
+      ->delimiter(',')
+      ->expected(2);
+  screen.add_option("--orientation-error", degrees, "[degrees]");
+  screen.add_option("--out", o.out, "folder for a report with figures 4.14 and 4.15 for this screen");
+  screen.footer(
+      "Examples:\n  workbench screen --distance 0.5 --width 0.6 --pixel 0.00025\n"
+      "  workbench screen --position-error 5,5 --orientation-error 1 --out screen-report\n");
+
+  CLI::App& stability =
+      *app.add_subcommand("stability", "how stiff walls may be, by rate, damping, delay, encoder");
+  add_common(stability, o);
+  stability.add_option("--out", o.out, "folder for the report")->required();
+  stability.footer("Examples:\n  workbench stability --out stability\n");
+  app.require_subcommand(0, 1);
+
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(reversed);
+  } catch (const CLI::CallForHelp&) {
+    o.text = app.help();
+    return o;
+  } catch (const CLI::CallForAllHelp&) {
+    o.text = app.help("", CLI::AppFormatMode::All);
+    return o;
+  } catch (const CLI::CallForVersion& version) {
+    o.text = std::string(version.what()) + "\n";
+    return o;
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(std::string(error.what()) + "; see workbench --help");
+  }
+  const auto verbs = app.get_subcommands();
+  o.verb = verbs.empty() ? "report" : verbs.front()->get_name();
+  if (!position.empty()) s.position_error = 1e-3 * Vec2{position[0], position[1]};
+  s.orientation_error = degrees * kDegree;
+  if (o.kind == "coregister") {
+    // The arm's and, near its transmitter, the tracker's.
+    o.noise = {.pose_position = 0.4e-3, .pose_orientation = 1.5e-3, .marker = 0.5e-3};
+  }
+  if (noise_option->count() > 0) o.noise = {1e-3 * noise[0], noise[1] * kDegree, 1e-3 * noise[2]};
+  if (o.verb == "calibrate" && o.example == !o.file.empty())
+    throw usage_error("calibrate " + o.kind + " needs a table of measurements, or --example for made ones");
+  if (verbs.empty() && o.out.empty()) o.force = true;  // the first five minutes: a demonstration is replaced
+  if (o.verb == "report" && o.out.empty()) o.out = "workbench-report";
+  return o;
+}
+
+}  // namespace palpate

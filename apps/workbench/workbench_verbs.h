@@ -1,0 +1,44 @@
+/// What workbench does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/workbench/command_line.h"
+#include "common/app/cli/console.h"
+#include "common/base/progress.h"
+#include "common/calibration/fit_report.h"
+#include "common/report/section.h"
+#include "common/report/stability.h"
+
+namespace palpate {
+
+struct WorkbenchContext {
+  Console& console;
+  Progress& progress;
+  std::string command_line;  ///< as typed
+};
+
+/// @name Verbs. @throws Error.
+/// @{
+void run_calibrate(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_example(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_workbench_report(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_screen(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_stability_verb(const WorkbenchOptions& options, const WorkbenchContext& context);
+/// @}
+
+/// A calibration and the section of workbench.toml that it gives.
+struct Calibrated {
+  FitReport report;
+  std::string section;  ///< its name: "tracker"
+  std::string text;     ///< the section
+};
+[[nodiscard]] Calibrated calibrated(const WorkbenchOptions& options);
+
+/// Writes index.html, report.json and pictures.
+void write_sections(const WorkbenchOptions& options, const WorkbenchContext& context,
+                    const std::filesystem::path& folder, const std::string& title,
+                    std::vector<ReportSection> sections, std::vector<StabilityCase> cases, double seconds);
+
+}  // namespace palpate

@@ -1,0 +1,395 @@
+#include "common/calibration/workbench_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/output_file.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+std::string line_of(const toml::node& node) { return "line " + std::to_string(node.source().begin.line); }
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place,
+                         const std::string& found, const std::string& expected) {
+  throw input_error({path.string(), place, found, expected, ""});
+}
+
+toml::table parsed(const std::string& text, const std::filesystem::path& path) {
+  try {
+    return toml::parse(text, path.string());
+  } catch (const toml::parse_error& error) {
+    refuse(path, "line " + std::to_string(error.source().begin.line), std::string(error.description()),
+           "TOML");
+  }
+}
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (in.is_open()) text << in.rdbuf();
+  if (!in.is_open() || in.bad()) {
+    throw input_error({path.string(), "", "cannot be read", "a workbench.toml",
+                       "make one with `workbench calibrate … --out workbench.toml`"});
+  }
+  return text.str();
+}
+
+/// One section, its keys checked.
+class Section {
+ public:
+  Section(const toml::table& table, std::string name, const std::filesystem::path& path,
+          std::initializer_list<const char*> known)
+      : table_(table), name_(std::move(name)), path_(path) {
+    for (const auto& [key, node] : table) {
+      const std::string word(key.str());
+      if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+      std::string words;
+      for (const char* k : known) words += (words.empty() ? "" : ", ") + std::string(k);
+      refuse(path, line_of(node), "unknown key '" + word + "' in [" + name_ + "]", words);
+    }
+  }
+
+  [[nodiscard]] bool has(const char* key) const { return table_.contains(key); }
+  [[nodiscard]] const toml::node& at(const char* key) const {
+    const toml::node* node = table_.get(key);
+    if (!node) refuse(path_, line_of(table_), "[" + name_ + "] has no '" + key + "'", key);
+    return *node;
+  }
+  [[nodiscard]] std::vector<double> numbers(const toml::node& node, std::size_t count,
+                                            bool may_be_nan = false) const {
+    std::vector<double> out;
+    const toml::array* array = node.as_array();
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+      const auto value = (*array)[i].value<double>();
+      if (value && (std::isfinite(*value) || (may_be_nan && std::isnan(*value)))) out.push_back(*value);
+    }
+    if (!array || out.size() != count || array->size() != count)
+      refuse(path_, line_of(node), "not " + std::to_string(count) + " numbers in [" + name_ + "]",
+             std::to_string(count) + " finite numbers in brackets");
+    return out;
+  }
+  [[nodiscard]] Vec3 vector(const toml::node& node, bool may_be_nan = false) const {
+    const auto x = numbers(node, 3, may_be_nan);
+    return {x[0], x[1], x[2]};
+  }
+  [[nodiscard]] Vec3 vector(const char* key) const { return vector(at(key)); }
+  [[nodiscard]] double number(const char* key) const {
+    const auto value = at(key).value<double>();
+    if (!value || !std::isfinite(*value)) refuse(path_, line_of(at(key)), "no number", "a finite number");
+    return *value;
+  }
+  [[nodiscard]] const toml::array& array(const char* key) const {
+    const toml::array* array = at(key).as_array();
+    if (!array) refuse(path_, line_of(at(key)), "no list", "a list in brackets");
+    return *array;
+  }
+  [[nodiscard]] std::vector<Vec3> vectors(const char* key, std::size_t count) const {
+    const toml::array& list = array(key);
+    if (list.size() != count)
+      refuse(path_, line_of(list), std::to_string(list.size()) + " entries in '" + key + "'",
+             std::to_string(count));
+    return all_vectors(key);
+  }
+  [[nodiscard]] std::vector<Vec3> all_vectors(const char* key, bool may_be_nan = false) const {
+    std::vector<Vec3> out;
+    for (const toml::node& node : array(key)) out.push_back(vector(node, may_be_nan));
+    return out;
+  }
+  [[nodiscard]] Rigid motion() const {
+    const auto q = numbers(at("rotation"), 4);
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    constexpr double kSlack = 1e-3;
+    if (std::abs(length - 1.0) > kSlack)
+      refuse(path_, line_of(at("rotation")), "a quaternion of length " + short_number(length), "1");
+    return {Quat{q[0], q[1], q[2], q[3]} / length, vector("translation")};
+  }
+  [[noreturn]] void refuse_at(const char* key, const std::string& found, const std::string& expected) const {
+    refuse(path_, line_of(at(key)), found, expected);
+  }
+
+ private:
+  const toml::table& table_;
+  std::string name_;
+  const std::filesystem::path& path_;
+};
+
+TrackerCorrection tracker_of(const Section& s) {
+  TrackerCorrection out;
+  if (s.has("degree")) {
+    const double degree = s.number("degree");
+    if (degree != std::floor(degree) || degree < 0.0 || degree > kMaxDegree)
+      s.refuse_at("degree", short_number(degree), "0 to " + std::to_string(kMaxDegree));
+    if (!(s.number("scale") > 0.0)) s.refuse_at("scale", "not positive", "a length");
+    const auto r = static_cast<int>(degree);
+    const auto terms = static_cast<std::size_t>(term_count(r));
+    out.position = {r, s.vector("center"), s.number("scale"), s.vectors("position", terms)};
+    out.orientation = {r, s.vector("center"), s.number("scale"), s.vectors("orientation", terms)};
+  }
+  if (s.has("table_count")) {
+    const Vec3 count = s.vector("table_count");
+    constexpr double kMostNodes = 1000.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(count[axis] >= 2.0 && count[axis] <= kMostNodes && count[axis] == std::floor(count[axis])))
+        s.refuse_at("table_count", short_number(count[axis]) + " nodes", "2 to 1000 along each axis");
+      if (!(s.vector("table_spacing")[axis] > 0.0)) s.refuse_at("table_spacing", "not positive", "lengths");
+    }
+    out.table = {s.vector("table_lower"), s.vector("table_spacing"), Index3(count), {}};
+    const auto nodes = static_cast<std::size_t>(count.x * count.y * count.z);
+    const auto position = s.vectors("table_position", nodes), turn = s.vectors("table_orientation", nodes);
+    for (std::size_t i = 0; i < nodes; ++i) out.table.values.push_back({position[i], turn[i]});
+  }
+  return out;
+}
+
+DhhChain arm_of(const Section& s) {
+  DhhChain out;
+  for (const toml::node& node : s.array("rows")) {
+    const auto numbers = s.numbers(node, kDhhQuantities + 1);
+    DhhRow row;
+    std::copy_n(numbers.begin(), kDhhQuantities, row.values.begin());
+    constexpr double kMostJoints = 32.0;
+    const double joint = numbers.back();
+    if (!(joint >= 0.0 && joint <= kMostJoints && joint == std::floor(joint)))
+      s.refuse_at("rows", "joint " + short_number(joint), "0 for none, or its number");
+    row.joint = static_cast<int>(joint) - 1;
+    out.joint_count = std::max(out.joint_count, row.joint + 1);
+    out.rows.push_back(row);
+  }
+  if (!s.has("free")) return out;
+  const toml::array& free = s.array("free");
+  if (free.size() != out.rows.size())
+    s.refuse_at("free", std::to_string(free.size()) + " entries", std::to_string(out.rows.size()));
+  for (std::size_t row = 0; row < free.size(); ++row) {
+    std::istringstream words(free[row].value_or(std::string("?")));
+    for (std::string word; words >> word;) {
+      bool found = false;
+      for (int q = 0; q < kDhhQuantities; ++q) {
+        const std::string name = dhh_name(0, static_cast<DhhQuantity>(q));
+        if (name.substr(0, name.size() - 1) != word) continue;
+        out.rows[row].free[static_cast<std::size_t>(q)] = found = true;
+      }
+      if (!found) s.refuse_at("free", "'" + word + "'", "d, a, alpha, beta or gamma");
+    }
+  }
+  return out;
+}
+
+std::string row_text(std::initializer_list<double> values) {
+  std::string out;
+  for (const double value : values) out += (out.empty() ? "[" : ", ") + exact_number(value);
+  return out + "]";
+}
+std::string row_text(const Vec3& x) { return row_text({x.x, x.y, x.z}); }
+
+std::string list_text(const char* key, const std::vector<std::string>& rows) {
+  std::string out = std::string(key) + " = [\n";
+  for (const std::string& row : rows) out += "  " + row + ",\n";
+  return out + "]\n";
+}
+
+std::string vectors_text(const char* key, const std::vector<Vec3>& all) {
+  std::vector<std::string> rows;
+  for (const Vec3& x : all) rows.push_back(row_text(x));
+  return list_text(key, rows);
+}
+
+std::string motion_text(const Rigid& motion) {
+  const Quat& q = motion.rotation;
+  return "rotation = " + row_text({q.w, q.x, q.y, q.z}) + "\ntranslation = " + row_text(motion.translation) +
+         "\n";
+}
+
+/// First lines of all tables that stand outside `name`, from 1.
+void collect_headers(const toml::table& table, const std::string& skip, std::vector<std::size_t>& lines) {
+  for (const auto& [key, node] : table) {
+    if (key.str() == skip) continue;
+    if (const toml::table* inner = node.as_table(); inner && !inner->is_inline()) {
+      lines.push_back(inner->source().begin.line);
+      collect_headers(*inner, "", lines);
+    } else if (const toml::array* array = node.as_array(); array && array->is_array_of_tables()) {
+      for (const toml::node& element : *array) {
+        lines.push_back(element.source().begin.line);
+        collect_headers(*element.as_table(), "", lines);
+      }
+    }
+  }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = text.find('\n', begin);
+    const std::size_t next = end == std::string::npos ? text.size() : end + 1;
+    out.push_back(text.substr(begin, next - begin));
+    begin = next;
+  }
+  return out;
+}
+
+bool is_remark_or_blank(const std::string& line) {
+  const std::string_view text = trimmed(line);
+  return text.empty() || text.front() == '#';
+}
+
+}  // namespace
+
+WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
+  const toml::table root = parsed(contents(path), path);
+  const auto section = [&](const char* name, std::initializer_list<const char*> known, const auto& read) {
+    const toml::node* node = root.get(name);
+    if (!node) return;
+    const toml::table* table = node->as_table();
+    if (!table)
+      refuse(path, line_of(*node), std::string("'") + name + "' is no section",
+             std::string("[") + name + "]");
+    read(Section(*table, name, path, known));
+  };
+  WorkbenchGeometry out;
+  section("tracker",
+          {"degree", "center", "scale", "position", "orientation", "table_count", "table_lower",
+           "table_spacing", "table_position", "table_orientation"},
+          [&](const Section& s) { out.tracker = tracker_of(s); });
+  section("apparatus", {"rotation", "translation", "markers"}, [&](const Section& s) {
+    out.apparatus = {s.motion(), s.all_vectors("markers", true)};
+  });
+  section("arm", {"rows", "free"}, [&](const Section& s) { out.arm = arm_of(s); });
+  section("coregistration", {"rotation", "translation", "sensor"}, [&](const Section& s) {
+    out.coregistration = {s.motion(), s.vector("sensor")};
+  });
+  section("stylus", {"tip"}, [&](const Section& s) { out.stylus = s.vector("tip"); });
+  section("eyes", {"left", "right"}, [&](const Section& s) {
+    out.eyes.emplace();
+    if (s.has("left")) out.eyes->left = s.vector("left");
+    if (s.has("right")) out.eyes->right = s.vector("right");
+  });
+  section("screen", {"lower_left", "lower_right", "upper_left"}, [&](const Section& s) {
+    out.screen = {s.vector("lower_left"), s.vector("lower_right"), s.vector("upper_left")};
+  });
+  return out;
+}
+
+std::string section_text(const TrackerCorrection& tracker) {
+  PALPATE_CHECK(tracker.spline.centers.empty());
+  std::string out = "[tracker]\n";
+  if (tracker.position.degree >= 0) {
+    out += "degree = " + std::to_string(tracker.position.degree) +
+           "\ncenter = " + row_text(tracker.position.center) +
+           "\nscale = " + exact_number(tracker.position.scale) + "\n" +
+           vectors_text("position", tracker.position.coefficients) +
+           vectors_text("orientation", tracker.orientation.coefficients);
+  }
+  if (!tracker.table.values.empty()) {
+    const ErrorTable& table = tracker.table;
+    std::vector<Vec3> position, orientation;
+    for (const PoseError& e : table.values) {
+      position.push_back(e.position);
+      orientation.push_back(e.orientation);
+    }
+    out += "table_count = " + row_text(Vec3(table.count)) + "\ntable_lower = " + row_text(table.lower) +
+           "\ntable_spacing = " + row_text(table.spacing) + "\n" + vectors_text("table_position", position) +
+           vectors_text("table_orientation", orientation);
+  }
+  return out;
+}
+
+std::string section_text(const ApparatusGeometry& apparatus) {
+  return "[apparatus]\n" + motion_text(apparatus.optical_from_tracker) +
+         vectors_text("markers", apparatus.markers);
+}
+
+std::string section_text(const DhhChain& arm) {
+  std::vector<std::string> rows, free;
+  for (const DhhRow& row : arm.rows) {
+    const auto& [d, a, alpha, beta, gamma] = row.values;
+    rows.push_back(row_text({d, a, alpha, beta, gamma, static_cast<double>(row.joint + 1)}));
+    std::string words;
+    for (int q = 0; q < kDhhQuantities; ++q) {
+      if (!row.free[static_cast<std::size_t>(q)]) continue;
+      const std::string name = dhh_name(0, static_cast<DhhQuantity>(q));
+      words += (words.empty() ? "" : " ") + name.substr(0, name.size() - 1);
+    }
+    free.push_back("\"" + words + "\"");
+  }
+  return "[arm]\n" + list_text("rows", rows) + list_text("free", free);
+}
+
+std::string section_text(const CoregistrationGeometry& coregistration) {
+  return "[coregistration]\n" + motion_text(coregistration.tracker_from_arm) +
+         "sensor = " + row_text(coregistration.sensor) + "\n";
+}
+
+std::string stylus_section_text(const Vec3& tip) { return "[stylus]\ntip = " + row_text(tip) + "\n"; }
+
+std::string section_text(const EyesGeometry& eyes) {
+  return std::string("[eyes]\n") + (eyes.left ? "left = " + row_text(*eyes.left) + "\n" : "") +
+         (eyes.right ? "right = " + row_text(*eyes.right) + "\n" : "");
+}
+
+std::string section_text(const ScreenGeometry& screen) {
+  return "[screen]\nlower_left = " + row_text(screen.lower_left) +
+         "\nlower_right = " + row_text(screen.lower_right) + "\nupper_left = " + row_text(screen.upper_left) +
+         "\n";
+}
+
+bool has_section(const std::filesystem::path& path, const std::string& name) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) && parsed(contents(path), path).contains(name);
+}
+
+void write_section(const std::filesystem::path& path, const std::string& name, const std::string& text,
+                   bool replace) {
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(path, ignored);
+  const std::string before = exists ? contents(path) : "";
+  const toml::table old = parsed(before, path);
+  std::string after;
+  if (const toml::node* node = old.get(name)) {
+    if (!replace)
+      throw usage_error(path.string() + " has a section [" + name + "] already; use --force to replace it");
+    const toml::table* table = node->as_table();
+    if (!table || table->is_inline())
+      throw usage_error(path.string() + ": " + line_of(*node) + ": '" + name +
+                        "' is not written as a section; remove it by hand");
+    std::vector<std::size_t> headers;
+    collect_headers(old, name, headers);
+    const std::vector<std::string> lines = lines_of(before);
+    const std::size_t first = table->source().begin.line - 1;
+    std::size_t last = lines.size();
+    for (const std::size_t header : headers) {
+      if (header > first + 1) last = std::min(last, header - 1);
+    }
+    // Remarks above the next section are its own.
+    while (last > first + 1 && is_remark_or_blank(lines[last - 1])) --last;
+    for (std::size_t i = 0; i < first; ++i) after += lines[i];
+    after += text;
+    for (std::size_t i = last; i < lines.size(); ++i) after += lines[i];
+  } else {
+    after = before;
+    if (!after.empty() && after.back() != '\n') after += '\n';
+    after += (after.empty() ? "" : "\n") + text;
+  }
+  // Whatever a file may look like: nothing of it is lost, or nothing is written.
+  toml::table rest = parsed(after, path), was = old;
+  toml::table given = parsed(text, path);
+  const bool as_given = *rest[name].as_table() == *given[name].as_table();
+  rest.erase(name);
+  was.erase(name);
+  if (rest != was || !as_given)
+    throw usage_error(path.string() + ": [" + name + "] cannot be replaced alone; remove it by hand");
+  OutputFile file(path, true);
+  file.write(after);
+  file.finish();
+}
+
+}  // namespace palpate

@@ -1,0 +1,85 @@
+/// workbench.toml: the geometry of one workbench. Calibrations write its sections, explorers read them.
+///
+/// Metres, radians, rotations as unit quaternions [w, x, y, z]; every section and, where it says so, every
+/// key may be missing.
+///
+///   [tracker]          # distortion: tracker_correction.h
+///   degree = 4                     # with center, scale, position, orientation: the polynomials
+///   position = [[x, y, z], …]      # coefficients, as vector_polynomial.h orders them; orientation likewise
+///   table_count = [12, 10, 5]      # with table_lower, table_spacing, table_position, table_orientation: the
+///   table [apparatus]        # where an optical instrument stands: x_optical = rotation x_tracker +
+///   translation rotation, translation; markers = [[x, y, z], …]    # in the sensor's frame; nan: not
+///   measured [arm]              # dhh_chain.h rows = [[d, a, alpha, beta, gamma, joint], …]      # joint
+///   from 1; 0: the row has none free = ["d a alpha gamma", …]  # optional: what a full calibration estimates
+///   of each row [coregistration]   # x_tracker = rotation x_arm + translation rotation, translation; sensor
+///   = [x, y, z]          # of the tracker, in the frame of the arm's end [stylus]           # tip = [x, y,
+///   z] in the sensor's frame [eyes]             # left, right = [x, y, z] in the head sensor's frame; one
+///   may be missing [screen]           # lower_left, lower_right, upper_left = [x, y, z] in the tracker's
+///   frame
+///
+/// Other sections belong to others and are left alone.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/kinematics/dhh_chain.h"
+#include "common/kinematics/tracker_correction.h"
+
+namespace palpate {
+
+struct ApparatusGeometry {
+  Rigid optical_from_tracker;
+  std::vector<Vec3> markers;
+};
+struct CoregistrationGeometry {
+  Rigid tracker_from_arm;
+  Vec3 sensor{0.0};
+};
+struct EyesGeometry {
+  std::optional<Vec3> left, right;
+};
+struct ScreenGeometry {
+  Vec3 lower_left{0.0}, lower_right{0.0}, upper_left{0.0};
+};
+
+struct WorkbenchGeometry {
+  std::optional<TrackerCorrection> tracker;
+  std::optional<ApparatusGeometry> apparatus;
+  std::optional<DhhChain> arm;
+  std::optional<CoregistrationGeometry> coregistration;
+  std::optional<Vec3> stylus;
+  std::optional<EyesGeometry> eyes;
+  std::optional<ScreenGeometry> screen;
+};
+
+/// @throws Error (bad input) naming the line of what is not TOML, unknown, missing, or of a wrong kind or
+/// size.
+[[nodiscard]] WorkbenchGeometry read_workbench(const std::filesystem::path& path);
+
+/// @name A section's text, with its header
+/// @{
+/// @pre the correction has no spline: a table holds what one says.
+[[nodiscard]] std::string section_text(const TrackerCorrection& tracker);
+[[nodiscard]] std::string section_text(const ApparatusGeometry& apparatus);
+[[nodiscard]] std::string section_text(const DhhChain& arm);
+[[nodiscard]] std::string section_text(const CoregistrationGeometry& coregistration);
+[[nodiscard]] std::string stylus_section_text(const Vec3& tip);
+[[nodiscard]] std::string section_text(const EyesGeometry& eyes);
+[[nodiscard]] std::string section_text(const ScreenGeometry& screen);
+/// @}
+
+/// Whether `path` holds the section already. A file that does not exist holds none.
+/// @throws Error (bad input) where it is not TOML.
+[[nodiscard]] bool has_section(const std::filesystem::path& path, const std::string& name);
+
+/// Puts a section into the file, in the place of the one of that name or at the end; makes the file where
+/// there is none. All other lines stay as they are, remarks included.
+/// @throws Error (usage) where the section is there and `replace` is not set, or is written in a way that
+/// cannot be replaced alone; (bad input) where the file is not TOML; (work failed).
+void write_section(const std::filesystem::path& path, const std::string& name, const std::string& text,
+                   bool replace);
+
+}  // namespace palpate

@@ -1,0 +1,119 @@
+// workbench.toml: what calibrations write comes back, and nothing else of the file is touched.
+
+#include "common/calibration/workbench_file.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+class WorkbenchFileTest : public testing::Test {
+ protected:
+  void write(const std::string& text) { folder_.write("workbench.toml", text); }
+  [[nodiscard]] std::string text() const { return read_file(path_); }
+  [[nodiscard]] std::string refusal(const std::string& content) {
+    write(content);
+    try {
+      (void)read_workbench(path_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return error.what();
+    }
+    return "";
+  }
+  TempFolder folder_;
+  std::filesystem::path path_ = folder_.path("workbench.toml");
+};
+
+TEST_F(WorkbenchFileTest, EverySectionComesBackToTheBit) {
+  TrackerCorrection tracker;
+  tracker.position = {.degree = 1,
+                      .center = {0.1, 0.2, 1.0 / 3.0},
+                      .scale = 0.7,
+                      .coefficients = {{1e-3, -2e-17, 0.1}, {1, 2, 3}, {0.3, 0.2, 0.1}, {4, 5, 6}}};
+  tracker.orientation = tracker.position;
+  tracker.table = {
+      {-1, 0, 1}, {0.5, 0.25, 0.125}, {2, 3, 2}, std::vector<PoseError>(12, {{0.1, 0.2, 0.3}, {}})};
+  const DhhChain arm = nominal_phantom_3();
+  const Rigid motion{rotation_by({0.1, 0.2, 0.3}), {1, 2, 3}};
+  write_section(path_, "tracker", section_text(tracker), false);
+  write_section(path_, "arm", section_text(arm), false);
+  write_section(path_, "apparatus", section_text(ApparatusGeometry{motion, {{1, 2, 3}, Vec3{NAN}}}), false);
+  write_section(path_, "coregistration", section_text(CoregistrationGeometry{motion, {0.1, 0, 0}}), false);
+  write_section(path_, "stylus", stylus_section_text({0.0, 0.0, -0.14}), false);
+  write_section(path_, "eyes", section_text(EyesGeometry{Vec3{-0.03, 0, 0}, std::nullopt}), false);
+  write_section(path_, "screen", section_text(ScreenGeometry{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), false);
+
+  const WorkbenchGeometry back = read_workbench(path_);
+  ASSERT_TRUE(back.tracker && back.arm && back.apparatus && back.coregistration && back.stylus && back.eyes &&
+              back.screen);
+  EXPECT_EQ(back.tracker->position.coefficients, tracker.position.coefficients);
+  EXPECT_EQ(back.tracker->position.center, tracker.position.center);
+  EXPECT_EQ(back.tracker->table.values[7].position, tracker.table.values[7].position);
+  EXPECT_EQ(back.tracker->table.count, tracker.table.count);
+  ASSERT_EQ(back.arm->rows.size(), arm.rows.size());
+  EXPECT_EQ(back.arm->joint_count, arm.joint_count);
+  for (std::size_t row = 0; row < arm.rows.size(); ++row) {
+    EXPECT_EQ(back.arm->rows[row].values, arm.rows[row].values);
+    EXPECT_EQ(back.arm->rows[row].free, arm.rows[row].free);
+    EXPECT_EQ(back.arm->rows[row].joint, arm.rows[row].joint);
+  }
+  EXPECT_LT(glm::distance(back.coregistration->tracker_from_arm * Vec3{1, 1, 1}, motion * Vec3{1, 1, 1}),
+            1e-15);
+  EXPECT_EQ(back.stylus->z, -0.14);
+  EXPECT_TRUE(back.eyes->left && !back.eyes->right);
+  EXPECT_TRUE(std::isnan(back.apparatus->markers[1].x));
+}
+
+TEST_F(WorkbenchFileTest, ReplacingASectionLeavesAllOtherLines) {
+  const std::string
+      head =
+          "# the lab's bench\nname = 'B 12'   # our room\n\n[screen]\nlower_left = [0, 0, 0]\n"
+          "lower_right = [1, 0, 0]\nupper_left = [0, 1, 0]\n\n",
+      tail =
+          "\n# ours, not Palpate's\n[lab.notes]\ntext = \"\"\"\n[stylus] is in the drawer\n\"\"\"\n"
+          "[[lab.people]]\nname = 'A'\n";
+  write(head + "[stylus]\ntip = [0, 0, 0]\n" + tail);
+  EXPECT_THROW(write_section(path_, "stylus", stylus_section_text({1, 2, 3}), false), Error);
+  write_section(path_, "stylus", stylus_section_text({1, 2, 3}), true);
+  EXPECT_EQ(text(), head + stylus_section_text({1, 2, 3}) + tail);
+  write_section(path_, "eyes", section_text(EyesGeometry{Vec3{0.0}, Vec3{1.0}}), false);
+  EXPECT_TRUE(text().starts_with(head + stylus_section_text({1, 2, 3}) + tail));
+  EXPECT_EQ(read_workbench(path_).stylus->y, 2.0);
+}
+
+TEST_F(WorkbenchFileTest, WritesNothingRatherThanLoseSomething) {
+  // A section in two pieces and one that is none cannot be replaced by text; the file must stay as it is
+  // then.
+  for (const std::string content : {"stylus = {tip = [0, 0, 0]}\n", "stylus.tip = [0, 0, 0]\nname = 'B'\n",
+                                    "[stylus]\ntip = [0, 0, 0]\n[other]\na = 1\n[stylus.more]\nb = 2\n"}) {
+    write(content);
+    EXPECT_THROW(write_section(path_, "stylus", stylus_section_text({1, 2, 3}), true), Error) << content;
+    EXPECT_EQ(text(), content);
+  }
+}
+
+TEST_F(WorkbenchFileTest, NamesTheLineOfWhatIsWrong) {
+  EXPECT_NE(refusal("[stylus]\ntip = [1, 2\n").find("line"), std::string::npos);
+  const std::string unknown = refusal("a = 1\n[stylus]\ntop = [1, 2, 3]\n");
+  EXPECT_NE(unknown.find("line 3"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("tip"), std::string::npos) << unknown;
+  EXPECT_NE(refusal("\n[eyes]\nleft = [1, 2, inf]\n").find("line 3"), std::string::npos);
+  EXPECT_NE(
+      refusal("[tracker]\ndegree = 2\ncenter = [0,0,0]\nscale = 1\nposition = [[1,2,3]]\norientation = []\n")
+          .find("line 5"),
+      std::string::npos);
+  EXPECT_NE(refusal("[arm]\nrows = [[1,2,3,4,5,1]]\nfree = ['delta']\n").find("delta"), std::string::npos);
+  EXPECT_NE(refusal("[coregistration]\nrotation = [2,0,0,0]\ntranslation = [0,0,0]\nsensor = [0,0,0]\n")
+                .find("length 2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::test
