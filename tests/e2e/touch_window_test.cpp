@@ -166,7 +166,7 @@ TEST_F(TouchWindow, AHandOnAVolumeIsRecordedAndRepeated) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
   const auto file = folder_.path("run.txt");
   const ProgramResult lived = open_until(
-      {"--example", "blob", "--device", "simulated", "--record", "run.txt"},
+      {"--example", "blob", "--mode", "isosurface", "--device", "simulated", "--record", "run.txt"},
       [&] { return read_file(file).find("\ns 500 ") != std::string::npos; }, "grid");
   EXPECT_EQ(lived.exit_code, 130) << lived.err;
   const Recording recording = read_recording(file.string());

@@ -59,7 +59,9 @@ Vec3 beside(const WallBorder& border, const std::vector<std::uint32_t>& surface,
   const auto& t = border.triangles[largest];
   const Vec3 centre = (border.points[t[0]] + border.points[t[1]] + border.points[t[2]]) / 3.0;
   const Vec3 outward = glm::normalize(area_vector(border, t));
-  for (double step = 0.1 * std::sqrt(area); step > 1e-9 * std::sqrt(area); step *= 0.5) {
+  constexpr int kHalvings = 27;  // down to a billionth of the triangle's size
+  double step = 0.1 * std::sqrt(area);
+  for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const Vec3 x = centre + step * outward;
     if (std::abs(winding_number(border, x)) < 0.5) return x;
   }

@@ -33,7 +33,8 @@ std::unique_ptr<tetgenio> input_of(const WallBorder& border) {
       facet.polygonlist->vertexlist[i] = static_cast<int>(border.triangles[t][i]);
   }
   in->numberofholes = static_cast<int>(border.holes.size());
-  if (!border.holes.empty()) in->holelist = new REAL[3 * border.holes.size()];
+  if (border.holes.empty()) return in;
+  in->holelist = new REAL[3 * border.holes.size()];
   for (std::size_t h = 0; h < border.holes.size(); ++h)
     for (std::size_t a = 0; a < 3; ++a) in->holelist[3 * h + a] = border.holes[h][static_cast<int>(a)];
   return in;
@@ -70,13 +71,12 @@ FinishedMesh fill_border(const WallBorder& border, double largest_volume) {
 
   FinishedMesh mesh;
   mesh.points.reserve(static_cast<std::size_t>(out.numberofpoints));
-  for (int p = 0; p < out.numberofpoints; ++p)
+  for (std::size_t p = 0; p < static_cast<std::size_t>(out.numberofpoints); ++p)
     mesh.points.emplace_back(out.pointlist[3 * p], out.pointlist[3 * p + 1], out.pointlist[3 * p + 2]);
   mesh.tets.reserve(static_cast<std::size_t>(out.numberoftetrahedra));
-  for (int t = 0; t < out.numberoftetrahedra; ++t) {
+  for (std::size_t t = 0; t < static_cast<std::size_t>(out.numberoftetrahedra); ++t) {
     TetMesh::Tet tet{};
-    for (std::size_t i = 0; i < 4; ++i)
-      tet[i] = static_cast<std::uint32_t>(out.tetrahedronlist[4 * t + static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 4; ++i) tet[i] = static_cast<std::uint32_t>(out.tetrahedronlist[4 * t + i]);
     mesh.tets.push_back(tet);
   }
   mesh.note = std::to_string(border.triangles.size()) + " triangles of the surfaces kept, " +

@@ -175,6 +175,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
   if (session.scalar() && !session.has_flow()) edit_notes(session.notes(), marking, actions);
+  if (!session.has_flow() && !tensors) return actions;
   // What is kept stands below all buttons, which so do not move when it becomes more.
   ImGui::BeginDisabled(session.kept().entries().empty() && !session.has_drawn());
   if (tensors) {
