@@ -1,16 +1,19 @@
 // Feeling tensors from the command line: what holds the probe, what is logged and saved, and replays.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/dtmri/dtmri_modes.h"
 #include "common/app/haptic/chain_description.h"
+#include "common/app/haptic/probe_session.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/servo/fault_recorder.h"
 #include "tests/e2e/explorer_test.h"
@@ -148,6 +151,37 @@ TEST_F(TensorTouch, PlaysRecordingsBackToTheBit) {
     EXPECT_TRUE(summary["replay"].get<std::string>().starts_with("identical")) << summary["replay"];
     EXPECT_EQ(summary["mode"], mode.name);
   }
+}
+
+// What the window records of a tract that is drawn is what `probe --replay` draws again, bit by bit.
+TEST_F(TensorTouch, ATractDrawnByHandIsRepeatedToTheBit) {
+  const auto field = make_tensor_field(tensor_example("straight"), {.array = "tensor"}, "");
+  const Vec3 start = field->bounds().center();
+  {
+    ProbeSessionOptions options;
+    options.modes = dtmri_modes();
+    options.record = folder_.path("run.txt");
+    options.recorded.program = "dtmri";
+    ProbeSession session(options, [] {});
+    session.set_field({.name = field_key("example straight tensor", 0), .tensor = field});
+    ASSERT_TRUE(session.has_tensors());
+    const Camera camera = make_camera(field->bounds(), {}, 1.5);
+    ProbeView view;
+    session.grab(0.0, start);
+    session.press(true);
+    for (int frame = 1; frame <= 60; ++frame) {
+      const double t = 0.016 * frame;
+      session.move(start + t * Vec3{12.0, 3.0, 2.0});
+      session.update(t, camera, ColorBy::kSpeed, view);
+      std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    }
+    session.press(false);
+    session.finish();
+  }
+  const Json summary = json({"probe", "--example", "straight", "--replay", "run.txt"});
+  EXPECT_TRUE(summary["replay"].get<std::string>().starts_with("identical")) << summary["replay"];
+  EXPECT_EQ(summary["replay_differs"], false);
+  EXPECT_GT(summary["states"]["held"].get<int>(), 200);
 }
 
 }  // namespace
