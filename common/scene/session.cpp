@@ -47,12 +47,33 @@ SessionInput read_input(const toml::node& node, const std::filesystem::path& pat
   return input;
 }
 
+/// Its files, by name; not those of its own folders.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code unreadable;  // a folder that cannot be read has no files, and so another checksum
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    if (entry.is_regular_file(unreadable)) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
 }  // namespace
 
 SessionInput describe_input(const std::filesystem::path& file, bool solution, const Progress* progress) {
-  SessionInput input{.file = file, .sha256 = sha256_of_file(file, progress), .solution = solution};
+  SessionInput input{.file = file, .bytes = 0, .sha256 = {}, .solution = solution};
   std::error_code ignored;
-  input.bytes = std::filesystem::file_size(file, ignored);
+  if (!std::filesystem::is_directory(file, ignored)) {
+    input.sha256 = sha256_of_file(file, progress);
+    input.bytes = std::filesystem::file_size(file, ignored);
+    return input;
+  }
+  std::string lines;
+  for (const std::filesystem::path& part : files_of(file)) {
+    lines += sha256_of_file(part, progress) + "  " + part.filename().string() + "\n";
+    input.bytes += std::filesystem::file_size(part, ignored);
+  }
+  input.sha256 = sha256_of(lines);
   return input;
 }
 
@@ -118,11 +139,14 @@ std::vector<std::string> changed_inputs(const Session& session, const Progress* 
   std::vector<std::string> sentences;
   for (const SessionInput& input : session.inputs) {
     std::error_code error;
-    const auto bytes = std::filesystem::file_size(input.file, error);
+    const auto status = std::filesystem::status(input.file, error);
+    const auto bytes = std::filesystem::is_regular_file(status)
+                           ? std::filesystem::file_size(input.file, error)
+                           : input.bytes;
     if (error) {
       sentences.push_back(input.file.string() + " is missing: " + error.message());
     } else if (!input.sha256.empty() &&
-               (bytes != input.bytes || sha256_of_file(input.file, progress) != input.sha256)) {
+               (bytes != input.bytes || describe_input(input.file, false, progress).sha256 != input.sha256)) {
       sentences.push_back(input.file.string() +
                           " has changed since the session was saved (checksum differs)");
     }

@@ -39,7 +39,8 @@ struct Session {
   std::vector<std::pair<std::string, std::string>> options;  ///< option name without dashes, value
 };
 
-/// Size and checksum of `file`.
+/// Size and checksum of `file`. Of a folder (a DICOM series) the sum of its files' sizes, and the checksum of
+/// what `sha256sum *` prints in it; the folders in it do not count.
 /// @throws Error (bad input) where it cannot be read; Cancelled.
 [[nodiscard]] SessionInput describe_input(const std::filesystem::path& file, bool solution,
                                           const Progress* progress = nullptr);

@@ -57,6 +57,28 @@ TEST(Session, SaysWhichInputChangedOrIsGone) {
   EXPECT_NE(sentences[1].find("missing"), std::string::npos);
 }
 
+TEST(Session, KnowsAFolderByTheFilesInIt) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder.path("series"));
+  folder.write("series/b", "de");
+  folder.write("series/a", "abc");
+  Session session;
+  session.program = "grid";
+  session.inputs = {describe_input(folder.path("series"), false)};
+  EXPECT_EQ(session.inputs[0].bytes, 5U);
+  EXPECT_EQ(session.inputs[0].sha256, sha256_of(sha256_of("abc") + "  a\n" + sha256_of("de") + "  b\n"));
+  save_session(folder.path("s.toml"), session);
+  EXPECT_TRUE(changed_inputs(load_session(folder.path("s.toml"))).empty());
+  folder.write("series/c", "");
+  const auto grown = changed_inputs(load_session(folder.path("s.toml")));
+  ASSERT_EQ(grown.size(), 1U);
+  EXPECT_NE(grown[0].find("has changed"), std::string::npos);
+  std::filesystem::remove_all(folder.path("series"));
+  const auto gone = changed_inputs(load_session(folder.path("s.toml")));
+  ASSERT_EQ(gone.size(), 1U);
+  EXPECT_NE(gone[0].find("missing"), std::string::npos);
+}
+
 TEST(Session, RefusesOtherFilesWithThePlace) {
   const TempFolder folder;
   const auto refused = [&](const char* text) {
