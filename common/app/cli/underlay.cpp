@@ -52,7 +52,7 @@ Underlay load_underlay(const std::filesystem::path& file, Progress* progress) {
   if (!input.file()->anatomical)
     underlay.notes.emplace_back(
         "does not say where in a patient it lies; its coordinates are taken as they are");
-  for (std::string& note : underlay.notes) note = input.title() + ": " + note;
+  for (std::string& note : underlay.notes) note.insert(0, input.title() + ": ");
   return underlay;
 }
 

@@ -131,6 +131,7 @@ HapticChain make_plane_widget(const HapticScene& scene) {
   const PlanePose otherwise = turned_to({.center = bounds.center()}, axes[2]);
   const auto widget = std::make_shared<PlaneWidget>(scene.workspace.scale(), axes, otherwise, made.planes);
   std::vector<std::unique_ptr<Constraint>> links;
+  links.reserve(PlaneWidget::kLinks);
   for (int place = 0; place < PlaneWidget::kLinks; ++place)
     links.push_back(std::make_unique<PlaneWidgetLink>(widget, place));
   made.chain = std::make_unique<ProxyChain>(std::move(links), settings);
