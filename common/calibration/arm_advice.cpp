@@ -83,6 +83,7 @@ std::vector<std::string> where_to_measure_next(const std::vector<ArmMeasurement>
 
   const auto candidates = reachable(rows);
   std::vector<Vec3> candidate_tips;
+  candidate_tips.reserve(candidates.size());
   for (const auto& readings : candidates)
     candidate_tips.push_back(estimate.chain.forward(readings).translation);
   std::vector<std::pair<double, std::string>> ranked;
@@ -108,6 +109,7 @@ std::vector<std::string> where_to_measure_next(const std::vector<ArmMeasurement>
   }
   std::sort(ranked.begin(), ranked.end());
   std::vector<std::string> out;
+  out.reserve(ranked.size());
   for (auto& [then, words] : ranked) out.push_back(std::move(words));
   return out;
 }
