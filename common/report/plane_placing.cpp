@@ -153,7 +153,8 @@ PlacingTrial place_plane(PlacingMeans means, const PlacingSettings& settings, in
 
 std::vector<PlacingRow> run_plane_placing(const PlacingSettings& settings, Progress* progress) {
   if (progress != nullptr)
-    progress->begin("placing planes", static_cast<std::size_t>(kPlacingMeansCount * settings.trials));
+    progress->begin("placing planes",
+                    std::size_t{kPlacingMeansCount} * static_cast<std::size_t>(settings.trials));
   std::vector<PlacingRow> rows;
   for (int m = 0; m < kPlacingMeansCount; ++m) {
     PlacingRow row{.means = static_cast<PlacingMeans>(m), .trials = settings.trials};

@@ -176,7 +176,8 @@ std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const L
   constexpr double kRounding = 1e-12;
   for (std::size_t e = 0; e < elements; ++e) {
     for (std::size_t p = 0; p < lattice.count(); ++p) {
-      const double xi = static_cast<double>(p / (n * n)) / static_cast<double>(n - 1);
+      const std::size_t level = p / (n * n);
+      const double xi = static_cast<double>(level) / static_cast<double>(n - 1);
       const double here = (levels[e] + xi) / deep;
       double& there = depth[static_cast<std::size_t>(point_of[e * lattice.count() + p])];
       if (std::isnan(there)) there = here;

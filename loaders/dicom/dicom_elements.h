@@ -15,13 +15,14 @@ using DicomScope = std::vector<const gdcm::DataSet*>;
 
 /// Words with the padding of DICOM taken off; empty where the element is not there. Nested items are
 /// searched.
-[[nodiscard]] std::string dicom_text(const DicomScope& scope, gdcm::Tag tag);
+[[nodiscard]] std::string dicom_text(const DicomScope& scope, const gdcm::Tag& tag);
 
 /// The numbers of an element, of whatever type it is; none where it is not there or holds something else.
 /// @param binary what the bytes are where the file does not say their type: doubles, else text.
-[[nodiscard]] std::vector<double> dicom_numbers(const DicomScope& scope, gdcm::Tag tag, bool binary = false);
+[[nodiscard]] std::vector<double> dicom_numbers(const DicomScope& scope, const gdcm::Tag& tag,
+                                                bool binary = false);
 
 /// The first of them.
-[[nodiscard]] std::optional<double> dicom_number(const DicomScope& scope, gdcm::Tag tag);
+[[nodiscard]] std::optional<double> dicom_number(const DicomScope& scope, const gdcm::Tag& tag);
 
 }  // namespace palpate

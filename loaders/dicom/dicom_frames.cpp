@@ -110,7 +110,7 @@ void place(const DicomScope& scope, DicomFrame& frame) {
 
 /// What describes all pixels alike.
 void describe_pixels(const DicomScope& scope, DicomFrame& frame) {
-  const auto whole = [&](gdcm::Tag tag, int otherwise) {
+  const auto whole = [&](const gdcm::Tag& tag, int otherwise) {
     return static_cast<int>(dicom_number(scope, tag).value_or(otherwise));
   };
   if (whole({0x0028, 0x0002}, 1) != 1)
@@ -127,7 +127,7 @@ void describe_pixels(const DicomScope& scope, DicomFrame& frame) {
 }
 
 /// The frame's own item of a sequence of functional groups; null where there is none.
-const gdcm::DataSet* group_item(const gdcm::DataSet& file, gdcm::Tag tag, std::size_t item,
+const gdcm::DataSet* group_item(const gdcm::DataSet& file, const gdcm::Tag& tag, std::size_t item,
                                 std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>>& kept) {
   if (!file.FindDataElement(tag)) return nullptr;
   auto items = file.GetDataElement(tag).GetValueAsSQ();
@@ -158,12 +158,12 @@ std::string title_of(const DicomScope& scope) {
 
 }  // namespace
 
-std::string dicom_text(const DicomScope& scope, gdcm::Tag tag) {
+std::string dicom_text(const DicomScope& scope, const gdcm::Tag& tag) {
   const auto element = find(scope, tag);
   return element ? text_of(*element) : std::string();
 }
 
-std::vector<double> dicom_numbers(const DicomScope& scope, gdcm::Tag tag, bool binary) {
+std::vector<double> dicom_numbers(const DicomScope& scope, const gdcm::Tag& tag, bool binary) {
   const auto element = find(scope, tag);
   if (!element || element->GetByteValue() == nullptr) return {};
   const gdcm::ByteValue& value = *element->GetByteValue();
@@ -194,7 +194,7 @@ std::vector<double> dicom_numbers(const DicomScope& scope, gdcm::Tag tag, bool b
   return text_numbers(text_of(*element));
 }
 
-std::optional<double> dicom_number(const DicomScope& scope, gdcm::Tag tag) {
+std::optional<double> dicom_number(const DicomScope& scope, const gdcm::Tag& tag) {
   const auto numbers = dicom_numbers(scope, tag);
   if (numbers.empty() || !std::isfinite(numbers.front())) return std::nullopt;
   return numbers.front();
@@ -252,7 +252,7 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
     scope.push_back(&all);
     frame.number = f;
     place(scope, frame);
-    const auto number = [&](gdcm::Tag tag) { return dicom_number(scope, tag); };
+    const auto number = [&](const gdcm::Tag& tag) { return dicom_number(scope, tag); };
     frame.temporal = number({0x0020, 0x0100}).value_or(number({0x0020, 0x9128}).value_or(0.0));
     frame.acquisition = number({0x0020, 0x0012}).value_or(0.0);
     frame.instance = number({0x0020, 0x0013}).value_or(0.0);

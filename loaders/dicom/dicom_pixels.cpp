@@ -109,7 +109,8 @@ DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>&
         if constexpr (std::is_floating_point_v<T>) {
           value = static_cast<T>(frame.slope * static_cast<double>(number) + frame.intercept);
         } else {
-          value = static_cast<T>(number);
+          value =
+              static_cast<T>(number);  // NOLINT(bugprone-signed-char-misuse): signed voxels keep their sign
         }
       });
     }

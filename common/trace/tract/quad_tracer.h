@@ -46,7 +46,7 @@ class QuadFixed : private QuadLanes<T> {
     rk.k[0] = h * PackedVectors::load(this->direction_);
     auto& [at, last, end, found, tensor] = scratch_;
     last = this->direction_;
-    rk.advance([&](double, const PackedVectors& x) {
+    rk.advance([&, &at = at, &last = last, &tensor = tensor](double, const PackedVectors& x) {
       x.store(at);
       this->evaluate(at, last, tensor, last, alive);
       return h * PackedVectors::load(last);
