@@ -321,10 +321,10 @@ class Window {
         return;
       }
     }
-    const WidgetState state = touch_->planes()->state;
-    if (state == WidgetState::kTranslate || state == WidgetState::kRotate) lens_moved_ = glfwGetTime();
-    cut_by_planes(*view_.volume, touch_->planes()->poses, cut_planes_);
-    cut_planes_ = touch_->planes()->poses.count;
+    const PlanePoses& poses = touch_->planes()->poses;
+    if (!(poses == cut_planes_)) lens_moved_ = glfwGetTime();
+    cut_by_planes(*view_.volume, poses, cut_planes_.count);
+    cut_planes_ = poses;
   }
 
   [[nodiscard]] std::string popped_words() const {
@@ -347,7 +347,9 @@ class Window {
       const bool key = event.kind == InputKind::kKeyDown || event.kind == InputKind::kKeyUp;
       const bool of_panel =
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
-      if (!of_panel &&
+      // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
+      const bool of_lens = event.kind == InputKind::kPress && lens_control_.followed();
+      if (!of_panel && !(of_lens && handle_lens(event, parts.picture)) &&
           !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
           !handle_lens(event, parts.picture) &&
           !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
@@ -549,7 +551,7 @@ class Window {
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
-  int cut_planes_ = 0;        // lenses that cut which stand for planes of the hand
+  PlanePoses cut_planes_;     // those of the hand for which lenses stand that cut
   double lens_moved_ = -1.0;  // [s]
   std::optional<InputFiles> to_open_;
   int frame_ = 0, lively_frames_ = 3;
