@@ -66,8 +66,9 @@ AxisMotion move_by_rules(const Vec3& dx, const AxisHolds& holds, double friction
     any_snap = any_snap || snaps[a] < HUGE_VAL;
   }
   if (any_drag) {
-    motion.moved += drag_jointly(dx, drags);
-    motion.jacobian += drag_jacobian(dx, drags);
+    const JointDrag drag = drag_jointly(dx, drags);
+    motion.moved += drag.moved;
+    motion.jacobian += drag.jacobian;
   }
   if (any_snap) {
     motion.moved += snap_jointly(dx, snaps);

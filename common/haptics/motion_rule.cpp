@@ -17,6 +17,8 @@ double teeth_passed(double away) noexcept { return std::max(std::ceil(away - kRo
 
 /// What joint drag leaves between probe and proxy, r_a = dx_a tau_a^2 / (tau_a^2 + m), lies on the ellipsoid
 /// for exactly one multiplier m >= 0, since each |r_a| falls with m (Hart 1994, distance to an ellipsoid).
+/// 1/|r/tau| rises with m and is concave (Conn, Gould and Toint 2000, lemma 7.3.1), nearly straight where one
+/// axis counts more than the others: Newton's method on it comes to the root from below, in a few steps.
 class Ellipsoid {
  public:
   Ellipsoid(const Vec3& dx, const Vec3& tau) noexcept : dx_(dx) {
@@ -24,8 +26,10 @@ class Ellipsoid {
     const double scale = largest > 0.0 ? largest : 1.0;
     y_ = dx / scale;
     t_ = tau / scale;
-    m_ = multiplier();
+    solve();
   }
+
+  [[nodiscard]] int newton_steps() const noexcept { return steps_; }
 
   /// r.
   [[nodiscard]] Vec3 left() const noexcept {
@@ -49,59 +53,54 @@ class Ellipsoid {
   }
 
  private:
+  /// A threshold whose square is below this, of a displacement of 1, is none: all squares below stay finite.
+  static constexpr double kNoThreshold = 0x1p-1000;
+
   /// Neither free nor fixed.
   [[nodiscard]] bool counts(int a) const noexcept {
     const double t2 = t_[a] * t_[a];
-    return t2 > 0.0 && t2 < HUGE_VAL;
+    return t2 > kNoThreshold && t2 < HUGE_VAL;
   }
 
   /// r_a / dx_a.
   [[nodiscard]] double part(int a) const noexcept {
     const double t2 = t_[a] * t_[a];
-    if (!(t2 > 0.0)) return 0.0;
+    if (!(t2 > kNoThreshold)) return 0.0;
     return t2 < HUGE_VAL ? t2 / (t2 + m_) : 1.0;
   }
 
-  /// How far r for the multiplier `m` is outside, and its slope.
-  [[nodiscard]] double excess(double m, double& slope) const noexcept {
-    double sum = 0.0;
-    slope = 0.0;
+  /// How far r for the multiplier `m` is outside: |r/tau| - 1, and how fast its logarithm falls with m.
+  [[nodiscard]] double excess(double m, double& fall) const noexcept {
+    Vec3 squares{0.0}, over{1.0};
     for (int a = 0; a < 3; ++a) {
       if (!counts(a)) continue;
-      const double t2 = t_[a] * t_[a], level = y_[a] * t_[a] / (t2 + m);
-      sum += level * level;
-      slope -= 2.0 * level * level / (t2 + m);
+      over[a] = t_[a] * t_[a] + m;
+      const double level = y_[a] * t_[a] / over[a];
+      squares[a] = level * level;
     }
-    return sum - 1.0;
+    const double sum = squares.x + squares.y + squares.z;
+    fall = 0.0;
+    for (int a = 0; a < 3; ++a) fall += squares[a] / sum / over[a];
+    return std::sqrt(sum) - 1.0;
   }
 
-  [[nodiscard]] double multiplier() const noexcept {
-    double slope = 0.0, f = excess(0.0, slope);
-    if (f <= kRounding) return 0.0;
-    // excess(m) < 0 at m = |dx tau| summed: bisection on a bracket that halves each time, so its bound is
-    // fixed; Newton's steps, taken where they stay inside, make it short.
-    double low = 0.0, high = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      if (t_[a] < HUGE_VAL) high += std::abs(y_[a]) * t_[a];
+  void solve() noexcept {
+    double fall = 0.0, outside = excess(0.0, fall);
+    if (outside <= kRounding) return;
+    // What is left of it at the root is its own rounding, whatever m: a test of how far m still moves would
+    // never be met where m is small beside tau^2.
+    constexpr double kAtRoot = 0x1p-51;
+    while (outside > kAtRoot && steps_ < kMaxNewtonSteps) {
+      m_ += outside / fall;
+      outside = excess(m_, fall);
+      ++steps_;
     }
-    double m = 0.0;
-    constexpr int kMaxSteps = 60;
-    for (int n = 0; n < kMaxSteps; ++n) {
-      (f > 0.0 ? low : high) = m;
-      // Newton on 1 - 1/sqrt(sum), which is nearly straight.
-      const double root = std::sqrt(f + 1.0);
-      const double next = m - 2.0 * (f + 1.0) * (root - 1.0) / slope;
-      const double guess = next > low && next < high ? next : 0.5 * (low + high);
-      if (std::abs(guess - m) <= 1e-15 * guess) break;
-      m = guess;
-      f = excess(m, slope);
-    }
-    return m;
   }
 
   Vec3 dx_;
   Vec3 y_{0.0}, t_{0.0};  ///< dx and tau over the largest component of dx, and m over its square
   double m_ = 0.0;
+  int steps_ = 0;
 };
 
 }  // namespace
@@ -118,9 +117,10 @@ double snap_drag(double dx, double tau) noexcept {
   return away < kCountable ? std::copysign(tau * teeth_passed(away), dx) : dx;
 }
 
-Vec3 drag_jointly(const Vec3& dx, const Vec3& tau) noexcept { return dx - Ellipsoid(dx, tau).left(); }
-
-Mat3 drag_jacobian(const Vec3& dx, const Vec3& tau) noexcept { return Ellipsoid(dx, tau).jacobian(); }
+JointDrag drag_jointly(const Vec3& dx, const Vec3& tau) noexcept {
+  const Ellipsoid ellipsoid(dx, tau);
+  return {dx - ellipsoid.left(), ellipsoid.jacobian(), ellipsoid.newton_steps()};
+}
 
 Vec3 snap_jointly(const Vec3& dx, const Vec3& tau) noexcept {
   double squared = 0.0;

@@ -18,19 +18,28 @@ namespace palpate {
 /// Eq. 6.8 jumps once, and so falls behind a fast probe; both agree below 2 tau.
 [[nodiscard]] double snap_drag(double dx, double tau) noexcept;
 
+/// What drag along several axes does.
+struct JointDrag {
+  Vec3 moved{0.0};       ///< dp
+  Mat3 jacobian{0.0};    ///< d dp / d dx, symmetric
+  int newton_steps = 0;  ///< that it took, <= kMaxNewtonSteps
+};
+
+/// Newton's method is stopped there. It has come to rest before, unless one threshold is more than some 1e10
+/// times another and the probe stands at its end: then what is left has come to within 1e-8 of the ellipsoid.
+inline constexpr int kMaxNewtonSteps = 24;
+
 /// Drag along several axes at once: the proxy moves the least distance by which the probe comes to lie in
 /// the ellipsoid sum_a ((dx_a - dp_a) / tau_a)^2 <= 1. On one axis this is eq. 6.5; eqs. 6.2 to 6.5 taken
 /// axis by axis would hold the probe in a box, whose hold depends on how an arbitrary frame is turned.
-[[nodiscard]] Vec3 drag_jointly(const Vec3& dx, const Vec3& tau) noexcept;
-
-/// d dp / d dx of drag_jointly(), symmetric: with what is left r_a = dx_a tau_a^2 / (tau_a^2 + m),
 ///
-///   J_ab = delta_ab m / (tau_a^2 + m) + v_a v_b / S
+///   r_a = dx_a - dp_a = dx_a tau_a^2 / (tau_a^2 + m),   m >= 0
+///   d dp_a / d dx_b = delta_ab m / (tau_a^2 + m) + v_a v_b / S
 ///   v_a = r_a / (tau_a^2 + m),   S = sum_a (r_a / tau_a)^2 / (tau_a^2 + m)
 ///
-/// 0 along axes on which the proxy stays, 1 along free ones. With equal thresholds it is
+/// The derivative is 0 along axes on which the proxy stays, 1 along free ones. With equal thresholds it is
 /// 1 - (tau / |dx|) (1 - n n^T), n the direction of dx.
-[[nodiscard]] Mat3 drag_jacobian(const Vec3& dx, const Vec3& tau) noexcept;
+[[nodiscard]] JointDrag drag_jointly(const Vec3& dx, const Vec3& tau) noexcept;
 
 /// Snap-drag along several axes at once: stays while the probe is within the ellipsoid of drag_jointly(),
 /// then jumps towards it by whole teeth, to within the ellipsoid. On one axis this is snap_drag(); infinite

@@ -8,8 +8,9 @@ void IsotropicDrag::update(const Vec3& probe, const UpdateBudget&, LinkUpdate& l
   if (!caught_) proxy_ = probe;
   caught_ = true;
   const Vec3 away = probe - proxy_;
-  link.jacobian = drag_jacobian(away, Vec3{tau_});
-  proxy_ += drag_jointly(away, Vec3{tau_});
+  const JointDrag drag = drag_jointly(away, Vec3{tau_});
+  link.jacobian = drag.jacobian;
+  proxy_ += drag.moved;
   link.proxy = proxy_;
   link.state = HoldState::kHeld;
 }

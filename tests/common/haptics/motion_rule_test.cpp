@@ -77,9 +77,9 @@ TEST(ForceProfile, SnapDrag) {
 }
 
 TEST(JointDrag, EqualsDragOnOneAxis) {
-  EXPECT_NEAR(drag_jointly({3.0, 0.0, 0.0}, Vec3{1.0}).x, drag(3.0, 1.0), 1e-14);
-  EXPECT_EQ(drag_jointly({0.5, 0.5, 0.5}, Vec3{1.0}), Vec3{0.0});
-  const Vec3 moved = drag_jointly({3.0, 2.0, -1.0}, {HUGE_VAL, 0.0, 0.25});
+  EXPECT_NEAR(drag_jointly({3.0, 0.0, 0.0}, Vec3{1.0}).moved.x, drag(3.0, 1.0), 1e-14);
+  EXPECT_EQ(drag_jointly({0.5, 0.5, 0.5}, Vec3{1.0}).moved, Vec3{0.0});
+  const Vec3 moved = drag_jointly({3.0, 2.0, -1.0}, {HUGE_VAL, 0.0, 0.25}).moved;
   EXPECT_EQ(moved.x, 0.0) << "fixed";
   EXPECT_EQ(moved.y, 2.0) << "free";
   EXPECT_NEAR(moved.z, -0.75, 1e-14);
@@ -87,7 +87,7 @@ TEST(JointDrag, EqualsDragOnOneAxis) {
 
 TEST(JointDrag, IsTheSameForEveryFrameWhereThresholdsAreEqual) {
   const Vec3 dx{1.0, -2.0, 0.5};
-  const Vec3 moved = drag_jointly(dx, Vec3{0.75});
+  const Vec3 moved = drag_jointly(dx, Vec3{0.75}).moved;
   EXPECT_NEAR(glm::length(dx - moved), 0.75, 1e-14);
   EXPECT_NEAR(glm::length(glm::cross(moved, dx)), 0.0, 1e-14);
 }
@@ -102,7 +102,7 @@ TEST(JointDrag, MovesTheLeastDistance) {
     const Vec3 dx{normal(random), normal(random), normal(random)};
     const Vec3 tau{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
                    std::pow(10.0, exponent(random))};
-    const Vec3 moved = drag_jointly(dx, tau), left = dx - moved;
+    const Vec3 moved = drag_jointly(dx, tau).moved, left = dx - moved;
     const double level = glm::length(left / tau);
     if (glm::length(dx / tau) <= 1.0) {
       EXPECT_EQ(moved, Vec3{0.0});
@@ -134,15 +134,16 @@ TEST(JointDrag, KnowsItsJacobian) {
     double level = 0.0;
     for (int a = 0; a < 3; ++a) level += tau[a] > 0.0 ? dx[a] * dx[a] / (tau[a] * tau[a]) : 0.0;
     if (std::abs(level - 1.0) < 1e-3) continue;  // the corner between both
-    const Mat3 jacobian = drag_jacobian(dx, tau);
+    const Mat3 jacobian = drag_jointly(dx, tau).jacobian;
     for (int a = 0; a < 3; ++a) {
       Vec3 aside{0.0};
       aside[a] = kAside;
-      const Vec3 slope = (drag_jointly(dx + aside, tau) - drag_jointly(dx - aside, tau)) / (2.0 * kAside);
+      const Vec3 slope =
+          (drag_jointly(dx + aside, tau).moved - drag_jointly(dx - aside, tau).moved) / (2.0 * kAside);
       EXPECT_LE(glm::distance(jacobian[a], slope), 1e-7) << tau.x << ' ' << tau.y << ' ' << tau.z;
     }
   }
-  EXPECT_EQ(drag_jacobian(Vec3{0.0}, {0.0, 1.0, HUGE_VAL})[0], Vec3(1.0, 0.0, 0.0))
+  EXPECT_EQ(drag_jointly(Vec3{0.0}, {0.0, 1.0, HUGE_VAL}).jacobian[0], Vec3(1.0, 0.0, 0.0))
       << "at rest a free axis is free";
 }
 
@@ -154,8 +155,8 @@ TEST(JointDrag, MovesNothingASecondTime) {
     const Vec3 dx{normal(random), normal(random), normal(random)};
     const Vec3 tau{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
                    std::pow(10.0, exponent(random))};
-    const Vec3 left = dx - drag_jointly(dx, tau);
-    EXPECT_EQ(drag_jointly(left, tau), Vec3{0.0});
+    const Vec3 left = dx - drag_jointly(dx, tau).moved;
+    EXPECT_EQ(drag_jointly(left, tau).moved, Vec3{0.0});
     const Vec3 snapped = dx - snap_jointly(dx, tau);
     EXPECT_EQ(snap_jointly(snapped, tau), Vec3{0.0});
     EXPECT_LE(glm::length(snapped / tau), 1.0 + 1e-12);
@@ -174,11 +175,52 @@ TEST(JointSnap, GoesByWholeTeethTowardsTheProbe) {
   EXPECT_EQ(snap_jointly(Vec3{1e300}, Vec3{1e-300}), Vec3{1e300}) << "beyond counting";
 }
 
+// A hand that drags its proxy along is hardly outside, again and again: what it costs then must not grow with
+// the digits that the multiplier has lost.
+TEST(JointDrag, TakesFewStepsHoweverLittleTheProbeIsOutside) {
+  constexpr int kFew = 12;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-1.0, 1.0), digits(0.0, 11.0);
+  int most = 0;
+  for (int n = 0; n < 20'000; ++n) {
+    const Vec3 tau{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)),
+                   std::pow(10.0, exponent(random))};
+    const Vec3 around = glm::normalize(Vec3{normal(random), normal(random), normal(random)}) * tau;
+    const JointDrag drag = drag_jointly(around * (1.0 + std::pow(10.0, -digits(random))), tau);
+    EXPECT_GT(drag.newton_steps, 0);
+    most = std::max(most, drag.newton_steps);
+  }
+  EXPECT_LE(most, kFew);
+}
+
+// Thresholds as small and as large beside the way as numbers go.
+TEST(JointDrag, IsFiniteAndWithinReachWhateverTheThresholds) {
+  const double sizes[] = {0.0, 5e-324, 1e-160, 1e-150, 1e-77, 1e-20, 1.0, 1e20, 1e154, 1e300, HUGE_VAL};
+  const Vec3 dx{1.0, -0.5, 0.25};
+  for (const double x : sizes) {
+    for (const double y : sizes) {
+      for (const double z : sizes) {
+        const Vec3 tau{x, y, z};
+        const JointDrag drag = drag_jointly(dx, tau);
+        EXPECT_LE(drag.newton_steps, kMaxNewtonSteps);
+        for (int a = 0; a < 3; ++a) {
+          EXPECT_TRUE(std::isfinite(drag.moved[a]) && std::isfinite(glm::length(drag.jacobian[a])))
+              << x << ' ' << y << ' ' << z;
+          EXPECT_LE(std::abs(dx[a] - drag.moved[a]), tau[a] * (1.0 + 1e-8) + 1e-15)
+              << x << ' ' << y << ' ' << z;
+        }
+      }
+    }
+  }
+}
+
 TEST(JointDrag, KeepsItsBitsUnderPowersOfTwo) {
   const Vec3 dx{1.3, -0.7, 0.11}, tau{0.3, 0.02, 0.7};
-  const Vec3 moved = drag_jointly(dx, tau);
+  const Vec3 moved = drag_jointly(dx, tau).moved;
   for (const int k : {-60, 60, 200}) {
-    EXPECT_EQ(drag_jointly(dx * std::ldexp(1.0, k), tau * std::ldexp(1.0, k)), moved * std::ldexp(1.0, k));
+    EXPECT_EQ(drag_jointly(dx * std::ldexp(1.0, k), tau * std::ldexp(1.0, k)).moved,
+              moved * std::ldexp(1.0, k));
   }
 }
 
