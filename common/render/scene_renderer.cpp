@@ -82,6 +82,9 @@ double line_tolerance(const ViewTransform& view, bool perspective, double pixel)
   return power_of_two(binary_exponent(kPartOfPixel * pixel * enlarged));
 }
 
+// Tracts lie side by side in their thousands, and may be moved further: by half a pixel at most.
+constexpr double kTractTolerance = 2.0;
+
 bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
 
 // Whether what stays while the probe moves is the same picture.
@@ -261,10 +264,14 @@ struct SceneRenderer::State {
       return;
     }
     if (!tracts) tracts = std::make_unique<TractPass>();
-    tracts->update(*view.tracts, frame);
-    LineDraw how = base;
-    how.dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0));
-    tract_piece = tracts->draw(line_program, *view.tracts, how, unit, tract_piece, milliseconds);
+    tracts->update(view.tracts->bundle, frame);
+    if (tract_piece >= tracts->pieces()) return;
+    const TractDraw how{.width = static_cast<float>(view.tracts->width) * unit,
+                        .fading = view.tracts->depth_cue ? 1.0F : 0.0F,
+                        .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
+                        .opacity = static_cast<float>(std::clamp(view.tracts->opacity, 0.0, 1.0)),
+                        .tolerance = kTractTolerance * base.tolerance};
+    tract_piece = tracts->draw(how, tract_piece, tracts->pieces(), milliseconds);
   }
 
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.

@@ -11,7 +11,6 @@ layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for co
 layout(location = 6) uniform float fading;       // share of the depth cue
 layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
 layout(location = 8) uniform float dimming;      // share of the background at any depth
-layout(location = 10) uniform int screen;        // -1: all samples; else lines are screened by their opacity
 layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
 
 in Vertex {
@@ -36,29 +35,7 @@ vec3 base_color(vec3 t) {
   return texture(color_map, vec2((vertex.value * (entries - 1.0) + 0.5) / entries, 0.5)).rgb;
 }
 
-// Jarzynski, Olano 2020: pcg3d.
-uvec3 hash(uvec3 v) {
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-  return v;
-}
-
-// Which samples of the pixel show this line: each by itself, with its opacity as the odds
-// (Enderton, Sintorn, Shirley, Luebke 2010).
-int screened_samples() {
-  uvec3 bits = hash(uvec3(gl_FragCoord.xy, uint(gl_PrimitiveID) + (uint(screen) << 20u)));
-  uint odds = uint(65536.0 * line_color.a);
-  uvec4 chance = uvec4(bits.x & 0xffffu, bits.x >> 16u, bits.y & 0xffffu, bits.y >> 16u);
-  uvec4 more = uvec4(bits.z & 0xffffu, bits.z >> 16u, (bits.x ^ bits.z) & 0xffffu, (bits.y ^ bits.z) >> 16u);
-  int mask = 0;
-  for (int i = 0; i < 4; ++i) mask |= (chance[i] < odds ? 1 << i : 0) | (more[i] < odds ? 16 << i : 0);
-  return mask;
-}
-
 void main() {
-  gl_SampleMask[0] = screen < 0 ? -1 : screened_samples();
   vec3 t = length(vertex.tangent) > 0.0 ? normalize(vertex.tangent) : vec3(0.0);
   vec3 background = background_at(gl_FragCoord.xy);
   float u = abs(vertex.across);
@@ -81,7 +58,7 @@ void main() {
   // Halo beyond the edge; the border between the two is smoothed over one pixel.
   float soft = 0.5 * fwidth(vertex.across);
   float halo = vertex.outer > 1.0 ? smoothstep(1.0 - soft, 1.0 + soft, u) : 0.0;
-  color = vec4(mix(srgb, rim, halo), screen < 0 ? line_color.a : 1.0);
+  color = vec4(mix(srgb, rim, halo), line_color.a);
   float sink = vertex.outer > 1.0 ? clamp((u - 1.0) / (vertex.outer - 1.0), 0.0, 1.0) : 0.0;
   gl_FragDepth = mix(gl_FragCoord.z, max(halo_z, gl_FragCoord.z), sink);
 }

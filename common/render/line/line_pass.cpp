@@ -19,11 +19,9 @@ enum Uniform : GLint {
   kFading = 6,
   kHaloColor = 7,
   kDimming = 8,
-  kLift = 9,
-  kScreen = 10
+  kLift = 9
 };
 constexpr GLuint kTableUnit = 0;
-constexpr GLint kNoScreen = -1;
 
 GlTexture make_table_texture(ColorMap map) {
   GLuint name = 0;
@@ -45,7 +43,7 @@ GlTexture make_table_texture(ColorMap map) {
 namespace detail {
 
 void begin_lines(const LineDraw& how, bool has_values) {
-  const bool transparent = how.opacity < 1.0F && !how.screened;
+  const bool transparent = how.opacity < 1.0F;
   const Rgb rim = how.halo_color.value_or(Rgb{0.0F});
   glUniform1f(kWidth, how.width);
   glUniform1f(kHaloWidth, transparent ? 0.0F : how.halo_width);
@@ -56,7 +54,6 @@ void begin_lines(const LineDraw& how, bool has_values) {
   glUniform1f(kFading, how.fading);
   glUniform1f(kDimming, how.dimming);
   glUniform1f(kLift, how.lift);
-  glUniform1i(kScreen, how.screened && how.opacity < 1.0F ? how.screen : kNoScreen);
   glUniform4f(kHaloColor, rim.r, rim.g, rim.b, how.halo_color ? 1.0F : 0.0F);
 
   glEnable(GL_DEPTH_TEST);
@@ -126,7 +123,7 @@ void LineSet::arrange(const Arrangement& wanted) {
 void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
   // What shines through is too faint for its order to matter: no second arrangement for it.
-  const bool transparent = how.opacity < 1.0F && !how.hidden_part && !how.screened;
+  const bool transparent = how.opacity < 1.0F && !how.hidden_part;
   arrange({how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 
   detail::begin_lines(how, !coordinates_.empty());

@@ -29,10 +29,6 @@ struct LineDraw {
   float dimming = 0.0F;  ///< share of the background at any depth
   float fading = 1.0F;   ///< share of the depth cue
   float opacity = 1.0F;
-  /// Transparent lines are screened, in any order and with depth, in place of being mixed in theirs: each
-  /// sample of a pixel shows a line by chance, with the opacity as the odds.
-  bool screened = false;
-  int screen = 0;                ///< another number, another choice
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
 };

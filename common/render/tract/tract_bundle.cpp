@@ -1,7 +1,5 @@
 #include "common/render/tract/tract_bundle.h"
 
-#include <limits>
-#include <numeric>
 #include <random>
 #include <utility>
 
@@ -12,26 +10,6 @@ namespace {
 void shuffle(std::vector<std::uint32_t>& order) {
   std::mt19937_64 random{7};
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-}
-
-/// Without vertices that no segment has.
-LineGeometry without_unused(const LineGeometry& geometry, const std::vector<LineSegment>& segments) {
-  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(geometry.vertices.size(), kUnused);
-  LineGeometry result;
-  result.segments.reserve(segments.size());
-  const auto take = [&](std::uint32_t vertex) {
-    if (number[vertex] == kUnused) {
-      number[vertex] = static_cast<std::uint32_t>(result.vertices.size());
-      result.vertices.push_back(geometry.vertices[vertex]);
-    }
-    return number[vertex];
-  };
-  for (const LineSegment& segment : segments) {
-    const std::uint32_t first = take(segment.first);
-    result.segments.push_back({first, take(segment.last)});
-  }
-  return result;
 }
 
 }  // namespace
@@ -55,16 +33,6 @@ std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tract
   }
   bundle->lines = std::move(lines);
   return bundle;
-}
-
-LineGeometry piece_geometry(const TractBundle& bundle, std::size_t piece, const SceneFrame& frame,
-                            double tolerance) {
-  const auto [first, last] = bundle.pieces[piece];
-  std::vector<std::span<const Vec3f>> lines;
-  lines.reserve(last - first);
-  for (std::size_t i = first; i < last; ++i) lines.push_back(bundle.lines->line(bundle.order[i]));
-  const LineGeometry whole = make_line_geometry(lines, frame);
-  return without_unused(whole, simplify(whole, {}, tolerance));
 }
 
 }  // namespace palpate

@@ -9,8 +9,6 @@
 
 #include "common/geometry/tractogram.h"
 #include "common/math/vec.h"
-#include "common/render/camera.h"
-#include "common/render/line/line_geometry.h"
 
 namespace palpate {
 
@@ -30,10 +28,5 @@ struct TractBundle {
 
 /// @param lines not null.
 [[nodiscard]] std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines);
-
-/// The lines of a piece without the points that a picture does not need: what is left lies within `tolerance`
-/// (scene frame) of the lines, with tangents of the whole ones. @pre piece < bundle.pieces.size().
-[[nodiscard]] LineGeometry piece_geometry(const TractBundle& bundle, std::size_t piece,
-                                          const SceneFrame& frame, double tolerance);
 
 }  // namespace palpate

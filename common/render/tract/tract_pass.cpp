@@ -6,53 +6,77 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
+#include "common/render/gl/program.h"
+#include "common/render/tract/tract_points.h"
 #include "common/render/tract/tract_room.h"
 
 namespace palpate {
 namespace {
 
-// Points that no picture shows are left out on the way to the GPU [scene frame, whose longest side is about
-// one]: a twentieth of a pixel of a picture of the whole.
-constexpr double kThinning = 5e-5;
+// Locations and bindings of shaders/tract/.
+enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4 };
+constexpr GLuint kPoints = 0;
 
 }  // namespace
 
-void TractPass::update(const TractView& view, const SceneFrame& frame) {
+void TractPass::update(const std::shared_ptr<const TractBundle>& bundle, const SceneFrame& frame) {
   const bool same_frame = frame.center == frame_.center && frame.exponent == frame_.exponent;
-  if (bundle_ == view.bundle && same_frame) return;
-  bundle_ = view.bundle;
+  if (bundle_ == bundle && same_frame) return;
+  bundle_ = bundle;
   frame_ = frame;
-  sets_.clear();
-  sets_.resize(pieces_with_room(*bundle_));
+  pieces_.clear();
+  pieces_.resize(pieces_with_room(*bundle_));
 }
 
-std::size_t TractPass::draw(LineProgram& program, const TractView& view, const LineDraw& base, float unit,
-                            std::size_t first, double milliseconds) {
+void TractPass::draw_piece(const TractDraw& how, std::size_t number) {
+  Piece& piece = pieces_[number];
+  if (piece.tolerance != how.tolerance) {
+    const std::vector<TractPoint> points = piece_points(*bundle_, number, frame_, how.tolerance);
+    piece.points = make_buffer(std::span<const TractPoint>(points));
+    piece.vertices = static_cast<int>(2 * points.size());
+    piece.tolerance = how.tolerance;
+  }
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPoints, piece.points.name());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, piece.vertices);
+}
+
+std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds) {
   const Stopwatch watch;
-  program.use(ColorMap::kSequential);
-  LineDraw how = base;
-  how.coloring = LineDraw::Coloring::kDirection;
-  how.width = static_cast<float>(view.width) * unit;
-  how.min_width = 1.0F;
-  how.fading = view.depth_cue ? 1.0F : 0.0F;
-  how.screened = true;
-  how.opacity = static_cast<float>(std::clamp(view.opacity, 0.0, 1.0));
+  const bool screened = how.opacity < 1.0F;
+  GlProgram& program = screened ? screened_ : opaque_;
+  if (!program)
+    program = compile_program("tract/tract.vert", screened ? "tract/screened.frag" : "tract/tract.frag");
+  if (!no_vertices_) no_vertices_ = make_vertex_array();
+  glUseProgram(program.name());
+  glBindVertexArray(no_vertices_.name());
+  glUniform1f(kWidth, how.width);
+  glUniform1f(kFading, how.fading);
+  glUniform1f(kDimming, how.dimming);
+  if (screened) glUniform1f(kOpacity, how.opacity);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  // Between two waits half of what there seems to be time for, so that a driver's threads seldom wait for
+  // each other; by the time that a piece has taken so far.
+  const auto pieces_in = [this](double time) {
+    constexpr double kMost = 1024.0;
+    return piece_ms_ > 0.0 ? static_cast<std::size_t>(std::clamp(0.5 * time / piece_ms_, 1.0, kMost)) : 1;
+  };
   std::size_t piece = first;
-  while (piece < sets_.size()) {
-    std::unique_ptr<LineSet>& set = sets_[piece];
-    if (!set) {
-      set = std::make_unique<LineSet>();
-      set->set_geometry(piece_geometry(*bundle_, piece, frame_, kThinning));
+  std::size_t batch = pieces_in(milliseconds);
+  while (piece < last) {
+    for (const std::size_t end = std::min(piece + batch, last); piece < end; ++piece) {
+      if (screened) glUniform1ui(kPiece, static_cast<GLuint>(piece));
+      draw_piece(how, piece);
     }
-    how.screen = static_cast<int>(piece);
-    set->draw(how);
-    ++piece;
     if (!std::isfinite(milliseconds)) continue;
     // The driver takes calls faster than it draws: without waiting there is nothing to measure.
     glFinish();
-    // Ends where the next piece would end too late, as those so far let one expect.
-    const auto drawn = static_cast<double>(piece - first);
-    if (1e3 * watch.seconds() * (drawn + 1.0) / drawn > milliseconds) break;
+    const double spent = 1e3 * watch.seconds();
+    piece_ms_ = spent / static_cast<double>(piece - first);
+    if (spent + piece_ms_ > milliseconds) break;
+    batch = pieces_in(milliseconds - spent);
   }
   return piece;
 }

@@ -8,7 +8,8 @@
 
 namespace palpate {
 
-/// 64 Mi points as they come; 8 to 16 Mi of them are left after thinning, which is half a gigabyte.
+/// 64 Mi points as they come; a third of them are left in a picture of the whole, all when it is enlarged: a
+/// gigabyte at most.
 inline constexpr std::size_t kTractPiecesOfRoom = (std::size_t{1} << 26U) / TractBundle::kPiecePoints;
 
 /// How many of its pieces are drawn at most; the first ones, which are an even sample of the lines.

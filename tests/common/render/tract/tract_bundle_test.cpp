@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/render/tract/tract_points.h"
 #include "common/render/tract/tract_room.h"
 
 namespace palpate::test {
@@ -92,8 +93,8 @@ TEST(TractBundle, LeavesOutWhatIsNoLine) {
   const auto bundle = make_tract_bundle(std::make_shared<const Tractogram>(lines));
   EXPECT_EQ(bundle->order, (std::vector<std::uint32_t>{2}));
   EXPECT_EQ(bundle->bounds.upper, Vec3(2.0));
-  const LineGeometry geometry = piece_geometry(*bundle, 0, scene_frame(bundle->bounds), 1e-4);
-  EXPECT_TRUE(geometry.segments.empty()) << "no segment ends where there is no point";
+  EXPECT_TRUE(piece_points(*bundle, 0, scene_frame(bundle->bounds), 1e-4).empty())
+      << "no segment ends where there is no point";
   EXPECT_TRUE(make_tract_bundle(std::make_shared<const Tractogram>())->pieces.empty());
 }
 
@@ -111,13 +112,17 @@ TEST(TractBundle, ThinnedLinesStayWithinTheTolerance) {
   const auto bundle = make_tract_bundle(lines);
   const SceneFrame frame = scene_frame(bundle->bounds);
   constexpr double kTolerance = 1e-4;
-  const LineGeometry geometry = piece_geometry(*bundle, 0, frame, kTolerance);
-  EXPECT_LT(geometry.vertices.size(), 200U);
-  EXPECT_EQ(geometry.segments.size() + 2, geometry.vertices.size()) << "two lines, and no vertex to spare";
-  for (const LineSegment& segment : geometry.segments) {
-    ASSERT_LT(segment.last, geometry.vertices.size());
-    const Vec3 a = Vec3(geometry.vertices[segment.first].position),
-               b = Vec3(geometry.vertices[segment.last].position);
+  const std::vector<TractPoint> points = piece_points(*bundle, 0, frame, kTolerance);
+  EXPECT_LT(points.size(), 200U);
+  std::size_t between = 0;
+  for (std::size_t number = 0; number + 1 < points.size(); ++number) {
+    const TractPoint &from = points[number], &to = points[number + 1];
+    if (to.tangent == TractPoint::kBetweenLines) {
+      ++between;
+      ++number;  // the next segment begins beyond it
+      continue;
+    }
+    const Vec3 a = Vec3(from.position), b = Vec3(to.position);
     const Vec3 middle = 0.5 * (a + b);
     double nearest = HUGE_VAL;
     for (const auto* line : {&circle, &straight}) {
@@ -129,6 +134,27 @@ TEST(TractBundle, ThinnedLinesStayWithinTheTolerance) {
       }
     }
     EXPECT_LT(nearest, 1.1 * kTolerance);
+  }
+  EXPECT_EQ(between, 1U) << "two lines";
+  EXPECT_NE(points.front().tangent, TractPoint::kBetweenLines);
+  EXPECT_NE(points.back().tangent, TractPoint::kBetweenLines);
+}
+
+// As the shader reads them: ten bits each, the sign in the highest of them.
+TEST(TractPoints, PackedTangentsAreOffByHalfAStep) {
+  const auto unpacked = [](std::uint32_t bits, unsigned shift) {
+    const int ten = static_cast<int>(bits >> shift & 1023U);
+    return (ten < 512 ? ten : ten - 1024) / 511.0;
+  };
+  constexpr double kHalfStep = 0.5 / 511.0 + 1e-7;  // and the rounding of single precision
+  for (int i = 0; i < 500; ++i) {
+    const double height = -1.0 + i / 249.5, angle = 2.4 * i, radius = std::sqrt(1.0 - height * height);
+    const Vec3 t{radius * std::cos(angle), radius * std::sin(angle), height};
+    const std::uint32_t bits = packed_tangent(Vec3f(t));
+    ASSERT_NEAR(unpacked(bits, 0), t.x, kHalfStep);
+    ASSERT_NEAR(unpacked(bits, 10), t.y, kHalfStep);
+    ASSERT_NEAR(unpacked(bits, 20), t.z, kHalfStep);
+    ASSERT_EQ(bits >> 30U, 0U) << "no point between lines";
   }
 }
 
