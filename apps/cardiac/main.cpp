@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
                 "by another convention, with the long axis stated"},
                {"cardiac map heart.exelem.gz --angle gap --json", "where fibres are undefined, in numbers"}}),
           series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
-                        "a potential over time at a place; several with --at 'x,y,z;x,y,z'"},
+                        "a potential over time at a place; --at again for another one"},
                        {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
           mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu",
                       "eight cells along each axis of an element"},

@@ -9,6 +9,7 @@
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/scalar_cell.h"
@@ -133,6 +134,11 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   watch.restart();
   context.progress.begin("looking at the mesh", 0);
   summary.quality = mesh_quality(TetMesh(mesh.points, mesh.tets, options.common.threads));
+  if (summary.quality.folded_faces > 0)
+    throw input_error({input.title(), "",
+                       "has " + counted(summary.quality.folded_faces, "face") +
+                           " with both tetrahedra on one side, so that these overlap",
+                       "tetrahedra side by side", "inverted elements must be mended where the mesh is made"});
   summary.notes = std::move(mesh.notes);
   if (choice) {
     const DataSet data = data_set_of(mesh);

@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "apps/cardiac/mesh_client.h"
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/cell_split.h"
+#include "common/field/grid/tet_shape.h"
+#include "common/field/heart/same_points.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/math/symmetric3.h"
 
@@ -20,8 +23,17 @@ constexpr std::uint8_t kVtkTetrahedron = 10, kVtkQuadraticTetrahedron = 24;
 constexpr std::uint32_t kUnused = ~0U;
 
 double six_volumes(const std::vector<Vec3>& points, const TetMesh::Tet& tet) {
-  const Vec3& a = points[tet[0]];
-  return glm::determinant(Mat3{points[tet[1]] - a, points[tet[2]] - a, points[tet[3]] - a});
+  return TetShape(points.data(), tet).volume6;
+}
+
+/// How many there were. @throws Error (bad input) where nothing is left.
+std::size_t leave_flat_ones_out(const std::vector<Vec3>& points, std::vector<TetMesh::Tet>& tets,
+                                const std::string& file) {
+  const std::size_t all = tets.size();
+  std::erase_if(tets, [&](const TetMesh::Tet& tet) { return TetShape(points.data(), tet).flat(); });
+  if (tets.empty())
+    throw input_error({file, "", "has no tetrahedron with a volume", "tetrahedra that fill the wall"});
+  return all - tets.size();
 }
 
 bool tetrahedra_alone(const DataSet& block) {
@@ -102,16 +114,19 @@ void sample_heart(const Heart& heart, WallMesh& mesh) {
 
 }  // namespace
 
-WallMesh make_wall_mesh(const DataSet& block, const HeartChoice* choice, const WallMeshOptions& options,
+WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const WallMeshOptions& options,
                         const std::string& file, Progress* progress) {
+  DataSet block = given;
+  const std::size_t joined = join_same_points(block);
   if (progress != nullptr) progress->begin("splitting cells", 0);
   SplitMesh split = split_into_tetrahedra(std::span(&block, 1), file);
   WallMesh mesh;
   mesh.kept = tetrahedra_alone(block);
   for (const TetMesh::Tet& tet : split.tets)
     mesh.cells_volume += std::abs(six_volumes(split.points, tet)) / 6.0;
-  if (split.merged_points > 0)
-    mesh.notes.push_back(counted(split.merged_points, "point") + " at a place that another one has: joined");
+  if (split.merged_points + joined > 0)
+    mesh.notes.push_back(counted(split.merged_points + joined, "point") +
+                         " at the place of another one: joined");
   if (split.inverted_cells > 0)
     mesh.notes.push_back(counted(split.inverted_cells, "inverted cell") + " turned");
   if (split.folded_cells > 0)
@@ -120,6 +135,8 @@ WallMesh make_wall_mesh(const DataSet& block, const HeartChoice* choice, const W
   if (mesh.kept) {
     mesh.points = split.points;
     mesh.tets = std::move(split.tets);
+    if (const std::size_t flat = leave_flat_ones_out(mesh.points, mesh.tets, file); flat > 0)
+      mesh.notes.push_back(std::to_string(flat) + " tetrahedra without a volume left out");
   } else {
     MeshJob job{.mesher = options.mesher, .largest_volume = options.largest_volume};
     constexpr double kCoarser = 2.0;

@@ -15,7 +15,7 @@ namespace palpate {
 
 struct WallMesh {
   std::vector<Vec3> points;        ///< data coordinates; every one has a cell
-  std::vector<TetMesh::Tet> tets;  ///< positively oriented, but for those without a volume
+  std::vector<TetMesh::Tet> tets;  ///< positively oriented
   std::vector<MeshColumn> columns;
   bool kept = false;          ///< the file's own tetrahedra
   FinishedMesh counts;        ///< of the mesher; its points and tetrahedra are empty
@@ -31,8 +31,11 @@ struct WallMeshOptions {
 
 /// Point arrays come along where the points of the file do (delaunay, and tetrahedra that are kept);
 /// directions of cells are brought to the points as outer products. TetGen's points get the fibres, sheets
-/// and depth of where they lie. @param choice of fibres; null: there are none.
-/// @throws Error as split_into_tetrahedra(), make_heart() and run_mesher(); Cancelled.
+/// and depth of where they lie. The file's own tetrahedra are mended where that is possible: points at one
+/// place are joined, inverted cells turned and those without a volume left out. @param choice of fibres;
+/// null: there are none.
+/// @throws Error (bad input) where no tetrahedron has a volume, and as split_into_tetrahedra(), make_heart()
+/// and run_mesher(); Cancelled.
 [[nodiscard]] WallMesh make_wall_mesh(const DataSet& block, const HeartChoice* choice,
                                       const WallMeshOptions& options, const std::string& file,
                                       Progress* progress);

@@ -163,6 +163,63 @@ TEST_F(Cardiac, ShowsAPotentialOverTimeAndOnTheWall) {
   EXPECT_EQ(run({"map", "--example", "ventricle", "--angle", "potential", "--json"}).exit_code, 2);
 }
 
+// One tetrahedron whose potential is x + 100 k in step k, and is missing in the last step.
+TEST_F(Cardiac, FollowsTimeThroughCollectionsAndNumberedFiles) {
+  const auto step = [this](const std::string& name, double add, bool missing) {
+    std::ostringstream text;
+    const auto array = [&text](const char* type, const char* called, int components,
+                               const std::string& numbers) {
+      text << "<DataArray type=\"" << type << "\" Name=\"" << called << "\" NumberOfComponents=\""
+           << components << "\" format=\"ascii\">\n"
+           << numbers << "\n</DataArray>\n";
+    };
+    const std::string v = std::to_string(add);
+    text << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid>\n"
+         << "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><PointData>\n";
+    array("Float64", "layer", 1, "0 0 0 1");
+    array("Float64", "vm", 1,
+          missing ? "nan nan nan nan" : v + " " + std::to_string(add + 1.0) + " " + v + " " + v);
+    array("Float64", "fibre", 3, "1 0 0 1 0 0 1 0 0 1 0 0");
+    text << "</PointData><Points>\n";
+    array("Float64", "x", 3, "0 0 0 1 0 0 0 1 0 0 0 1");
+    text << "</Points><Cells>\n";
+    array("Int64", "connectivity", 1, "0 1 2 3");
+    array("Int64", "offsets", 1, "4");
+    array("UInt8", "types", 1, "10");
+    text << "</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+    (void)folder_.write(name, text.str());
+  };
+  for (int k = 0; k < 4; ++k) step("h" + std::to_string(k) + ".vtu", 100.0 * k, k == 3);
+  const auto check = [this](const std::vector<std::string>& files, const Json& times) {
+    std::vector<std::string> command{"series"};
+    command.insert(command.end(), files.begin(), files.end());
+    command.insert(command.end(), {"--value", "vm", "--at", "0.25,0.25,0.25"});
+    const Json series = json(command);
+    EXPECT_EQ(series["times"], times) << files.front();
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(series["places"][0]["values"][k].get<double>(), 100.0 * static_cast<double>(k) + 0.25,
+                  1e-9);
+    EXPECT_TRUE(series["places"][0]["values"][3].is_null()) << "no potential, and no number made up for it";
+  };
+  // The collections name their steps in another order than that of time.
+  (void)folder_.write("h.pvd",
+                      "<?xml version=\"1.0\"?><VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+                      "<DataSet timestep=\"7\" file=\"h3.vtu\"/><DataSet timestep=\"0.5\" file=\"h1.vtu\"/>"
+                      "<DataSet timestep=\"-1\" file=\"h0.vtu\"/><DataSet timestep=\"2\" file=\"h2.vtu\"/>"
+                      "</Collection></VTKFile>");
+  check({"h.pvd"}, {-1.0, 0.5, 2.0, 7.0});
+  (void)folder_.write(
+      "h.vtu.series",
+      R"({"file-series-version":"1.0","files":[{"name":"h3.vtu","time":7},)"
+      R"({"name":"h1.vtu","time":0.5},{"name":"h0.vtu","time":-1},{"name":"h2.vtu","time":2}]})");
+  check({"h.vtu.series"}, {-1.0, 0.5, 2.0, 7.0});
+  check({"h2.vtu", "h0.vtu", "h3.vtu", "h1.vtu"}, {0.0, 1.0, 2.0, 3.0});
+
+  // Nothing but missing numbers is no picture of them, and no crash: their map is undefined everywhere.
+  EXPECT_EQ(json({"map", "h3.vtu", "--angle", "vm", "--axis", "1,0,0"})["undefined"], 4);
+  EXPECT_EQ(run({"series", "h3.vtu", "--value", "vm", "--at", "0.2,0.2,0.2", "--json"}).exit_code, 1);
+}
+
 TEST_F(Cardiac, RendersALayerCutOpen) {
   const Json whole = json({"render", "--example", "ventricle", "--size", "200x160", "--out", "whole.png"});
   EXPECT_GT(whole["lines"].get<int>(), 1000);

@@ -417,6 +417,7 @@ std::string mesh_json(const MeshSummary& summary) {
                   {"border_faces", quality.border_faces},
                   {"open_edges", quality.open_edges},
                   {"manifold_faults", quality.manifold_faults},
+                  {"folded_faces", quality.folded_faces},
                   {"layer_cells", summary.layer_cells},
                   {"backward_cells", summary.backward_cells},
                   {"notes", summary.notes},

@@ -60,6 +60,26 @@ void count_border(const TetMesh& mesh, MeshQuality& quality) {
   }
 }
 
+/// Faces whose two cells, turned the same way round, see them alike.
+void count_folds(const TetMesh& mesh, MeshQuality& quality) {
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    if (mesh.zero_volume(static_cast<CellIndex>(c))) continue;
+    for (std::size_t f = 0; f < 4; ++f) {
+      const CellIndex behind = mesh.neighbors()[c][f];
+      if (behind == kNoCell || static_cast<std::size_t>(behind) < c || mesh.zero_volume(behind)) continue;
+      const TetMesh::Tet& other = mesh.cells()[static_cast<std::size_t>(behind)];
+      const auto& back = mesh.neighbors()[static_cast<std::size_t>(behind)];
+      const auto g = static_cast<std::size_t>(std::find(back.begin(), back.end(), static_cast<CellIndex>(c)) -
+                                              back.begin());
+      if (g == back.size()) continue;
+      // Seen from outside, the face of the one runs round against that of the other.
+      const std::uint32_t a = mesh.cells()[c][kFaces[f][0]], b = mesh.cells()[c][kFaces[f][1]];
+      for (std::size_t i = 0; i < 3; ++i)
+        if (other[kFaces[g][i]] == a && other[kFaces[g][(i + 1) % 3]] == b) ++quality.folded_faces;
+    }
+  }
+}
+
 }  // namespace
 
 std::array<double, 6> dihedral_angles(const std::array<Vec3, 4>& corners) noexcept {
@@ -113,6 +133,7 @@ MeshQuality mesh_quality(const TetMesh& mesh) {
   quality.points = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
   count_components(mesh, quality);
   count_border(mesh, quality);
+  count_folds(mesh, quality);
   return quality;
 }
 

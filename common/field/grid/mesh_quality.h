@@ -28,6 +28,7 @@ struct MeshQuality {
   std::size_t open_edges = 0;  ///< of the border: with an odd number of faces
   std::size_t manifold_faults =
       0;  ///< faces that more than two cells share, edges with more than two border faces
+  std::size_t folded_faces = 0;  ///< with both their cells on one side: these overlap
 };
 
 [[nodiscard]] MeshQuality mesh_quality(const TetMesh& mesh);

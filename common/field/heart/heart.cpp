@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/heart/same_points.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 
@@ -92,12 +94,16 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
   return choice;
 }
 
-Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file, int threads) {
+Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::string& file, int threads) {
+  DataSet mesh = given;
+  const std::size_t joined = join_same_points(mesh);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
         {file, "", "is an image of voxels", "a mesh of the heart's wall", "dtmri shows images of fibres"});
   }
+  if (grid->tets->zero_volume_count() == grid->tets->cells().size())
+    throw input_error({file, "", "has no cell with a volume", "tetrahedra that fill the wall"});
   const auto directions = [&](const DirectionChoice& from) {
     return make_tensor_field(
         grid, mesh, {.array = from.array, .order = TensorOrder::kAxis, .association = from.association}, file,
@@ -106,6 +112,7 @@ Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::stri
   Heart heart;
   heart.fibres = directions(choice.fibre);
   heart.notes = heart.fibres->notes().lines;
+  if (joined > 0) heart.notes.push_back(counted(joined, "point") + " at the place of another one: joined");
   if (choice.fibre.association == Association::kCell) {
     heart.notes.emplace_back(
         "directions of cells brought to the points: volume-weighted mean of their outer products");

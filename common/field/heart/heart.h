@@ -53,8 +53,10 @@ struct Heart {
   std::vector<std::string> notes;            ///< of mesh, fibres and layers, for the user
 };
 
-/// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without an inner and an outer
-/// surface where no layers are given, and as make_field_grid(); (work failed) as make_wall_layer().
+/// Points at the very same place count as one (same_points.h).
+/// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without a volume, meshes
+/// without an inner and an outer surface where no layers are given, and as make_field_grid(); (work failed)
+/// as make_wall_layer().
 [[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
                                int threads = 0);
 

@@ -139,6 +139,14 @@ TEST(MeshQuality, AnglesOfTetrahedraThatAreKnown) {
   EXPECT_NEAR(quality.volume, 1.0 / 6.0 + 0.01 / 3.0, 1e-12);
 }
 
+TEST(MeshQuality, TetrahedraThatOverlapAreSeenAtTheirFace) {
+  const std::vector<TetMesh::Tet> tets{{0, 1, 2, 3}, {0, 1, 2, 4}};
+  for (const double z : {-1.0, 0.5}) {
+    const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, z}};
+    EXPECT_EQ(mesh_quality(TetMesh(points, tets)).folded_faces, z < 0.0 ? 0U : 1U);
+  }
+}
+
 // The circumspheres are the definition; what the weights may change is far below the tolerance.
 TEST(Delaunay, CosphericalPointsGiveNoFlatCellInside) {
   const SampledWall wall = wall_of(ventricle_mesh({}, {.wall = 4, .along = 8, .around = 16}));
@@ -344,6 +352,34 @@ TEST_F(MesherProgram, CarriesArraysAndTheFilesOwnTetrahedra) {
   EXPECT_TRUE(again.kept);
   EXPECT_EQ(again.points, made.points);
   EXPECT_EQ(again.tets.size(), made.tets.size());
+}
+
+// Two tetrahedra beside each other, one of them inverted and with points of its own, and what has no volume.
+TEST_F(MesherProgram, MendsTheFilesOwnTetrahedra) {
+  const std::vector<double> x{0, 0, 0, 1, 0, 0, 0, 1, 0, 0,    0,    1, 0, 0, -1,
+                              0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, 0, 2, 0, 0};
+  DataSet data;
+  UnstructuredTopology cells;
+  cells.positions = make_array("points", Association::kPoint, 3, std::span<const double>(x));
+  cells.connectivity = {0, 1, 2, 3, 5, 6, 7, 4, 0, 1, 2, 8, 0, 1, 9, 9, 0, 1, 9, 3};
+  cells.types.assign(5, 10);
+  cells.offsets = {0, 4, 8, 12, 16, 20};
+  data.topology = cells;
+  const WallMesh mended = make_wall_mesh(data, nullptr, {}, "wall", nullptr);
+  EXPECT_TRUE(mended.kept);
+  EXPECT_EQ(mended.points.size(), 5U);
+  EXPECT_EQ(mended.tets.size(), 2U);
+  const MeshQuality quality = mesh_quality(TetMesh(mended.points, mended.tets));
+  EXPECT_NEAR(quality.volume, 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(quality.zero_volume, 0U);
+  EXPECT_EQ(quality.components, 1U);
+  EXPECT_EQ(quality.folded_faces, 0U);
+
+  cells.connectivity = {0, 1, 2, 8};
+  cells.types = {10};
+  cells.offsets = {0, 4};
+  data.topology = cells;
+  EXPECT_THROW((void)make_wall_mesh(data, nullptr, {}, "wall", nullptr), Error);
 }
 
 TEST_F(MesherProgram, ACrashIsALineThatSaysWhat) {

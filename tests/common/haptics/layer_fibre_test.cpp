@@ -208,6 +208,55 @@ TEST(LayerFibre, UndefinedFibresHoldNothing) {
   EXPECT_LT(glm::distance(chain.proxy(step, 1), Vec3{2.3, 2.2, 0.5}), 1e-6);
 }
 
+/// The slab as hands may find it: fibres missing here and there, or everywhere; depths missing.
+TEST(LayerFibre, MissingNumbersGiveNoForceThatIsNone) {
+  for (const int every : {1, 3}) {
+    for (const char* missing : {"fibre", "layer"}) {
+      DataSet mesh = slab(0.3, 0.2);
+      for (DataArray& array : mesh.arrays) {
+        if (array.name != missing || (every == 1 && array.name == "layer")) continue;
+        std::vector<double> numbers;
+        for (std::size_t p = 0; p < array.tuples; ++p)
+          for (int c = 0; c < array.components; ++c)
+            numbers.push_back(p % static_cast<std::size_t>(every) == 0 ? std::nan("") : array.at(p, c));
+        array =
+            make_array(array.name, Association::kPoint, array.components, std::span<const double>(numbers));
+      }
+      Chain chain(layered(mesh));
+      RoughHand hand(chain.heart().heart().layer->bounds());
+      int held = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const ChainStep step = chain.step(hand.next());
+        ASSERT_TRUE(is_finite(step.force)) << missing << " " << every;
+        for (std::size_t link = 0; link < 3; ++link) ASSERT_TRUE(is_finite(chain.proxy(step, link)));
+        held += chain.layer() >= 0 ? 1 : 0;
+      }
+      EXPECT_GT(held, 0) << missing << ": layers hold where they are known";
+    }
+  }
+}
+
+TEST(LayerFibre, OneTetrahedronHasLayers) {
+  DataSet mesh;
+  UnstructuredTopology cell;
+  const std::vector<double> x{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, fibres{1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0},
+      depth{0, 0, 0, 1};
+  cell.positions = make_array("x", Association::kPoint, 3, std::span<const double>(x));
+  cell.types = {10};
+  cell.offsets = {0, 4};
+  cell.connectivity = {0, 1, 2, 3};
+  mesh.topology = std::move(cell);
+  mesh.arrays = {make_array("fibre", Association::kPoint, 3, std::span<const double>(fibres)),
+                 make_array("layer", Association::kPoint, 1, std::span<const double>(depth))};
+  Chain chain(layered(mesh));
+  (void)chain.step({0.2, 0.2, 0.24});
+  const ChainStep step = chain.step({0.2, 0.2, 0.26});
+  EXPECT_EQ(chain.layer(), 1);
+  for (std::size_t link = 0; link < 3; ++link) EXPECT_NEAR(chain.proxy(step, link).z, 0.25, 1e-9);
+  RoughHand hand({Vec3{-0.5}, Vec3{1.5}});
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(is_finite(chain.step(hand.next()).force));
+}
+
 TEST(LayerFibre, PowersOfTwoOfTheDataChangeNoBit) {
   const auto run = [](double scale) {
     DataSet mesh = slab(0.3, 0.2);

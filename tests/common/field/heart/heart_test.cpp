@@ -2,6 +2,7 @@
 #include "common/field/heart/heart.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -157,6 +158,140 @@ TEST(Heart, FibresOfCellsAreBroughtToPointsWithoutTheirSigns) {
                  make_array("layer", Association::kPoint, 1, std::span<const double>(layer))};
   const Heart heart = heart_of(mesh);
   for (const double gap : map_gap(heart)) EXPECT_NEAR(gap, 1.0, 1e-12);
+}
+
+/// The tetrahedra of a slab 0 <= x, y <= 3, 0 <= z <= 1 whose depth is z, with fibres along x.
+struct Slab {
+  std::vector<double> x, fibres, depth;
+  std::vector<std::int64_t> corners;
+
+  Slab() {
+    constexpr int kSide = 4, kHigh = 3;
+    for (int k = 0; k < kHigh; ++k)
+      for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+          x.insert(x.end(), {1.0 * i, 1.0 * j, 0.5 * k});
+          fibres.insert(fibres.end(), {1.0, 0.0, 0.0});
+          depth.push_back(0.5 * k);
+        }
+    const auto at = [](int i, int j, int k) { return std::int64_t{i + kSide * (j + kSide * k)}; };
+    constexpr std::array<std::array<int, 3>, 7> kRound{
+        {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}};
+    for (int k = 0; k + 1 < kHigh; ++k)
+      for (int j = 0; j + 1 < kSide; ++j)
+        for (int i = 0; i + 1 < kSide; ++i)
+          for (std::size_t n = 0; n < 6; ++n) {
+            const auto& a = kRound[n];
+            const auto& b = kRound[n + 1];
+            corners.insert(corners.end(), {at(i, j, k), at(i + a[0], j + a[1], k + a[2]),
+                                           at(i + b[0], j + b[1], k + b[2]), at(i + 1, j + 1, k + 1)});
+          }
+  }
+  [[nodiscard]] DataSet mesh() const {
+    DataSet data;
+    UnstructuredTopology cells;
+    cells.positions = make_array("x", Association::kPoint, 3, std::span<const double>(x));
+    cells.types.assign(corners.size() / 4, 10);
+    for (std::size_t c = 0; c <= cells.types.size(); ++c)
+      cells.offsets.push_back(static_cast<std::int64_t>(4 * c));
+    cells.connectivity = corners;
+    data.topology = std::move(cells);
+    data.arrays = {make_array("fibre", Association::kPoint, 3, std::span<const double>(fibres)),
+                   make_array("layer", Association::kPoint, 1, std::span<const double>(depth))};
+    return data;
+  }
+};
+
+/// Whether depth and fibres are those of the slab all over it.
+void expect_slab(const Heart& heart) {
+  std::mt19937 random{5};
+  std::uniform_real_distribution<double> part(0.001, 0.999);
+  CellHint hint;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 x{3.0 * part(random), 3.0 * part(random), part(random)};
+    const ScalarSample depth = heart.layer->sample(x, hint);
+    const TensorSample fibre = heart.fibres->sample(x, hint);
+    ASSERT_EQ(depth.status, SampleStatus::kOk) << x.x << ", " << x.y << ", " << x.z;
+    ASSERT_NEAR(depth.value, x.z, 1e-12);
+    ASSERT_EQ(fibre.status, SampleStatus::kOk);
+    ASSERT_NEAR(std::abs(symmetric_eigen(fibre.value).vectors[0].x), 1.0, 1e-12);
+  }
+  // Every normal of the layers is known.
+  const SmoothNormals normals(heart.layer);
+  for (std::size_t p = 0; p < heart.layer->tet_mesh()->points().size(); ++p)
+    ASSERT_NEAR(normals.at_point(p).z, 1.0F, 1e-5F);
+}
+
+TEST(DegenerateHeart, InvertedAndFlatTetrahedraChangeNothing) {
+  Slab slab;
+  for (std::size_t c = 0; c < slab.corners.size(); c += 28) std::swap(slab.corners[c], slab.corners[c + 1]);
+  slab.corners.insert(slab.corners.end(), {0, 1, 2, 3, 0, 1, 5, 4, 7, 7, 7, 7, 2, 3, 2, 7});  // line, plane
+  const Heart heart = heart_of(slab.mesh());
+  EXPECT_GT(heart.layer->tet_mesh()->zero_volume_count(), 0U);
+  expect_slab(heart);
+}
+
+TEST(DegenerateHeart, OneWithoutAnyVolumeIsRefused) {
+  Slab slab;
+  slab.corners = {0, 1, 2, 3, 0, 1, 5, 4};
+  try {
+    (void)heart_of(slab.mesh());
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("volume"), std::string::npos) << error.what();
+  }
+}
+
+// Every other tetrahedron names points of its own: without joining, the wall is a heap of pieces.
+TEST(DegenerateHeart, PointsAtOnePlaceAreJoined) {
+  Slab slab;
+  const auto points = static_cast<std::int64_t>(slab.depth.size());
+  const auto twice = [](std::vector<double>& v) {
+    const std::vector<double> once = v;
+    v.insert(v.end(), once.begin(), once.end());
+  };
+  twice(slab.x);
+  twice(slab.fibres);
+  twice(slab.depth);
+  for (std::size_t c = 0; c < slab.corners.size(); ++c)
+    if (c / 4 % 2 == 1) slab.corners[c] += points;
+  const Heart heart = heart_of(slab.mesh());
+  expect_slab(heart);
+  EXPECT_EQ(heart.layer->tet_mesh()->points().size(), static_cast<std::size_t>(points));
+  std::size_t border = 0;
+  for (const auto& cell : heart.layer->tet_mesh()->neighbors())
+    border += static_cast<std::size_t>(std::count(cell.begin(), cell.end(), kNoCell));
+  EXPECT_EQ(border, 2U * (9 + 9 + 6 + 6 + 6 + 6));
+}
+
+TEST(DegenerateHeart, MissingFibresAreUndefinedWhereTheyAreMissing) {
+  Slab slab;
+  for (const std::size_t p : {0U, 7U, 21U})
+    for (std::size_t c = 0; c < 3; ++c) slab.fibres[3 * p + c] = p == 7 ? 0.0 : std::nan("");
+  const Heart heart = heart_of(slab.mesh());
+  EXPECT_EQ(heart.fibres->notes().bad_values, 3U);
+  const std::vector<double> gap = map_gap(heart);
+  for (std::size_t p = 0; p < gap.size(); ++p) {
+    if (p == 0 || p == 7 || p == 21)
+      EXPECT_TRUE(std::isnan(gap[p])) << p;
+    else
+      EXPECT_NEAR(gap[p], 1.0, 1e-12) << p;
+  }
+  // The layers are known all the same.
+  CellHint hint;
+  EXPECT_EQ(heart.layer->sample({0.1, 0.1, 0.1}, hint).status, SampleStatus::kOk);
+  EXPECT_EQ(heart.fibres->sample({0.1, 0.1, 0.1}, hint).status, SampleStatus::kBadData);
+}
+
+TEST(DegenerateHeart, OneTetrahedronIsOne) {
+  Slab slab;
+  slab.corners = {0, 1, 4, 16};
+  const Heart heart = heart_of(slab.mesh());
+  CellHint hint;
+  EXPECT_NEAR(heart.layer->sample({0.2, 0.2, 0.1}, hint).value, 0.1, 1e-12);
+  slab.depth.assign(slab.depth.size(), 0.0);
+  EXPECT_THROW((void)heart_of(slab.mesh()), Error);
 }
 
 TEST(Heart, WhatIsNoHeartIsNamed) {
