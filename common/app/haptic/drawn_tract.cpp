@@ -1,6 +1,7 @@
 #include "common/app/haptic/drawn_tract.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -33,6 +34,7 @@ void TractPen::begin(double time, const Vec3& proxy) {
   if (reach_ > 0.0) before_.push_back(tracts_);
   ++edits_;
   down_ = true;
+  added_ = 0;
   if (use_ == StrokeUse::kReplace && fresh_) tracts_.clear();
   fresh_ = false;
 
@@ -49,7 +51,8 @@ void TractPen::begin(double time, const Vec3& proxy) {
       at_front = front;
     }
   }
-  if (joined == tracts_.end()) {
+  joining_ = joined != tracts_.end();
+  if (!joining_) {
     tracts_.emplace_back();
     tracts_.back().line.end = End::kStoppedByRule;
     tracts_.back().line.seed = static_cast<std::uint32_t>(tracts_.size() - 1);
@@ -57,8 +60,26 @@ void TractPen::begin(double time, const Vec3& proxy) {
     return;
   }
   if (at_front) turn_round(*joined);
+  turned_ = at_front;
   std::rotate(joined, std::next(joined), tracts_.end());
   start_ = time - tracts_.back().line.points.back().time;
+}
+
+/// Whether the line may go on to `proxy` from the end that the stroke joins: ahead of it, or away from it for
+/// good. What the hand draws beside the end before would be a kink, or a way back.
+bool TractPen::goes_on(const Vec3& proxy) const {
+  constexpr double kSlope = 0.25;  // aside for the way ahead: a turn of 14 degrees
+  const std::vector<LinePoint>& points = tracts_.back().line.points;
+  const Vec3 end = points.back().position, way = proxy - end;
+  // The way that the line came over the reach, in which a kink would be seen.
+  auto from = points.rbegin();
+  while (std::next(from) != points.rend() && glm::distance(from->position, end) < reach_) ++from;
+  const Vec3 came = end - from->position;
+  const double length = glm::length(came);
+  if (!(length > 0.0)) return true;
+  const double ahead = glm::dot(way, came) / length;
+  const double aside = std::sqrt(std::max(glm::dot(way, way) - ahead * ahead, 0.0));
+  return aside <= kSlope * ahead || glm::length(way) > reach_ / kSlope;
 }
 
 void TractPen::add(double time, const Vec3& proxy, double force) {
@@ -67,8 +88,8 @@ void TractPen::add(double time, const Vec3& proxy, double force) {
   std::vector<LinePoint>& points = tract.line.points;
   if (!points.empty()) {
     const double step = glm::distance(points.back().position, proxy);
-    if (!(step > spacing_)) {
-      tract.forces.back() = std::max(tract.forces.back(), force);
+    if (!(step > spacing_) || (joining_ && !goes_on(proxy))) {
+      tract.forces.back() = std::fmax(tract.forces.back(), force);
       return;
     }
     const double elapsed = time - start_ - points.back().time;
@@ -79,19 +100,32 @@ void TractPen::add(double time, const Vec3& proxy, double force) {
                       .time = time - start_,
                       .arc = points.back().arc + step,
                       .speed = speed,
-                      .error = spacing_});
+                      .error = joining_ ? step : spacing_});
+    joining_ = false;
   } else {
     points.push_back({.position = proxy, .error = spacing_});
   }
+  ++added_;
   tract.forces.push_back(force);
   tract.measures.push_back(measures_at(*field_, proxy, hint_));
 }
 
 void TractPen::lift() {
   // A hand that has not moved has drawn nothing.
-  const bool nothing = down_ && depth() > 0 && tracts_.back().line.points.size() < kLeastPoints;
+  const bool nothing =
+      down_ && depth() > 0 && (added_ == 0 || tracts_.back().line.points.size() < kLeastPoints);
   down_ = false;
-  if (nothing) undo();
+  if (nothing) {
+    undo();
+    return;
+  }
+  // What was drawn from the first point of a tract stands before it, and tracts stand in their order again.
+  const auto by_seed = [](const DrawnTract& a, const DrawnTract& b) { return a.line.seed < b.line.seed; };
+  if (turned_) turn_round(tracts_.back());
+  if (!turned_ && std::ranges::is_sorted(tracts_, by_seed)) return;
+  turned_ = false;
+  std::ranges::sort(tracts_, by_seed);
+  ++edits_;
 }
 
 void TractPen::let_go() {
@@ -100,7 +134,7 @@ void TractPen::let_go() {
 }
 
 void TractPen::cut(std::size_t points) {
-  if (tracts_.empty() || tracts_.back().forces.size() <= points) return;
+  if (!down_ || tracts_.back().forces.size() <= points) return;
   DrawnTract& tract = tracts_.back();
   tract.line.points.resize(points);
   tract.forces.resize(points);
@@ -119,7 +153,7 @@ std::vector<DrawnTract> TractPen::take() {
 }
 
 void TractPen::undo() {
-  down_ = false;
+  down_ = turned_ = false;
   tracts_ = std::move(before_.back());
   before_.pop_back();
   ++edits_;

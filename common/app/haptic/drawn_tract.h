@@ -24,7 +24,9 @@ struct DrawnTract {
 
 /// What a stroke does with the tracts that were drawn before the hand took the probe.
 enum class StrokeUse : std::uint8_t {
-  kAppend,  ///< goes on from the end of one that it begins at, else it is a tract of its own
+  kAppend,  ///< goes on from the end of one that it begins at, else it is a tract of its own; what goes on
+            ///< from the first point stands before it, so that tracts keep the direction of their first
+            ///< stroke
   kReplace  ///< takes their place
 };
 
@@ -48,10 +50,12 @@ class TractPen {
   /// The hand is off, too.
   void let_go();
 
-  /// In the order of their first strokes. A stroke that goes on from the first point of a tract turns that
-  /// round.
+  /// In the order of their first strokes. While the pen is down its tract is the last, and turned round where
+  /// the stroke goes on from the first point.
   [[nodiscard]] const std::vector<DrawnTract>& tracts() const noexcept { return tracts_; }
-  /// Takes out all but the first `points` of the stroke's own tract. @pre 0 < points.
+  /// The stroke has yet to go on from the end that it began at: nothing of it is in tracts().
+  [[nodiscard]] bool joining() const noexcept { return down_ && joining_; }
+  /// While the pen is down, takes out all but the first `points` of its tract. @pre 0 < points.
   void cut(std::size_t points);
   /// Leaves those of two points and more to the caller, and none here.
   [[nodiscard]] std::vector<DrawnTract> take();
@@ -64,6 +68,7 @@ class TractPen {
 
  private:
   void begin(double time, const Vec3& proxy);
+  [[nodiscard]] bool goes_on(const Vec3& proxy) const;
 
   std::shared_ptr<const TensorField> field_;
   double spacing_, reach_;
@@ -71,7 +76,10 @@ class TractPen {
   CellHint hint_;
   double start_ = 0.0;  ///< time at which the last tract's own is 0
   bool down_ = false;
-  bool fresh_ = true;  ///< the hand has drawn nothing since it took the probe
+  bool joining_ = false;   ///< the stroke has not gone on from its tract's end yet
+  bool turned_ = false;    ///< its tract is turned round until it ends
+  std::size_t added_ = 0;  ///< points of the stroke
+  bool fresh_ = true;      ///< the hand has drawn nothing since it took the probe
   std::uint64_t edits_ = 0;
   std::vector<DrawnTract> tracts_;
   std::vector<std::vector<DrawnTract>> before_;  ///< each stroke, each take()

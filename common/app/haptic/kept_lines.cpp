@@ -1,10 +1,25 @@
 #include "common/app/haptic/kept_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace palpate {
+namespace {
+
+bool same_points(const Line& a, const Line& b) {
+  return a.points.size() == b.points.size() && a.points.front().position == b.points.front().position &&
+         a.points.back().position == b.points.back().position;
+}
+
+/// NaN, for none felt, counts as equal to itself.
+bool same_forces(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+}  // namespace
 
 std::vector<double> forces_along(const Line& line, std::span<const FeltForce> felt) {
   std::vector<double> forces(line.points.size(), std::numeric_limits<double>::quiet_NaN());
@@ -48,6 +63,11 @@ void KeptLines::keep(std::vector<DrawnTract> lines) {
     entries_.push_back(std::move(entry));
   }
   changed();
+}
+
+bool KeptLines::ends_with(const Line& line, const std::vector<double>& forces) const {
+  return !entries_.empty() && same_points(*entries_.back().line, line) &&
+         same_forces(entries_.back().forces, forces);
 }
 
 void KeptLines::remove(std::size_t index) {

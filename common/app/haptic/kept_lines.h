@@ -37,6 +37,8 @@ class KeptLines {
   void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}}}); }
   /// All of them, as one thing to take back.
   void keep(std::vector<DrawnTract> lines);
+  /// Whether the last one has been kept with these points and forces.
+  [[nodiscard]] bool ends_with(const Line& line, const std::vector<double>& forces) const;
   /// Takes out the one at `index`. @pre index < entries().size().
   void remove(std::size_t index);
   /// Takes back the last keep() or remove(); false where there is nothing to take back.

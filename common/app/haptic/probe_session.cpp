@@ -10,8 +10,6 @@
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
-#include "common/field/grid/box_grid.h"
-#include "common/field/grid/tet_mesh.h"
 #include "common/servo/wall_loop.h"
 
 namespace palpate {
@@ -23,30 +21,6 @@ constexpr double kLocalReach = 0.06;   // diagonals: half the length of a rake
 constexpr double kLocalLength = 0.25;  // diagonals: of its lines, either way
 constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
 constexpr std::size_t kMostFelt = 1U << 20U;
-constexpr double kTractReach =
-    0.01;  // diagonals: as near as that to the end of a tract, a stroke goes on from it
-
-bool same_points(const Line& a, const Line& b) {
-  return a.points.size() == b.points.size() && a.points.front().position == b.points.front().position &&
-         a.points.back().position == b.points.back().position;
-}
-
-/// The cell of the grid that `x` lies in: a number, or i j k. @param hint of a sample there.
-template <class Field>
-std::string cell_text(const Field& field, const Vec3& x, const CellHint& hint) {
-  if (const BoxGrid* grid = field.box_grid()) {
-    Index3 cell{0};
-    if (!grid->locate(field.frame().local_from_data(x), cell)) return {};
-    return std::to_string(cell.x) + "  " + std::to_string(cell.y) + "  " + std::to_string(cell.z);
-  }
-  return field.tet_mesh() != nullptr ? std::to_string(hint.cell) : std::string();
-}
-
-/// NaN, for none felt, counts as equal to itself.
-bool same_forces(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-}
 
 }  // namespace
 
@@ -100,14 +74,12 @@ bool ProbeSession::set_field(NamedField open) {
   // A heart's layer is in the picture with its fibres: all that are felt would lie over it.
   const bool heart = open_.tensor && open_.scalar && !open_.field;
   if (heart && !servo_) choice_.show_surface = false;
-  hint_ = scalar_hint_ = {};
+  hints_ = {};
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   if (!surfaces_) surfaces_ = std::make_unique<FeltSurfaces>(wake_);
-  pen_.reset();
-  if (has_tensors())
-    pen_.emplace(open_.tensor, kTractSpacing * open_.diagonal(), kTractReach * open_.diagonal());
-  list_edits_.clear();
+  drawing_.reset();
+  if (has_tensors()) drawing_.emplace(open_.tensor);
   clear_path();
   kept_.clear();
   last_drawn_.reset();
@@ -174,8 +146,7 @@ void ProbeSession::follow_chain(const HapticChain& made) {
   if (made.followed) curve_.emplace(made.followed);
   surfaces_of_ = made.surfaces_of;
   chain_isovalues_ = made.isovalues;
-  planes_ = made.planes;
-  planes_news_.reset();
+  planes_.follow(made.planes);
   felt_.clear();
 }
 
@@ -183,16 +154,16 @@ void ProbeSession::grab(double time, const Vec3& position) {
   if (!servo_ || replay_ || path_device_) return;
   target_ = position;
   noted_.reset();
-  noted_points_.reset();
+  if (drawing_) drawing_->forget_note();
   pressed_ = false;
   mouse_->grab(time, workspace().workspace_from_data(position), buttons());
 }
 
 /// Modes that take hold of something wait for the button; in all others the hand itself is the button.
-std::uint32_t ProbeSession::buttons() const noexcept { return planes_ && !pressed_ ? 0U : 1U; }
+std::uint32_t ProbeSession::buttons() const noexcept { return planes_.there() && !pressed_ ? 0U : 1U; }
 
 void ProbeSession::put_planes(const PlanePoses& poses) {
-  if (planes_news_) planes_before_.push_back(planes_news_->poses);
+  planes_.remember();
   set_planes(poses);
 }
 
@@ -216,17 +187,6 @@ std::optional<Vec3> ProbeSession::gradient_at(const Vec3& x) const {
   return sample.value / size;
 }
 
-/// What is told of an edit that is not in place yet says nothing.
-void ProbeSession::read_planes() {
-  WidgetNews news;
-  if (!planes_ || !planes_->read(news) || news.edit != choice_.settings.plane_widget.edit) return;
-  const auto moves = [](const WidgetNews& told) {
-    return told.state == WidgetState::kTranslate || told.state == WidgetState::kRotate;
-  };
-  if (planes_news_ && moves(news) && !moves(*planes_news_)) planes_before_.push_back(planes_news_->poses);
-  planes_news_ = news;
-}
-
 void ProbeSession::let_go() noexcept {
   if (mouse_->grabbed()) mouse_->let_go();
 }
@@ -243,7 +203,7 @@ void ProbeSession::choose(const TouchChoice& choice) {
   if (choice == choice_) return;
   const TouchChoice before = std::exchange(choice_, choice);
   // Planes stay where the hand has put them while another mode is felt.
-  if (choice.mode != before.mode && planes_news_) choice_.settings.plane_widget.poses = planes_news_->poses;
+  if (choice.mode != before.mode && planes()) choice_.settings.plane_widget.poses = planes()->poses;
   if (!servo_ || replay_) return;
   if (choice.mode != before.mode || choice.ticks != before.ticks ||
       choice.settings.linear.rebuilds(before.settings.linear) ||
@@ -295,7 +255,7 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
   }
   if (has(kPlaneWidgetMode)) {
     PlaneWidgetSettings planes = choice_.settings.plane_widget;
-    if (planes_news_) planes.poses = planes_news_->poses;
+    if (this->planes()) planes.poses = this->planes()->poses;
     for (auto& option : plane_options(planes)) options.push_back(std::move(option));
   }
   if (!notes_.entries().empty()) options.emplace_back("annotation", text_of(notes_.entries()));
@@ -305,9 +265,10 @@ std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
 }
 
 void ProbeSession::clear_path() {
-  if (pen_) {
-    (void)pen_->take();
-    drawn_edits_ = pen_->edits();
+  if (drawing_) {
+    drawing_->clear();
+    path_ = drawing_->path();
+    return;
   }
   path_ = std::make_shared<ProbePath>(open_.empty() ? 0.0 : kPathSpacing * open_.diagonal());
 }
@@ -318,8 +279,9 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   servo_->collect_retired();
   servo_->read(readout_.servo);
   if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);
-  drain_steps();
-  read_planes();
+  HandStep step;
+  while (servo_->pop_step(step)) take(step);
+  planes_.read(choice_.settings.plane_widget.edit);
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
     curve_->update(choice_.show_balls ? ball_interval(*open_.field, workspace()) : 0.0, color_by);
@@ -327,15 +289,10 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
     // What is let go stays in the picture until the next line is caught.
     if (curve_->drawn()) last_drawn_ = curve_->drawn();
   }
-  read_out();
+  if (readout_.held) read_data(open_, hints_, readout_);
   ask_local(camera);
   surfaces_->request(choice_.show_surface ? felt_levels() : FeltLevels{});
   describe(view);
-}
-
-void ProbeSession::drain_steps() {
-  HandStep step;
-  while (servo_->pop_step(step)) take(step);
 }
 
 void ProbeSession::take(const HandStep& step) {
@@ -343,7 +300,7 @@ void ProbeSession::take(const HandStep& step) {
   if (replay_) follow_replayed_chain(step.number);
   if (!step.present) {
     path_->append(gap, 0.0);
-    if (pen_) pen_->let_go();
+    if (drawing_) drawing_->let_go();
     readout_.held = false;
     held_before_ = false;
     return;
@@ -364,8 +321,9 @@ void ProbeSession::take(const HandStep& step) {
   }
   if (surfaces_of_ && step.state == HoldState::kReleased) ++readout_.popped;
   held_before_ = held_before_ || on_line;
-  if (pen_) draw_tract(step, proxy, force);
-  path_->append(on_line ? proxy : gap, force);
+  if (drawing_) drawing_->draw(step, proxy, force, choice_.stroke);
+  if (drawing_ && drawing_->redrawn()) path_ = drawing_->path();
+  if (!drawing_ || !drawing_->joining()) path_->append(on_line ? proxy : gap, force);
   const double spacing = kPathSpacing * open_.diagonal();
   if (!on_line) {
     // Nothing is felt of a line.
@@ -399,31 +357,6 @@ void ProbeSession::follow_replayed_chain(std::uint64_t step) {
     } else if (const auto* settings = std::get_if<ChainSettings>(&changes[next_change_].change)) {
       replayed_isovalues_ = settings->isosurface.isovalues;
     }
-  }
-}
-
-void ProbeSession::read_out() {
-  if (!readout_.held) return;
-  readout_.sampled = false;
-  readout_.tensor.reset();
-  readout_.scalar.reset();
-  readout_.scalar_name.clear();
-  readout_.cell.clear();
-  if (open_.scalar) {
-    const ScalarSample sample = open_.scalar->sample(readout_.proxy, scalar_hint_);
-    if (sample.status == SampleStatus::kOk) readout_.scalar = sample.value;
-    readout_.scalar_name = open_.scalar->name();
-  }
-  if (open_.tensor) {
-    const TensorSample sample = open_.tensor->sample(readout_.proxy, hint_);
-    if (sample.status == SampleStatus::kOk) readout_.tensor = sample.value;
-  } else if (open_.field) {
-    const VectorSample sample = open_.field->sample(readout_.proxy, hint_);
-    readout_.sampled = sample.status == SampleStatus::kOk;
-    readout_.velocity = sample.value;
-    if (readout_.sampled) readout_.cell = cell_text(*open_.field, readout_.proxy, hint_);
-  } else if (readout_.scalar) {
-    readout_.cell = cell_text(*open_.scalar, readout_.proxy, scalar_hint_);
   }
 }
 
@@ -485,83 +418,50 @@ std::optional<double> ProbeSession::surfaces_fraction() const {
   return surfaces_ ? surfaces_->fraction() : std::nullopt;
 }
 
-void ProbeSession::draw_tract(const HandStep& step, const Vec3& proxy, double force) {
-  const bool held = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
-  if (!held || step.chain.jumped) pen_->lift();
-  if (!held) return;
-  pen_->use(choice_.stroke);
-  pen_->add(step.time, proxy, force);
-  if (pen_->edits() != drawn_edits_) redraw_path();
-}
-
-/// The path is that of the tracts, after some of them have changed.
-void ProbeSession::redraw_path() {
-  drawn_edits_ = pen_->edits();
-  path_ = std::make_shared<ProbePath>(kPathSpacing * open_.diagonal());
-  for (const DrawnTract& tract : pen_->tracts()) {
-    path_->append(Vec3{kNotThere}, 0.0);
-    for (std::size_t i = 0; i < tract.forces.size(); ++i)
-      path_->append(tract.line.points[i].position, tract.forces[i]);
-  }
-}
-
 void ProbeSession::note_line() {
   noted_.reset();
-  noted_points_.reset();
-  if (pen_ && readout_.held && !pen_->tracts().empty())
-    noted_points_ = pen_->tracts().back().line.points.size();
+  if (drawing_ && readout_.held) drawing_->note();
   if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
   noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), felt_)};
 }
 
-ProbeSession::Keeping ProbeSession::keep_tracts() {
-  std::vector<DrawnTract> tracts = pen_->take();
-  if (tracts.empty()) return Keeping::kNothing;
-  list_edits_.push_back({.strokes = pen_->depth(), .took = true});
-  kept_.keep(std::move(tracts));
-  redraw_path();
-  return Keeping::kKept;
-}
-
 ProbeSession::Keeping ProbeSession::keep_line() {
-  if (pen_) return keep_tracts();
+  if (drawing_) {
+    if (!drawing_->keep(kept_)) return Keeping::kNothing;
+    path_ = drawing_->path();
+    return Keeping::kKept;
+  }
   if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
   return keep(curve_->line(), forces_along(curve_->line(), felt_));
 }
 
 ProbeSession::Keeping ProbeSession::keep_noted_line() {
-  if (pen_ && noted_points_ && readout_.held) pen_->cut(*noted_points_);
+  if (drawing_ && readout_.held) drawing_->cut_to_note();
   return noted_ && readout_.held ? keep(noted_->line, noted_->forces) : keep_line();
 }
 
 ProbeSession::Keeping ProbeSession::keep(const Line& line, std::vector<double> forces) {
-  const std::vector<KeptLines::Entry>& kept = kept_.entries();
-  if (!kept.empty() && same_points(*kept.back().line, line) && same_forces(kept.back().forces, forces)) {
-    return Keeping::kAlready;
-  }
+  if (kept_.ends_with(line, forces)) return Keeping::kAlready;
   kept_.keep(line, std::move(forces));
   return Keeping::kKept;
 }
 
 void ProbeSession::remove_kept(std::size_t index) {
-  list_edits_.push_back({.strokes = pen_ ? pen_->depth() : 0, .took = false});
-  kept_.remove(index);
+  if (drawing_) {
+    drawing_->remove(kept_, index);
+  } else {
+    kept_.remove(index);
+  }
 }
 
 bool ProbeSession::undo() {
-  if (planes_ && !planes_before_.empty()) {
-    set_planes(planes_before_.back());
-    planes_before_.pop_back();
+  if (const auto poses = planes_.undo()) {
+    set_planes(*poses);
     return true;
   }
-  if (!pen_) return kept_.undo();
-  const std::size_t before = list_edits_.empty() ? 0 : list_edits_.back().strokes;
-  const bool of_list = !list_edits_.empty() && pen_->depth() == before;
-  if (!of_list && pen_->depth() == 0) return false;
-  if (of_list) (void)kept_.undo();
-  if (!of_list || list_edits_.back().took) pen_->undo();
-  if (of_list) list_edits_.pop_back();
-  redraw_path();
+  if (!drawing_) return kept_.undo();
+  if (!drawing_->undo(kept_)) return false;
+  path_ = drawing_->path();
   return true;
 }
 

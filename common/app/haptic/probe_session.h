@@ -10,19 +10,22 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/chain_description.h"
-#include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/followed_curve.h"
+#include "common/app/haptic/hand_planes.h"
 #include "common/app/haptic/haptic_mode.h"
 #include "common/app/haptic/kept_lines.h"
 #include "common/app/haptic/local_lines.h"
+#include "common/app/haptic/probe_readout.h"
 #include "common/app/haptic/touch_choice.h"
+#include "common/app/haptic/tract_drawing.h"
 #include "common/device/mouse_device.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
@@ -53,27 +56,6 @@ struct ProbeSessionOptions {
   std::filesystem::path fault_folder;
   std::optional<Recording> replay;
   std::vector<Annotation> notes;  ///< annotations that are there at the start
-};
-
-/// What is read out beside the picture. Data units unless stated.
-struct ProbeReadout {
-  bool held = false;  ///< a hand is on the probe
-  HoldState state = HoldState::kFree;
-  ForceCut cut = ForceCut::kNone;
-  Vec3 probe{0.0};
-  Vec3 proxy{0.0};
-  std::string cell;    ///< of the grid, at the proxy: a number, or i j k; empty where there is none
-  Vec3 velocity{0.0};  ///< at the proxy, of a flow; meaningless where `sampled` is false
-  bool sampled = false;
-  std::optional<Mat3> tensor;    ///< at the proxy, of an image of tensors; none where there is none
-  std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
-  std::string scalar_name;       ///< empty where none is felt
-  int popped = 0;                ///< times that the hand has gone over to another line, or through a surface
-  double residual = 0.0;
-  double force = 0.0;    ///< [N]
-  double stretch = 0.0;  ///< [mm]
-  ServoState servo;      ///< rates and lateness
-  std::string fault;     ///< where the seconds before the last fault were saved, a sentence; empty: none
 };
 
 class ProbeSession {
@@ -132,7 +114,7 @@ class ProbeSession {
   [[nodiscard]] bool lively() const noexcept;
 
   /// The cutting planes that the hand moves, and what it does with them; none in other modes.
-  [[nodiscard]] const std::optional<WidgetNews>& planes() const noexcept { return planes_news_; }
+  [[nodiscard]] const std::optional<WidgetNews>& planes() const noexcept { return planes_.news(); }
   /// Puts the planes there; undo() takes that back, as it does with each hold that the hand took of one.
   void put_planes(const PlanePoses& poses);
   /// The same for those with which the mode begins: nothing to be taken back.
@@ -171,8 +153,10 @@ class ProbeSession {
   /// none. A path without tracts stays cleared.
   bool undo();
   void clear_path();
-  /// Whether tracts are drawn that are not kept yet.
-  [[nodiscard]] bool has_drawn() const noexcept { return pen_ && !pen_->tracts().empty(); }
+  /// Tracts that are drawn and not kept yet; none where there are no tensors.
+  [[nodiscard]] std::span<const DrawnTract> drawn() const noexcept {
+    return drawing_ ? std::span<const DrawnTract>(drawing_->tracts()) : std::span<const DrawnTract>();
+  }
 
   /// A line of text for the recording, where there is one.
   void record_event(std::uint64_t frame, const std::string& text);
@@ -187,24 +171,18 @@ class ProbeSession {
  private:
   [[nodiscard]] Workspace workspace() const;
   [[nodiscard]] std::uint32_t buttons() const noexcept;
-  void read_planes();
   void set_planes(const PlanePoses& poses);
   [[nodiscard]] ChainSettings chain_settings() const;
   [[nodiscard]] HapticChain build(const std::string& description) const;
   void restart_chain();
   void start_replay();
   [[nodiscard]] Device& device();
-  void drain_steps();
   void take(const HandStep& step);
   void follow_replayed_chain(std::uint64_t step);
-  void read_out();
   void ask_local(const Camera& camera);
   void describe(ProbeView& view) const;
   void follow_chain(const HapticChain& made);
   Keeping keep(const Line& line, std::vector<double> forces);
-  Keeping keep_tracts();
-  void draw_tract(const HandStep& step, const Vec3& proxy, double force);
-  void redraw_path();
   [[nodiscard]] std::optional<ValueRange> tension_range() const;
 
   ProbeSessionOptions options_;
@@ -223,25 +201,15 @@ class ProbeSession {
     std::vector<double> forces;
   };
   std::optional<NotedLine> noted_;
-  std::optional<TractPen> pen_;              ///< where there are tensors
-  std::uint64_t drawn_edits_ = 0;            ///< of the pen that the path shows
-  std::optional<std::size_t> noted_points_;  ///< of the tract that is being drawn
-  /// A change of the kept lines: how far the pen's strokes went then, and whether it gave its tracts to them.
-  struct ListEdit {
-    std::size_t strokes = 0;
-    bool took = false;
-  };
-  std::vector<ListEdit> list_edits_;
+  std::optional<TractDrawing> drawing_;             ///< where there are tensors
   std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, replayed_isovalues_;
-  std::shared_ptr<WidgetNewsBuffer> planes_;  ///< of the chain that is felt
-  std::optional<WidgetNews> planes_news_;
-  std::vector<PlanePoses> planes_before_;  ///< what undo() goes back to
+  HandPlanes planes_;
   bool pressed_ = false;
   AnnotationList notes_;
   KeptLines kept_;
   ProbeReadout readout_;
-  CellHint hint_, scalar_hint_;
+  ReadoutHints hints_;
   std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
   std::size_t next_event_ = 0, next_change_ = 0;    ///< of the replay
   bool growing_ = false;

@@ -177,7 +177,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (session.scalar() && !session.has_flow()) edit_notes(session.notes(), marking, actions);
   if (!session.has_flow() && !tensors) return actions;
   // What is kept stands below all buttons, which so do not move when it becomes more.
-  ImGui::BeginDisabled(session.kept().entries().empty() && !session.has_drawn());
+  ImGui::BeginDisabled(session.kept().entries().empty() && session.drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
     ImGui::SameLine();

@@ -450,7 +450,7 @@ class Window {
   }
 
   std::filesystem::path save_lines() {
-    if (touch_->has_drawn()) (void)touch_->keep_line();
+    if (!touch_->drawn().empty()) (void)touch_->keep_line();
     if (touch_->kept().entries().empty())
       throw work_error(touch_->has_tensors() ? "no tract is drawn; press G, then drag along one"
                                              : "no line is kept; grab the probe (G), then K keeps one");

@@ -81,17 +81,61 @@ TEST(TractPen, AStrokeGoesOnFromEitherEnd) {
   ASSERT_EQ(tract.line.points.size(), 16U);
   ASSERT_EQ(tract.forces.size(), 16U);
   ASSERT_EQ(tract.measures.size(), 16U);
-  // It was turned round to go on from its first point; arc and time count on.
+  // What was drawn from its first point stands before it; arc and time count from the new one.
   for (std::size_t i = 0; i < 16; ++i) {
     const LinePoint& point = tract.line.points[i];
-    EXPECT_NEAR(point.arc, 9.2 - point.position.x, 1e-12) << i;
+    EXPECT_NEAR(point.arc, point.position.x + 4.2, 1e-12) << i;
     if (i > 0) {
       EXPECT_GE(point.time, tract.line.points[i - 1].time - 1e-12) << i;
     }
   }
-  EXPECT_NEAR(tract.forces.front(), 0.4, 1e-12) << "the force went round with its point";
+  EXPECT_NEAR(tract.forces.front(), 0.4, 1e-12) << "the force stays with its point";
   draw(pen, 20.0, 25.0, 30.0);
   EXPECT_EQ(pen.tracts().size(), 2U) << "too far away to go on";
+  draw(pen, 9.2, 12.2, 40.0);
+  ASSERT_EQ(pen.tracts().size(), 2U);
+  EXPECT_EQ(pen.tracts().front().line.points.size(), 19U) << "tracts keep their order";
+}
+
+/// The largest angle between pieces of a line that follow each other [degrees].
+double sharpest_turn(const Line& line) {
+  double least = 1.0;
+  for (std::size_t i = 2; i < line.points.size(); ++i) {
+    const Vec3 a = line.points[i - 1].position - line.points[i - 2].position;
+    const Vec3 b = line.points[i].position - line.points[i - 1].position;
+    least = std::min(least, glm::dot(a, b) / (glm::length(a) * glm::length(b)));
+  }
+  return std::acos(least) * 180.0 / 3.14159265358979;
+}
+
+// A hand that begins beside the end, behind it or ahead of it, at either end.
+TEST(TractPen, AStrokeGoesOnWithoutAKink) {
+  for (const bool at_front : {false, true}) {
+    for (const double behind : {-0.4, 0.0, 0.4}) {
+      for (const double aside : {-0.6, 0.0, 0.3}) {
+        TractPen pen(planar(), 0.1, 1.0);
+        draw(pen, 0.0, 8.0, 0.0);
+        const double sign = at_front ? -1.0 : 1.0;
+        for (int n = 0; n < 200; ++n)
+          pen.add(20.0 + 0.01 * n, {(at_front ? 0.0 : 8.0) + sign * (0.05 * n - behind), aside, 0.0}, 0.0);
+        pen.let_go();
+        ASSERT_EQ(pen.tracts().size(), 1U);
+        const Line& line = pen.tracts().front().line;
+        EXPECT_GT(line.points.back().arc, 15.0);
+        EXPECT_LT(sharpest_turn(line), 15.0) << at_front << ' ' << behind << ' ' << aside;
+        EXPECT_EQ(line.points.front().position.x < 0.0, at_front);
+      }
+    }
+  }
+}
+
+TEST(TractPen, AStrokeMayTurnOffFromAnEnd) {
+  TractPen pen(planar(), 0.1, 1.0);
+  draw(pen, 0.0, 8.0, 0.0);
+  for (int n = 0; n < 100; ++n) pen.add(20.0 + 0.01 * n, {8.0, 0.1 * n, 0.0}, 0.0);
+  pen.let_go();
+  ASSERT_EQ(pen.tracts().size(), 1U);
+  EXPECT_GT(pen.tracts().front().line.points.back().position.y, 9.5);
 }
 
 TEST(TractPen, AStrokeReplacesWhatEarlierHandsDrew) {
@@ -118,6 +162,9 @@ TEST(TractPen, TakesStrokesBackOneByOne) {
   pen.add(2.0, {30.0, 0.0, 0.0}, 0.0);  // a hand that does not move draws nothing
   pen.let_go();
   EXPECT_EQ(pen.depth(), 2U);
+  pen.add(3.0, {5.0, 0.0, 0.0}, 0.0);  // nor does one that rests on an end
+  pen.let_go();
+  EXPECT_EQ(pen.depth(), 2U);
   EXPECT_EQ(pen.take().size(), 1U);
   EXPECT_TRUE(pen.tracts().empty());
   pen.undo();
@@ -142,6 +189,9 @@ TEST(TractPen, IsCutBackToWhereTheHandRested) {
   EXPECT_EQ(pen.tracts()[0].measures.size(), 4U);
   pen.cut(40);
   EXPECT_EQ(pen.tracts()[0].forces.size(), 4U);
+  pen.lift();
+  pen.cut(2);
+  EXPECT_EQ(pen.tracts()[0].forces.size(), 4U) << "another stroke's matter";
 }
 
 TEST(TractPen, SaysWhereThereIsNoTensor) {

@@ -113,6 +113,7 @@ TEST_F(TouchTensor, AStrokeGoesOnFromTheEndThatItBeginsAt) {
   const WindowResult result = run();
   ASSERT_EQ(kept(result), 1U);
   const Line& line = tract(result);
+  EXPECT_LT(line.points.front().position.x, line.points.back().position.x) << "as its first stroke went";
   double arc = -1.0;
   for (const LinePoint& point : line.points) {
     EXPECT_GT(point.arc, arc);

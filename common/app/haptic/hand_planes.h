@@ -1,0 +1,36 @@
+/// Cutting planes that the hand moves, as the window knows them: what the servo tells of them, and the poses
+/// that an undo goes back to.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/haptics/widget/plane_widget.h"
+
+namespace palpate {
+
+class HandPlanes {
+ public:
+  /// From now on those of the chain that is felt; null: it has none.
+  void follow(std::shared_ptr<WidgetNewsBuffer> told);
+  /// Takes what the servo has told since. What is told of an edit before `edit` says nothing.
+  void read(int edit);
+
+  /// Whether the chain has planes, told of or not.
+  [[nodiscard]] bool there() const noexcept { return told_ != nullptr; }
+  /// What the servo told last; none in other modes, and before it tells.
+  [[nodiscard]] const std::optional<WidgetNews>& news() const noexcept { return news_; }
+
+  /// They are about to be put elsewhere: undo() goes back to where they are.
+  void remember();
+  /// Where the planes were before the last hold of the hand, or remember(); none where there is none.
+  [[nodiscard]] std::optional<PlanePoses> undo();
+
+ private:
+  std::shared_ptr<WidgetNewsBuffer> told_;
+  std::optional<WidgetNews> news_;
+  std::vector<PlanePoses> before_;
+};
+
+}  // namespace palpate
