@@ -22,6 +22,7 @@
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/tract/tract_pass.h"
+#include "common/render/tract/tract_progress.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -89,13 +90,13 @@ bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper
 
 // Whether what stays while the probe moves is the same picture.
 bool same_still_part(const SceneView& a, const SceneView& b) {
-  const PathView& p = a.probe->path;
-  const PathView& q = b.probe->path;
-  return a.lines == b.lines && a.style == b.style && a.camera == b.camera && same_box(a.bounds, b.bounds) &&
-         a.background == b.background && a.show_outline == b.show_outline && a.outline == b.outline &&
-         a.surfaces == b.surfaces && p.points == q.points && a.probe->style == b.probe->style &&
-         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
-         same_tensors(a, b) && a.tracts == b.tracts;
+  if (a.probe.has_value() != b.probe.has_value()) return false;
+  const bool same_path =
+      !a.probe || (a.probe->path.points == b.probe->path.points && a.probe->style == b.probe->style);
+  return same_path && a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
+         same_box(a.bounds, b.bounds) && a.background == b.background && a.show_outline == b.show_outline &&
+         a.outline == b.outline && a.surfaces == b.surfaces && a.volume.has_value() == b.volume.has_value() &&
+         (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts;
 }
 
 bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
@@ -152,8 +153,11 @@ struct SceneRenderer::State {
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
-  std::size_t still_path = 0;   // the path is drawn there up to this point
-  std::size_t tract_piece = 0;  // of the picture: tracts are drawn up to this one
+  std::size_t still_path = 0;  // the path is drawn there up to this point
+  TractProgress progress;
+  double tract_ms = 0.0;         // of the last picture
+  double unseen_tract_ms = 0.0;  // of tracts that the volume has not been drawn over
+  double volume_ms = 0.0;        // over tracts, the last time
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -256,22 +260,33 @@ struct SceneRenderer::State {
     surfaces->draw();
   }
 
-  // From where the picture has got to, into the framebuffer that is bound.
-  void draw_tracts(const SceneView& view, const LineDraw& base, float unit, double milliseconds) {
+  // Tracts of another view begin anew. @return whether there are any.
+  bool begin_tracts(const SceneView& view, double milliseconds) {
+    tract_ms = unseen_tract_ms = 0.0;
     if (!view.tracts) {
       tracts.reset();
-      tract_piece = 0;
-      return;
+      progress = {};
+      return false;
     }
     if (!tracts) tracts = std::make_unique<TractPass>();
     tracts->update(view.tracts->bundle, frame);
-    if (tract_piece >= tracts->pieces()) return;
+    progress.begin(tracts->pieces(), std::clamp(view.tracts->opacity, 0.0, 1.0),
+                   tracts->pieces_in(milliseconds));
+    return true;
+  }
+
+  // From where the picture has got to, into the framebuffer that is bound.
+  void draw_tracts(const SceneView& view, const LineDraw& base, float unit, double milliseconds) {
+    tract_ms = 0.0;
+    if (progress.next() == progress.goal()) return;
+    const Stopwatch watch;
     const TractDraw how{.width = static_cast<float>(view.tracts->width) * unit,
                         .fading = view.tracts->depth_cue ? 1.0F : 0.0F,
                         .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
-                        .opacity = static_cast<float>(std::clamp(view.tracts->opacity, 0.0, 1.0)),
+                        .opacity = static_cast<float>(progress.opacity()),
                         .tolerance = kTractTolerance * base.tolerance};
-    tract_piece = tracts->draw(how, tract_piece, tracts->pieces(), milliseconds);
+    progress.drawn(tracts->draw(how, progress.next(), progress.goal(), milliseconds));
+    tract_ms = 1e3 * watch.seconds();
   }
 
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.
@@ -281,30 +296,55 @@ struct SceneRenderer::State {
     volume->draw(target.copy_depth());
   }
 
-  // With a probe, what stays is drawn once and kept; each picture begins with a copy of it. The path is
-  // added to it bit by bit. The order is that of drawing everything, so the picture is the same. A volume
-  // stays, too: the hand is seen through it, and need not wait for its rays.
-  void draw_with_probe(const SceneView& view, const LineDraw& base, float unit,
-                       const ViewTransform& transform, double tract_milliseconds) {
-    const bool other_path = update_probe(view);
+  // With a probe, or with tracts that there is no time for in one picture, what stays is drawn once and kept;
+  // each picture begins with a copy of it. Tracts, and the probe's path, are added to it bit by bit. The
+  // order is that of drawing everything, so the picture is the same. A volume stays, too: the hand is seen
+  // through it, and need not wait for its rays.
+  void draw_over_still_part(const SceneView& view, const LineDraw& base, float unit,
+                            const ViewTransform& transform, double tract_milliseconds) {
+    const bool other_path = view.probe && update_probe(view);
+    const bool other = other_path || !still || !same_still_part(*still, view);
+    const bool has_tracts = other ? begin_tracts(view, tract_milliseconds) : view.tracts.has_value();
+    // What shines lies over the tracts, and transparent ones are shown when there are enough of them: these
+    // grow unseen.
+    const bool unseen = has_tracts && (shows_volume(view) || view.tracts->opacity < 1.0);
     target.bind_still();
-    if (other_path || !still || !same_still_part(*still, view)) {
-      draw_still_part(view, base, unit, transform);
-      tract_piece = 0;
-      // What shines lies over the tracts, so that none can be added later.
-      if (shows_volume(view)) {
-        draw_tracts(view, base, unit, tract_milliseconds);
-        draw_volume(view);
-      }
+    if (unseen) target.bind_growing();
+    if ((has_tracts && progress.begins_anew()) || other) draw_still_part(view, base, unit, transform);
+    if (has_tracts) draw_tracts(view, base, unit, tract_milliseconds);
+    if (other) {
       still = view;
       still_path = 0;
     }
-    if (!shows_volume(view)) draw_tracts(view, base, unit, tract_milliseconds);
-    still_path = probe->draw_settled_path(line_program, view, unit, still_path);
+    if (unseen) {
+      show_growing(view, other);
+    } else if (other && shows_volume(view)) {
+      draw_volume(view);
+    }
+    if (view.probe) still_path = probe->draw_settled_path(line_program, view, unit, still_path);
     target.copy_still_to_scene();
     target.bind_scene();
+    if (!view.probe) return;
     probe->draw_path_end(line_program, view, unit);
     probe->draw(line_program, view, base, unit);
+  }
+
+  // Takes over what has grown, where it is worth it: rays through a volume take no more time than tracts.
+  void show_growing(const SceneView& view, bool first) {
+    target.bind_still();
+    unseen_tract_ms += tract_ms;
+    const bool due = progress.worth_showing() && unseen_tract_ms > 0.0 &&
+                     (unseen_tract_ms >= volume_ms || progress.complete());
+    if (!first && !due) return;
+    target.copy_growing_to_still();
+    still_path = 0;
+    unseen_tract_ms = 0.0;
+    if (!shows_volume(view)) return;
+    glFinish();
+    const Stopwatch watch;
+    draw_volume(view);
+    glFinish();
+    volume_ms = 1e3 * watch.seconds();
   }
 };
 
@@ -338,13 +378,13 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   LineDraw base;
   base.tolerance = line_tolerance(transform, perspective, pixel);
   base.back = Vec3f(view.camera.axes[2]);
-  if (view.probe) {
-    s.draw_with_probe(view, base, unit, transform, tract_milliseconds);
+  if (view.probe || (view.tracts && std::isfinite(tract_milliseconds))) {
+    s.draw_over_still_part(view, base, unit, transform, tract_milliseconds);
   } else {
+    s.still.reset();
     s.target.bind_scene();
     s.draw_still_part(view, base, unit, transform);
-    s.tract_piece = 0;
-    s.draw_tracts(view, base, unit, tract_milliseconds);
+    if (s.begin_tracts(view, tract_milliseconds)) s.draw_tracts(view, base, unit, tract_milliseconds);
     if (shows_volume(view)) s.draw_volume(view);
   }
   if (is_transparent(view)) s.draw_lines(view, base, unit);
@@ -362,11 +402,15 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-bool SceneRenderer::complete() const noexcept {
+bool SceneRenderer::complete() const noexcept { return !state_->tracts || state_->progress.complete(); }
+
+TractShare SceneRenderer::tract_share() const noexcept {
   const State& s = *state_;
-  // A picture that cannot be added to is all that it will be.
-  const bool goes_on = s.still && !shows_volume(*s.still) && s.tracts;
-  return !goes_on || s.tract_piece >= s.tracts->pieces();
+  if (!s.tracts) return {};
+  const std::size_t pieces = s.progress.shown();
+  return {.drawn = pieces > 0 ? s.shown_tracts->pieces[pieces - 1].second : 0,
+          .all = s.shown_tracts->order.size(),
+          .milliseconds = s.tract_ms};
 }
 
 double SceneRenderer::finish() {

@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <memory>
 
 #include "common/render/scene_view.h"
 
 namespace palpate {
+
+/// How many tracts a picture shows.
+struct TractShare {
+  std::size_t drawn = 0, all = 0;  ///< lines
+  double milliseconds = 0.0;       ///< that it took to draw those that were added
+};
 
 /// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
 /// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
@@ -24,12 +31,14 @@ class SceneRenderer {
   /// @param resolution in (0, 1]: less draws lines with fewer pixels along either edge and enlarges them,
   /// while the mouse moves a scene that is slow to draw; text stays sharp.
   /// @param tract_milliseconds that this picture may spend on tracts. Where they take longer it shows an even
-  /// sample of them; the same view again, with a probe and without a volume, adds more of them.
+  /// sample of them; the same view again adds more of them (tract_progress.h).
   /// @throws Error (usage) for a size that cannot be drawn.
   void draw(const SceneView& view, int width, int height, double resolution = 1.0,
             double tract_milliseconds = HUGE_VAL);
-  /// Whether the last picture shows all tracts that can be shown.
+  /// Whether the last picture shows all tracts that there is room for.
   [[nodiscard]] bool complete() const noexcept;
+  /// What the last picture shows of the tracts.
+  [[nodiscard]] TractShare tract_share() const noexcept;
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

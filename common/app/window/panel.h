@@ -11,6 +11,7 @@
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
 #include "common/render/frame_budget.h"
+#include "common/render/scene_renderer.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"
 
@@ -26,7 +27,8 @@ struct PanelState {
   std::string message;
   bool message_is_error = false;
   double frame_ms = 0.0;
-  FrameQuality quality;  ///< of the picture that was drawn
+  FrameQuality quality;    ///< of the picture that was drawn
+  TractShare tract_share;  ///< likewise
   double frames_per_second = 0.0;
   bool show_help = false;
   bool show_rates = false;

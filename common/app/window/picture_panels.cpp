@@ -52,20 +52,28 @@ std::string status_text(const SceneState& scene) {
   return text + "   error below " + error.data() + "   traced in " + seconds_text(scene.seconds_trace);
 }
 
+/// What is given up, first what is given up first, and the time.
+std::string frame_text(const PanelState& state) {
+  std::string text;
+  const FrameQuality& quality = state.quality;
+  std::array<char, 80> part{};
+  if (quality != FrameQuality{}) {
+    std::snprintf(part.data(), part.size(), "%.0f %% of the samples, %.0f %% of the resolution, ",
+                  100.0 * quality.context, 100.0 * quality.resolution);
+    text += part.data();
+  }
+  if (const TractShare& share = state.tract_share; share.drawn < share.all)
+    text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
+  std::snprintf(part.data(), part.size(), "%.1f ms", state.frame_ms);
+  return text + part.data();
+}
+
 void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::SetNextWindowPos(place(layout.picture.left, layout.picture.top + layout.picture.height));
   ImGui::SetNextWindowSize(place(layout.picture.width, layout.status_height));
   ImGui::Begin("status", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  std::array<char, 80> frame{};
-  const FrameQuality& quality = state.quality;
-  if (quality == FrameQuality{}) {
-    std::snprintf(frame.data(), frame.size(), "%.1f ms", state.frame_ms);
-  } else {
-    // What is given up first is said first.
-    std::snprintf(frame.data(), frame.size(), "%.0f %% of the samples, %.0f %% of the resolution, %.1f ms",
-                  100.0 * quality.context, 100.0 * quality.resolution, state.frame_ms);
-  }
-  const float frame_width = ImGui::CalcTextSize(frame.data()).x;
+  const std::string frame = frame_text(state);
+  const float frame_width = ImGui::CalcTextSize(frame.c_str()).x;
   const float right = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
 
   // Cut where the time begins; all of it is in the tooltip.
@@ -84,7 +92,7 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::PopClipRect();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
   ImGui::SameLine(right - frame_width);
-  ImGui::TextDisabled("%s", frame.data());
+  ImGui::TextDisabled("%s", frame.c_str());
   ImGui::End();
 }
 

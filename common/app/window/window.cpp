@@ -33,6 +33,7 @@
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
+#include "common/render/tract/tract_progress.h"
 
 namespace palpate {
 namespace {
@@ -40,8 +41,6 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
-// What a picture may spend on tracts [ms]; what is left of them is added by the next ones.
-constexpr double kTractTime = 30.0;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 // A lens that has not moved for so long stands still: its picture is drawn sharp [s].
@@ -55,7 +54,8 @@ class Window {
         files_(options.picture_folder, options.program),
         glfw_(options),
         view_(options.view),
-        budget_(options.frame_budget) {
+        budget_(options.frame_budget),
+        tract_time_(options.frame_budget) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
@@ -117,9 +117,12 @@ class Window {
       return;
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-    const bool busy =
-        job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively() || !renderer_->complete();
-    glfwWaitEventsTimeout(busy ? kBusyRest : kIdleRest);
+    const bool busy = job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
+    if (renderer_->complete()) {
+      glfwWaitEventsTimeout(busy ? kBusyRest : kIdleRest);
+    } else {
+      glfwPollEvents();  // there is work to do meanwhile: more tracts
+    }
     lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
   }
 
@@ -244,6 +247,7 @@ class Window {
     glfwGetFramebufferSize(glfw_.get(), &width, &height);
     if (width < 1 || height < 1) {  // iconified
       glfw_.events().clear();
+      glfwWaitEventsTimeout(kIdleRest);
       return;
     }
     const WindowLayout parts = layout(width, height, gui_->text_height());
@@ -513,9 +517,11 @@ class Window {
     picture = with_quality(std::move(picture), quality);
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
         quality.resolution != state_.quality.resolution || !renderer_->complete()) {
-      renderer_->draw(picture, w, h, quality.resolution, kTractTime);
+      renderer_->draw(picture, w, h, quality.resolution, tract_time_.milliseconds(moving));
       state_.frame_ms = renderer_->finish();
+      state_.tract_share = renderer_->tract_share();
       if (moving) budget_.drawn(state_.frame_ms);
+      if (moving) tract_time_.drawn(state_.frame_ms, state_.tract_share.milliseconds);
       state_.quality = quality;
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();
@@ -543,6 +549,7 @@ class Window {
   SceneView shown_;  // as it was drawn last
   PictureArea picture_;
   FrameBudget budget_;
+  TractTime tract_time_;  // what is left of tracts then is added by the next pictures
   int picture_width_ = 0, picture_height_ = 0;
   bool dirty_ = true, needs_camera_ = true;
   std::optional<SceneState> scene_;
@@ -571,29 +578,6 @@ bool window_available() { return start_glfw(); }
 
 WindowResult run_window(WindowModel& model, const WindowOptions& options) {
   return Window(model, options).run();
-}
-
-WindowResult run_user_window(WindowModel& model, WindowOptions options,
-                             const std::function<void(const std::string&)>& note) {
-  const auto files = user_files(options.program);
-  if (!files) return run_window(model, options);
-  std::vector<std::string> notes;
-  const UserSettings before = load_user_settings(*files, notes);
-  for (const std::string& line : notes) note(line);
-  options.width = before.width;
-  options.height = before.height;
-  options.recent = before.recent;
-  apply_look(before.look, options.view);
-  options.touch.fault_folder = files->recent.parent_path();
-  WindowResult result = run_window(model, options);
-  const UserSettings after{
-      .width = result.width, .height = result.height, .look = look_of(result.view), .recent = result.recent};
-  try {
-    save_user_settings(*files, after, before);
-  } catch (const Error& error) {
-    note(error.what());
-  }
-  return result;
 }
 
 }  // namespace palpate

@@ -64,9 +64,8 @@ bool RenderTarget::resize(int width, int height, double resolution) {
   height_ = height;
   scene_width_ = scene_width;
   scene_height_ = scene_height;
-  still_.reset();
-  still_color_.reset();
-  still_depth_.reset();
+  still_ = {};
+  growing_ = {};
   depth_copy_.reset();
   depth_framebuffer_.reset();
   return true;
@@ -78,25 +77,34 @@ void RenderTarget::bind_scene() {
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
-void RenderTarget::bind_still() {
-  if (!still_) {
-    still_color_ = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
-    still_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
-    still_ = make_framebuffer(still_color_, still_depth_);
+void RenderTarget::bind_layer(Layer& layer) {
+  if (!layer.framebuffer) {
+    layer.color = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
+    layer.depth = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
+    layer.framebuffer = make_framebuffer(layer.color, layer.depth);
   }
-  drawn_ = still_.name();
+  drawn_ = layer.framebuffer.name();
   glBindFramebuffer(GL_FRAMEBUFFER, drawn_);
   glViewport(0, 0, scene_width_, scene_height_);
 }
 
-void RenderTarget::copy_still_to_scene() {
+void RenderTarget::bind_still() { bind_layer(still_); }
+void RenderTarget::bind_growing() { bind_layer(growing_); }
+
+void RenderTarget::copy(const GlRenderbuffer& from, const GlRenderbuffer& to) const {
   // Not a blit: software rasterisers take that sample by sample through a shader.
-  const auto copy = [this](const GlRenderbuffer& from, const GlRenderbuffer& to) {
-    glCopyImageSubData(from.name(), GL_RENDERBUFFER, 0, 0, 0, 0, to.name(), GL_RENDERBUFFER, 0, 0, 0, 0,
-                       scene_width_, scene_height_, 1);
-  };
-  copy(still_color_, scene_color_);
-  copy(still_depth_, scene_depth_);
+  glCopyImageSubData(from.name(), GL_RENDERBUFFER, 0, 0, 0, 0, to.name(), GL_RENDERBUFFER, 0, 0, 0, 0,
+                     scene_width_, scene_height_, 1);
+}
+
+void RenderTarget::copy_still_to_scene() {
+  copy(still_.color, scene_color_);
+  copy(still_.depth, scene_depth_);
+}
+
+void RenderTarget::copy_growing_to_still() {
+  copy(growing_.color, still_.color);
+  copy(growing_.depth, still_.depth);
 }
 
 std::uint32_t RenderTarget::copy_depth() {

@@ -23,6 +23,9 @@ class RenderTarget {
   /// Draw into a second framebuffer like the scene's, which nothing else changes. Made when first needed.
   void bind_still();
   void copy_still_to_scene();  ///< colours and depths, sample by sample
+  /// Draw into a third one, for what is not to be shown until there is more of it. Made when first needed.
+  void bind_growing();
+  void copy_growing_to_still();  ///< likewise; bind_still() has been called since the size changed
   /// The depths, as they are now, of what bind_scene() or bind_still() bound last: one sample a pixel, for
   /// passes that look up what lies in front of them. @return the name of a texture that stays valid until the
   /// size changes.
@@ -42,8 +45,16 @@ class RenderTarget {
   int scene_width_ = 0, scene_height_ = 0;
   std::uint32_t drawn_ = 0;  ///< the framebuffer that was bound last to be drawn into, with depth
   GlRenderbuffer scene_color_, scene_depth_, averaged_color_, resolved_color_;
-  GlRenderbuffer still_color_, still_depth_;
-  GlFramebuffer scene_, resolved_, still_;
+  /// A framebuffer like the scene's.
+  struct Layer {
+    GlRenderbuffer color, depth;
+    GlFramebuffer framebuffer;
+  };
+  void bind_layer(Layer& layer);
+  void copy(const GlRenderbuffer& from, const GlRenderbuffer& to) const;
+
+  Layer still_, growing_;
+  GlFramebuffer scene_, resolved_;
   GlFramebuffer averaged_;  // between the two where their sizes differ
   GlTexture depth_copy_;
   GlFramebuffer depth_framebuffer_;

@@ -40,6 +40,13 @@ void TractPass::draw_piece(const TractDraw& how, std::size_t number) {
   glDrawArrays(GL_TRIANGLE_STRIP, 0, piece.vertices);
 }
 
+std::size_t TractPass::pieces_in(double milliseconds) const noexcept {
+  if (!std::isfinite(milliseconds)) return std::max<std::size_t>(1, pieces());
+  if (piece_ms_ <= 0.0) return 1;
+  return static_cast<std::size_t>(
+      std::clamp(milliseconds / piece_ms_, 1.0, static_cast<double>(std::max<std::size_t>(1, pieces()))));
+}
+
 std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds) {
   const Stopwatch watch;
   const bool screened = how.opacity < 1.0F;
@@ -58,13 +65,9 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   // Between two waits half of what there seems to be time for, so that a driver's threads seldom wait for
-  // each other; by the time that a piece has taken so far.
-  const auto pieces_in = [this](double time) {
-    constexpr double kMost = 1024.0;
-    return piece_ms_ > 0.0 ? static_cast<std::size_t>(std::clamp(0.5 * time / piece_ms_, 1.0, kMost)) : 1;
-  };
+  // each other.
   std::size_t piece = first;
-  std::size_t batch = pieces_in(milliseconds);
+  std::size_t batch = pieces_in(0.5 * milliseconds);
   while (piece < last) {
     for (const std::size_t end = std::min(piece + batch, last); piece < end; ++piece) {
       if (screened) glUniform1ui(kPiece, static_cast<GLuint>(piece));
@@ -76,7 +79,7 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
     const double spent = 1e3 * watch.seconds();
     piece_ms_ = spent / static_cast<double>(piece - first);
     if (spent + piece_ms_ > milliseconds) break;
-    batch = pieces_in(milliseconds - spent);
+    batch = pieces_in(0.5 * (milliseconds - spent));
   }
   return piece;
 }

@@ -29,6 +29,8 @@ class TractPass {
   /// Draws pieces from `first` on up to `last`, one at least, until the next would take longer than
   /// `milliseconds` in all. @pre update(), first < last <= pieces(). @return the piece to go on with.
   std::size_t draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds);
+  /// How many pieces there seems to be time for in `milliseconds`, one at least; all if that is infinite.
+  [[nodiscard]] std::size_t pieces_in(double milliseconds) const noexcept;
   /// How many pieces there are to draw. Of bundles that would not fit into memory that is less than all.
   [[nodiscard]] std::size_t pieces() const noexcept { return pieces_.size(); }
 

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/render/tract/tract_points.h"
+#include "common/render/tract/tract_progress.h"
 #include "common/render/tract/tract_room.h"
 
 namespace palpate::test {
@@ -156,6 +157,70 @@ TEST(TractPoints, PackedTangentsAreOffByHalfAStep) {
     ASSERT_NEAR(unpacked(bits, 20), t.z, kHalfStep);
     ASSERT_EQ(bits >> 30U, 0U) << "no point between lines";
   }
+}
+
+// Opaque ones are never drawn twice.
+TEST(TractProgress, AddsOpaqueTractsToWhatIsThere) {
+  TractProgress progress;
+  EXPECT_TRUE(progress.complete()) << "no tracts";
+  progress.begin(100, 1.0, 7);
+  EXPECT_TRUE(progress.begins_anew());
+  for (std::size_t next = 0; !progress.complete(); next += 10) {
+    ASSERT_EQ(progress.next(), next);
+    ASSERT_EQ(progress.goal(), 100U);
+    ASSERT_EQ(progress.opacity(), 1.0);
+    progress.drawn(next + 10);
+    ASSERT_TRUE(progress.worth_showing());
+    ASSERT_EQ(progress.shown(), next + 10);
+    ASSERT_FALSE(progress.begins_anew());
+  }
+}
+
+TEST(TractProgress, DrawsTransparentTractsInPartsThatGrow) {
+  constexpr double kOpacity = 0.1;
+  TractProgress progress;
+  progress.begin(100, kOpacity, 7);
+  std::size_t drawn = 0, parts = 0, shown = 0;
+  while (!progress.complete()) {
+    ASSERT_LT(drawn, 1000U);
+    if (progress.begins_anew()) {
+      ++parts;
+      ASSERT_EQ(progress.next(), 0U);
+    }
+    ASSERT_LT(progress.next(), progress.goal());
+    const double share = static_cast<double>(progress.goal()) / 100.0;
+    ASSERT_EQ(progress.opacity(), opacity_of_part(kOpacity, share));
+    const std::size_t next = std::min(progress.next() + 5, progress.goal());
+    drawn += next - progress.next();
+    progress.drawn(next);
+    ASSERT_GE(progress.shown(), shown) << "never fewer than before";
+    shown = progress.shown();
+  }
+  EXPECT_EQ(parts, 3U) << "7, 28 and 100";
+  EXPECT_EQ(drawn, 135U);
+  EXPECT_EQ(progress.opacity(), kOpacity) << "in the end as asked for";
+}
+
+// Of (1): light passes n lines by chance as often as s n lines of the higher opacity.
+TEST(TractProgress, APartHidesAsMuchAsAll) {
+  EXPECT_EQ(opacity_of_part(0.3, 1.0), 0.3);
+  EXPECT_NEAR(opacity_of_part(0.1, 0.25), 0.4, 1e-15);
+  EXPECT_EQ(opacity_of_part(0.5, 0.1), 1.0) << "nothing is more than opaque";
+}
+
+TEST(TractTime, IsWhatTheBudgetLeaves) {
+  constexpr double kBudget = 60.0;
+  TractTime time(kBudget);
+  for (int i = 0; i < 40; ++i) {
+    const double tracts = time.milliseconds(true);
+    time.drawn(25.0 + tracts, tracts);
+  }
+  EXPECT_NEAR(time.milliseconds(true), 0.8 * kBudget - 25.0, 1e-6);
+  EXPECT_NEAR(time.milliseconds(false), 0.8 * kBudget, 1e-12) << "at rest";
+  for (int i = 0; i < 40; ++i) time.drawn(500.0, 1.0);
+  EXPECT_NEAR(time.milliseconds(true), 0.2 * kBudget, 1e-12) << "some of them always";
+  time.drawn(HUGE_VAL, 1.0);
+  EXPECT_NEAR(time.milliseconds(true), 0.2 * kBudget, 1e-12) << "no time, no measure";
 }
 
 }  // namespace

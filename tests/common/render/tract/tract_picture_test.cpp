@@ -8,7 +8,9 @@
 
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
+#include "common/render/tensor/tensor_volume.h"
 #include "tests/common/render/picture_checks.h"
+#include "tests/common/render/tensor/sample_tensors.h"
 
 namespace palpate::test {
 namespace {
@@ -40,6 +42,18 @@ std::shared_ptr<const TractBundle> sheet() {
     lines->starts.push_back(lines->points.size());
   }
   return make_tract_bundle(lines);
+}
+
+/// A grey veil over everything.
+VolumeView fog() {
+  const auto voxels = sampled_tensors(centred_lattice({9, 9, 9}, Mat3(0.25)), [](const Vec3&) {
+    return linear_tensor({1.0, 0.0, 0.0});
+  });
+  VolumeView volume;
+  volume.image = make_anisotropy_volume(voxels);
+  volume.transfer = ColorTransfer({{0.0, Vec3f(0.5F), 0.03}});
+  volume.shading = false;
+  return volume;
 }
 
 TEST(TractPicture, ShowsLinesInTheColourOfTheirDirection) {
@@ -78,13 +92,78 @@ TEST(TractPicture, IsTheSameDrawnBitByBit) {
   EXPECT_FALSE(bits.complete());
 }
 
-TEST(TractPicture, WithoutAProbeAllIsDrawnAtOnce) {
+TEST(TractPicture, WithoutALimitAllIsDrawnAtOnce) {
   SceneView view = front_view({});
   view.tracts = TractView{.bundle = random_bundle(900, 400)};
   const OffscreenContext context;
   SceneRenderer renderer;
   renderer.draw(view, kSize, kSize);
   EXPECT_TRUE(renderer.complete());
+  EXPECT_EQ(renderer.tract_share().drawn, 900U);
+  EXPECT_EQ(renderer.tract_share().all, 900U);
+}
+
+/// A picture in bits, each of one piece of the tracts at least, until it is complete.
+Image in_bits(const SceneView& view) {
+  SceneRenderer bits;
+  std::size_t shown = 0;
+  int pictures = 0;
+  do {
+    bits.draw(view, kSize, kSize, 1.0, 0.0);
+    EXPECT_GE(bits.tract_share().drawn, shown) << "never fewer than before";
+    EXPECT_GT(bits.tract_share().drawn, 0U);
+    shown = bits.tract_share().drawn;
+  } while (!bits.complete() && ++pictures < 100);
+  EXPECT_GT(pictures, 4);
+  EXPECT_EQ(shown, bits.tract_share().all);
+  return bits.read();
+}
+
+// A volume that shines over the tracts, transparency, no probe: in the end the picture without a limit.
+TEST(TractPicture, IsTheSameInBitsWithAVolumeAndTransparent) {
+  const OffscreenContext context;
+  SceneView view = front_view({});
+  view.tracts = TractView{.bundle = random_bundle(900, 400), .width = 6.0};
+  const auto whole = [&] {
+    SceneRenderer renderer;
+    renderer.draw(view, kSize, kSize);
+    return renderer.read();
+  };
+  const Image bare = whole();
+  EXPECT_EQ(in_bits(view).rgba, bare.rgba);
+  view.volume = fog();
+  const Image veiled = whole();
+  EXPECT_GT(mean_difference(veiled, bare), 1.0);
+  EXPECT_EQ(in_bits(view).rgba, veiled.rgba);
+  view.tracts->opacity = 0.3;
+  EXPECT_GT(mean_difference(whole(), veiled), 1.0);
+  EXPECT_EQ(in_bits(view).rgba, whole().rgba);
+  view.volume.reset();
+  EXPECT_EQ(in_bits(view).rgba, whole().rgba);
+}
+
+// A part of transparent tracts hides as much of what lies behind as all of them do, by its higher opacity:
+// the mean of all pixels differs by less than a tenth of what tracts change of it.
+TEST(TractPicture, APartOfTransparentTractsLooksLikeAll) {
+  const OffscreenContext context;
+  SceneView view = front_view({});
+  view.tracts =
+      TractView{.bundle = random_bundle(2400, 400), .width = 6.0, .opacity = 0.05, .depth_cue = false};
+  const auto mean = [](const SceneRenderer& renderer) {
+    const Image picture = renderer.read();
+    double sum = 0.0;
+    for (const std::uint8_t byte : picture.rgba) sum += byte;
+    return sum / static_cast<double>(picture.rgba.size());
+  };
+  SceneRenderer all, part;
+  all.draw(view, kSize, kSize);
+  part.draw(view, kSize, kSize, 1.0, 0.0);
+  while (part.tract_share().drawn < 500) part.draw(view, kSize, kSize, 1.0, 0.0);
+  ASSERT_FALSE(part.complete());
+  view.tracts.reset();
+  SceneRenderer none;
+  none.draw(view, kSize, kSize);
+  EXPECT_NEAR(mean(part) - mean(none), mean(all) - mean(none), 0.1 * (mean(all) - mean(none)));
 }
 
 // Of a sheet with opacity a the share a covers what lies behind. The mean over 120 x 120 pixels of 4 samples
