@@ -151,6 +151,11 @@ TEST(AnisotropyDrag, NeitherJumpsNorChattersWhereEigenvaluesCross) {
         if (t > -0.14) largest = std::max(largest, glm::distance(stretch, felt) / glm::distance(x, before));
         felt = stretch;
         before = x;
+        constexpr int kOften = 50;
+        if (n % kOften != 0) continue;
+        const Vec3 held = hand.at(x).proxy;
+        ASSERT_LT(glm::distance(hand.at(x).proxy, held), 2e-9) << "tensor " << which << " at " << t;
+        ASSERT_LT(glm::distance(held, x + stretch), 2e-9) << "tensor " << which << " at " << t;
       }
       EXPECT_LT(largest, 2.0) << "tensor " << which;
       const Vec3 rest = hand.at(before).proxy;
@@ -182,6 +187,36 @@ TEST(AnisotropyDrag, FollowsABundleThatTurns) {
     farthest = std::max(farthest, std::abs(glm::distance(hand.at(probe).proxy, centre) - kRadius));
   }
   EXPECT_LT(farthest, 0.0008);
+}
+
+// Round a bundle that closes on itself, whose eigenvectors the solver gives with any sign: all three axes
+// that the spring is given turn with the bundle, and come back as they were.
+TEST(AnisotropyDrag, CarriesItsFrameAlongThePathWithoutFlips) {
+  constexpr double kRadius = 0.12, kTurn = 2e-3;
+  const auto along = [](double angle) { return Vec3{std::cos(angle), -std::sin(angle), 0.0}; };
+  const auto field = field_of(
+      [&](const Vec3& x) {
+        const Vec3 out = Vec3{x.x, x.y, 0.0} + Vec3{1e-9, 0, 0};
+        const Vec3 radial = glm::normalize(out), tangent{radial.y, -radial.x, 0.0};
+        return 0.1 * Mat3{1.0} + 0.3 * glm::outerProduct(radial, radial) +
+               0.9 * glm::outerProduct(tangent, tangent);
+      },
+      81);
+  for (const auto isotropic : {IsotropicPlaces::kFree, IsotropicPlaces::kPoint}) {
+    Hand hand(field, isotropic);
+    const auto at = [&](double angle) { return kRadius * Vec3{std::sin(angle), std::cos(angle), 0.0}; };
+    const Mat3 first = hand.at(at(0.0)).frame;
+    ASSERT_GT(std::abs(glm::dot(first[0], along(0.0))), 0.99);
+    Mat3 before = first;
+    for (int n = 1; n * kTurn < 4.0 * 3.14159265358979; ++n) {
+      const Mat3 frame = hand.at(at(n * kTurn)).frame;
+      for (int axis = 0; axis < 3; ++axis)
+        ASSERT_GT(glm::dot(frame[axis], before[axis]), 0.99) << "axis " << axis << " at " << n * kTurn;
+      ASSERT_GT(glm::dot(glm::cross(frame[0], frame[1]), frame[2]), 0.99);
+      before = frame;
+    }
+    for (int axis = 0; axis < 3; ++axis) EXPECT_GT(glm::dot(before[axis], first[axis]), 0.95);
+  }
 }
 
 // Through voxels without a tensor, without diffusion, with eigenvalues below zero and with NaN.
