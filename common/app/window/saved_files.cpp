@@ -14,15 +14,27 @@ SavedFiles::SavedFiles(const std::filesystem::path& folder, std::string program)
     : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
 
 std::filesystem::path SavedFiles::save_lines(const KeptLines& lines, std::string& name) {
+  Lines kept;
+  for (const KeptLines::Entry& entry : lines.entries()) kept.insert(entry.line);
+  const bool again = std::ranges::includes(kept, in_own_file_);
   std::filesystem::path path = (folder_ / name).lexically_normal();
+  if (path != own_lines_) asked_lines_ = path;
+  if (!again) path = asked_lines_;
   const std::filesystem::path stem = path.stem(), ending = path.extension();
-  for (int number = 2; path != own_lines_ && std::filesystem::exists(path); ++number) {
+  for (int number = 2; !(again && path == own_lines_) && std::filesystem::exists(path); ++number) {
     path.replace_filename(stem.string() + "-" + std::to_string(number) + ending.string());
   }
   lines.save(path, path == own_lines_);
   own_lines_ = path;
+  saved_.insert(kept.begin(), kept.end());
+  in_own_file_ = std::move(kept);
   name = path.lexically_proximate(folder_).string();
   return path;
+}
+
+std::size_t SavedFiles::unsaved(const KeptLines& lines) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      lines.entries(), [this](const KeptLines::Entry& entry) { return !saved_.contains(entry.line); }));
 }
 
 std::filesystem::path SavedFiles::save_transfer(const std::string& name,

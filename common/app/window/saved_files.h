@@ -1,7 +1,10 @@
 /// Files that a window writes on request, and their names.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +25,11 @@ class SavedFiles {
   SavedFiles(const std::filesystem::path& folder, std::string program);
 
   /// Saves kept lines or tracts under `name`, numbered where a file of others is in the way; `name` becomes
-  /// what was taken, so that the next time writes the same file again.
+  /// what was taken, so that the next time writes the same file again: as long as all that is in it is still
+  /// kept, else the next number is taken.
   std::filesystem::path save_lines(const KeptLines& lines, std::string& name);
+  /// How many of `lines` are in no file that this window has written.
+  [[nodiscard]] std::size_t unsaved(const KeptLines& lines) const;
   /// Saves a transfer function as a table under `name`.
   [[nodiscard]] std::filesystem::path save_transfer(const std::string& name,
                                                     const ColorTransfer& transfer) const;
@@ -37,7 +43,10 @@ class SavedFiles {
  private:
   std::filesystem::path folder_;
   std::string program_;
-  std::filesystem::path own_lines_;  // the file of lines that this window has written: it may do so again
+  using Lines = std::set<std::shared_ptr<const Line>>;
+  std::filesystem::path own_lines_;    // the file of lines that this window has written: it may do so again
+  std::filesystem::path asked_lines_;  // the name of that file as it was asked for, without a number
+  Lines in_own_file_, saved_;
 };
 
 }  // namespace palpate

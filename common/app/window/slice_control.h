@@ -23,6 +23,11 @@ class SliceControl {
   /// What lies under the mouse, where it is over the picture and a slice.
   [[nodiscard]] std::optional<TensorPick> under_mouse(const PictureArea& area, const Camera& camera,
                                                       const TensorView& view) const;
+  /// Where the mouse has gone while something else was moved by it.
+  void place(double x, double y) noexcept {
+    x_ = x;
+    y_ = y;
+  }
   [[nodiscard]] bool dragging() const noexcept { return dragging_; }
   void let_go() noexcept { dragging_ = clicking_ = false; }
 

@@ -91,10 +91,31 @@ bool TouchControl::take_plane(const PictureArea& area, const SceneView& view, do
   return true;
 }
 
-/// On the slice of tensors under the mouse, on the nearest isosurface there in modes that feel some, else
-/// where the lines are.
+/// The end of a drawn tract that is seen under the mouse, however far it lies before or behind the slices: a
+/// stroke from there goes on from it.
+std::optional<Vec3> TouchControl::end_of_tract(const PictureSize& size, const PicturePoint& mouse,
+                                               const Camera& camera) const {
+  constexpr double kOnEnd = 8.0;  // [pixels]
+  double nearest = kOnEnd;
+  std::optional<Vec3> found;
+  if (session_.choice().stroke != StrokeUse::kAppend) return found;
+  for (const DrawnTract& tract : session_.drawn()) {
+    for (const LinePoint* end : {&tract.line.points.front(), &tract.line.points.back()}) {
+      const Vec3 shown = project(camera, end->position, size.width, size.height);
+      const double away = std::hypot(shown.x - mouse.x, shown.y - mouse.y);
+      if (!(shown.z > 0.0 && away < nearest)) continue;
+      nearest = away;
+      found = end->position;
+    }
+  }
+  return found;
+}
+
+/// At the end of a drawn tract, on the slice of tensors under the mouse, on the nearest isosurface there in
+/// modes that feel some, else where the lines are.
 Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view) const {
   const PicturePoint mouse{x_ - area.left, y_ - area.top};
+  if (const auto end = end_of_tract(size_of(area), mouse, view.camera)) return *end;
   if (view.tensors) {
     const PictureSize size = size_of(area);
     if (const auto pick = pick_slice(*view.tensors, view.camera, size.width, size.height, mouse.x, mouse.y))

@@ -44,6 +44,8 @@ class TouchControl {
   bool mark_place(const PictureArea& area, const SceneView& view);
   bool take_plane(const PictureArea& area, const SceneView& view, double time);
   [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
+  [[nodiscard]] std::optional<Vec3> end_of_tract(const PictureSize& size, const PicturePoint& mouse,
+                                                 const Camera& camera) const;
   [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
   std::string choose_mode(std::size_t mode);
 

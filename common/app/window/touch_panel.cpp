@@ -109,8 +109,13 @@ void choose_looks(TouchChoice& choice, float half, bool flow, bool surfaces) {
   }
 }
 
+/// Rows of its own height, however many are kept: nothing below them moves.
 void list_kept(ProbeSession& session) {
+  constexpr float kRows = 3.0F;
   const KeptLines& kept = session.kept();
+  ImGui::BeginChild("kept", {0.0F, kRows * ImGui::GetTextLineHeightWithSpacing()});
+  if (kept.entries().empty())
+    ImGui::TextDisabled(session.has_tensors() ? "no tract is kept" : "no line is kept");
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < kept.entries().size(); ++i) {
     const KeptLines::Entry& entry = kept.entries()[i];
@@ -125,6 +130,9 @@ void list_kept(ProbeSession& session) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("delete (Ctrl+Z takes it back)");
     ImGui::PopID();
   }
+  // The last stays in sight when one is added.
+  if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0F);
+  ImGui::EndChild();
   if (removed) session.remove_kept(*removed);
 }
 
@@ -176,7 +184,6 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
   if (session.scalar() && !session.has_flow()) edit_notes(session.notes(), marking, actions);
   if (!session.has_flow() && !tensors) return actions;
-  // What is kept stands below all buttons, which so do not move when it becomes more.
   ImGui::BeginDisabled(session.kept().entries().empty() && session.drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());

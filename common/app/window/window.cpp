@@ -25,10 +25,12 @@
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
 #include "common/app/window/touch_control.h"
+#include "common/app/window/unsaved_question.h"
 #include "common/app/window/user_settings.h"
 #include "common/app/window/view_control.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/render/frame_budget.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
@@ -73,7 +75,7 @@ class Window {
 
   WindowResult run() {
     Stopwatch frame_clock;
-    while (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) {
+    while (!closes()) {
       wait_for_events();
       if (options_.stop_requested && options_.stop_requested()) break;
       take_outcome();
@@ -96,6 +98,7 @@ class Window {
                         .settings = state_.settings,
                         .message = state_.message,
                         .probe = touch_->readout(),
+                        .tensor = state_.tensor,
                         .replay = touch_->replay_verdict()};
     std::tie(result.width, result.height) = glfw_.size();
     if (!frame_ms_.empty()) {
@@ -124,6 +127,47 @@ class Window {
       glfwPollEvents();  // there is work to do meanwhile: more tracts
     }
     lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
+  }
+
+  /// Whether the window is to be closed, and nothing is lost by that or the user has said so.
+  [[nodiscard]] bool closes() {
+    if (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) return false;
+    if (leave_ || !asked_about(std::nullopt)) return true;
+    glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
+    return false;
+  }
+
+  /// Asks what to do with lines and tracts that are in no file; false where there are none.
+  bool asked_about(std::optional<InputFiles> opens) {
+    const std::size_t count =
+        files_.unsaved(touch_->kept()) +
+        static_cast<std::size_t>(std::ranges::count_if(
+            touch_->drawn(), [](const DrawnTract& tract) { return tract.line.points.size() > 1; }));
+    if (count == 0 || touch_->replaying()) return false;
+    touch_control_->let_go();
+    const std::string lines = counted(count, touch_->has_tensors() ? "tract" : "line");
+    question_.ask(lines + (count == 1 ? " is" : " are") + " not saved." +
+                      (opens ? " Opening another input in place of this one forgets " +
+                                   std::string(count == 1 ? "it." : "them.")
+                             : " Save before the window closes?"),
+                  std::move(opens));
+    return true;
+  }
+
+  void open(const InputFiles& files) {
+    if (!asked_about(files)) to_open_ = files;
+  }
+
+  void answer_question() {
+    const auto answer = question_.draw();
+    if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel) return;
+    if (answer == UnsavedQuestion::Answer::kSave && !attempt([this] { return save_lines(); })) return;
+    if (question_.opens()) {
+      to_open_ = question_.opens();
+    } else {
+      leave_ = true;
+      glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+    }
   }
 
   void inject(int frame) {
@@ -272,7 +316,8 @@ class Window {
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
-    if (actions.open) to_open_ = actions.open;
+    if (actions.open) open(*actions.open);
+    answer_question();
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
     if (actions.save_transfer && view_.volume) {
@@ -340,13 +385,14 @@ class Window {
   void handle_events(const WindowLayout& parts) {
     const ImGuiIO& io = ImGui::GetIO();
     for (const InputEvent& event : glfw_.events()) {
-      if (event.kind == InputKind::kDrop) to_open_ = InputFiles{event.files, {}};
+      if (event.kind == InputKind::kDrop && !question_.asking()) open({event.files, {}});
       if (const std::string text = event_text(event); !text.empty()) {
         touch_->record_event(static_cast<std::uint64_t>(frame_), text);
       }
       const auto command = command_of(event);
       // The one key that works in text fields, too.
       if (command == Command::kForceOff) run_command(*command);
+      if (question_.handle(event)) continue;
       const bool begins = event.kind == InputKind::kPress || event.kind == InputKind::kWheel;
       const bool key = event.kind == InputKind::kKeyDown || event.kind == InputKind::kKeyUp;
       const bool of_panel =
@@ -360,6 +406,7 @@ class Window {
         control_.handle(event, parts.picture, view_.bounds, view_.camera);
       } else if (event.kind == InputKind::kMove) {
         control_.place(event.x, event.y);
+        slice_control_.place(event.x, event.y);
       }
       // An open list takes Esc for itself.
       const bool of_list =
@@ -461,13 +508,15 @@ class Window {
     return files_.save_lines(touch_->kept(), state_.lines_file);
   }
 
-  // Says what was saved, or why it was not.
+  // Says what was saved, or why it was not; whether it was.
   template <class Save>
-  void attempt(const Save& save) {
+  bool attempt(const Save& save) {
     try {
       say("saved " + std::filesystem::path(save()).string(), false);
+      return true;
     } catch (const std::exception& error) {
       say(error.what(), true);
+      return false;
     }
   }
 
@@ -561,6 +610,8 @@ class Window {
   PlanePoses cut_planes_;     // those of the hand for which lenses stand that cut
   double lens_moved_ = -1.0;  // [s]
   std::optional<InputFiles> to_open_;
+  UnsavedQuestion question_;
+  bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;
   double last_drawn_ = 0.0;  // [s]
   std::vector<double> frame_ms_;

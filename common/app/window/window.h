@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
+#include "common/render/tensor/tensor_pick.h"
 
 namespace palpate {
 
@@ -52,8 +54,9 @@ struct WindowResult {
   SceneSettings settings;          ///< at the end
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
-  ProbeReadout probe;  ///< at the end
-  std::string replay;  ///< verdict on a replay that came to its end
+  ProbeReadout probe;                ///< at the end
+  std::optional<TensorPick> tensor;  ///< that is read out under the mouse at the end
+  std::string replay;                ///< verdict on a replay that came to its end
 };
 
 /// Whether a window can be opened at all (a display is there).

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/dtmri/dtmri_modes.h"
+#include "common/app/window/saved_files.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/math/symmetric3.h"
 #include "tests/common/app/window/touch_window.h"
@@ -46,6 +47,8 @@ class BundleModel final : public WindowModel {
 /// Buttons of the panel [pixels].
 constexpr double kLeftButton = 72.0, kRightButton = 205.0, kFirstRow = 98.0, kKeepRow = 355.0,
                  kClearRow = 381.0;
+/// The first box of the slices, below what is kept.
+constexpr double kSliceBox = 21.0, kSliceRow = 551.0;
 
 class TouchTensor : public TouchWindowTest {
  protected:
@@ -144,6 +147,125 @@ TEST_F(TouchTensor, TheButtonsKeepUndoAndSave) {
   EXPECT_EQ(kept(result), 1U) << "saving keeps what is drawn";
   EXPECT_NE(result.message.find("tracts.tck"), std::string::npos) << result.message;
   EXPECT_TRUE(std::filesystem::exists(folder_.path("tracts.tck")));
+}
+
+TEST_F(TouchTensor, AStrokeGoesOnFromAnEndThatIsSeenBehindTheSlice) {
+  constexpr int kDown = 264;
+  draw_button();
+  stroke(-100.0, 0.0, 0.0, 0.0);
+  for (int i = 0; i < 4; ++i) key(kDown);
+  stroke(-1.0, 1.0, 90.0, 0.0);
+  key('K');
+  const WindowResult result = run();
+  ASSERT_EQ(kept(result), 1U) << result.message;
+  EXPECT_GT(tract(result).points.back().position.x, 10.0);
+}
+
+TEST_F(TouchTensor, ThePanelStaysInPlaceHoweverManyTractsAreKept) {
+  press(kSliceBox, kSliceRow);
+  EXPECT_TRUE(run().view.tensors->slices[0]) << "where the box is without tracts";
+  options_.script.clear();
+  last_ = 0;
+  draw_button();
+  constexpr int kMany = 4;
+  for (int i = 0; i < kMany; ++i) {
+    stroke(-40.0, 30.0 * i, 40.0, 30.0 * i);
+    press(kLeftButton, kKeepRow);
+  }
+  press(kSliceBox, kSliceRow);
+  const WindowResult result = run();
+  EXPECT_EQ(kept(result), static_cast<std::size_t>(kMany));
+  EXPECT_TRUE(result.view.tensors->slices[0]);
+}
+
+TEST_F(TouchTensor, TheReadOutUnderTheMouseGoesWithIt) {
+  move_by(next(), 90.0, 40.0);
+  last_ += kPause;
+  const WindowResult plain = run();
+  ASSERT_TRUE(plain.tensor);
+  options_.script.clear();
+  last_ = 0;
+  grab();
+  lead_to(90.0, 40.0);
+  key('G');
+  last_ += kPause;
+  const WindowResult after = run();
+  ASSERT_TRUE(after.tensor);
+  EXPECT_EQ(after.tensor->voxel, plain.tensor->voxel);
+}
+
+TEST_F(TouchTensor, AsksBeforeTractsAreLost) {
+  draw_button();
+  stroke(-100.0, 0.0, 100.0, 0.0);
+  key('Q');
+  key('Z', kModifierControl);  // not for the picture now
+  WindowResult result = run();
+  EXPECT_EQ(result.frames, options_.frames) << "asked";
+  key(kEscape);
+  key('K');
+  options_.screenshot.clear();
+  result = run();
+  EXPECT_EQ(result.frames, options_.frames) << "cancelled";
+  EXPECT_EQ(kept(result), 1U) << "the stroke is still there";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("tracts.tck")));
+
+  const auto script = options_.script;
+  key('Q');
+  key('D');
+  last_ += kPause;
+  result = run();
+  EXPECT_LT(result.frames, options_.frames) << "discarded";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("tracts.tck")));
+
+  options_.script = script;
+  key('Q');
+  key('S');
+  last_ += kPause;
+  result = run();
+  EXPECT_LT(result.frames, options_.frames) << "saved";
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("tracts.tck")));
+}
+
+TEST_F(TouchTensor, ClosesUnaskedWhenAllIsSaved) {
+  draw_button();
+  stroke(-100.0, 0.0, 100.0, 0.0);
+  key('E', kModifierControl);
+  key('Q');
+  last_ += 4 * kPause;
+  EXPECT_LT(run().frames, options_.frames);
+}
+
+void keep_one(KeptLines& lines, double x) {
+  Line line;
+  line.points = {{.position = {x, 0.0, 0.0}}, {.position = {x + 1.0, 0.0, 0.0}, .arc = 1.0}};
+  lines.keep(line, {1.0, 2.0});
+}
+
+TEST(SavedFiles, NeverLoseASavedTract) {
+  const TempFolder folder;
+  SavedFiles files(folder.path(), "test");
+  KeptLines lines;
+  std::string name = "tracts.csv";
+  keep_one(lines, 0.0);
+  EXPECT_EQ(files.unsaved(lines), 1U);
+  EXPECT_EQ(files.save_lines(lines, name).filename(), "tracts.csv");
+  EXPECT_EQ(files.unsaved(lines), 0U);
+  keep_one(lines, 10.0);
+  EXPECT_EQ(files.unsaved(lines), 1U);
+  EXPECT_EQ(files.save_lines(lines, name).filename(), "tracts.csv") << "all that is in it is in it again";
+
+  // One that was saved is deleted: the file that has it stays.
+  const std::string before = read_file(folder.path("tracts.csv"));
+  lines.remove(0);
+  keep_one(lines, 20.0);
+  EXPECT_EQ(files.save_lines(lines, name).filename(), "tracts-2.csv");
+  EXPECT_EQ(name, "tracts-2.csv");
+  EXPECT_EQ(read_file(folder.path("tracts.csv")), before);
+  keep_one(lines, 30.0);
+  EXPECT_EQ(files.save_lines(lines, name).filename(), "tracts-2.csv");
+  lines.clear();
+  keep_one(lines, 40.0);
+  EXPECT_EQ(files.save_lines(lines, name).filename(), "tracts-3.csv") << "and not tracts-2-2";
 }
 
 TEST_F(TouchTensor, AClearedDrawingComesBack) {
