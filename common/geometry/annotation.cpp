@@ -55,6 +55,20 @@ double measure_of(const Annotation& annotation) noexcept {
   return 0.0;
 }
 
+std::string measure_words(const Annotation& annotation, const std::string& unit) {
+  const std::string number = short_number(measure_of(annotation));
+  switch (annotation.kind) {
+    case AnnotationKind::kPoint:
+      return {};
+    case AnnotationKind::kAngle:
+      return number + " degrees";
+    case AnnotationKind::kArea:
+      return number + (unit.empty() ? " square units" : " " + unit + "^2");
+    default:
+      return number + " " + (unit.empty() ? "units" : unit);
+  }
+}
+
 std::vector<Vec3> outline_of(const Annotation& annotation) {
   std::vector<Vec3> points = annotation.points;
   if (annotation.kind == AnnotationKind::kArea && !points.empty()) points.push_back(points.front());

@@ -43,6 +43,9 @@ struct Annotation {
 /// Length and length of a curve [data units], angle [degrees], area [data units squared]; 0 of a point. NaN
 /// of an angle with a side of no length.
 [[nodiscard]] double measure_of(const Annotation& annotation) noexcept;
+/// What measure_of() says, with its unit: "12.3 mm", "45 degrees"; empty of a point.
+/// @param unit of lengths; empty: not known, "units".
+[[nodiscard]] std::string measure_words(const Annotation& annotation, const std::string& unit);
 /// The points as they are drawn: an area's first one again at the end.
 [[nodiscard]] std::vector<Vec3> outline_of(const Annotation& annotation);
 

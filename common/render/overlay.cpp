@@ -368,6 +368,34 @@ void draw_sides(const Pen& pen, const SceneView& view, int width, int height) {
   pen.text(0.5F * w, h - 1.8F * em, side_of(-up), pen.ink(), 0.5F);
 }
 
+// A bright line with a dark rim stands out from dark and light alike.
+void draw_notes(const Pen& pen, const SceneView& view, int width, int height) {
+  constexpr ImU32 kBright = IM_COL32(255, 214, 10, 255), kRim = IM_COL32(20, 16, 0, 230);
+  const float em = pen.text_height(), core = std::max(1.5F, 0.13F * em),
+              rim = core + std::max(2.0F, 0.14F * em);
+  for (const NoteView& note : view.notes) {
+    for (const bool inner : {false, true}) {
+      for (std::size_t i = 1; i < note.outline.size(); ++i) {
+        const auto a = place_of(view, note.outline[i - 1], width, height);
+        const auto b = place_of(view, note.outline[i], width, height);
+        if (a && b) pen.list().AddLine(*a, *b, inner ? kBright : kRim, inner ? core : rim);
+      }
+      for (const Vec3& point : note.points) {
+        const auto at = place_of(view, point, width, height);
+        if (at) pen.list().AddCircleFilled(*at, (inner ? 1.6F : 2.3F) * core, inner ? kBright : kRim);
+      }
+    }
+  }
+  // Words last: no line runs through them.
+  for (const NoteView& note : view.notes) {
+    if (note.words.empty() || note.points.empty()) continue;
+    Vec3 middle{0.0};
+    for (const Vec3& point : note.points) middle += point / static_cast<double>(note.points.size());
+    if (const auto at = place_of(view, middle, width, height))
+      pen.label(at->x + 0.8F * em, at->y + 0.5F * em, note.words);
+  }
+}
+
 // Newtons beside the middle of the band, numbers at the first points of kept lines.
 void draw_probe_words(const Pen& pen, const SceneView& view, int width, int height) {
   const ProbeView& probe = *view.probe;
@@ -443,6 +471,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   draw_title(pen, view);
   if (view.show_axes) draw_axes(pen, view, height);
   if (view.anatomical) draw_sides(pen, view, width, height);
+  draw_notes(pen, view, width, height);
   if (view.probe) draw_probe_words(pen, view, width, height);
   if (view.show_color_bar) draw_colors(pen, view, legend, width, height);
   ImGui::Render();

@@ -121,7 +121,8 @@ bool has_colored_lines(const SceneView& view) {
 }
 
 bool has_overlay(const SceneView& view) {
-  return !view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar || view.probe;
+  return !view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar ||
+         view.probe || !view.notes.empty();
 }
 
 }  // namespace
@@ -149,6 +150,7 @@ struct SceneRenderer::State {
   std::vector<std::vector<Vec3>> shown_outline;
   std::optional<LineStyle> shown_style;
   SceneFrame frame;
+  FrameBlock block;  // of this picture
   ColorLegend legend;
 
   // What the second framebuffer shows; none where it is out of date.
@@ -293,7 +295,7 @@ struct SceneRenderer::State {
   void draw_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
     volume->update(*view.volume, frame);
-    volume->draw(target.copy_depth());
+    volume->draw(target.copy_depth(), block);
   }
 
   // With a probe, or with tracts that there is no time for in one picture, what stays is drawn once and kept;
@@ -365,9 +367,9 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
   const int scene_height = s.target.scene_height();
   const double pixel = transform.view_height / scene_height;
-  const FrameBlock block = make_frame_block(view.camera, transform, palette_of(view.background),
-                                            view.style.depth_cue, s.target.scene_width(), scene_height);
-  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
+  s.block = make_frame_block(view.camera, transform, palette_of(view.background), view.style.depth_cue,
+                             s.target.scene_width(), scene_height);
+  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
 
   glDisable(GL_SCISSOR_TEST);
@@ -411,6 +413,12 @@ TractShare SceneRenderer::tract_share() const noexcept {
   return {.drawn = pieces > 0 ? s.shown_tracts->pieces[pieces - 1].second : 0,
           .all = s.shown_tracts->order.size(),
           .milliseconds = s.tract_ms};
+}
+
+bool SceneRenderer::made_slabs() const noexcept { return state_->volume && state_->volume->made_slabs(); }
+
+void SceneRenderer::forget_slabs() {
+  if (state_->volume) state_->volume->forget_slabs();
 }
 
 double SceneRenderer::finish() {

@@ -39,6 +39,9 @@ class SceneRenderer {
   [[nodiscard]] bool complete() const noexcept;
   /// What the last picture shows of the tracts.
   [[nodiscard]] TractShare tract_share() const noexcept;
+  /// As VolumePass.
+  [[nodiscard]] bool made_slabs() const noexcept;
+  void forget_slabs();
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

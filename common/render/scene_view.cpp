@@ -15,7 +15,12 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
-         a.volume_label == b.volume_label && a.anatomical == b.anatomical && a.surfaces == b.surfaces;
+         a.notes == b.notes && a.volume_label == b.volume_label && a.anatomical == b.anatomical &&
+         a.surfaces == b.surfaces;
+}
+
+std::string length_unit(const SceneView& view) {
+  return view.units.length.empty() && view.anatomical ? "mm" : view.units.length;
 }
 
 std::array<int, 4> Image::pixel(int x, int y) const noexcept {

@@ -23,6 +23,15 @@ namespace palpate {
 
 enum class Background : std::uint8_t { kDark, kLight };
 
+/// Something that is marked in the data: drawn over everything, in colours that stand out from it.
+struct NoteView {
+  std::vector<Vec3> points;
+  std::vector<Vec3> outline;  ///< may be empty
+  std::string words;          ///< beside its middle
+
+  bool operator==(const NoteView&) const = default;
+};
+
 struct SceneView {
   Box bounds;                                      ///< of the domain
   std::shared_ptr<const std::vector<Line>> lines;  ///< may be null
@@ -42,12 +51,16 @@ struct SceneView {
   std::optional<VolumeView> volume;
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;
+  std::vector<NoteView> notes;
   std::string volume_label;  ///< what its values are, for the colour bar
   bool anatomical = false;   ///< data coordinates are RAS+: letters say where right, front and up are
 };
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const SceneView& a, const SceneView& b);
+
+/// Of lengths in the picture; empty where it is not known.
+[[nodiscard]] std::string length_unit(const SceneView& view);
 
 /// Whether both show the same tensors in the same way.
 [[nodiscard]] bool same_tensors(const SceneView& a, const SceneView& b);

@@ -5,6 +5,9 @@
 #include "include/shade.glsl"
 #include "volume/volume_block.glsl"
 #include "volume/ray.glsl"
+#ifdef SLABS
+#include "volume/slab.glsl"
+#endif
 #include "volume/surface.glsl"
 #include "volume/march.glsl"
 #include "volume/lens_segments.glsl"
@@ -17,7 +20,7 @@ layout(location = 0) out vec4 color;  // associated
 void main() {
   Ray ray = pixel_ray();
   vec2 inside[kMostLenses];
-  int count = volume.lens_count.x;
+  int count = volume.counts.x;
   for (int i = 0; i < count; ++i) inside[i] = lens_interval(i, ray);
   float t = ray.first, end = ray.last;
 #ifdef MAGNIFIED
@@ -31,6 +34,11 @@ void main() {
 #endif
   if (!(t < end)) discard;
   color = vec4(0.0);
+#ifdef SLABS
+  bool in_front;
+  vec4 kept = enter_slab(ray, in_front);
+  if (in_front) color = kept;
+#endif
 
   for (int k = 0; k <= 2 * count && t < end && color.a <= volume.lengths.z; ++k) {
     // The first lens that holds t owns the stretch, up to its end or where one before it in the list begins.
@@ -59,4 +67,7 @@ void main() {
 #endif
     t = stop;
   }
+#ifdef SLABS
+  if (!in_front) color += (1.0 - color.a) * kept;
+#endif
 }

@@ -30,6 +30,9 @@ void march_magnified(Ray ray, int i, vec4 part, float from, float to, inout vec4
   const float kSqueezed = 2.0 / (1.0 - kCore);
   float first_layer = part.x * volume.lengths.y, longest = volume.lengths.x * (volume.lengths.y - 1.0);
   float d = volume.lengths.x * max(1.0, floor(layer_for(part.y, ray) / kSqueezed));
+#ifdef SLABS
+  stay_in_slab(d, from, to);
+#endif
   float t = from;
   vec3 x = place_seen(i, ray.origin + from * ray.direction);
   while (t < to && gathered.a <= volume.lengths.z) {

@@ -43,6 +43,15 @@ void gather(vec4 seen, vec3 direction, vec4 part, vec3 g, inout vec4 gathered) {
   gathered += (1.0 - gathered.a) * seen;
 }
 
+// The layer of the longest length that still takes `samples` a voxel; some room for rounding.
+float layer_for(float samples, Ray ray) {
+  float layer = floor(1.0 / (samples * length(ray.speed) * volume.lengths.x) + 1e-3);
+  return clamp(layer, 1.0, volume.lengths.y - 1.0);
+}
+
+#ifdef SLABS
+#include "volume/slab_march.glsl"
+#else
 // Samples at whole n, between which stretches have the length of a layer.
 struct Walk {
   float d;
@@ -61,12 +70,6 @@ vec4 walk_on(inout Walk walk, Ray ray, float inside) {
   walk.n = next;
   walk.front = back;
   return seen;
-}
-
-// The layer of the longest length that still takes `samples` a voxel; some room for rounding.
-float layer_for(float samples, Ray ray) {
-  float layer = floor(1.0 / (samples * length(ray.speed) * volume.lengths.x) + 1e-3);
-  return clamp(layer, 1.0, volume.lengths.y - 1.0);
 }
 
 // Adds what lies between `from` and `to`.
@@ -107,3 +110,4 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
            ray.direction, part, ray.start + 0.5 * (t + to) * ray.speed, gathered);
   }
 }
+#endif

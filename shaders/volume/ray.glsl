@@ -7,7 +7,7 @@ struct Ray {
   vec3 pace;       // its reciprocal, large where there is no speed
   float first;     // t between which the ray runs in the volume and may see something; first > last: nowhere
   float last;
-  float from;      // t between which nothing opaque and no eye is in the way, be it in the volume or not
+  float from;      // t between which nothing opaque, no eye and no cut is in the way, be it in the volume or not
   float to;
 };
 
@@ -41,6 +41,12 @@ Ray pixel_ray() {
   ray.from = perspective ? 0.0 : -1e30;
   ray.to = 1e30;
   if (has_opaque_depth) ray.to = opaque_distance(ray, ray.to);
+  for (int i = 0; i < volume.counts.y; ++i) {
+    float speed = dot(volume.cuts[i].xyz, ray.direction), room = volume.cuts[i].w - dot(volume.cuts[i].xyz, ray.origin);
+    if (speed > 0.0) ray.to = min(ray.to, room / speed);
+    if (speed < 0.0) ray.from = max(ray.from, room / speed);
+    if (speed == 0.0 && room < 0.0) ray.to = -1e30;
+  }
   ray.first = max(ray.first, ray.from);
   if (volume.lengths.w > 0.5) {
     const int kTilePixels = 8;

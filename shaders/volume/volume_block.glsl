@@ -3,6 +3,7 @@
 // [0, 1] from the middle of the first entry to that of the last one, but for half a texel at either end.
 const int kMostLenses = 8;
 const int kMostPlanes = 32;
+const int kMostCuts = 8;
 
 // A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
 // voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.
@@ -14,7 +15,8 @@ layout(std140, binding = 1) uniform Volume {
   vec4 bricks;        // xyz: bricks an axis; w: 1 leave out empty ones
   vec4 lengths;       // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end; w: 1 ask tiles
   vec4 parts[1 + kMostLenses];  // the context, then the lenses
-  ivec4 lens_count;             // x: lenses
+  vec4 cuts[kMostCuts];         // outward unit normal, offset, N: what lies beyond is cut away
+  ivec4 counts;                 // x: lenses, y: cuts
 } volume;
 
 layout(binding = 0) uniform sampler3D voxels;

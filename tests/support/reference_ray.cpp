@@ -101,7 +101,16 @@ Rgba ReferenceRay::cast(double x, double y) const {
     last = std::min(last, std::max(p, q));
   }
 
-  const double nearest = perspective ? 0.0 : -HUGE_VAL;
+  double nearest = perspective ? 0.0 : -HUGE_VAL, farthest = HUGE_VAL;
+  for (const CuttingPlane& cut : view_.cuts) {
+    if (!cut.on) continue;
+    const LineInterval kept = clip_line({.quadric = {}, .half_spaces = {cut.kept}}, origin, direction);
+    nearest = std::max(nearest, kept.first);
+    farthest = std::min(farthest, kept.last);
+    if (!(kept.first < kept.last)) return {};
+  }
+  first = std::max(first, nearest);
+  last = std::min(last, farthest);
   std::vector<double> borders;
   if (first < last) borders = {first, last};
   for (const Lens& lens : view_.lenses) {
@@ -109,7 +118,7 @@ Rgba ReferenceRay::cast(double x, double y) const {
     if (!(inside.first < inside.last)) continue;
     for (double t : {inside.first, inside.last}) {
       // What is enlarged may be seen out of the volume, too.
-      if (magnifies(lens)) t = std::max(t, nearest);
+      if (magnifies(lens)) t = std::clamp(t, nearest, std::max(nearest, farthest));
       if (magnifies(lens) || (t > first && t < last)) borders.push_back(t);
     }
   }

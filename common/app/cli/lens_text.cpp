@@ -86,6 +86,14 @@ std::string joined(std::initializer_list<double> numbers) {
   return text;
 }
 
+bool is_half_space(const ConvexShape& shape) { return !shape.quadric && shape.half_spaces.size() == 1; }
+
+// What is left where a half-space is gone.
+ConvexShape::HalfSpace kept_beside(const ConvexShape& gone) {
+  const ConvexShape::HalfSpace& face = gone.half_spaces.front();
+  return {-face.outward, -face.offset};
+}
+
 double trace(const Mat3& m) { return m[0][0] + m[1][1] + m[2][2]; }
 
 std::optional<std::string> shape_text(const ConvexShape& shape) {
@@ -102,7 +110,7 @@ std::optional<std::string> shape_text(const ConvexShape& shape) {
     return "cylinder:" +
            joined({from.x, from.y, from.z, to.x, to.y, to.z, 2.0 / trace(shape.quadric->unit_from_data)});
   }
-  if (!shape.quadric && faces.size() == 1) {
+  if (is_half_space(shape)) {
     const Vec3 n = -faces[0].outward;
     return "halfspace:" + joined({n.x, n.y, n.z, -faces[0].offset});
   }
@@ -150,6 +158,8 @@ LensWords parse_lens(const std::string& text) {
   const auto says = [&](std::string_view word, std::string_view what) {
     if (what == "cut") {
       words.lens.cut = true;
+    } else if (word == "off" && what == "off") {
+      words.off = true;
     } else if (word == "magnify") {
       words.lens.magnification = number_from(1.0, 100.0, what, "--lens " + all + ": magnify");
     } else if (word == "samples") {
@@ -180,6 +190,8 @@ LensWords parse_lens(const std::string& text) {
     says(word, equal == std::string_view::npos ? word : said[i].substr(equal + 1));
   }
   const Lens& lens = words.lens;
+  if (words.off && !(lens.cut && is_half_space(lens.shape)))
+    throw usage_error("--lens " + all + ": only a half-space that cuts can be off");
   if (!lens.cut && lens.magnification > 1.0 && !magnifies(lens))
     throw usage_error("--lens " + all + ": only a shape with a middle and bounds can magnify");
   return words;
@@ -198,6 +210,11 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
 
 std::string lenses_text(const VolumeView& view) {
   std::string all;
+  for (const CuttingPlane& cut : view.cuts) {
+    ConvexShape gone;
+    gone.half_spaces.push_back({-cut.kept.outward, -cut.kept.offset});
+    (all += all.empty() ? "" : ";") += *shape_text(gone) + (cut.on ? ",cut" : ",cut,off");
+  }
   for (const Lens& lens : view.lenses) {
     const auto text = lens_text(lens, view);
     if (text) all += (all.empty() ? "" : ";") + *text;
@@ -205,23 +222,31 @@ std::string lenses_text(const VolumeView& view) {
   return all;
 }
 
-std::vector<Lens> make_lenses(const VolumeOptions& options, const std::optional<ColorTransfer>& focus) {
-  std::vector<Lens> lenses;
+VolumeParts make_parts(const VolumeOptions& options, const std::optional<ColorTransfer>& focus) {
+  VolumeParts parts;
   for (const std::string& plane : options.clips)
-    lenses.push_back({.shape = parse_beyond(plane, "--clip " + plane), .cut = true});
+    parts.cuts.push_back({.kept = kept_beside(parse_beyond(plane, "--clip " + plane))});
   for (const std::string& text : options.lenses) {
     const LensWords words = parse_lens(text);
-    Lens& lens = lenses.emplace_back(words.lens);
+    if (words.lens.cut && is_half_space(words.lens.shape)) {
+      parts.cuts.push_back({.kept = kept_beside(words.lens.shape), .on = !words.off});
+      continue;
+    }
+    Lens& lens = parts.lenses.emplace_back(words.lens);
     lens.samples_per_voxel = words.samples.value_or(options.samples);
     lens.shading = words.shading.value_or(options.shading);
     if (!lens.cut) lens.transfer = focus;
   }
-  std::stable_partition(lenses.begin(), lenses.end(), [](const Lens& lens) { return lens.cut; });
-  if (lenses.size() > kMostLenses) {
-    throw usage_error("--lens: " + std::to_string(lenses.size()) + " lenses and clipping planes; at most " +
+  std::stable_partition(parts.lenses.begin(), parts.lenses.end(), [](const Lens& lens) { return lens.cut; });
+  if (parts.lenses.size() > kMostLenses) {
+    throw usage_error("--lens: " + std::to_string(parts.lenses.size()) + " lenses; at most " +
                       std::to_string(kMostLenses) + " are possible");
   }
-  return lenses;
+  if (parts.cuts.size() > kMostCuts) {
+    throw usage_error("--clip: " + std::to_string(parts.cuts.size()) + " planes that cut; at most " +
+                      std::to_string(kMostCuts) + " are possible");
+  }
+  return parts;
 }
 
 }  // namespace palpate

@@ -85,9 +85,12 @@ VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const 
   volume.samples_per_voxel = with.samples;
   volume.shading = with.shading;
   const Lens model = direction_lens(with, *volume.image);
-  volume.lenses = make_lenses(with, model.transfer);
+  VolumeParts parts = make_parts(with, model.transfer);
+  volume.lenses = std::move(parts.lenses);
+  volume.cuts = std::move(parts.cuts);
   for (Lens& lens : volume.lenses) lens.colored = !lens.cut;
-  volume.shown = options.tensors.volume == "auto" ? !volume.lenses.empty() : options.tensors.volume != "none";
+  volume.shown = options.tensors.volume == "auto" ? !volume.lenses.empty() || is_cut(volume)
+                                                  : options.tensors.volume != "none";
   return volume;
 }
 

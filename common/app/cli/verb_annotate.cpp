@@ -10,14 +10,6 @@
 namespace palpate {
 namespace {
 
-std::string value_words(const Annotation& annotation) {
-  if (annotation.kind == AnnotationKind::kPoint) return {};
-  const char* unit = annotation.kind == AnnotationKind::kAngle  ? " degrees"
-                     : annotation.kind == AnnotationKind::kArea ? " square units"
-                                                                : " units";
-  return " " + short_number(measure_of(annotation)) + unit;
-}
-
 ExitCode run_annotate(const Options& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const std::vector<Annotation> notes = annotations_of(options.touch.annotations, "--annotation");
@@ -27,6 +19,7 @@ ExitCode run_annotate(const Options& options, const VerbContext& context) {
   Input input = open_input(options, context);
   const auto field = input.load_scalar(options.common.threads, &context.progress);
   AnnotationSummary summary{.input = input.title(), .output = options.out.string(), .annotations = notes};
+  const std::string unit = input.file() != nullptr && input.file()->anatomical ? "mm" : "";
   CellHint hint;
   for (const Annotation& each : notes) {
     for (const Vec3& x : each.points) {
@@ -34,7 +27,8 @@ ExitCode run_annotate(const Options& options, const VerbContext& context) {
       if (sample.status != SampleStatus::kOk) ++summary.outside;
       summary.values.push_back(sample.status == SampleStatus::kOk ? sample.value : std::nan(""));
     }
-    context.console.print(std::string(name_of(each.kind)) + value_words(each) +
+    const std::string measure = measure_words(each, unit);
+    context.console.print(std::string(name_of(each.kind)) + (measure.empty() ? "" : " " + measure) +
                           (each.label.empty() ? "" : "  " + each.label) + "\n");
   }
   if (summary.outside > 0) context.console.note(counted(summary.outside, "place") + " outside the data");

@@ -16,13 +16,15 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
       "--lens", volume.lenses,
       "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
       "cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each) or halfspace:nx,ny,nz,d "
-      "(where n.x > d); behind it ',cut' cuts it away, ',magnify=M' enlarges, ',samples=N' and ',shading=on' "
+      "(where n.x > d); behind it ',cut' cuts it away (',off' with it: a half-space does not for now), "
+      "',magnify=M' enlarges, ',samples=N' and ',shading=on' "
       "or "
       "'off' are its own; may be repeated, the first one wins",
       "SHAPE", kGroup);
   options.add("--focus-tf", volume.focus, focus, "NAME|FILE", kGroup);
-  options.add_several("--clip,--plane", volume.clips, "cut away what lies where n.x > d; may be repeated",
-                      "nx,ny,nz,d", kGroup);
+  options.add_several("--clip,--plane", volume.clips,
+                      "cut away what lies where n.x > d, in lenses too; may be repeated", "nx,ny,nz,d",
+                      kGroup);
 }
 
 void add_projection(SceneOptions& options, VolumeOptions& volume) {

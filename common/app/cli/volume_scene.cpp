@@ -103,7 +103,7 @@ void check_volume_options(const VolumeOptions& options) {
     throw usage_error("--samples: a number above 0 and at most 64 is expected");
   check_transfer(options.transfer);
   check_transfer(options.focus);
-  (void)make_lenses(options, std::nullopt);
+  (void)make_parts(options, std::nullopt);
 }
 
 std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
@@ -154,8 +154,10 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
   volume.samples_per_voxel = options.volume.samples;
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
-    volume.lenses =
-        make_lenses(options.volume, focus_transfer_of(options.volume.focus, *image, options.common.threads));
+    VolumeParts parts =
+        make_parts(options.volume, focus_transfer_of(options.volume.focus, *image, options.common.threads));
+    volume.lenses = std::move(parts.lenses);
+    volume.cuts = std::move(parts.cuts);
   }
   volume.image = std::move(image);
   view.volume = std::move(volume);

@@ -55,22 +55,21 @@ std::vector<Annotation> annotations_of(const std::vector<std::string>& words, co
   return annotations;
 }
 
-std::vector<std::vector<Vec3>> lines_of(const AnnotationList& list, double size) {
-  std::vector<std::vector<Vec3>> lines;
-  const auto mark = [&](const Vec3& at) {
-    for (int a = 0; a < 3; ++a) {
-      Vec3 stroke{0.0};
-      stroke[a] = size;
-      lines.push_back({at - stroke, at + stroke});
-    }
+std::vector<NoteView> notes_of(const AnnotationList& list, const std::string& unit,
+                               const std::optional<Vec3>& next) {
+  std::vector<NoteView> notes;
+  const auto words = [&](const Annotation& each) {
+    const std::string measure = measure_words(each, unit);
+    return each.label + (each.label.empty() || measure.empty() ? "" : ": ") + measure;
   };
-  const auto draw = [&](const std::vector<Vec3>& points, std::vector<Vec3> outline) {
-    for (const Vec3& each : points) mark(each);
-    if (outline.size() > 1) lines.push_back(std::move(outline));
-  };
-  for (const Annotation& each : list.entries()) draw(each.points, outline_of(each));
-  draw(list.pending(), list.pending());
-  return lines;
+  for (const Annotation& each : list.entries()) notes.push_back({each.points, outline_of(each), words(each)});
+  if (list.pending().empty()) return notes;
+  // As it would be with the next point where that is now.
+  Annotation pending{list.kind(), list.pending(), {}};
+  if (next) pending.points.push_back(*next);
+  const bool measured = pending.points.size() >= points_needed(pending.kind).least;
+  notes.push_back({list.pending(), pending.points, measured ? words(pending) : std::string()});
+  return notes;
 }
 
 }  // namespace palpate

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/geometry/annotation.h"
+#include "common/render/scene_view.h"
 
 namespace palpate {
 
@@ -47,8 +49,9 @@ class AnnotationList {
 [[nodiscard]] std::vector<Annotation> annotations_of(const std::vector<std::string>& words,
                                                      const std::string& option);
 
-/// Lines that show them: three strokes of half-length `size` at each point, the outline, and what is being
-/// placed.
-[[nodiscard]] std::vector<std::vector<Vec3>> lines_of(const AnnotationList& list, double size);
+/// What a picture shows of them, and of what is being placed.
+/// @param unit of lengths; empty: not known. @param next where the next point would be.
+[[nodiscard]] std::vector<NoteView> notes_of(const AnnotationList& list, const std::string& unit,
+                                             const std::optional<Vec3>& next);
 
 }  // namespace palpate

@@ -12,7 +12,7 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
       {'K', 0, Command::kKeepLine, "K, Space", "keep the followed line, or the tracts that are drawn"},
       {'E', kModifierControl, Command::kSaveLines, "Ctrl+E", "save what is kept"},
-      {'Z', kModifierControl, Command::kUndo, "Ctrl+Z", "undo keeping or deleting a line, or a stroke"},
+      {'Z', kModifierControl, Command::kUndo, "Ctrl+Z", "undo: lines, strokes, planes, annotations"},
       {'R', 0, Command::kLocalLines, "R", "lines about the probe: none, a rake, a plane of seeds"},
       {'X', 0, Command::kLockX, "X", "lock the probe to the x axis, or unlock it"},
       {'Y', 0, Command::kLockY, "Y", "to the y axis"},

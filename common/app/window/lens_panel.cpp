@@ -54,7 +54,7 @@ bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
     lens.transfer = model.transfer;
     lens.colored = model.colored;
   }
-  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  ImGui::SameLine();
   return ImGui::SmallButton("remove");
 }
 
@@ -68,7 +68,9 @@ void draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
     ImGui::PopID();
   }
   if (gone) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(*gone));
-  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ lens")) {
+  if (view.lenses.size() == kMostLenses) {
+    ImGui::TextDisabled("%d lenses: no more are possible", static_cast<int>(kMostLenses));
+  } else if (ImGui::SmallButton("+ lens")) {
     view.lenses.push_back(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball in the middle; L moves it with the mouse");

@@ -11,6 +11,7 @@
 
 #include "common/app/window/lens_panel.h"
 #include "common/app/window/picture_panels.h"
+#include "common/app/window/plane_panel.h"
 #include "common/app/window/tensor_panel.h"
 #include "common/base/text.h"
 
@@ -234,6 +235,11 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
   actions.save_transfer |= choose_transfer("colours", "from the histogram", state.settings.transfer,
                                            volume.transfer, *volume.image, histogram, state.transfer_file);
   draw_rays(volume);
+  const bool of_hand = state.touch != nullptr && state.touch->planes();
+  if (!of_hand && !volume.cuts.empty()) {
+    section("CUTS");
+    edit_cuts(volume.cuts);
+  }
   section("LENSES");
   draw_lens_panel(volume, scene.lens, scene.info->bounds);
   if (volume.lenses.empty()) return;
@@ -360,8 +366,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       section("TOUCH");
-      actions.touch =
-          draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view.camera, state.marking);
+      actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
     }
     if (state.scene->tensors && view.tensors) {
       draw_tensors(state, *state.scene, *view.tensors, view.tracts);

@@ -27,8 +27,16 @@ std::optional<Vec3> pick_volume(const VolumeView& view, const Box& bounds,
       ray.from, ray.along);
   double first = std::max(inside.first, 0.0);
   if (!(first < inside.last)) return std::nullopt;
-  // Cuts overlap: after each one that the place lies in, all are looked at again.
   bool on_cut = false;
+  double last = inside.last;
+  for (const CuttingPlane& cut : view.cuts) {
+    if (!cut.on) continue;
+    const LineInterval kept = clip_line({.quadric = {}, .half_spaces = {cut.kept}}, ray.from, ray.along);
+    on_cut = on_cut || kept.first > first;
+    first = std::max(first, kept.first);
+    last = std::min(last, kept.last);
+  }
+  // Lenses overlap: after each one that the place lies in, all are looked at again.
   for (std::size_t n = 0; n <= view.lenses.size(); ++n) {
     const double before = first;
     for (const Lens& lens : view.lenses) {
@@ -39,10 +47,10 @@ std::optional<Vec3> pick_volume(const VolumeView& view, const Box& bounds,
     if (first == before) break;
     on_cut = true;
   }
-  if (!(first < inside.last)) return std::nullopt;
+  if (!(first < last)) return std::nullopt;
   const Vec3 entry = ray.from + first * ray.along;
   if (on_cut || !field) return on_cut ? std::optional(entry) : std::nullopt;
-  return first_surface_between({field, Isovalues{{isovalue}, 1}}, entry, ray.from + inside.last * ray.along);
+  return first_surface_between({field, Isovalues{{isovalue}, 1}}, entry, ray.from + last * ray.along);
 }
 
 }  // namespace palpate

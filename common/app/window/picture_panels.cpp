@@ -121,6 +121,12 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("click", "put the crosshair of slices there; drag it with Ctrl");
     row("wheel on a slice", "move it; Ctrl and the wheel zoom");
     row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
+    if (state.touch != nullptr && state.touch->planes()) {
+      row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
+      row("drag a plane's ring", "move the plane; along an axis on that alone");
+    }
+    if (state.touch != nullptr && state.touch->scalar() && !state.touch->has_flow())
+      row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");
     for (const KeyBinding& binding : key_bindings()) {
       if (*binding.name != '\0') row(binding.name, binding.what);
     }

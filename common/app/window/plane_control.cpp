@@ -12,10 +12,6 @@
 namespace palpate {
 namespace {
 
-bool cuts_by_plane(const Lens& lens) {
-  return lens.cut && !lens.shape.quadric && lens.shape.half_spaces.size() == 1;
-}
-
 std::vector<Vec3> circle(const Vec3& center, const Vec3& u, const Vec3& v, double radius) {
   constexpr int kParts = 64;
   std::vector<Vec3> points;
@@ -98,36 +94,26 @@ std::optional<Vec3> hold_of_planes(const PlanePoses& poses, double radius, const
 
 PlanePoses planes_of(const VolumeView& view, const Vec3& near) {
   PlanePoses poses;
-  for (const Lens& lens : view.lenses) {
-    if (!cuts_by_plane(lens) || poses.count == PlanePoses::kMax) continue;
-    const ConvexShape::HalfSpace& gone = lens.shape.half_spaces.front();
-    poses.pose[static_cast<std::size_t>(poses.count++)] = pose_of_plane(-gone.outward, -gone.offset, near);
+  for (const CuttingPlane& cut : view.cuts) {
+    if (poses.count == PlanePoses::kMax) break;
+    poses.pose[static_cast<std::size_t>(poses.count++)] =
+        pose_of_plane(cut.kept.outward, cut.kept.offset, near);
   }
   return poses;
 }
 
 void cut_by_planes(VolumeView& view, const PlanePoses& poses, int before) {
-  std::size_t at = 0;
-  for (int i = 0; i < poses.count; ++i) {
-    const Vec4 plane = plane_of_pose(poses.pose[static_cast<std::size_t>(i)]);
-    ConvexShape gone;
-    gone.half_spaces.push_back({-Vec3{plane}, -plane.w});
-    while (at < view.lenses.size() && !cuts_by_plane(view.lenses[at])) ++at;
-    if (at < view.lenses.size()) {
-      view.lenses[at++].shape = std::move(gone);
-    } else if (view.lenses.size() < kMostLenses) {
-      // Those that cut come first, so that they cut the others too.
-      const auto end = std::find_if(view.lenses.begin(), view.lenses.end(),
-                                    [](const Lens& lens) { return !cuts_by_plane(lens); });
-      Lens lens{.shape = std::move(gone), .cut = true};
-      lens.samples_per_voxel = view.samples_per_voxel;
-      lens.shading = view.shading;
-      at = static_cast<std::size_t>(view.lenses.insert(end, std::move(lens)) - view.lenses.begin()) + 1;
-    }
+  static_assert(PlanePoses::kMax <= static_cast<int>(kMostCuts));
+  const auto wanted = static_cast<std::size_t>(poses.count), had = static_cast<std::size_t>(before);
+  std::vector<CuttingPlane>& cuts = view.cuts;
+  if (had > wanted && cuts.size() > wanted) {
+    cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(wanted),
+               cuts.begin() + static_cast<std::ptrdiff_t>(std::min(had, cuts.size())));
   }
-  for (int i = poses.count; i < before; ++i) {
-    while (at < view.lenses.size() && !cuts_by_plane(view.lenses[at])) ++at;
-    if (at < view.lenses.size()) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(at));
+  if (cuts.size() < wanted) cuts.resize(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const Vec4 plane = plane_of_pose(poses.pose[i]);
+    cuts[i].kept = {Vec3{plane}, plane.w};
   }
 }
 

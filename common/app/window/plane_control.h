@@ -25,13 +25,13 @@ inline constexpr double kPlaneRing = 1.6;
 [[nodiscard]] std::optional<Vec3> hold_of_planes(const PlanePoses& poses, double radius, const Camera& camera,
                                                  const PictureSize& size, const PicturePoint& mouse);
 
-/// The planes by which `view` is cut, up to PlanePoses::kMax; the centre of each is its point nearest to
-/// `near`.
+/// The first planes by which `view` is cut, up to PlanePoses::kMax; the centre of each is its point nearest
+/// to `near`.
 [[nodiscard]] PlanePoses planes_of(const VolumeView& view, const Vec3& near);
 
-/// Cuts away what lies where n.x > d of each plane: the first lenses that cut by a plane become these, in
-/// their order, and what lacks is added in front, as far as kMostLenses allows.
-/// @param before so many of them stood for planes: those of planes that are gone are taken out.
+/// Cuts away what lies where n.x > d of each plane: the first cuts of the view become these, in their order,
+/// and stay on or off. @param before so many of them stood for planes: the last ones go where planes are
+/// fewer.
 void cut_by_planes(VolumeView& view, const PlanePoses& poses, int before = 0);
 
 }  // namespace palpate

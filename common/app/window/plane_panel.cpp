@@ -1,5 +1,6 @@
 #include "common/app/window/plane_panel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -51,13 +52,16 @@ std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& se
 
 }  // namespace
 
-void edit_planes(ProbeSession& session, const Camera& camera) {
+void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingPlane> cuts) {
   if (!session.planes()) return;
   PlanePoses poses = session.planes()->poses;
   bool edited = false;
   std::optional<int> gone;
   for (int i = 0; i < poses.count; ++i) {
     ImGui::PushID(i);
+    if (static_cast<std::size_t>(i) < cuts.size())
+      ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(),
+                      &cuts[static_cast<std::size_t>(i)].on);
     PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
     if (const auto wanted = edit_pose(pose, session, camera)) {
       pose = *wanted;
@@ -70,18 +74,42 @@ void edit_planes(ProbeSession& session, const Camera& camera) {
     ImGui::PopID();
   }
   if (gone) {
+    if (cuts.size() >= static_cast<std::size_t>(poses.count))
+      std::rotate(cuts.begin() + *gone, cuts.begin() + *gone + 1, cuts.begin() + poses.count);
     for (int i = *gone; i + 1 < poses.count; ++i)
       poses.pose[static_cast<std::size_t>(i)] = poses.pose[static_cast<std::size_t>(i) + 1];
     poses.pose[static_cast<std::size_t>(--poses.count)] = {};
     edited = true;
   }
-  if (poses.count < PlanePoses::kMax && ImGui::SmallButton("+ plane")) {
+  if (poses.count == PlanePoses::kMax) {
+    ImGui::TextDisabled("%d planes: no more are possible", PlanePoses::kMax);
+  } else if (ImGui::SmallButton("+ plane")) {
     poses.pose[static_cast<std::size_t>(poses.count++)] =
         turned_to({.center = camera.focal_point}, camera.axes[2]);
     edited = true;
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("through what the view turns about, facing the viewer");
   if (edited) session.put_planes(poses);
+}
+
+void edit_cuts(std::vector<CuttingPlane>& cuts) {
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    CuttingPlane& cut = cuts[i];
+    ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
+    if (ImGui::IsItemHovered()) {
+      const Vec3& n = cut.kept.outward;
+      ImGui::SetTooltip("away what lies beyond %.4g x + %.4g y + %.4g z = %.6g", n.x, n.y, n.z,
+                        cut.kept.offset);
+    }
+    ImGui::SameLine();
+    if (ImGui::SmallButton("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
+    ImGui::SameLine();
+    if (ImGui::SmallButton("remove")) gone = i;
+    ImGui::PopID();
+  }
+  if (gone) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(*gone));
 }
 
 void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {

@@ -1,19 +1,25 @@
 /// The part of the touch panel about cutting planes: their numbers, and what puts them somewhere in one go.
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "common/app/haptic/probe_session.h"
 #include "common/app/window/touch_panel.h"
 #include "common/render/camera.h"
+#include "common/render/volume/volume_view.h"
 
 namespace palpate {
 
-/// Draws nothing in modes without planes. @param camera for planes that face the view.
-void edit_planes(ProbeSession& session, const Camera& camera);
-/// The numbers of the haptic grid, and landmarks at the proxy; draws nothing in other modes.
+/// Draws nothing in modes without planes. @param camera for planes that face the view. @param cuts of the
+/// picture, the first ones for the planes: whether they cut.
+void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingPlane> cuts);
+/// Planes that cut while no hand moves them.
+void edit_cuts(std::vector<CuttingPlane>& cuts);
 /// Annotations: what the next clicks mark, and a row for each that is there.
 void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions);
+/// The numbers of the haptic grid, and landmarks at the proxy; draws nothing in other modes.
 void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session);
 
 }  // namespace palpate

@@ -19,6 +19,7 @@ void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   view.volume->samples_per_voxel = before->samples_per_voxel;
   view.volume->shown = before->shown;
   view.volume->lenses = before->lenses;
+  view.volume->cuts = before->cuts;
   if (scene.tensors) {  // edited in the view alone
     view.volume->transfer = before->transfer;
     view.volume->colored = before->colored;

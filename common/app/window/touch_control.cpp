@@ -65,12 +65,19 @@ void TouchControl::grab_at(const Vec3& place, double time) {
   moved_ = time;
 }
 
+std::optional<Vec3> TouchControl::next_mark(const PictureArea& area, const SceneView& view) {
+  if (!marking_ || !view.volume || !session_.scalar() || !area.contains(x_, y_)) return std::nullopt;
+  if (marked_ != session_.scalar()) {
+    marked_ = session_.scalar();
+    threshold_ = otsu_threshold(*marked_);
+  }
+  return pick_volume(*view.volume, view.bounds, marked_, threshold_, view.camera, size_of(area),
+                     {x_ - area.left, y_ - area.top});
+}
+
 /// A click marks the place of the volume that is seen there.
 bool TouchControl::mark_place(const PictureArea& area, const SceneView& view) {
-  if (!marking_ || !view.volume || !session_.scalar()) return false;
-  const auto place =
-      pick_volume(*view.volume, view.bounds, session_.scalar(), otsu_threshold(*session_.scalar()),
-                  view.camera, size_of(area), {x_ - area.left, y_ - area.top});
+  const auto place = next_mark(area, view);
   if (place) session_.notes().add(*place);
   return place.has_value();
 }

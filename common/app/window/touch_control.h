@@ -35,6 +35,8 @@ class TouchControl {
   /// Whether clicks into the picture mark places for annotations.
   [[nodiscard]] bool marking() const noexcept { return marking_; }
   void mark(bool marking) noexcept { marking_ = marking; }
+  /// The place of the volume under the mouse, which a click would mark; nothing while none would.
+  [[nodiscard]] std::optional<Vec3> next_mark(const PictureArea& area, const SceneView& view);
   [[nodiscard]] std::optional<int> locked_axis() const noexcept { return axis_; }
   void let_go() noexcept;
 
@@ -55,11 +57,13 @@ class TouchControl {
   bool waiting_ = false;    ///< asked for away from the picture: the next click into it grabs the probe there
   bool by_button_ = false;  ///< the press that grabbed the probe goes on
   bool marking_ = false;
-  bool on_plane_ = false;                     ///< the press holds a cutting plane
-  bool plane_grab_ = false;                   ///< and has grabbed the probe for it
-  bool dragged_ = false;                      ///< and has moved it
-  double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it was [pixels]
-  int buttons_ = 0;                           ///< that are down: the camera's then
+  std::shared_ptr<const ScalarField> marked_;  ///< the field that marks have been placed in
+  double threshold_ = 0.0;                     ///< between its object and its background
+  bool on_plane_ = false;                      ///< the press holds a cutting plane
+  bool plane_grab_ = false;                    ///< and has grabbed the probe for it
+  bool dragged_ = false;                       ///< and has moved it
+  double pressed_x_ = 0.0, pressed_y_ = 0.0;   ///< where it was [pixels]
+  int buttons_ = 0;                            ///< that are down: the camera's then
   std::optional<int> axis_;
   double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
   double moved_ = 0.0;        ///< when it last moved the probe [s]

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -138,7 +139,7 @@ void list_kept(ProbeSession& session) {
 
 }  // namespace
 
-TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, const Camera& camera,
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, SceneView& view,
                               bool marking) {
   TouchActions actions;
   if (!session.available()) return actions;
@@ -172,7 +173,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (tensors) choose_stroke(choice.stroke);
   choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
   session.choose(choice);
-  edit_planes(session, camera);
+  edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
   if (const std::string note = session.stiffness_note(); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 

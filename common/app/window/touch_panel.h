@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/app/haptic/probe_session.h"
+#include "common/render/scene_view.h"
 
 namespace palpate {
 
@@ -22,9 +23,9 @@ struct TouchActions {
 /// Changes the session's choice and its kept lines.
 /// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
 /// edited.
-/// @param camera of the picture.  @param marking clicks mark places.
+/// @param view whose camera planes face, and whose cuts they are.  @param marking clicks mark places.
 [[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file,
-                                            const Camera& camera, bool marking);
+                                            SceneView& view, bool marking);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
 /// @return its height; 0 where there is none.

@@ -47,6 +47,8 @@ constexpr double kPatience = 0.4;
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 // A lens that has not moved for so long stands still: its picture is drawn sharp [s].
 constexpr double kLensRest = 0.3;
+// What is kept of a plane while it moves is given back after so long a rest [s].
+constexpr double kSlabRest = 5.0;
 
 class Window {
  public:
@@ -338,7 +340,8 @@ class Window {
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
     // Surfaces are solid: they would hide what is in a lens.
-    const bool lenses = view_.volume && view_.volume->shown && !view_.volume->lenses.empty();
+    const bool lenses =
+        view_.volume && view_.volume->shown && (!view_.volume->lenses.empty() || is_cut(*view_.volume));
     view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_->surfaces().meshes);
     if (scene_) view_.surfaces.insert(view_.surfaces.end(), scene_->surfaces.begin(), scene_->surfaces.end());
     if (const int popped = touch_->readout().popped; popped != told_popped_) {
@@ -485,12 +488,6 @@ class Window {
 
   void run_lens(Command command) {
     if (!scene_ || !view_.volume) return;
-    // Cuts that are planes of the hand are moved by that alone: the mouse gets a lens of its own.
-    std::vector<Lens>& lenses = view_.volume->lenses;
-    const bool cuts_alone =
-        std::all_of(lenses.begin(), lenses.end(), [](const Lens& lens) { return lens.cut; });
-    if (command == Command::kLens && touch_->planes() && cuts_alone && lenses.size() < kMostLenses)
-      lenses.push_back(new_lens(scene_->lens, view_.camera.focal_point, view_.bounds));
     say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
     lens_moved_ = glfwGetTime();
   }
@@ -543,9 +540,9 @@ class Window {
     SceneView picture = view_;
     const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
     if ((hand || !view_.surfaces.empty()) && touch_->choice().fade_rest) fade_lines(picture);
-    constexpr double kMark = 0.008;  // half a stroke, diagonals
-    for (auto& line : lines_of(touch_->notes(), kMark * picture.bounds.diagonal()))
-      picture.outline.push_back(std::move(line));
+    picture.notes = notes_of(
+        touch_->notes(), length_unit(picture),
+        touch_->notes().pending().empty() ? std::nullopt : touch_control_->next_mark(picture_, view_));
     if (touch_->planes()) {
       for (auto& line : lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius()))
         picture.outline.push_back(std::move(line));
@@ -569,8 +566,9 @@ class Window {
       renderer_->draw(picture, w, h, quality.resolution, tract_time_.milliseconds(moving));
       state_.frame_ms = renderer_->finish();
       state_.tract_share = renderer_->tract_share();
-      if (moving) budget_.drawn(state_.frame_ms);
       if (moving) tract_time_.drawn(state_.frame_ms, state_.tract_share.milliseconds);
+      // A picture that keeps slabs for the next ones says nothing of their time.
+      if (moving && !renderer_->made_slabs()) budget_.drawn(state_.frame_ms);
       state_.quality = quality;
       frame_ms_.push_back(state_.frame_ms);
       const double now = glfwGetTime();
@@ -582,6 +580,7 @@ class Window {
       picture_height_ = h;
       dirty_ = false;
     }
+    if (glfwGetTime() - lens_moved_ > kSlabRest) renderer_->forget_slabs();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
     renderer_->show(static_cast<int>(parts.picture.left), height - h);
@@ -607,7 +606,7 @@ class Window {
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
-  PlanePoses cut_planes_;     // those of the hand for which lenses stand that cut
+  PlanePoses cut_planes_;     // those of the hand for which the first cuts stand
   double lens_moved_ = -1.0;  // [s]
   std::optional<InputFiles> to_open_;
   UnsavedQuestion question_;

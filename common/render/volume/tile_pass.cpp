@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -65,9 +66,13 @@ std::vector<std::uint32_t> shell_bricks(const Index3& bricks, std::span<const st
 void TilePass::set_bricks(std::span<const std::uint32_t> shell) {
   bricks_ = make_buffer(shell);
   brick_count_ = shell.size();
+  drawn_.reset();
 }
 
-std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame) {
+std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, const FrameBlock& block) {
+  // The frame of the scene is that of the image, whose bricks these are.
+  if (drawn_ && std::memcmp(&*drawn_, &block, sizeof block) == 0) return tiles_.name();
+  drawn_ = block;
   std::array<GLint, 4> viewport{};
   GLint framebuffer = 0;
   glGetIntegerv(GL_VIEWPORT, viewport.data());

@@ -6,11 +6,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/math/vec.h"
 #include "common/render/camera.h"
+#include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
 #include "common/render/volume/volume_image.h"
 
@@ -29,8 +31,11 @@ class TilePass {
   /// Draws the tiles of a picture as large as the viewport. Needs the frame's uniform block bound to 0; keeps
   /// the framebuffer and viewport.
   /// @return the name of the texture: minus the first and the last t of each tile; the last before the first
-  /// where nothing is.
-  [[nodiscard]] std::uint32_t draw(const VolumeImage& image, const SceneFrame& frame);
+  /// where nothing is. The same bricks from the same place are not drawn again.
+  /// @param block the frame's.
+  [[nodiscard]] std::uint32_t draw(const VolumeImage& image, const SceneFrame& frame,
+                                   const FrameBlock& block);
+  [[nodiscard]] int count() const noexcept { return columns_ * rows_; }  ///< tiles of the last picture
   [[nodiscard]] bool compiled() const noexcept { return static_cast<bool>(program_); }
 
  private:
@@ -41,6 +46,7 @@ class TilePass {
   GlTexture tiles_;
   GlFramebuffer framebuffer_;
   int columns_ = 0, rows_ = 0;
+  std::optional<FrameBlock> drawn_;  ///< what the tiles show these bricks from
 };
 
 }  // namespace palpate

@@ -24,6 +24,11 @@ glm::vec4 part_of(int transfer, double samples, bool shaded, Content content) {
   return {transfer, samples, shaded ? 1.0F : 0.0F, static_cast<float>(content)};
 }
 
+glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& frame) {
+  const double offset = (h.offset - glm::dot(h.outward, frame.center)) * power_of_two(-frame.exponent);
+  return {Vec3f(h.outward), std::clamp(offset, -1e30, 1e30)};
+}
+
 Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
 
 }  // namespace
@@ -72,7 +77,7 @@ NumberRange table_range(const VolumeView& view) noexcept {
 }
 
 VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, const Index3& bricks) {
-  PALPATE_CHECK(view.image != nullptr && view.lenses.size() <= kMostLenses);
+  PALPATE_CHECK(view.image != nullptr && view.lenses.size() <= kMostLenses && view.cuts.size() <= kMostCuts);
   const VolumeImage& image = *view.image;
   VolumeBlock block;
 
@@ -102,13 +107,16 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, c
     block.parts[i + 1] = part_of(transfer, lens.samples_per_voxel, lens.shading,
                                  lens.cut ? Content::kCut : content_of(lens.colored));
   }
-  block.lens_count.x = static_cast<int>(view.lenses.size());
+  block.counts.x = static_cast<int>(view.lenses.size());
+  for (const CuttingPlane& cut : view.cuts) {
+    if (cut.on) block.cuts[static_cast<std::size_t>(block.counts.y++)] = plane_in_scene(cut.kept, frame);
+  }
   return block;
 }
 
 LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame) {
   LensBlock block;
-  const double to_scene = power_of_two(-frame.exponent), to_data = power_of_two(frame.exponent);
+  const double to_data = power_of_two(frame.exponent);
   std::size_t next = 0;
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     const ConvexShape& shape = view.lenses[i].shape;
@@ -123,8 +131,7 @@ LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame) {
     block.centers[i] = {Vec3f(frame.scene_from_data(center_of(shape, frame.center))), magnification};
     block.faces[i] = {static_cast<int>(next), static_cast<int>(shape.half_spaces.size()), 0, 0};
     for (const ConvexShape::HalfSpace& h : shape.half_spaces) {
-      const double offset = (h.offset - glm::dot(h.outward, frame.center)) * to_scene;
-      block.planes[next++] = {Vec3f(h.outward), std::clamp(offset, -1e30, 1e30)};
+      block.planes[next++] = plane_in_scene(h, frame);
     }
   }
   return block;

@@ -38,7 +38,8 @@ struct VolumeBlock {
   glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, lengths{1.0F};
   std::array<glm::vec4, 1 + kMostLenses>
       parts{};  ///< transfer function, samples a voxel, shaded, 1 cut away or 2 coloured
-  glm::ivec4 lens_count{0};
+  std::array<glm::vec4, kMostCuts> cuts{};  ///< outward unit normal, offset, N
+  glm::ivec4 counts{0};                     ///< lenses, planes that cut
 };
 
 /// Laid out as a std140 uniform block, bound to 2.
@@ -49,7 +50,7 @@ struct LensBlock {
   std::array<glm::vec4, kMostLenses * kMostHalfSpaces> planes{};
 };
 
-/// @param bricks an axis. @pre view.image is not null; at most kMostLenses lenses.
+/// @param bricks an axis. @pre view.image is not null; at most kMostLenses lenses and kMostCuts planes.
 [[nodiscard]] VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
                                             const Index3& bricks);
 [[nodiscard]] LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame);

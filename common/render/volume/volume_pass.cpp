@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "common/render/gl/program.h"
 #include "common/render/volume/brick_map.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/slab_cache.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 
@@ -25,14 +27,28 @@ namespace palpate {
 namespace {
 
 // Bindings and locations of shaders/volume/.
-enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4, kColors = 5 };
+enum Unit : GLuint {
+  kVoxels = 0,
+  kTables = 1,
+  kEmptyBricks = 2,
+  kOpaqueDepth = 3,
+  kTiles = 4,
+  kColors = 5,
+  kKeptPicture = 6,
+  kKeptDepth = 7
+};
 enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
-constexpr GLint kHasOpaqueDepth = 0;
+constexpr GLint kHasOpaqueDepth = 0, kSlabNormal = 1, kSlabBorders = 2;
 
 enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored, kMagnified, kMagnifiedColored };
 constexpr std::array<const char*, 6> kFragments{"volume/volume.frag",    "volume/shaded.frag",
                                                 "volume/lenses.frag",    "volume/colored.frag",
                                                 "volume/magnified.frag", "volume/magnified_colored.frag"};
+
+/// As kFragments, for slabs; colours of voxels are drawn in one go.
+constexpr std::array<const char*, 6> kSlabFragments{"volume/slab_volume.frag",    "volume/slab_shaded.frag",
+                                                    "volume/slab_lenses.frag",    nullptr,
+                                                    "volume/slab_magnified.frag", nullptr};
 
 /// Whether the shader is told of lenses, be there none.
 bool knows_lenses(Variant variant) { return variant != Variant::kPlain && variant != Variant::kShaded; }
@@ -140,7 +156,7 @@ GlBuffer make_block_buffer(const BlockType& block) {
 }  // namespace
 
 struct VolumePass::State {
-  std::array<GlProgram, kFragments.size()> programs;
+  std::array<GlProgram, kFragments.size()> programs, slab_programs;
   GlVertexArray no_vertices = make_vertex_array();
   GlTexture voxels, colors, tables, empty_bricks;
   GlBuffer volume_block, lens_block;
@@ -154,6 +170,14 @@ struct VolumePass::State {
   Variant variant = Variant::kPlain;
   SceneFrame frame;
   bool asks_tiles = true;
+
+  // What was drawn last, and what is kept of it.
+  VolumeView shown;  // of update()
+  std::optional<VolumeView> drawn_view;
+  FrameBlock drawn_block;
+  std::unique_ptr<SlabCache> slabs;
+  std::size_t moving_cut = 0;  // of `slabs`
+  bool made_slabs = false;
 
   void update_image(const VolumeView& view) {
     if (image == view.image) return;
@@ -228,6 +252,68 @@ struct VolumePass::State {
     program = compile_program("volume/volume.vert", kFragments[static_cast<std::size_t>(variant)]);
     ++cost.programs;
   }
+
+  // Whether this picture can use what is kept, or begins to keep it.
+  bool uses_slabs(const FrameBlock& block, bool opaque) {
+    if (slabs && slabs->fits(shown, block, opaque)) return true;
+    slabs.reset();
+    if (!shown.keep_slabs || kSlabFragments[static_cast<std::size_t>(variant)] == nullptr) return false;
+    if (!drawn_view || !same_camera(drawn_block, block)) return false;
+    const auto cut = moved_cut(*drawn_view, shown);
+    if (!cut) return false;
+    slabs = std::make_unique<SlabCache>(shown, *cut, block, frame);
+    moving_cut = *cut;
+    GlProgram& program = slab_programs[static_cast<std::size_t>(variant)];
+    if (!program) {
+      program = compile_program("volume/volume.vert", kSlabFragments[static_cast<std::size_t>(variant)]);
+      ++cost.programs;
+    }
+    return true;
+  }
+
+  void bind(const GlProgram& program, const GlBuffer& block, std::uint32_t opaque_depth) {
+    glUseProgram(program.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, block.name());
+    if (knows_lenses(variant)) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, lens_block.name());
+    glBindTextureUnit(kVoxels, voxels.name());
+    glBindTextureUnit(kTables, tables.name());
+    glBindTextureUnit(kEmptyBricks, empty_bricks.name());
+    if (variant == Variant::kColored || variant == Variant::kMagnifiedColored)
+      glBindTextureUnit(kColors, colors.name());
+    glBindTextureUnit(kOpaqueDepth, opaque_depth);
+    glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(no_vertices.name());
+  }
+
+  void cast_rays() const { glDrawArrays(GL_TRIANGLES, 0, asks_tiles ? 6 * tiles.count() : 6); }
+
+  static void set_slab(const SlabCache::Slab& slab) {
+    glUniform3f(kSlabNormal, slab.normal.x, slab.normal.y, slab.normal.z);
+    glUniform2f(kSlabBorders, slab.lower, slab.upper);
+    glBindTextureUnit(kKeptPicture, slab.kept);
+    glBindTextureUnit(kKeptDepth, slab.depth);
+  }
+
+  // Makes what lacks below the slab of the cut, and leaves the shader ready for the rest.
+  void begin_slab(std::uint32_t opaque_depth) {
+    const GlProgram& program = slab_programs[static_cast<std::size_t>(variant)];
+    const GlBuffer uncut = make_block_buffer(make_volume_block(slabs->uncut(), frame, ranges.bricks));
+    const int before = slabs->drawn();
+    const SlabCache::Slab slab = slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth,
+                                                   [&](const SlabCache::Slab& below) {
+                                                     // Rays end at what was opaque then: what has moved since
+                                                     // is cast anew in each picture.
+                                                     bind(program, uncut, below.depth);
+                                                     set_slab(below);
+                                                     glDisable(GL_BLEND);
+                                                     cast_rays();
+                                                   });
+    made_slabs = slabs->drawn() > before;
+    cost.slab_bytes = slabs->bytes();
+    bind(program, volume_block, opaque_depth);
+    set_slab(slab);
+  }
 };
 
 VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
@@ -249,32 +335,37 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   s.asks_tiles = asks_tiles(view);
   s.volume_block = make_block_buffer(make_volume_block(view, frame, s.ranges.bricks));
   if (knows_lenses(s.variant)) s.lens_block = make_block_buffer(make_lens_block(view, frame));
+  s.shown = view;
 }
 
-void VolumePass::draw(std::uint32_t opaque_depth) {
+void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   State& s = *state_;
   PALPATE_CHECK(s.image != nullptr);
+  s.made_slabs = false;
+  s.cost.slab_bytes = 0;
+  const bool slabs = s.uses_slabs(block, opaque_depth != 0);
   if (s.asks_tiles) {
     if (!s.tiles.compiled()) ++s.cost.programs;
-    glBindTextureUnit(kTiles, s.tiles.draw(*s.image, s.frame));
+    glBindTextureUnit(kTiles, s.tiles.draw(*s.image, s.frame, block));
   }
-  glUseProgram(s.programs[static_cast<std::size_t>(s.variant)].name());
-  glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, s.volume_block.name());
-  if (knows_lenses(s.variant)) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, s.lens_block.name());
-  glBindTextureUnit(kVoxels, s.voxels.name());
-  glBindTextureUnit(kTables, s.tables.name());
-  glBindTextureUnit(kEmptyBricks, s.empty_bricks.name());
-  if (s.variant == Variant::kColored || s.variant == Variant::kMagnifiedColored)
-    glBindTextureUnit(kColors, s.colors.name());
-  glBindTextureUnit(kOpaqueDepth, opaque_depth);
-  glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
-
-  glDisable(GL_DEPTH_TEST);
+  if (slabs) {
+    s.begin_slab(opaque_depth);
+  } else {
+    s.bind(s.programs[static_cast<std::size_t>(s.variant)], s.volume_block, opaque_depth);
+  }
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glBindVertexArray(s.no_vertices.name());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  s.cast_rays();
   glDisable(GL_BLEND);
+  s.drawn_view = s.shown;
+  s.drawn_block = block;
+}
+
+bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }
+
+void VolumePass::forget_slabs() {
+  state_->slabs.reset();
+  state_->cost.slab_bytes = 0;
 }
 
 const VolumePass::Cost& VolumePass::cost() const noexcept { return state_->cost; }

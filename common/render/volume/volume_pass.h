@@ -14,6 +14,7 @@
 #include <memory>
 
 #include "common/render/camera.h"
+#include "common/render/frame_block.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -36,8 +37,16 @@ class VolumePass {
   /// depths say: with associated colours, without writing depth. Needs the frame's uniform block bound to 0.
   /// @param opaque_depth a texture with the depths of opaque things, one sample for each pixel of the frame
   /// block, or 0 where there are none (RenderTarget::copy_depth).
+  /// While one plane that cuts moves and all else stands still, what does not change is kept (slab_cache.h);
+  /// any other change throws it away.
   /// @pre update().
-  void draw(std::uint32_t opaque_depth);
+  /// @param block the frame's.
+  void draw(std::uint32_t opaque_depth, const FrameBlock& block);
+
+  /// Whether the last draw() made pictures of slabs, which takes longer than the pictures that follow.
+  [[nodiscard]] bool made_slabs() const noexcept;
+  /// Gives back what is kept of a plane that moved: it rests.
+  void forget_slabs();
 
   /// What was made for the last view, for `--explain`.
   struct Cost {
@@ -45,8 +54,9 @@ class VolumePass {
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU
     std::uint64_t table_bytes = 0;
     std::uint64_t brick_bytes = 0;
-    double table_ms = 0.0;     ///< of the last preintegration
-    double empty_share = 0.0;  ///< of the bricks, for the context
+    std::uint64_t slab_bytes = 0;  ///< kept of a plane that moves
+    double table_ms = 0.0;         ///< of the last preintegration
+    double empty_share = 0.0;      ///< of the bricks, for the context
   };
   [[nodiscard]] const Cost& cost() const noexcept;
 

@@ -28,7 +28,17 @@ struct VolumePicture::State {
   GlTexture color, depth;
   GlFramebuffer framebuffer;
   GlBuffer frame_buffer;
+  FrameBlock block;
   bool has_depth = false;
+
+  void update(const VolumeView& view, const Camera& camera) {
+    const SceneFrame frame = frame_of(view);
+    const ViewTransform transform =
+        view_transform(camera, frame, view.image->bounds(), static_cast<double>(width) / height);
+    block = make_frame_block(camera, transform, palette_of(Background::kDark), false, width, height);
+    frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
+    pass->update(view, frame);
+  }
 
   void draw() {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -36,7 +46,7 @@ struct VolumePicture::State {
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
     glClear(GL_COLOR_BUFFER_BIT);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-    pass->draw(has_depth ? depth.name() : 0);
+    pass->draw(has_depth ? depth.name() : 0, block);
   }
 };
 
@@ -59,12 +69,6 @@ VolumePicture::~VolumePicture() = default;
 FloatImage VolumePicture::draw(const VolumeView& view, const Camera& camera,
                                const std::vector<float>& opaque_depth) {
   State& s = *state_;
-  const SceneFrame frame = frame_of(view);
-  const double aspect = static_cast<double>(s.width) / s.height;
-  const ViewTransform transform = view_transform(camera, frame, view.image->bounds(), aspect);
-  const FrameBlock block =
-      make_frame_block(camera, transform, palette_of(Background::kDark), false, s.width, s.height);
-  s.frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
   s.has_depth = !opaque_depth.empty();
   if (s.has_depth) {
     GLuint name = 0;
@@ -75,13 +79,23 @@ FloatImage VolumePicture::draw(const VolumeView& view, const Camera& camera,
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
-  s.pass->update(view, frame);
+  s.update(view, camera);
   s.draw();
   FloatImage image{
       s.width, s.height,
       std::vector<float>(4 * static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height))};
   glReadPixels(0, 0, s.width, s.height, GL_RGBA, GL_FLOAT, image.rgba.data());
   return image;
+}
+
+double VolumePicture::draw_alone(const VolumeView& view, const Camera& camera) {
+  glFinish();
+  const Stopwatch clock;
+  state_->has_depth = false;
+  state_->update(view, camera);
+  state_->draw();
+  glFinish();
+  return 1e3 * clock.seconds();
 }
 
 double VolumePicture::draw_again() {

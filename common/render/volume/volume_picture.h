@@ -34,6 +34,8 @@ class VolumePicture {
   /// @param opaque_depth where not empty: a number of [0, 1] for each pixel, as a depth buffer holds.
   [[nodiscard]] FloatImage draw(const VolumeView& view, const Camera& camera,
                                 const std::vector<float>& opaque_depth = {});
+  /// Draws and waits for it, without reading it. [ms], by the clock.
+  double draw_alone(const VolumeView& view, const Camera& camera);
   /// Draws again what was drawn last and waits for it. [ms], by the clock.
   double draw_again();
   [[nodiscard]] const VolumePass::Cost& cost() const;

@@ -1,6 +1,7 @@
 /// What a picture shows of a volume, as plain data.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,15 @@
 #include "common/render/volume/volume_image.h"
 
 namespace palpate {
+
+/// A plane that cuts away what lies beyond it, in lenses too.
+struct CuttingPlane {
+  ConvexShape::HalfSpace kept;  ///< what is left
+  bool on = true;
+
+  bool operator==(const CuttingPlane&) const = default;
+};
+inline constexpr std::size_t kMostCuts = 8;  ///< of one picture
 
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
@@ -20,12 +30,15 @@ struct VolumeView {
   bool shading = true;             ///< Phong, with gradients of the values as normals
   bool colored = false;            ///< as Lens::colored, outside lenses
   bool shown = true;
-  std::vector<Lens> lenses;  ///< the first wins; at most kMostLenses
+  std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
+  std::vector<CuttingPlane> cuts;  ///< at most kMostCuts
 
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;
   int table_lengths = 32;
-  bool skip_empty = true;         ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
+  bool skip_empty = true;  ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
+  /// Keep pictures of slabs while one cut moves (slab_cache.h); changes no pixel by 1/255.
+  bool keep_slabs = true;
   bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
 };
 
@@ -35,6 +48,8 @@ struct VolumeView {
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
 
+/// Whether some plane cuts.
+[[nodiscard]] bool is_cut(const VolumeView& view);
 /// Whether some lens enlarges.
 [[nodiscard]] bool has_magnified_parts(const VolumeView& view);
 /// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere.

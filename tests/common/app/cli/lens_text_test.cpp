@@ -47,6 +47,8 @@ TEST(LensText, GivesTheWordsBack) {
   VolumeView view;
   view.lenses = {lens_of("sphere:1,2,3,4"), lens_of("halfspace:1,0,0,2,cut")};
   EXPECT_EQ(lenses_text(view), "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
+  view.cuts = {{.kept = {{0.0, 1.0, 0.0}, 3.0}, .on = false}};
+  EXPECT_EQ(lenses_text(view), "halfspace:0,1,0,3,cut,off;sphere:1,2,3,4;halfspace:1,0,0,2,cut");
   const Lens oblique = lens_of("cylinder:0.1,0.2,0.3,1,2,-3,0.7");
   const Lens again = lens_of(*words_of(oblique));
   EXPECT_NEAR(glm::distance(center_of(oblique.shape, {}), center_of(again.shape, {})), 0.0, 1e-14);
@@ -94,6 +96,8 @@ TEST(LensText, RefusesWhatIsNoLens) {
                                  "sphere:1,2,3,4,magnify=0.5",
                                  "sphere:1,2,3,4,magnify=nan",
                                  "halfspace:0,0,1,3,magnify=2",
+                                 "halfspace:0,0,1,3,off",
+                                 "sphere:1,2,3,4,cut,off",
                                  "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,magnify=2",
                                  "polyhedron:1,0,0",
                                  "polyhedron:0,0,0,1",
@@ -106,21 +110,30 @@ TEST(LensText, RefusesWhatIsNoLens) {
 
 TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   VolumeOptions options;
-  options.lenses = {"sphere:0,0,0,1", "sphere:0,0,0,2,cut"};
+  options.lenses = {"sphere:0,0,0,1", "halfspace:1,0,0,2,cut", "sphere:0,0,0,2,cut",
+                    "halfspace:0,1,0,3,off,cut"};
   options.clips = {"0,0,1,5"};
   options.shading = false;
   const ColorTransfer focus = make_color_transfer(ColorPreset::kMr, 0.0, 1.0);
-  const std::vector<Lens> lenses = make_lenses(options, focus);
-  ASSERT_EQ(lenses.size(), 3U);
+  const VolumeParts parts = make_parts(options, focus);
+  const std::vector<Lens>& lenses = parts.lenses;
+  ASSERT_EQ(lenses.size(), 2U);
+  ASSERT_EQ(parts.cuts.size(), 3U);
+  EXPECT_EQ(parts.cuts[0], (CuttingPlane{.kept = {{0.0, 0.0, 1.0}, 5.0}})) << "n.x > d is cut away";
+  EXPECT_TRUE(parts.cuts[1].on);
+  EXPECT_FALSE(parts.cuts[2].on);
   VolumeView view;
   view.lenses = lenses;
+  view.cuts = parts.cuts;
   view.shading = false;
-  EXPECT_EQ(lenses_text(view), "halfspace:0,0,1,5,cut;sphere:0,0,0,2,cut;sphere:0,0,0,1");
-  EXPECT_FALSE(lenses[0].transfer || lenses[1].transfer);
-  EXPECT_EQ(lenses[2].transfer, focus);
-  EXPECT_FALSE(lenses[2].shading);
-  options.clips.assign(kMostLenses, "0,0,1,5");
-  EXPECT_THROW((void)make_lenses(options, focus), Error);
+  EXPECT_EQ(lenses_text(view),
+            "halfspace:0,0,1,5,cut;halfspace:1,0,0,2,cut;halfspace:0,1,0,3,cut,off;sphere:0,0,0,2,cut;sphere:"
+            "0,0,0,1");
+  EXPECT_FALSE(lenses[0].transfer);
+  EXPECT_EQ(lenses[1].transfer, focus);
+  EXPECT_FALSE(lenses[1].shading);
+  options.clips.assign(kMostCuts - 1, "0,0,1,5");
+  EXPECT_THROW((void)make_parts(options, focus), Error) << "one plane too many";
 }
 
 // What a session keeps makes the same lenses again, whatever the context's rays are.
@@ -130,7 +143,7 @@ TEST(Lenses, KeepRaysOfTheirOwn) {
   options.samples = 2.0;
   VolumeView view;
   view.samples_per_voxel = 2.0;
-  view.lenses = make_lenses(options, std::nullopt);
+  view.lenses = make_parts(options, std::nullopt).lenses;
   EXPECT_EQ(view.lenses[0].samples_per_voxel, 8.0);
   EXPECT_FALSE(view.lenses[0].shading);
   EXPECT_EQ(view.lenses[0].magnification, 3.0);

@@ -1,10 +1,11 @@
-// Cutting planes in the window: what a press takes hold of, which lenses cut, and which place of a volume is
+// Cutting planes in the window: what a press takes hold of, where they cut, and which place of a volume is
 // seen under the mouse.
 
 #include "common/app/window/plane_control.h"
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,11 @@ PlanePoses two_planes() {
   return poses;
 }
 
+// A mere half-space among the cuts of a picture.
+bool keeps(const CuttingPlane& cut, const Vec3& x) {
+  return glm::dot(cut.kept.outward, x) <= cut.kept.offset;
+}
+
 TEST(PlaneControl, CutsTheVolumeWhereThePlanesAre) {
   VolumeView view;
   Lens ball;
@@ -34,26 +40,29 @@ TEST(PlaneControl, CutsTheVolumeWhereThePlanesAre) {
   view.lenses = {ball};
   const PlanePoses poses = two_planes();
   cut_by_planes(view, poses);
-  ASSERT_EQ(view.lenses.size(), 3U);
-  EXPECT_TRUE(view.lenses[0].cut && view.lenses[1].cut) << "before the lens, which they cut too";
-  EXPECT_TRUE(view.lenses[0].shape.contains({0.0, 0.0, 0.6}));
-  EXPECT_FALSE(view.lenses[0].shape.contains({0.0, 0.0, 0.4}));
-  EXPECT_TRUE(view.lenses[1].shape.contains({0.5, 0.0, 0.0}));
-  EXPECT_EQ(view.lenses[2].shape, ball.shape);
+  ASSERT_EQ(view.cuts.size(), 2U);
+  EXPECT_FALSE(keeps(view.cuts[0], {0.0, 0.0, 0.6}));
+  EXPECT_TRUE(keeps(view.cuts[0], {0.0, 0.0, 0.4}));
+  EXPECT_FALSE(keeps(view.cuts[1], {0.5, 0.0, 0.0}));
+  EXPECT_EQ(view.lenses, std::vector<Lens>{ball}) << "lenses are no planes";
 
-  // Again and moved: no further lens. And one plane less.
+  // Again and moved: no further cut, and what is off stays off. A cut that is no plane of the hand stays.
+  view.cuts[0].on = false;
+  const CuttingPlane other{.kept = {{0.0, 1.0, 0.0}, 0.9}};
+  view.cuts.push_back(other);
   PlanePoses moved = poses;
   moved.pose[0] = pose_of_plane({0.0, 0.0, 1.0}, -0.5, Vec3{0.0});
   cut_by_planes(view, moved, 2);
-  ASSERT_EQ(view.lenses.size(), 3U);
-  EXPECT_TRUE(view.lenses[0].shape.contains({0.0, 0.0, 0.4}));
+  ASSERT_EQ(view.cuts.size(), 3U);
+  EXPECT_FALSE(keeps(view.cuts[0], {0.0, 0.0, 0.4}) || view.cuts[0].on);
+  EXPECT_TRUE(view.cuts[1].on);
   moved.count = 1;
   cut_by_planes(view, moved, 2);
-  ASSERT_EQ(view.lenses.size(), 2U);
-  EXPECT_EQ(view.lenses[1].shape, ball.shape);
+  ASSERT_EQ(view.cuts.size(), 2U);
+  EXPECT_EQ(view.cuts[1], other);
 
   const PlanePoses back = planes_of(view, Vec3{0.0});
-  ASSERT_EQ(back.count, 1);
+  ASSERT_EQ(back.count, 2);
   EXPECT_LT(glm::length(plane_of_pose(back.pose[0]) - Vec4(0.0, 0.0, 1.0, -0.5)), 1e-14);
 }
 
@@ -118,6 +127,9 @@ TEST(PickVolume, FindsCutsAndSurfaces) {
     ASSERT_TRUE(cut);
     EXPECT_NEAR(glm::dot(camera.axes[2], *cut - box.center()), depth * box.size().x, 1e-9);
   }
+  for (CuttingPlane& cut : view.cuts) cut.on = false;
+  ASSERT_TRUE(at_middle());
+  EXPECT_EQ(*at_middle(), *surface) << "planes that are off hide nothing";
 }
 
 }  // namespace

@@ -149,9 +149,10 @@ TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
   options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
   const WindowResult before = run();
   ASSERT_TRUE(before.view.volume);
-  ASSERT_EQ(before.view.volume->lenses.size(), 1U);
-  const Lens cut = before.view.volume->lenses[0];
-  EXPECT_TRUE(cut.cut);
+  ASSERT_EQ(before.view.volume->cuts.size(), 1U);
+  const CuttingPlane cut = before.view.volume->cuts[0];
+  EXPECT_TRUE(cut.on);
+  EXPECT_TRUE(before.view.volume->lenses.empty()) << "planes are no lenses";
   // The sphere is in the middle of the picture, where the press takes hold of it.
   move_by(next(), 12.0, -14.0);
   at(next(), {.kind = InputKind::kPress});
@@ -159,15 +160,14 @@ TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
   at(next(), {.kind = InputKind::kRelease});
   last_ += kPause;
   const WindowResult turned = run();
-  ASSERT_EQ(turned.view.volume->lenses.size(), 1U) << "the same plane";
-  EXPECT_FALSE(turned.view.volume->lenses[0].shape == cut.shape);
+  ASSERT_EQ(turned.view.volume->cuts.size(), 1U) << "the same plane";
+  EXPECT_FALSE(turned.view.volume->cuts[0] == cut);
   EXPECT_EQ(turned.view.camera.axes, before.view.camera.axes) << "the view stays";
   // And back.
   key('Z', kModifierControl);
   last_ += kPause;
   const WindowResult undone = run();
-  const auto& face = undone.view.volume->lenses[0].shape.half_spaces[0];
-  EXPECT_LT(glm::distance(face.outward, cut.shape.half_spaces[0].outward), 1e-12);
+  EXPECT_LT(glm::distance(undone.view.volume->cuts[0].kept.outward, cut.kept.outward), 1e-12);
   EXPECT_EQ(undone.message, "undone");
 }
 

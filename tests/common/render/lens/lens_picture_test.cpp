@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +70,138 @@ TEST(LensPicture, AgreesWithTheReferenceFromInsideALens) {
     ASSERT_TRUE(lens.shape.contains(eye(camera)) || name == "half-space") << name;
     expect_agreement(picture, view, camera, name);
   }
+}
+
+TEST(LensPicture, AgreesWithTheReferenceWherePlanesCut) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  const CuttingPlane oblique{.kept = {glm::normalize(Vec3(1.0, 2.0, -0.5)), 0.1}};
+  const CuttingPlane along{.kept = {{0.0, 0.0, 1.0}, 0.3}};
+  for (const bool lensed : {false, true}) {
+    if (lensed) view.lenses = {lenses()[0].lens};
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+      const Camera camera = camera_of(view, {.azimuth = 0.0, .elevation = 0.0}, projection);
+      view.cuts = {oblique, along};
+      expect_agreement(picture, view, camera, lensed ? "two cuts and a lens" : "two cuts");
+      view.cuts[0].on = false;
+      expect_agreement(picture, view, camera, lensed ? "one cut and a lens" : "one cut");
+    }
+  }
+  // Against the lens that cuts the same away.
+  view.cuts = {oblique};
+  const FloatImage cut = picture.draw(view, camera_of(view));
+  Lens gone{make_half_space(0.1 * oblique.kept.outward, -oblique.kept.outward)};
+  gone.cut = true;
+  view.cuts.clear();
+  view.lenses.insert(view.lenses.begin(), gone);
+  EXPECT_LT(worst_difference(cut, picture.draw(view, camera_of(view))), 0.5 / 255.0);
+}
+
+// Pictures while one plane moves, with what is kept of the one before and cast anew.
+class MovingPlane : public testing::Test {
+ protected:
+  static constexpr int kSize = 48;
+
+  // Draws `view` with its first cut at each offset, in turn. @return how many pictures were put together.
+  int expect_same(VolumeView view, const Camera& camera, const std::vector<double>& offsets,
+                  const std::string& what, const std::vector<std::vector<float>>& depths = {}) {
+    int kept = 0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const std::vector<float> depth = depths.empty() ? std::vector<float>() : depths[i % depths.size()];
+      view.cuts[0].kept.offset = offsets[i];
+      view.keep_slabs = true;
+      const FloatImage moved = moving_.draw(view, camera, depth);
+      kept += moving_.cost().slab_bytes > 0 ? 1 : 0;
+      view.keep_slabs = false;
+      const double off = worst_difference(moved, still_.draw(view, camera, depth));
+      EXPECT_LE(off, 1.0 / 255.0) << what << ", at " << offsets[i];
+      EXPECT_EQ(still_.cost().slab_bytes, 0U);
+    }
+    return kept;
+  }
+
+  // Up, down, by jumps and by less than a step, out of the volume on either side.
+  std::vector<double> path(double reach) {
+    std::vector<double> offsets{0.0,          0.01,        0.5 * reach, 0.5 * reach + 1e-4,
+                                -0.4 * reach, 1.1 * reach, -1.1 * reach};
+    std::uniform_real_distribution<double> anywhere(-reach, reach);
+    for (int i = 0; i < 2; ++i) offsets.push_back(anywhere(random_));
+    return offsets;
+  }
+
+  std::mt19937 random_{11};
+  VolumePicture moving_{kSize, kSize}, still_{kSize, kSize};
+};
+
+TEST_F(MovingPlane, ChangesNoPixelOfAFullRedraw) {
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return glm::normalize(Vec3(normal(random_), normal(random_), normal(random_))); };
+  std::vector<std::pair<std::string, VolumeView>> views;
+  views.emplace_back("plain", plain_view());
+  views.emplace_back("shaded", plain_view()).second.shading = true;
+  views.emplace_back("lens", plain_view()).second.lenses = {lenses()[0].lens, lenses()[3].lens};
+  views.back().second.lenses[1].cut = true;
+  views.emplace_back("magnified", plain_view()).second.lenses = {lenses()[1].lens};
+  views.back().second.lenses[0].magnification = 2.5;
+  views.emplace_back("coarse", plain_view()).second.samples_per_voxel = 0.5;
+  views.emplace_back("dense", even_view(20.0));
+  for (auto& [name, view] : views) {
+    // Across the view, from either side, along it, along the data, anyhow.
+    const CameraAngles angles{.azimuth = 25.0, .elevation = 35.0};
+    const Mat3 axes = camera_of(view, angles).axes;
+    Projection projection = Projection::kPerspective;
+    for (const Vec3& n : {axes[2], -axes[2], axes[0], Vec3(0.0, 0.0, 1.0), any()}) {
+      view.cuts = {{.kept = {n, 0.0}}};
+      const std::vector<double> offsets = path(1.7);
+      const int kept = expect_same(view, camera_of(view, angles, projection), offsets, name);
+      EXPECT_EQ(kept, static_cast<int>(offsets.size()) - 1) << "all but the first";
+      projection =
+          projection == Projection::kPerspective ? Projection::kOrthographic : Projection::kPerspective;
+    }
+  }
+}
+
+// A second plane stands still, opaque things move; and whatever else changes, nothing is left of the old.
+TEST_F(MovingPlane, MayHaveOthersAboutIt) {
+  VolumeView view = plain_view();
+  view.lenses = {lenses()[2].lens};
+  const Camera camera = camera_of(view);
+  view.cuts = {{.kept = {glm::normalize(Vec3(1.0, 0.2, 0.4)), 0.0}}, {.kept = {{0.0, 1.0, 0.0}, 0.3}}};
+  std::vector<std::vector<float>> depths(3,
+                                         std::vector<float>(static_cast<std::size_t>(kSize * kSize), 1.0F));
+  std::uniform_real_distribution<float> near(0.3F, 0.9F);
+  for (std::vector<float>& depth : depths) {
+    for (std::size_t i = 0; i < depth.size(); i += 37 + 5 * (random_() % 3)) depth[i] = near(random_);
+  }
+  EXPECT_GT(expect_same(view, camera, path(1.2), "opaque things", depths), 5);
+
+  EXPECT_GT(expect_same(view, camera, {0.1, 0.2}, "none of them"), 0)
+      << "from the first picture without them on";
+  const auto forgets = [&](const char* what, VolumeView other, const Camera& from) {
+    view.cuts[0].kept.offset += 0.01;
+    (void)moving_.draw(view, camera);
+    view.cuts[0].kept.offset += 0.01;
+    (void)moving_.draw(view, camera);
+    EXPECT_GT(moving_.cost().slab_bytes, 0U) << what;
+    other.cuts[0].kept.offset = 0.2;
+    const FloatImage now = moving_.draw(other, from);
+    EXPECT_EQ(moving_.cost().slab_bytes, 0U) << what;
+    other.keep_slabs = false;
+    EXPECT_EQ(worst_difference(now, still_.draw(other, from)), 0.0) << what;
+  };
+  VolumeView other = view;
+  other.shading = true;
+  forgets("light", other, camera);
+  other = view;
+  other.cuts[1].kept.offset = 0.2;
+  forgets("two planes at once", other, camera);
+  other = view;
+  other.transfer = focus_colors();
+  forgets("colours", other, camera);
+  other = view;
+  other.cuts[0].kept.outward = {0.0, 0.0, 1.0};
+  forgets("a turned plane", other, camera);
+  forgets("the camera", view, camera_of(view, {.azimuth = 70.0}));
 }
 
 TEST(LensPicture, OfLensesThatOverlapShowsTheFirst) {

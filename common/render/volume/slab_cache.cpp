@@ -1,0 +1,181 @@
+#include "common/render/volume/slab_cache.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include <epoxy/gl.h>
+
+#include "common/base/check.h"
+#include "common/math/power_of_two.h"
+#include "common/render/volume/volume_block.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::uint64_t kPixelBytes = 8;
+constexpr std::uint64_t kMostBytes = 256ULL << 20U;  // of all P_k; fewer, thicker slabs in larger pictures
+constexpr int kMostSlabs = 20, kFewestSlabs = 6;
+constexpr std::size_t kSlabsBelow = 2;  // the plane, made one by one
+constexpr float kFar = 1e30F;
+
+GlTexture make_picture(GLenum format, int width, int height) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  GlTexture texture(name);
+  glTextureStorage2D(name, 1, format, width, height);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+// Keeps what is drawn to.
+class BoundFramebuffer {
+ public:
+  BoundFramebuffer() {
+    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name_);
+  }
+  ~BoundFramebuffer() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(name_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+  BoundFramebuffer(const BoundFramebuffer&) = delete;
+  BoundFramebuffer& operator=(const BoundFramebuffer&) = delete;
+
+ private:
+  std::array<GLint, 4> viewport_{};
+  GLint name_ = 0;
+};
+
+// With the offset of one cut and the samples of another view.
+VolumeView with_cut_and_samples(VolumeView view, std::size_t cut, const VolumeView& of) {
+  view.cuts[cut].kept.offset = of.cuts[cut].kept.offset;
+  view.samples_per_voxel = of.samples_per_voxel;
+  for (std::size_t i = 0; i < std::min(view.lenses.size(), of.lenses.size()); ++i)
+    view.lenses[i].samples_per_voxel = of.lenses[i].samples_per_voxel;
+  return view;
+}
+
+}  // namespace
+
+std::optional<std::size_t> moved_cut(const VolumeView& before, const VolumeView& now) {
+  if (before.cuts.size() != now.cuts.size()) return std::nullopt;
+  for (std::size_t i = 0; i < now.cuts.size(); ++i) {
+    if (before.cuts[i] == now.cuts[i]) continue;
+    if (now.cuts[i].on && same_picture(with_cut_and_samples(before, i, now), now)) return i;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool same_camera(const FrameBlock& a, const FrameBlock& b) {
+  return a.clip_from_scene == b.clip_from_scene && a.eye == b.eye && a.right == b.right && a.up == b.up;
+}
+
+SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& block,
+                     const SceneFrame& frame)
+    : view_(view), uncut_(view), cut_(cut), block_(block), frame_(frame) {
+  PALPATE_CHECK(view.image != nullptr && cut < view.cuts.size());
+  uncut_.cuts[cut].on = false;
+  width_ = static_cast<int>(block.size.x);
+  height_ = static_cast<int>(block.size.y);
+  const std::uint64_t each =
+      kPixelBytes * static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+  const int slabs =
+      std::clamp(static_cast<int>(kMostBytes / std::max<std::uint64_t>(each, 1)), kFewestSlabs, kMostSlabs);
+
+  const VolumeImage& image = *view.image;
+  const Vec3 n = view.cuts[cut].kept.outward;
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 g = image.lower();
+    for (int a = 0; a < 3; ++a) {
+      if ((corner >> static_cast<unsigned>(a) & 1U) != 0) g[a] = image.upper()[a];
+    }
+    const double s = glm::dot(n, frame.scene_from_data(image.origin + image.axes * g));
+    lowest = std::min(lowest, s);
+    highest = std::max(highest, s);
+  }
+  margin_ = step_lengths(view).longest * power_of_two(-frame.exponent);
+  for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
+  kept_.resize(borders_.size());
+  kept_.front() = make_picture(GL_RGBA16, width_, height_);
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  framebuffer_ = GlFramebuffer(name);
+  glClearTexImage(kept_.front().name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+}
+
+bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaque) const {
+  if (opaque != static_cast<bool>(depth_) || view.cuts.size() != view_.cuts.size()) return false;
+  if (std::memcmp(&block, &block_, sizeof block) != 0) return false;
+  VolumeView moved = view;
+  moved.cuts[cut_].kept.offset = view_.cuts[cut_].kept.offset;
+  return same_picture(moved, view_);
+}
+
+void SlabCache::copy_depth(std::uint32_t opaque_depth) {
+  depth_ = make_picture(GL_DEPTH_COMPONENT32F, width_, height_);
+  glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                     width_, height_, 1);
+}
+
+// P_to from P_from.
+void SlabCache::make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw) {
+  GlTexture made = make_picture(GL_RGBA16, width_, height_);
+  glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, made.name(), 0);
+  constexpr std::array<float, 4> kNothing{};
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_, height_);
+  slab.lower = lower_border(from);
+  slab.upper = static_cast<float>(borders_[to]);
+  slab.kept = kept_[from].name();
+  draw(slab);
+  kept_[to] = std::move(made);
+  ++drawn_;
+}
+
+// Below b_0 there is nothing, and rounding leaves nothing out.
+float SlabCache::lower_border(std::size_t k) const {
+  return k == 0 ? -kFar : static_cast<float>(borders_[k]);
+}
+
+SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
+  if (opaque_depth != 0 && !depth_) copy_depth(opaque_depth);
+  const Vec3 n = view_.cuts[cut_].kept.outward;
+  // As make_volume_block() has it, in single precision, so that the plane and a border are told apart alike.
+  const double d = (offset - glm::dot(n, frame_.center)) * power_of_two(-frame_.exponent);
+  const auto above = std::upper_bound(borders_.begin(), borders_.end(), d - margin_);
+  const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
+
+  Slab slab{.normal = glm::vec3(n), .depth = depth_.name()};
+  if (!kept_[k]) {
+    const BoundFramebuffer before;
+    std::size_t have = k;
+    while (!kept_[have]) --have;
+    // From far below in one go, in which rays end where they are opaque; some slabs below the plane, so that
+    // it may come back.
+    if (k - have > kSlabsBelow) {
+      const std::size_t far = k - kSlabsBelow;
+      make(slab, have, far, draw);
+      have = far;
+    }
+    for (; have < k; ++have) make(slab, have, have + 1, draw);
+  }
+  slab.lower = lower_border(k);
+  slab.upper = kFar;
+  slab.kept = kept_[k].name();
+  return slab;
+}
+
+std::uint64_t SlabCache::bytes() const noexcept {
+  const auto pictures = std::count_if(kept_.begin(), kept_.end(), [](const GlTexture& t) { return bool(t); });
+  constexpr std::uint64_t kDepthBytes = 4;
+  return (kPixelBytes * static_cast<std::uint64_t>(pictures) + (depth_ ? kDepthBytes : 0)) *
+         static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+}
+
+}  // namespace palpate

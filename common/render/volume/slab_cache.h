@@ -1,0 +1,83 @@
+/// Image caching (Ikits 2006, sec. 5.2): while one plane that cuts moves along its normal and all else stands
+/// still, the volume behind it is not cast again.
+///
+/// Symbols.  n normal of the plane, s = n.x [N]; b_k borders of slabs, b_0 < ... < b_K from one end of the
+/// volume to the other; P_k the picture of what lies at s <= b_k.
+///
+///   P_0 = nothing,   P_(k+1) = P_k and the slab from b_k to b_(k+1), whichever a ray meets first       (1)
+///   picture = P_k and what lies between b_k and the plane at s = d,   b_k <= d - h < b_(k+1)           (2)
+///
+/// h is the longest step of a ray: on each ray a border is moved to the next sample, so that no stretch
+/// between samples is split and (2) adds up to the same stretches as a ray that is cast in one go; h keeps
+/// what it is moved by within the cut. The order holds along each ray, so that both projections work.
+/// Pictures P_k are made when the plane first needs them, and kept with 16 bits a component: 8 bytes a pixel.
+///
+/// Local rendering (sec. 5.1) is part of it: where something opaque has moved since the first P_k, the ray is
+/// cast anew.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "common/render/camera.h"
+#include "common/render/frame_block.h"
+#include "common/render/gl/object.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+/// The cut that alone differs, by its offset, between two views; samples along rays may differ as well.
+[[nodiscard]] std::optional<std::size_t> moved_cut(const VolumeView& before, const VolumeView& now);
+/// Whether both blocks show the scene from the same place, be it in other pixels.
+[[nodiscard]] bool same_camera(const FrameBlock& a, const FrameBlock& b);
+
+class SlabCache {
+ public:
+  /// @param cut of `view` that moves. @pre view.image is not null.
+  SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& block, const SceneFrame& frame);
+
+  /// Whether `view` is the one that this was made for, but for where its cut is, in the same pixels.
+  /// @param opaque there are opaque things.
+  [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block, bool opaque) const;
+
+  /// What the shader is told (shaders/volume/slab.glsl).
+  struct Slab {
+    glm::vec3 normal{0.0F};            ///< n
+    float lower = 0.0F, upper = 0.0F;  ///< s
+    std::uint32_t kept = 0;            ///< texture with what lies below `lower`
+    std::uint32_t depth = 0;           ///< that of opaque things when it was made; 0: there were none
+  };
+  /// Draws the slab without the cut, over a framebuffer that is bound and clear, without blending.
+  using DrawSlab = std::function<void(const Slab&)>;
+  /// What (2) is left to draw, after P_k has been made where it lacks.
+  /// @param offset d of the cut [data units]. @param opaque_depth as for VolumePass::draw().
+  /// Keeps framebuffer and viewport.
+  [[nodiscard]] Slab slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw);
+
+  /// The view of all P_k.
+  [[nodiscard]] const VolumeView& uncut() const noexcept { return uncut_; }
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
+  [[nodiscard]] int drawn() const noexcept { return drawn_; }  ///< slabs so far
+
+ private:
+  void copy_depth(std::uint32_t opaque_depth);
+  void make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw);
+  [[nodiscard]] float lower_border(std::size_t k) const;
+
+  VolumeView view_, uncut_;
+  std::size_t cut_ = 0;
+  FrameBlock block_;
+  SceneFrame frame_;
+  int width_ = 0, height_ = 0;
+  std::vector<double> borders_;  ///< b
+  double margin_ = 0.0;          ///< h
+  std::vector<GlTexture> kept_;  ///< P_k; P_0 is one pixel of nothing, those not made have no name
+  GlTexture depth_;
+  GlFramebuffer framebuffer_;
+  int drawn_ = 0;
+};
+
+}  // namespace palpate

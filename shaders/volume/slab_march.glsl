@@ -1,0 +1,27 @@
+// As march() of volume/march.glsl, for the few steps in a slab: one loop for whole stretches and for those that a
+// border cuts short, so that rays that see nothing in the slab cost one step and no more.
+// Needs volume/slab.glsl and what march() needs.
+void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
+  float first_layer = part.x * volume.lengths.y;
+  float d = layer_for(part.y, ray) * volume.lengths.x;
+  stay_in_slab(d, from, to);
+  bool leaps = volume.bricks.w > 0.5;
+  float t = from, front = value_at(ray.start + t * ray.speed);
+  while (t < to && gathered.a <= volume.lengths.z) {
+    vec4 seen = vec4(0.0);
+    float middle = t;
+    for (int i = 0; i < 8; ++i) {  // light costs most: on to the next stretch that is seen
+      float n = floor(t / d + 1e-3);
+      // The last sample that is still in empty bricks.
+      float inside = leaps ? floor(end_of_empty(ray, t, part.x) / d) : n;
+      float next = min(max(n + 1.0, inside) * d, to);
+      float back = value_at(ray.start + next * ray.speed);
+      if (!(inside > n)) seen = short_stretch(front, back, first_layer, next - t);
+      middle = 0.5 * (t + next);
+      t = next;
+      front = back;
+      if (seen.a > 0.0 || !(t < to)) break;
+    }
+    gather(seen, ray.direction, part, ray.start + middle * ray.speed, gathered);
+  }
+}

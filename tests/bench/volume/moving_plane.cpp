@@ -1,0 +1,136 @@
+// One plane cuts a volume and moves along its normal, the view stands still: frames put together from kept
+// slabs (common/render/volume/slab_cache.h) against frames cast anew, in turns.
+//   build/release/bench/moving_plane_bench TOOTH.nhdr HEAD.nii.gz [pixels] [steps]
+// Times are those of the processor, all threads together, as in volume_bench; the clock's stand beside them.
+// "new" frames all rays cast; "kept" mean of the whole drag, forth and back, all pictures of slabs made on
+// the way; "first" the first kept frame, "rest" those that made none. A plane faces the viewer, or what it
+// cuts away lies behind; goes along the view; goes along z; goes obliquely.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/base/clock.h"
+#include "common/field/color_transfer.h"
+#include "common/render/camera.h"
+#include "common/render/gl/context.h"
+#include "common/render/volume/volume_picture.h"
+#include "tests/bench/volume/vtk_side.h"
+
+namespace palpate::bench {
+namespace {
+
+struct Frame {
+  double cpu_ms = 0.0, ms = 0.0;
+};
+
+Frame timed(const std::function<void()>& draw) {
+  const std::clock_t before = std::clock();
+  const Stopwatch clock;
+  draw();
+  const double ms = 1e3 * clock.seconds();
+  return {1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC, ms};
+}
+
+Frame mean(const std::vector<Frame>& frames) {
+  Frame sum;
+  for (const Frame& each : frames) {
+    sum.cpu_ms += each.cpu_ms / static_cast<double>(frames.size());
+    sum.ms += each.ms / static_cast<double>(frames.size());
+  }
+  return sum;
+}
+
+// @param n of the plane, towards what is cut away.
+void drag(const std::string& name, VolumeView view, const Camera& camera, const Vec3& n, int pixels,
+          int steps) {
+  VolumePicture kept(pixels, pixels, VolumePicture::Context::kCurrent);
+  VolumePicture anew(pixels, pixels, VolumePicture::Context::kCurrent);
+  const Box box = view.image->bounds();
+  const Vec3 half = 0.5 * box.size();
+  const double reach = glm::dot(glm::abs(n), half), middle = glm::dot(n, box.center());
+  view.cuts = {{.kept = {glm::normalize(n), 0.0}}};
+  std::vector<Frame> all_new, all_kept, rest;
+  double worst = 0.0;
+  Frame first;
+  for (int i = 0; i <= steps; ++i) {
+    // Forth and back over the inner fifth.
+    view.cuts[0].kept.offset = middle + 0.2 * reach * std::sin(2.0 * 3.14159265358979 * (i + 0.3) / steps);
+    view.keep_slabs = false;
+    const Frame cast = timed([&] { (void)anew.draw_alone(view, camera); });
+    const FloatImage a = anew.draw(view, camera);
+    view.keep_slabs = true;
+    const int programs = kept.cost().programs;
+    const std::uint64_t before = kept.cost().slab_bytes;
+    const Frame put = timed([&] { (void)kept.draw_alone(view, camera); });
+    const bool same = kept.cost().slab_bytes == before && kept.cost().programs == programs;
+    worst = std::max(worst, worst_difference(a, kept.draw(view, camera)));
+    if (i == 0) continue;  // nothing has moved yet: tables, voxels and shaders are made
+    all_new.push_back(cast);
+    all_kept.push_back(put);
+    if (i == 1) {
+      first = put;
+    } else if (same) {
+      rest.push_back(put);
+    }
+  }
+  const Frame n0 = mean(all_new), k0 = mean(all_kept), r0 = mean(rest);
+  std::printf(
+      "  %-26s new %6.1f (%6.1f) kept %6.1f (%6.1f) rest %6.1f first %6.1f  x%.2f (x%.2f at rest), worst "
+      "%.2f/255, %.0f MB\n",
+      name.c_str(), n0.cpu_ms, n0.ms, k0.cpu_ms, k0.ms, r0.cpu_ms, first.cpu_ms, n0.cpu_ms / k0.cpu_ms,
+      n0.cpu_ms / r0.cpu_ms, 255.0 * worst, static_cast<double>(kept.cost().slab_bytes) / 1e6);
+  std::fflush(stdout);
+}
+
+void drags(const std::string& name, const VolumeView& view, int pixels, int steps) {
+  const Camera camera = make_camera(view.image->bounds(), {.azimuth = 30.0, .elevation = 20.0}, 1.0);
+  std::printf("%s, %s, %d x %d, CPU ms (clock)\n", name.c_str(), view.shading ? "shaded" : "not shaded",
+              pixels, pixels);
+  const std::array<std::pair<const char*, Vec3>, 5> planes{
+      {{"faces the viewer", camera.axes[2]},
+       {"cuts behind", -camera.axes[2]},
+       {"along the view", camera.axes[0]},
+       {"along z", {0.0, 0.0, 1.0}},
+       {"oblique", glm::normalize(Vec3(1.0, -2.0, 1.5))}}};
+  for (const auto& [what, n] : planes) drag(what, view, camera, n, pixels, steps);
+}
+
+}  // namespace
+}  // namespace palpate::bench
+
+int main(int argc, char** argv) {
+  using namespace palpate;
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: moving_plane_bench TOOTH.nhdr HEAD.nii.gz [pixels] [steps]\n");
+    return 2;
+  }
+  const int pixels = argc > 3 ? std::atoi(argv[3]) : 512, steps = argc > 4 ? std::atoi(argv[4]) : 40;
+  const OffscreenContext context;
+  std::printf("%s\n", gl_description().c_str());
+  for (const bool shading : {false, true}) {
+    VolumeView tooth;
+    tooth.image = bench::read_sample(argv[1]);
+    tooth.transfer = ColorTransfer({{499.0, {0.6F, 0.3F, 0.2F}, 0.0},
+                                    {500.0, {0.6F, 0.3F, 0.2F}, 0.005},
+                                    {800.0, {0.9F, 0.6F, 0.3F}, 0.08},
+                                    {1300.0, {1.0F, 1.0F, 1.0F}, 0.5}});
+    tooth.shading = shading;
+    bench::drags("tooth", tooth, pixels, steps);
+    VolumeView head;
+    head.image = bench::read_sample(argv[2]);
+    head.transfer = ColorTransfer({{59.0, {0.4F, 0.2F, 0.2F}, 0.0},
+                                   {60.0, {0.4F, 0.2F, 0.2F}, 0.002},
+                                   {120.0, {0.8F, 0.5F, 0.4F}, 0.04},
+                                   {255.0, {1.0F, 1.0F, 1.0F}, 0.4}});
+    head.shading = shading;
+    bench::drags("head", head, pixels, steps);
+  }
+}
