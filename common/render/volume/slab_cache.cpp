@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint64_t kPixelBytes = 8;
 constexpr std::uint64_t kMostBytes = 256ULL << 20U;  // of all P_k; fewer, thicker slabs in larger pictures
-constexpr int kMostSlabs = 20, kFewestSlabs = 6;
-constexpr std::size_t kSlabsBelow = 2;  // the plane, made one by one
+constexpr int kMostSlabs = 48, kFewestSlabs = 6;
+constexpr std::size_t kSlabsBelow = 4;  // the plane, made one by one
 constexpr float kFar = 1e30F;
 
 GlTexture make_picture(GLenum format, int width, int height) {
