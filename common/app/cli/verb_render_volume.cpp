@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include "common/app/cli/felt_surface_view.h"
@@ -5,6 +6,7 @@
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/volume_scene.h"
+#include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
@@ -54,6 +56,8 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, image, options, aspect);
+  drawn.view.notes = notes_of(AnnotationList(annotations_of(options.touch.annotations, "--annotation")),
+                              length_unit(drawn.view), std::nullopt);
   if (touched) show_touch(drawn.view, modes, volume, options, context);
   return drawn;
 }
@@ -63,13 +67,14 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
 Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the volume, with or without a display",
-          .groups = {.view = true, .touch = true, .path = true, .out = true, .picture = true},
+          .groups = {.view = true, .touch = true, .path = true, .notes = true, .out = true, .picture = true},
           .examples = std::move(examples),
           .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
             const PictureMaker maker{
                 .check =
                     [&modes](const Options& given) {
                       check_volume_options(given.volume);
+                      (void)annotations_of(given.touch.annotations, "--annotation");
                       if (!given.path.empty()) (void)read_probe_path(given.path.string());
                       (void)mode_of(modes, given);
                       (void)touch_settings(given.touch);
