@@ -157,9 +157,10 @@ struct SceneRenderer::State {
   std::optional<SceneView> still;
   std::size_t still_path = 0;  // the path is drawn there up to this point
   TractProgress progress;
-  double tract_ms = 0.0;         // of the last picture
-  double unseen_tract_ms = 0.0;  // of tracts that the volume has not been drawn over
-  double volume_ms = 0.0;        // over tracts, the last time
+  std::function<bool()> stop_tracts;  // of the call of draw()
+  double tract_ms = 0.0;              // of the last picture
+  double unseen_tract_ms = 0.0;       // of tracts that the volume has not been drawn over
+  double volume_ms = 0.0;             // over tracts, the last time
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -287,7 +288,7 @@ struct SceneRenderer::State {
                         .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
                         .opacity = static_cast<float>(progress.opacity()),
                         .tolerance = kTractTolerance * base.tolerance};
-    progress.drawn(tracts->draw(how, progress.next(), progress.goal(), milliseconds));
+    progress.drawn(tracts->draw(how, progress.next(), progress.goal(), milliseconds, stop_tracts));
     tract_ms = 1e3 * watch.seconds();
   }
 
@@ -354,8 +355,9 @@ SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
 SceneRenderer::~SceneRenderer() = default;
 
 void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution,
-                         double tract_milliseconds) {
+                         double tract_milliseconds, const std::function<bool()>& stop_tracts) {
   State& s = *state_;
+  s.stop_tracts = stop_tracts;
   s.since_draw.restart();
   if (s.target.resize(width, height, resolution)) s.still.reset();
   s.update_geometry(view);

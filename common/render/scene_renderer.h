@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "common/render/scene_view.h"
@@ -32,9 +33,10 @@ class SceneRenderer {
   /// while the mouse moves a scene that is slow to draw; text stays sharp.
   /// @param tract_milliseconds that this picture may spend on tracts. Where they take longer it shows an even
   /// sample of them; the same view again adds more of them (tract_progress.h).
+  /// @param stop_tracts where set, asked every few hundredths of a second whether to end that before.
   /// @throws Error (usage) for a size that cannot be drawn.
   void draw(const SceneView& view, int width, int height, double resolution = 1.0,
-            double tract_milliseconds = HUGE_VAL);
+            double tract_milliseconds = HUGE_VAL, const std::function<bool()>& stop_tracts = {});
   /// Whether the last picture shows all tracts that there is room for.
   [[nodiscard]] bool complete() const noexcept;
   /// What the last picture shows of the tracts.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -43,6 +45,8 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
+// Pictures' worth of tracts that are added at once while nothing else happens.
+constexpr double kPatientPictures = 5.0;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
 // A lens that has not moved for so long stands still: its picture is drawn sharp [s].
@@ -122,9 +126,8 @@ class Window {
       return;
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-    const bool busy = job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
     if (renderer_->complete()) {
-      glfwWaitEventsTimeout(busy ? kBusyRest : kIdleRest);
+      glfwWaitEventsTimeout(busy() ? kBusyRest : kIdleRest);
     } else {
       glfwPollEvents();  // there is work to do meanwhile: more tracts
     }
@@ -170,6 +173,10 @@ class Window {
       leave_ = true;
       glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
     }
+  }
+
+  [[nodiscard]] bool busy() const {
+    return job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
   }
 
   void inject(int frame) {
@@ -299,6 +306,8 @@ class Window {
     const WindowLayout parts = layout(width, height, gui_->text_height());
     picture_ = parts.picture;
     gui_->set_background(view_.background);
+    // Those that come while the picture is drawn are for the next frame.
+    const auto handled = static_cast<std::ptrdiff_t>(glfw_.events().size());
     gui_->begin_frame(glfw_.events(), width, height, seconds);
     handle_events(parts);
     if (needs_camera_ && scene_) {
@@ -345,7 +354,9 @@ class Window {
     view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_->surfaces().meshes);
     if (scene_) view_.surfaces.insert(view_.surfaces.end(), scene_->surfaces.begin(), scene_->surfaces.end());
     if (const int popped = touch_->readout().popped; popped != told_popped_) {
-      if (popped > told_popped_) say(popped_words(), false);
+      if (popped > told_popped_)
+        say(touch_->felt_levels().field ? "popped through to the other side" : "popped over to the next line",
+            false);
       told_popped_ = popped;
     }
     if (touch_->readout().fault != told_fault_) {
@@ -360,7 +371,8 @@ class Window {
     }
     draw_picture(parts, width, height);
     gui_->end_frame();
-    glfw_.events().clear();
+    std::vector<InputEvent>& events = glfw_.events();
+    events.erase(events.begin(), events.begin() + handled);
   }
 
   /// The volume is cut where the hand has put the planes. They begin where it is cut already.
@@ -377,11 +389,6 @@ class Window {
     if (!(poses == cut_planes_)) lens_moved_ = glfwGetTime();
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
-  }
-
-  [[nodiscard]] std::string popped_words() const {
-    if (touch_->felt_levels().field) return "popped through to the other side";
-    return "popped over to the next line";
   }
 
   // Panels first: what happens over them is not for the camera.
@@ -563,7 +570,16 @@ class Window {
     picture = with_quality(std::move(picture), quality);
     if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
         quality.resolution != state_.quality.resolution || !renderer_->complete()) {
-      renderer_->draw(picture, w, h, quality.resolution, tract_time_.milliseconds(moving));
+      // While nobody waits for them, fewer pictures are shown, and more time is left for tracts: until
+      // something happens.
+      const bool patient = !moving && !busy() && !scripted();
+      const auto stop = [this] {
+        glfwPollEvents();
+        return !glfw_.events().empty();
+      };
+      renderer_->draw(picture, w, h, quality.resolution,
+                      (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
+                      patient ? std::function<bool()>(stop) : nullptr);
       state_.frame_ms = renderer_->finish();
       state_.tract_share = renderer_->tract_share();
       if (moving) tract_time_.drawn(state_.frame_ms, state_.tract_share.milliseconds);

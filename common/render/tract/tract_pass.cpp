@@ -13,6 +13,10 @@
 namespace palpate {
 namespace {
 
+// Between two questions whether to stop [ms]: what a hand that moves the view hardly feels, and many times
+// what it costs to wait for the driver.
+constexpr double kBetweenQuestions = 30.0;
+
 // Locations and bindings of shaders/tract/.
 enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4 };
 constexpr GLuint kPoints = 0;
@@ -47,7 +51,8 @@ std::size_t TractPass::pieces_in(double milliseconds) const noexcept {
       std::clamp(milliseconds / piece_ms_, 1.0, static_cast<double>(std::max<std::size_t>(1, pieces()))));
 }
 
-std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds) {
+std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds,
+                            const std::function<bool()>& stop) {
   const Stopwatch watch;
   const bool screened = how.opacity < 1.0F;
   GlProgram& program = screened ? screened_ : opaque_;
@@ -67,7 +72,8 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
   // Between two waits half of what there seems to be time for, so that a driver's threads seldom wait for
   // each other.
   std::size_t piece = first;
-  std::size_t batch = pieces_in(0.5 * milliseconds);
+  const auto stretch = [&](double time) { return stop ? std::min(time, kBetweenQuestions) : time; };
+  std::size_t batch = pieces_in(stretch(0.5 * milliseconds));
   while (piece < last) {
     for (const std::size_t end = std::min(piece + batch, last); piece < end; ++piece) {
       if (screened) glUniform1ui(kPiece, static_cast<GLuint>(piece));
@@ -79,7 +85,8 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
     const double spent = 1e3 * watch.seconds();
     piece_ms_ = spent / static_cast<double>(piece - first);
     if (spent + piece_ms_ > milliseconds) break;
-    batch = pieces_in(0.5 * (milliseconds - spent));
+    if (stop && stop()) break;
+    batch = pieces_in(stretch(0.5 * (milliseconds - spent)));
   }
   return piece;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,8 +28,10 @@ class TractPass {
   /// drawn.
   void update(const std::shared_ptr<const TractBundle>& bundle, const SceneFrame& frame);
   /// Draws pieces from `first` on up to `last`, one at least, until the next would take longer than
-  /// `milliseconds` in all. @pre update(), first < last <= pieces(). @return the piece to go on with.
-  std::size_t draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds);
+  /// `milliseconds` in all, or `stop`, where it is set and asked several times, says so.
+  /// @pre update(), first < last <= pieces(). @return the piece to go on with.
+  std::size_t draw(const TractDraw& how, std::size_t first, std::size_t last, double milliseconds,
+                   const std::function<bool()>& stop = {});
   /// How many pieces there seems to be time for in `milliseconds`, one at least; all if that is infinite.
   [[nodiscard]] std::size_t pieces_in(double milliseconds) const noexcept;
   /// How many pieces there are to draw. Of bundles that would not fit into memory that is less than all.

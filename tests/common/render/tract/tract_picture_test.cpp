@@ -142,6 +142,21 @@ TEST(TractPicture, IsTheSameInBitsWithAVolumeAndTransparent) {
   EXPECT_EQ(in_bits(view).rgba, whole().rgba);
 }
 
+// A hand that moves the view does not wait for the time to be over.
+TEST(TractPicture, TractsEndWhenAskedTo) {
+  const OffscreenContext context;
+  SceneView view = front_view({});
+  view.tracts = TractView{.bundle = random_bundle(900, 400), .width = 6.0};
+  constexpr double kLong = 1e9;  // [ms]
+  SceneRenderer renderer;
+  int asked = 0;
+  renderer.draw(view, kSize, kSize, 1.0, kLong, [&] { return ++asked == 1; });
+  EXPECT_EQ(asked, 1);
+  EXPECT_FALSE(renderer.complete());
+  renderer.draw(view, kSize, kSize, 1.0, kLong, [] { return false; });
+  EXPECT_TRUE(renderer.complete());
+}
+
 // A part of transparent tracts hides as much of what lies behind as all of them do, by its higher opacity:
 // the mean of all pixels differs by less than a tenth of what tracts change of it.
 TEST(TractPicture, APartOfTransparentTractsLooksLikeAll) {
