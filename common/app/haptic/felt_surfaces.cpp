@@ -69,6 +69,18 @@ std::optional<Vec3> first_surface_between(const FeltLevels& felt, const Vec3& fr
   return std::nullopt;
 }
 
+std::optional<double> felt_level(const FeltLevels& felt, double value) {
+  // Proxies are on their surface to rounding; a level next to it is far farther away.
+  constexpr double kOnSurface = 1e-6;
+  if (!felt.field) return std::nullopt;
+  const double near = kOnSurface * (felt.field->highest() - felt.field->lowest());
+  for (int l = 0; l < felt.isovalues.count; ++l) {
+    const double level = felt.isovalues.value[static_cast<std::size_t>(l)];
+    if (std::abs(value - level) <= near) return level;
+  }
+  return std::nullopt;
+}
+
 std::string beyond_values(const ScalarField& field, const Isovalues& isovalues) {
   std::string words;
   int count = 0;

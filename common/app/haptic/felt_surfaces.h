@@ -33,6 +33,9 @@ struct FeltLevels {
 [[nodiscard]] std::optional<Vec3> first_surface_between(const FeltLevels& felt, const Vec3& from,
                                                         const Vec3& to);
 
+/// The isovalue on whose surface a proxy is where the field has that value; none where it is on none.
+[[nodiscard]] std::optional<double> felt_level(const FeltLevels& felt, double value);
+
 /// Says which isovalues lie outside the values of `field`, where no surface is; empty where none does.
 [[nodiscard]] std::string beyond_values(const ScalarField& field, const Isovalues& isovalues);
 

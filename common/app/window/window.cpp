@@ -364,6 +364,7 @@ class Window {
       say(told_fault_, true);
     }
     play();
+    follow_layer();
     // A slow job whose answer is no longer wanted makes way for the next.
     if (!(state_.settings == settings_before) && job_->running() && job_kind_ == JobKind::kUpdate &&
         job_->seconds() > kPatience) {
@@ -528,6 +529,13 @@ class Window {
     if (!state_.playing || !scene_ || job_->running()) return;
     const std::size_t count = scene_->info->times.size();
     if (count > 1) state_.settings.time_step = (state_.settings.time_step + 1) % count;
+  }
+
+  /// A heart shows the layer that the hand is on, with its fibres.
+  void follow_layer() {
+    const ProbeReadout& hand = touch_->readout();
+    if (!scene_ || !scene_->info->layers || !hand.held || !hand.scalar) return;
+    if (const auto level = felt_level(touch_->felt_levels(), *hand.scalar)) state_.settings.layer = *level;
   }
 
   [[nodiscard]] std::vector<PngText> picture_texts() const {

@@ -59,6 +59,14 @@ TEST(FeltSurfaces, TheLatestRequestWins) {
   EXPECT_TRUE(wait_for([&] { return has_levels(surfaces, {0.16}); }));
 }
 
+TEST(FeltLevel, IsThatOfTheSurfaceThatAProxyIsOn) {
+  const FeltLevels felt{make_scalar_field(sphere_scalar()), {{0.25, 1.0}, 2}};
+  EXPECT_EQ(felt_level(felt, 0.25 + 1e-9), 0.25);
+  EXPECT_EQ(felt_level(felt, 1.0), 1.0);
+  EXPECT_FALSE(felt_level(felt, 0.26)) << "beside it";
+  EXPECT_FALSE(felt_level({}, 0.25));
+}
+
 TEST(FirstSurfaceBetween, IsTheNearSideOfTheFirstLevelMet) {
   const FeltLevels felt{make_scalar_field(sphere_scalar()), {{0.25, 1.0}, 2}};
   const auto met = first_surface_between(felt, {-10.0, 0.1, 0.0}, {10.0, 0.1, 0.0});
