@@ -9,8 +9,8 @@ packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev li
 packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev zlib1g-dev"
 # The mesher of cardiac.
 packages_mesher="libcgal-dev libtet1.5-dev"
-# The tests: framework, benchmarks, virtual display, style.
-packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy"
+# The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.
+packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev"
 
 say() { printf '==> %s\n' "$*" >&2; }
 fail() { printf '==> %s\n' "$*" >&2; exit 1; }

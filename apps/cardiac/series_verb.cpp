@@ -18,7 +18,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Vec3> places_of(const SeriesOptions& series) {
   std::vector<Vec3> places;
@@ -113,7 +113,7 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
     for (const Vec3& x : summary.places) {
       CellHint hint;
       const ScalarSample sample = field->sample(x, hint);
-      summary.values.push_back(sample.status == SampleStatus::kOk ? sample.value : kNaN);
+      summary.values.push_back(sample.status == SampleStatus::kOk ? sample.value : kNoValue);
     }
     context.progress.advance(1);
   }

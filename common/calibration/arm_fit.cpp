@@ -67,11 +67,6 @@ std::vector<double> errors_of(const ArmEstimate& e, const std::vector<ArmMeasure
   return out;
 }
 
-ErrorRow error_row(const std::string& method, bool left_out, std::vector<double> metres) {
-  for (double& e : metres) e *= 1e3;
-  return {method, "distance", "mm", left_out, statistics_of(metres)};
-}
-
 }  // namespace
 
 ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhChain& nominal,
@@ -102,11 +97,11 @@ ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhCha
   for (const ArmMeasurement& row : rows) {
     if (row.grid == 0) first.push_back(row);
   }
-  report.errors.push_back(error_row("nominal", false, errors_of({nominal, start}, first)));
+  report.errors.push_back(distance_row("nominal", false, errors_of({nominal, start}, first)));
   const auto judge = [&](const std::string& method, const std::vector<DhhPlace>& places,
                          const Fitted& whole) {
-    report.errors.push_back(error_row(method, false, errors_of(whole.estimate, rows)));
-    report.errors.push_back(error_row(
+    report.errors.push_back(distance_row(method, false, errors_of(whole.estimate, rows)));
+    report.errors.push_back(distance_row(
         method, true,
         left_out_errors(
             rows, options.folds,

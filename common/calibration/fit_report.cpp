@@ -7,6 +7,11 @@
 
 namespace palpate {
 
+ErrorRow distance_row(const std::string& method, bool left_out, std::vector<double> metres) {
+  for (double& e : metres) e *= 1e3;
+  return {method, "distance", "mm", left_out, statistics_of(metres)};
+}
+
 ErrorStatistics statistics_of(std::span<const double> errors) {
   ErrorStatistics out{.count = errors.size()};
   if (errors.empty()) return out;

@@ -77,6 +77,9 @@ struct FitReport {
 /// @param source file; @param remedy what to measure next. @throws Error (bad input).
 void require_identifiable(const Identifiability& found, const std::string& source, const std::string& remedy);
 
+/// A row of a report: statistics of distances, in millimetres. @param metres one a measurement [m].
+[[nodiscard]] ErrorRow distance_row(const std::string& method, bool left_out, std::vector<double> metres);
+
 /// Fills in condition number and weak combinations.
 void describe(FitReport& report, const Identifiability& found);
 

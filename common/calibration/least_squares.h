@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "common/math/vec.h"
+
 namespace palpate {
 
 struct ParameterBlock {
@@ -27,6 +29,13 @@ struct ResidualBlock {
   std::function<void(const double* const* parameters, double* residuals)> evaluate;
   bool robust = true;  ///< whether the loss applies; prior knowledge is taken as it is
 };
+
+/// Three values of a parameter block.
+[[nodiscard]] inline Vec3 vector(const double* x) { return {x[0], x[1], x[2]}; }
+/// Three residuals.
+inline void write_residuals(double* residuals, const Vec3& x) {
+  for (int axis = 0; axis < 3; ++axis) residuals[axis] = x[axis];
+}
 
 /// How measurements far from the fit count. The scale is that of a block's residual norm.
 enum class Loss { kSquare, kHuber, kCauchy };

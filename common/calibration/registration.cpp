@@ -111,12 +111,7 @@ Estimate first_estimate(const std::vector<MarkerMeasurement>& rows) {
 }
 
 std::array<double, 3> numbers(const Vec3& x) { return {x.x, x.y, x.z}; }
-Vec3 vector(const double* x) { return {x[0], x[1], x[2]}; }
 Quat quaternion(const double* x) { return glm::normalize(Quat{x[0], x[1], x[2], x[3]}); }
-
-void write(double* residuals, const Vec3& x) {
-  for (int axis = 0; axis < 3; ++axis) residuals[axis] = x[axis];
-}
 
 ParameterBlock position_block(const std::string& name, const Vec3& x) {
   const auto [a, b, c] = numbers(x);
@@ -157,7 +152,7 @@ Problem posed(const std::vector<MarkerMeasurement>& rows, const Estimate& start,
                            .dimension = 3,
                            .evaluate =
                                [read, noise](const double* const* x, double* r) {
-                                 write(r, (vector(x[0]) - read.position) / noise.pose_position);
+                                 write_residuals(r, (vector(x[0]) - read.position) / noise.pose_position);
                                },
                            .robust = false});
     p.residuals.push_back({.parameters = {rotation},
@@ -165,7 +160,7 @@ Problem posed(const std::vector<MarkerMeasurement>& rows, const Estimate& start,
                            .evaluate =
                                [read, noise](const double* const* x, double* r) {
                                  const Quat left = quaternion(x[0]) * glm::conjugate(read.orientation);
-                                 write(r, 2.0 * short_vector_part(left) / noise.pose_orientation);
+                                 write_residuals(r, 2.0 * short_vector_part(left) / noise.pose_orientation);
                                },
                            .robust = false});
     for (std::size_t m = 0; m < kMaxMarkers; ++m) {
@@ -174,7 +169,8 @@ Problem posed(const std::vector<MarkerMeasurement>& rows, const Estimate& start,
                              .dimension = 3,
                              .evaluate = [v = *rows[i].markers[m], noise](const double* const* x, double* r) {
                                const Vec3 inside = vector(x[3]) + quaternion(x[4]) * vector(x[2]);
-                               write(r, (v - vector(x[0]) - quaternion(x[1]) * inside) / noise.marker);
+                               write_residuals(r,
+                                               (v - vector(x[0]) - quaternion(x[1]) * inside) / noise.marker);
                              }});
     }
   }
@@ -233,12 +229,6 @@ double row_error(const Estimate& e, const MarkerMeasurement& row) {
     count += 1.0;
   }
   return count > 0.0 ? sum / count : 0.0;
-}
-
-ErrorRow error_row(const std::string& method, bool left_out, const std::vector<double>& metres) {
-  std::vector<double> mm;
-  for (const double e : metres) mm.push_back(1e3 * e);
-  return {method, "distance", "mm", left_out, statistics_of(mm)};
 }
 
 }  // namespace
@@ -303,10 +293,10 @@ Registration calibrate_registration(const MeasurementTable<MarkerMeasurement>& t
 
   std::vector<double> residuals;
   for (const MarkerMeasurement& row : table.rows) residuals.push_back(row_error(solved.estimate, row));
-  report.errors.push_back(error_row("fitted", false, residuals));
+  report.errors.push_back(distance_row("fitted", false, residuals));
   report.outliers = outlying(residuals, 3.0 * options.noise.pose_position);
   if (table.rows.size() >= 2 * options.folds) {
-    report.errors.push_back(error_row(
+    report.errors.push_back(distance_row(
         "fitted", true,
         left_out_errors(
             table.rows, options.folds,

@@ -9,20 +9,8 @@
 namespace palpate {
 namespace {
 
-Vec3 vector(const double* x) { return {x[0], x[1], x[2]}; }
-
-void write(double* residuals, const Vec3& x) {
-  for (int axis = 0; axis < 3; ++axis) residuals[axis] = x[axis];
-}
-
 ParameterBlock point_block(const std::string& name) {
   return {.values = {0.0, 0.0, 0.0}, .names = {name + ".x", name + ".y", name + ".z"}};
-}
-
-ErrorRow error_row(bool left_out, const std::vector<double>& metres) {
-  std::vector<double> mm;
-  for (const double e : metres) mm.push_back(1e3 * e);
-  return {"fitted", "distance", "mm", left_out, statistics_of(mm)};
 }
 
 /// Minimizes, refuses what is singular, and reports parameters with deviations from the residuals.
@@ -75,7 +63,7 @@ LeastSquaresProblem pivot_problem(const std::vector<PivotMeasurement>& rows) {
   for (const PivotMeasurement& row : rows) {
     problem.residuals.push_back(
         {.parameters = {0, 1}, .dimension = 3, .evaluate = [row](const double* const* x, double* r) {
-           write(r, row.position + row.orientation * vector(x[0]) - vector(x[1]));
+           write_residuals(r, row.position + row.orientation * vector(x[0]) - vector(x[1]));
          }});
   }
   return problem;
@@ -93,7 +81,7 @@ LeastSquaresProblem eye_problem(const std::vector<SightingMeasurement>& rows, co
   for (const SightingMeasurement& row : rows) {
     problem.residuals.push_back(
         {.parameters = {0}, .dimension = 3, .evaluate = [row](const double* const* x, double* r) {
-           write(r, off_line(row.head.position + row.head.orientation * vector(x[0]), row));
+           write_residuals(r, off_line(row.head.position + row.head.orientation * vector(x[0]), row));
          }});
   }
   return problem;
@@ -125,19 +113,20 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
   };
   std::vector<double> residuals;
   for (const PivotMeasurement& row : table.rows) residuals.push_back(error({out.tip, out.pivot}, row));
-  report.errors.push_back(error_row(false, residuals));
+  report.errors.push_back(distance_row("fitted", false, residuals));
   report.outliers = outlying(residuals, 1e-4);
   if (table.rows.size() >= 2 * options.folds) {
     report.errors.push_back(
-        error_row(true, left_out_errors(
-                            table.rows, options.folds,
-                            [&](const std::vector<PivotMeasurement>& kept) {
-                              LeastSquaresProblem part = pivot_problem(kept);
-                              minimize(part, {.loss = options.loss, .loss_scale = options.loss_scale});
-                              return Points{vector(part.parameters[0].values.data()),
-                                            vector(part.parameters[1].values.data())};
-                            },
-                            error)));
+        distance_row("fitted", true,
+                     left_out_errors(
+                         table.rows, options.folds,
+                         [&](const std::vector<PivotMeasurement>& kept) {
+                           LeastSquaresProblem part = pivot_problem(kept);
+                           minimize(part, {.loss = options.loss, .loss_scale = options.loss_scale});
+                           return Points{vector(part.parameters[0].values.data()),
+                                         vector(part.parameters[1].values.data())};
+                         },
+                         error)));
   }
   return out;
 }
@@ -187,8 +176,8 @@ EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const 
   }
   report.condition_number = worst;
   report.seconds = watch.seconds();
-  report.errors.push_back(error_row(false, residuals));
-  if (!left_out.empty()) report.errors.push_back(error_row(true, left_out));
+  report.errors.push_back(distance_row("fitted", false, residuals));
+  if (!left_out.empty()) report.errors.push_back(distance_row("fitted", true, left_out));
   if (out.left && out.right) {
     out.separation = glm::distance(*out.left, *out.right);
     // Adults' eyes stand 51 to 77 mm apart (Dodgson 2004, 5th to 95th percentile widened).

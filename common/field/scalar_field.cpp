@@ -8,11 +8,6 @@
 namespace palpate {
 namespace {
 
-bool inside(const Box& box, const Vec3& x) noexcept {
-  return x.x >= box.lower.x && x.x <= box.upper.x && x.y >= box.lower.y && x.y <= box.upper.y &&
-         x.z >= box.lower.z && x.z <= box.upper.z;
-}
-
 /// Locates `x` in `mesh` and loads the values around it.
 SampleStatus load(const TetMesh& mesh, const PointScalars& values, const Vec3& x, CellHint& hint,
                   TetPoint& at, ScalarTet& tet) noexcept {
@@ -52,7 +47,7 @@ SampleStatus ScalarField::jet(const Vec3& x_local, CellHint& hint, Jet3& out) co
       out = {cell.value(x_local), cell.gradient(x_local), cell.hessian(x_local)};
     return status;
   }
-  if (!inside(analytic_->bounds(), x_local)) return SampleStatus::kOutside;
+  if (!analytic_->bounds().contains(x_local)) return SampleStatus::kOutside;
   const Jet3 jet = analytic_->jet(x_local);
   if (!std::isfinite(jet.value) || !is_finite(jet.gradient)) return SampleStatus::kBadData;
   out = jet;
@@ -72,7 +67,7 @@ ScalarSample ScalarField::sample(const Vec3& x_data, CellHint& hint) const noexc
     ScalarBoxCell cell;
     out.status = load(*box_, values_, x, cell);
     if (out.status == SampleStatus::kOk) value = cell.value(x);
-  } else if (inside(bounds_, x_data)) {
+  } else if (bounds_.contains(x_data)) {
     value = analytic_->value(x);
     out.status = std::isfinite(value) ? SampleStatus::kOk : SampleStatus::kBadData;
   }

@@ -41,11 +41,6 @@ VertexVectors read_vertices(const PointVectors& values, const TetMesh::Tet& cell
 /// The column v times the row g^T: m[j][i] = v_i g_j.
 Mat3 outer(const Vec3& v, const Vec3& g) noexcept { return {v * g.x, v * g.y, v * g.z}; }
 
-bool inside(const Box& box, const Vec3& x) noexcept {
-  return x.x >= box.lower.x && x.x <= box.upper.x && x.y >= box.lower.y && x.y <= box.upper.y &&
-         x.z >= box.lower.z && x.z <= box.upper.z;
-}
-
 CellIndex tet_hint(const CellHint& hint) noexcept {
   return hint.cell >= 0 && hint.cell <= INT32_MAX ? static_cast<CellIndex>(hint.cell) : kNoCell;
 }
@@ -71,7 +66,7 @@ VectorSample VectorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     out.status = cell.bad_data ? SampleStatus::kBadData : SampleStatus::kOk;
     v = cell.velocity(x);
   } else {
-    if (!inside(bounds_, x_data)) return out;
+    if (!bounds_.contains(x_data)) return out;
     v = analytic_->velocity(x);
     out.status = is_finite(v) ? SampleStatus::kOk : SampleStatus::kBadData;
   }
@@ -101,7 +96,7 @@ SampleStatus VectorField::jacobian(const Vec3& x_data, CellHint& hint, Mat3& m) 
     if (cell.bad_data) return SampleStatus::kBadData;
     local = cell.jacobian(x);
   } else {
-    if (!inside(bounds_, x_data)) return SampleStatus::kOutside;
+    if (!bounds_.contains(x_data)) return SampleStatus::kOutside;
     local = analytic_->jacobian(x);
   }
   if (frame_.rotated) local = frame_.rotation * local * glm::transpose(frame_.rotation);

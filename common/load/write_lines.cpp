@@ -25,13 +25,6 @@ std::size_t count_points(const std::vector<Line>& lines) {
   return points;
 }
 
-/// The shortest text that reads back as the same number.
-std::string text_of(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
 // ---- .vtp ----------------------------------------------------------------------------------------------
 
 /// VTK XML, PolyData, raw appended data (VTK File Formats, "XML File Formats"). `termination` is text; its
@@ -111,7 +104,7 @@ void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns
 float single(double value) {
   const auto narrow = static_cast<float>(value);
   if (std::isfinite(value) && !std::isfinite(narrow)) {
-    throw work_error("a value of " + text_of(value) +
+    throw work_error("a value of " + exact_number(value) +
                      " does not fit this format's single precision; write .vtp or .csv");
   }
   return narrow;
@@ -194,11 +187,11 @@ void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns
       for (const double value : {point.position.x, point.position.y, point.position.z, point.time, point.arc,
                                  point.speed, point.error}) {
         row += ",";
-        row += text_of(value);
+        row += exact_number(value);
       }
       row += ",";
       row += name_of(line.end);
-      for (const PointColumn& column : columns) (row += ',') += text_of(column.values[row_number]);
+      for (const PointColumn& column : columns) (row += ',') += exact_number(column.values[row_number]);
       ++row_number;
       row += "\n";
       file.write(row);

@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
 
-std::string text_of(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
-
 /// VTK XML, UnstructuredGrid, raw appended data.
 void write_vtu(OutputFile& file, std::span<const Vec3> points,
                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns) {
@@ -66,10 +60,10 @@ void write_csv(OutputFile& file, std::span<const Vec3> points, std::span<const M
   }
   file.write(row + "\n");
   for (std::size_t p = 0; p < points.size(); ++p) {
-    row = text_of(points[p].x) + "," + text_of(points[p].y) + "," + text_of(points[p].z);
+    row = exact_number(points[p].x) + "," + exact_number(points[p].y) + "," + exact_number(points[p].z);
     for (const MeshColumn& column : columns)
       for (std::size_t c = 0; c < column.components; ++c)
-        (row += ',') += text_of(column.values[column.components * p + c]);
+        (row += ',') += exact_number(column.values[column.components * p + c]);
     file.write(row + "\n");
   }
 }

@@ -40,6 +40,11 @@ struct Box {
     upper = glm::max(upper, x);
   }
   [[nodiscard]] bool empty() const noexcept { return !(lower.x <= upper.x); }
+  /// Whether `x` lies in the closed box.
+  [[nodiscard]] bool contains(const Vec3& x) const noexcept {
+    return x.x >= lower.x && x.x <= upper.x && x.y >= lower.y && x.y <= upper.y && x.z >= lower.z &&
+           x.z <= upper.z;
+  }
   [[nodiscard]] Vec3 size() const noexcept { return empty() ? Vec3{0.0} : upper - lower; }
   [[nodiscard]] Vec3 center() const noexcept { return 0.5 * lower + 0.5 * upper; }
   /// Length of the diagonal; neither overflows nor underflows where the box itself does not.

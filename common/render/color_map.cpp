@@ -157,16 +157,16 @@ Table make_table(ColorMap map) {
   return table;
 }
 
-constexpr std::array<std::string_view, kColorMapCount> kNames{"sequential", "heat", "diverging", "tension",
-                                                              "categorical"};
+constexpr std::array<std::string_view, kColorMapCount> kMapNames{"sequential", "heat", "diverging", "tension",
+                                                                 "categorical"};
 
 }  // namespace
 
-std::string_view name_of(ColorMap map) noexcept { return kNames[static_cast<std::size_t>(map)]; }
+std::string_view name_of(ColorMap map) noexcept { return kMapNames[static_cast<std::size_t>(map)]; }
 
 ColorMap color_map_from_name(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<ColorMap>(i);
+  for (std::size_t i = 0; i < kMapNames.size(); ++i) {
+    if (kMapNames[i] == name) return static_cast<ColorMap>(i);
   }
   throw usage_error("unknown colour map '" + std::string(name) +
                     "'; known: sequential, heat, diverging, tension, categorical");

@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::string_view, kColorByCount> kNames{
+constexpr std::array<std::string_view, kColorByCount> kColorByNames{
     "speed", "time", "arc", "error", "direction", "termination", "seed", "array", "uniform"};
 
 // Share of the values at either end that the colours do not spread over.
@@ -19,11 +19,13 @@ constexpr double kMaxDecades = 12.0;
 
 }  // namespace
 
-std::string_view name_of(ColorBy color_by) noexcept { return kNames[static_cast<std::size_t>(color_by)]; }
+std::string_view name_of(ColorBy color_by) noexcept {
+  return kColorByNames[static_cast<std::size_t>(color_by)];
+}
 
 ColorBy color_by_from_name(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<ColorBy>(i);
+  for (std::size_t i = 0; i < kColorByNames.size(); ++i) {
+    if (kColorByNames[i] == name) return static_cast<ColorBy>(i);
   }
   throw usage_error("cannot colour by '" + std::string(name) +
                     "'; known: speed, time, arc, error, direction, termination, seed, uniform");

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPause = 20ms;        // between two looks into the ring
+constexpr auto kRingPause = 20ms;    // between two looks into the ring
 constexpr auto kFlushInterval = 1s;  // what a crash may cost
 
 }  // namespace
@@ -63,7 +63,7 @@ void Recorder::write_loop(const std::stop_token& stop) {
   std::mutex sleeping;
   std::unique_lock lock(sleeping);
   while (!stop.stop_requested()) {
-    (void)wake_.wait_for(lock, stop, kPause, [] { return false; });
+    (void)wake_.wait_for(lock, stop, kRingPause, [] { return false; });
     drain();
     if (const auto now = std::chrono::steady_clock::now(); now - flushed >= kFlushInterval) {
       flush();

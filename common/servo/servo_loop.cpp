@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kPriority = 80;           // below the watchdog's, above everything that has none
+constexpr int kServoPriority = 80;      // below the watchdog's, above everything that has none
 constexpr int kMostReplayedATick = 16;  // a replay that fell behind catches up without holding the processor
 
 }  // namespace
@@ -82,7 +82,7 @@ void ServoLoop::collect_retired() noexcept {
 
 void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
   if (real_time) {
-    now_.real_time = {.real_time_priority = request_real_time_priority(kPriority),
+    now_.real_time = {.real_time_priority = request_real_time_priority(kServoPriority),
                       .memory_locked = lock_memory()};
   }
   ServoStatistics& statistics = now_.statistics;

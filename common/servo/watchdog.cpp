@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kPriority = 81;  // above the servo: it must run when the servo spins
+constexpr int kWatchdogPriority = 81;  // above the servo: it must run when the servo spins
 
 }  // namespace
 
@@ -17,7 +17,7 @@ Watchdog::Watchdog(Device& device, std::int64_t limit_ns)
 Watchdog::~Watchdog() = default;
 
 void Watchdog::watch(const std::stop_token& stop) {
-  request_real_time_priority(kPriority);
+  request_real_time_priority(kWatchdogPriority);
   std::int64_t reported = 0;
   std::unique_lock lock(sleeping_);
   while (!wake_.wait_for(lock, stop, std::chrono::nanoseconds(limit_ / 4), [] { return false; })) {

@@ -1,3 +1,4 @@
+#include "common/field/grid/tet_mesh.h"
 #include "common/trace/exact_kernel.h"
 
 namespace palpate {
@@ -7,7 +8,6 @@ constexpr double kInfinity = __builtin_huge_val();
 constexpr double kUlp = 0x1p-52;
 constexpr double kTangent = ExactPiece::kTangent;
 constexpr int kMaxAttempts = 12;
-constexpr std::int32_t kNoCell = -1;
 
 /// The first t > 0 at which each b + w t + a t^2 / 2 comes to zero, by a formula for both signs of w; where b
 /// is 0, when it does so again. Negative, infinite or NaN where it does not.

@@ -18,12 +18,12 @@
 namespace palpate {
 namespace {
 
-constexpr int kDeepest = 6;
+constexpr int kDeepestGroup = 6;
 
 /// A copy, since items of sequences are made on demand.
 std::optional<gdcm::DataElement> find(const gdcm::DataSet& set, const gdcm::Tag& tag, int depth = 0) {
   if (set.FindDataElement(tag)) return set.GetDataElement(tag);
-  if (depth == kDeepest) return std::nullopt;
+  if (depth == kDeepestGroup) return std::nullopt;
   for (const gdcm::DataElement& element : set.GetDES()) {
     // Frames of their own and what refers to other images say nothing of this one.
     const std::uint16_t group = element.GetTag().GetGroup();
@@ -78,8 +78,8 @@ std::vector<double> text_numbers(const std::string& text) {
 
 Vec3 unit(const Vec3& v) { return v / glm::length(v); }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& expected = "",
-                         const std::string& remedy = "") {
+[[noreturn]] void refuse_frame(const std::string& file, const std::string& found,
+                               const std::string& expected = "", const std::string& remedy = "") {
   throw input_error({file, "", found, expected, remedy});
 }
 
@@ -92,8 +92,8 @@ void place(const DicomScope& scope, DicomFrame& frame) {
     for (const double number : numbers) good = good && std::isfinite(number);
   }
   if (!good) {
-    refuse(frame.file, "does not say where its image lies",
-           "Image Position, Image Orientation (Patient) and Pixel Spacing");
+    refuse_frame(frame.file, "does not say where its image lies",
+                 "Image Position, Image Orientation (Patient) and Pixel Spacing");
   }
   frame.position = {position[0], position[1], position[2]};
   const Vec3 x{axes[0], axes[1], axes[2]}, y{axes[3], axes[4], axes[5]};
@@ -101,7 +101,8 @@ void place(const DicomScope& scope, DicomFrame& frame) {
   const bool square =
       glm::length(x) > 0.0 && glm::length(y) > 0.0 && std::abs(glm::dot(unit(x), unit(y))) < kSkew;
   if (!square || !(steps[0] > 0.0) || !(steps[1] > 0.0))
-    refuse(frame.file, "has axes that span no image", "two directions at a right angle and steps above zero");
+    refuse_frame(frame.file, "has axes that span no image",
+                 "two directions at a right angle and steps above zero");
   frame.along_row = unit(x);
   frame.along_column = unit(y);
   frame.row_step = steps[0];
@@ -114,16 +115,17 @@ void describe_pixels(const DicomScope& scope, DicomFrame& frame) {
     return static_cast<int>(dicom_number(scope, tag).value_or(otherwise));
   };
   if (whole({0x0028, 0x0002}, 1) != 1)
-    refuse(frame.file, "has " + std::to_string(whole({0x0028, 0x0002}, 1)) + " numbers a pixel",
-           "grey values, one number a pixel");
+    refuse_frame(frame.file, "has " + std::to_string(whole({0x0028, 0x0002}, 1)) + " numbers a pixel",
+                 "grey values, one number a pixel");
   frame.rows = whole({0x0028, 0x0010}, 0);
   frame.columns = whole({0x0028, 0x0011}, 0);
   frame.bits = whole({0x0028, 0x0100}, 0);
   frame.is_signed = whole({0x0028, 0x0103}, 0) == 1;
   frame.inverted = dicom_text(scope, {0x0028, 0x0004}) == "MONOCHROME1";
-  if (frame.rows < 1 || frame.columns < 1) refuse(frame.file, "has no image", "rows and columns of pixels");
+  if (frame.rows < 1 || frame.columns < 1)
+    refuse_frame(frame.file, "has no image", "rows and columns of pixels");
   if (frame.bits != 8 && frame.bits != 16 && frame.bits != 32)
-    refuse(frame.file, "has pixels of " + std::to_string(frame.bits) + " bits", "8, 16 or 32");
+    refuse_frame(frame.file, "has pixels of " + std::to_string(frame.bits) + " bits", "8, 16 or 32");
 }
 
 /// The frame's own item of a sequence of functional groups; null where there is none.
@@ -146,7 +148,7 @@ void read_header(gdcm::Reader& reader, const std::string& file) {
   } catch (const std::exception&) {
     read = false;
   }
-  if (!read) refuse(file, "cannot be read as DICOM", "", "it may be damaged");
+  if (!read) refuse_frame(file, "cannot be read as DICOM", "", "it may be damaged");
 }
 
 std::string title_of(const DicomScope& scope) {
@@ -217,13 +219,14 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
   frame.series = dicom_text(whole, {0x0020, 0x000e});
   frame.title = title_of(whole);
   if (dicom_text(whole, {0x0008, 0x0008}).find("MOSAIC") != std::string::npos) {
-    refuse(file, "is a mosaic: the slices of a volume side by side in one image", "an image for each slice",
-           "convert it to NIfTI first (dcm2niix), or send it from the scanner without mosaics");
+    refuse_frame(file, "is a mosaic: the slices of a volume side by side in one image",
+                 "an image for each slice",
+                 "convert it to NIfTI first (dcm2niix), or send it from the scanner without mosaics");
   }
   describe_pixels(whole, frame);
   constexpr std::size_t kMostFrames = 1'000'000;
   const double claimed = dicom_number(whole, {0x0028, 0x0008}).value_or(1.0);
-  if (!(claimed >= 1.0 && claimed <= kMostFrames)) refuse(file, "has no sensible number of frames");
+  if (!(claimed >= 1.0 && claimed <= kMostFrames)) refuse_frame(file, "has no sensible number of frames");
   const auto count = static_cast<std::size_t>(claimed);
   // Compression gains tenfold on scans and a thousandfold on nothing but air. No overflow: 2^16 2^16 2^20
   // 2^2.
@@ -233,8 +236,8 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) * count;
   if (pixels * static_cast<std::uint64_t>(frame.bits / 8) > kMostGain * stored) {
-    refuse(file, "claims " + std::to_string(pixels) + " pixels, more than a file of " +
-                     std::to_string(stored) + " bytes can hold");
+    refuse_frame(file, "claims " + std::to_string(pixels) + " pixels, more than a file of " +
+                           std::to_string(stored) + " bytes can hold");
   }
   std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept;
   const gdcm::DataSet* const shared = group_item(all, {0x5200, 0x9229}, 1, kept);
@@ -242,10 +245,10 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
   for (std::size_t f = 0; f < count; ++f) {
     const gdcm::DataSet* const own = group_item(all, {0x5200, 0x9230}, f + 1, kept);
     if (count > 1 && own == nullptr)
-      refuse(file,
-             "has " + std::to_string(count) + " frames, of which frame " + std::to_string(f + 1) +
-                 " has no place",
-             "an image for each slice, or an enhanced image");
+      refuse_frame(file,
+                   "has " + std::to_string(count) + " frames, of which frame " + std::to_string(f + 1) +
+                       " has no place",
+                   "an image for each slice, or an enhanced image");
     DicomScope scope;
     if (own != nullptr) scope.push_back(own);
     if (shared != nullptr) scope.push_back(shared);
@@ -258,7 +261,7 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
     frame.instance = number({0x0020, 0x0013}).value_or(0.0);
     frame.slope = number({0x0028, 0x1053}).value_or(1.0);
     frame.intercept = number({0x0028, 0x1052}).value_or(0.0);
-    if (frame.slope == 0.0) refuse(file, "has a rescale slope of zero");
+    if (frame.slope == 0.0) refuse_frame(file, "has a rescale slope of zero");
     frame.gradient = dicom_gradient(scope, frame);
     frames.push_back(frame);
     kept.resize(shared != nullptr ? 1 : 0);

@@ -15,7 +15,8 @@
 namespace palpate {
 namespace {
 
-[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& remedy = "") {
+[[noreturn]] void refuse_pixels(const std::string& file, const std::string& found,
+                                const std::string& remedy = "") {
   throw input_error({file, "pixels", found, "", remedy});
 }
 
@@ -26,7 +27,8 @@ std::vector<char> decode(const DicomFrame& frame, gdcm::PixelFormat& format) {
   reader.SetFileName(frame.file.c_str());
   std::vector<char> bytes;
   try {
-    if (!reader.Read()) refuse(frame.file, "cannot be read", "their transfer syntax may be unknown to GDCM");
+    if (!reader.Read())
+      refuse_pixels(frame.file, "cannot be read", "their transfer syntax may be unknown to GDCM");
     const gdcm::Image& image = reader.GetImage();
     const unsigned int* size = image.GetDimensions();
     format = image.GetPixelFormat();
@@ -34,17 +36,17 @@ std::vector<char> decode(const DicomFrame& frame, gdcm::PixelFormat& format) {
                       size[1] == static_cast<unsigned>(frame.rows) && format.GetSamplesPerPixel() == 1 &&
                       format.GetBitsAllocated() == frame.bits;
     const std::uint64_t frames = image.GetNumberOfDimensions() > 2 ? size[2] : 1;
-    if (!same || frame.number >= frames) refuse(frame.file, "are not as many as the header says");
+    if (!same || frame.number >= frames) refuse_pixels(frame.file, "are not as many as the header says");
     const std::uint64_t wanted = pixels * frames * static_cast<std::uint64_t>(frame.bits / 8);
-    if (image.GetBufferLength() != wanted) refuse(frame.file, "are not as many as the header says");
+    if (image.GetBufferLength() != wanted) refuse_pixels(frame.file, "are not as many as the header says");
     bytes.resize(wanted);
     if (!image.GetBuffer(bytes.data()))
-      refuse(frame.file, "cannot be decoded",
-             "the file may be cut off, or its transfer syntax unknown to GDCM");
+      refuse_pixels(frame.file, "cannot be decoded",
+                    "the file may be cut off, or its transfer syntax unknown to GDCM");
   } catch (const Error&) {
     throw;
   } catch (const std::exception&) {
-    refuse(frame.file, "cannot be decoded", "the file may be damaged");
+    refuse_pixels(frame.file, "cannot be decoded", "the file may be damaged");
   }
   return bytes;
 }

@@ -9,11 +9,10 @@
 #include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/load/mrtrix_header.h"
+#include "loaders/tract/tract_loader.h"
 
 namespace palpate {
 namespace {
-
-constexpr const char* kDamaged = "the file may be damaged or cut off";
 
 /// Where the points begin: "file: . 123".
 std::size_t start_of_points(const std::string& file, const MrtrixHeader& header, std::size_t file_size) {
@@ -27,7 +26,7 @@ std::size_t start_of_points(const std::string& file, const MrtrixHeader& header,
   const auto offset = parse_count(place);
   if (!offset || *offset < header.end || *offset > file_size) {
     throw input_error({file, "header, file", "the points cannot begin at byte " + std::string(place),
-                       std::to_string(header.end) + " to " + std::to_string(file_size), kDamaged});
+                       std::to_string(header.end) + " to " + std::to_string(file_size), kDamagedTracts});
   }
   return static_cast<std::size_t>(*offset);
 }
@@ -57,15 +56,17 @@ Tractogram read_points(const std::string& file, std::string_view bytes, bool big
       lines.starts.push_back(lines.points.size());
     } else if (infinite == 3) {
       if (lines.starts.back() != lines.points.size())
-        throw input_error({file, place(), "is not closed before the end of the file", "three NaN", kDamaged});
+        throw input_error(
+            {file, place(), "is not closed before the end of the file", "three NaN", kDamagedTracts});
       const std::size_t behind = bytes.size() - at - kStride;
       if (behind > 0) notes.push_back(counted(behind, "byte") + " behind the last line left unread");
       return lines;
     } else {
-      throw input_error({file, place(), "is not finite", "", kDamaged});
+      throw input_error({file, place(), "is not finite", "", kDamagedTracts});
     }
   }
-  throw input_error({file, place(), "the file ends without its end mark", "three infinities", kDamaged});
+  throw input_error(
+      {file, place(), "the file ends without its end mark", "three infinities", kDamagedTracts});
 }
 
 }  // namespace

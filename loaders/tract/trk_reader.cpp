@@ -12,11 +12,10 @@
 #include "common/base/file_numbers.h"
 #include "common/base/text.h"
 #include "common/load/trk_header.h"
+#include "loaders/tract/tract_loader.h"
 
 namespace palpate {
 namespace {
-
-constexpr const char* kDamaged = "the file may be damaged or cut off";
 
 /// Which axis of the head an axis of voxels runs along (0 right, 1 front, 2 up), and whether towards R, A, S.
 struct AxisLetter {
@@ -79,7 +78,8 @@ class TrkReader {
   }
 
   [[noreturn]] void refuse(const std::string& place, const std::string& found,
-                           const std::string& expected = "", const std::string& remedy = kDamaged) const {
+                           const std::string& expected = "",
+                           const std::string& remedy = kDamagedTracts) const {
     throw input_error({file_, place, found, expected, remedy});
   }
 

@@ -10,16 +10,10 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "loaders/vtk/saturated.h"
 
 namespace palpate {
 namespace {
-
-constexpr std::uint64_t kHuge = ~std::uint64_t{0};
-
-std::uint64_t times(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t product = 0;
-  return __builtin_mul_overflow(a, b, &product) ? kHuge : product;
-}
 
 std::string upper(std::string_view word) {
   std::string text(word);

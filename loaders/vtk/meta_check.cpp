@@ -18,7 +18,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kHeadBytes = std::size_t{64} << 10;
+constexpr std::size_t kMetaHeadBytes = std::size_t{64} << 10;
 constexpr std::size_t kLongestLine = 1000;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
 
@@ -146,7 +146,7 @@ VoxelPlace place_of(const MetaClaims& claims, const std::string& file) {
 }
 
 MetaClaims claims_of(const std::string& file) {
-  MetaClaims claims = read_meta_claims(read_head(file, kHeadBytes).bytes);
+  MetaClaims claims = read_meta_claims(read_head(file, kMetaHeadBytes).bytes);
   if (!claims.problem.empty())
     throw input_error({file, "header", claims.problem, "", "the file may be damaged"});
   return claims;

@@ -12,14 +12,14 @@ namespace palpate {
 namespace {
 
 /// Room for some ten thousand variables.
-constexpr std::size_t kHeadBytes = std::size_t{4} << 20;
+constexpr std::size_t kNetcdfHeadBytes = std::size_t{4} << 20;
 constexpr std::uint32_t kDimensions = 10;
 constexpr std::uint32_t kVariables = 11;
 constexpr std::uint32_t kAttributes = 12;
 
 /// The head ended before the header did.
 struct EndOfHead {};
-struct Broken {
+struct BrokenNetcdf {
   std::string what;
 };
 
@@ -72,13 +72,13 @@ class Header {
     const std::uint32_t found = tag();
     const std::uint64_t length = count();
     if (found == 0 && length == 0) return 0;
-    if (found != expected) throw Broken{"its header is damaged"};
+    if (found != expected) throw BrokenNetcdf{"its header is damaged"};
     return length;
   }
   std::uint64_t type_size() {
     static constexpr std::array<std::uint64_t, 12> kSizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const std::uint32_t type = tag();
-    if (type < 1 || type >= kSizes.size()) throw Broken{"its header names an unknown number type"};
+    if (type < 1 || type >= kSizes.size()) throw BrokenNetcdf{"its header names an unknown number type"};
     return kSizes[type];
   }
 
@@ -111,7 +111,8 @@ void check_variables(Header& header, std::uint64_t records, const std::vector<st
     bool is_record = false;
     for (std::uint64_t d = 0; d < rank; ++d) {
       const std::uint64_t id = header.count();
-      if (id >= dimensions.size()) throw Broken{"variable '" + name + "' has a dimension that is not there"};
+      if (id >= dimensions.size())
+        throw BrokenNetcdf{"variable '" + name + "' has a dimension that is not there"};
       if (d == 0 && dimensions[id] == 0) {
         is_record = true;  // the unlimited dimension has length 0 and comes first
       } else {
@@ -125,8 +126,8 @@ void check_variables(Header& header, std::uint64_t records, const std::vector<st
     const bool outside =
         begin > file_size || (!is_record && bytes > file_size - begin) || bytes > (std::uint64_t{1} << 60);
     if (outside)
-      throw Broken{"variable '" + name + "' does not fit into the file's " + std::to_string(file_size) +
-                   " bytes"};
+      throw BrokenNetcdf{"variable '" + name + "' does not fit into the file's " + std::to_string(file_size) +
+                         " bytes"};
     if (is_record) {
       recorded.push_back({name, begin, bytes});
       record_bytes += Header::padded(bytes);
@@ -139,8 +140,8 @@ void check_variables(Header& header, std::uint64_t records, const std::vector<st
     const std::uint64_t before = capped_product(records - 1, stride);
     if (before > file_size || record.bytes > file_size - before ||
         record.begin > file_size - before - record.bytes) {
-      throw Broken{"variable '" + record.name + "' of " + std::to_string(records) +
-                   " time steps does not fit into the file's " + std::to_string(file_size) + " bytes"};
+      throw BrokenNetcdf{"variable '" + record.name + "' of " + std::to_string(records) +
+                         " time steps does not fit into the file's " + std::to_string(file_size) + " bytes"};
     }
   }
 }
@@ -167,14 +168,14 @@ std::string netcdf_problem(std::string_view head, std::uint64_t file_size) {
   } catch (const EndOfHead&) {
     // The header goes on where the file does: nothing more can be said. Else it is cut off.
     if (head.size() >= file_size) return "its header is cut off";
-  } catch (const Broken& broken) {
+  } catch (const BrokenNetcdf& broken) {
     return broken.what;
   }
   return "";
 }
 
 void check_netcdf(const std::string& file) {
-  const HeadOfFile head = read_head(file, kHeadBytes);
+  const HeadOfFile head = read_head(file, kNetcdfHeadBytes);
   const std::string problem = netcdf_problem(head.bytes, head.file_size);
   if (!problem.empty()) throw input_error({file, "", problem, "", "it may be truncated"});
 }

@@ -7,18 +7,14 @@
 #include <optional>
 #include <sstream>
 
+#include "loaders/vtk/saturated.h"
+
 namespace palpate {
 namespace {
 
-constexpr std::uint64_t kHuge = ~std::uint64_t{0};
 /// No compressor of VTK's (zlib, lz4, lzma) makes more of a byte.
 constexpr std::uint64_t kMaxCompression = 8192;
 constexpr int kMaxComponents = 4096;
-
-std::uint64_t times(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t product = 0;
-  return __builtin_mul_overflow(a, b, &product) ? kHuge : product;
-}
 
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 

@@ -12,7 +12,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 /// Twice a triangle's area over its longest edge squared below which it has none.
 constexpr double kNoArea = 1e-10;
 
@@ -85,7 +84,7 @@ WallBorder border_of(const SampledWall& wall) {
       if (mesh.neighbors()[c][f] != kNoCell || mesh.zero_volume(static_cast<CellIndex>(c))) continue;
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t p = mesh.cells()[c][kFaces[f][i]];
+        const std::uint32_t p = mesh.cells()[c][kTetFaces[f][i]];
         if (number[p] < 0) {
           number[p] = static_cast<std::int64_t>(border.points.size());
           border.points.push_back(wall.points[p]);

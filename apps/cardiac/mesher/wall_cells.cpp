@@ -10,8 +10,6 @@ namespace {
 
 /// A point this part of a cell's volume outside one of its faces still counts as inside: rounding.
 constexpr double kOnFace = 1e-12;
-/// Faces opposite each corner of a tetrahedron.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return glm::dot(glm::cross(b - a, c - a), d - a);
@@ -20,7 +18,7 @@ double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 /// The least height over the longest edge.
 double flatness(std::span<const Vec3> points, const TetMesh::Tet& tet) {
   double area = 0.0, longest = 0.0;
-  for (const auto& face : kFaces) {
+  for (const auto& face : kTetFaces) {
     const Vec3& a = points[tet[face[0]]];
     area = std::max(area, glm::length(glm::cross(points[tet[face[1]]] - a, points[tet[face[2]]] - a)));
   }
@@ -76,7 +74,7 @@ class BorderPeel {
   void add_edges(std::size_t c, std::size_t f) {
     const TetMesh::Tet& tet = cells_.tets[c];
     for (std::size_t i = 0; i < 3; ++i)
-      border_.insert(edge_key(tet[kFaces[f][i]], tet[kFaces[f][(i + 1) % 3]]));
+      border_.insert(edge_key(tet[kTetFaces[f][i]], tet[kTetFaces[f][(i + 1) % 3]]));
   }
   [[nodiscard]] bool may_go(std::size_t c) const {
     if (kept_[c] == 0) return false;

@@ -8,11 +8,11 @@
 
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/window/curve_editor.h"
+#include "common/app/window/panel_parts.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr double kFarthest = 0.020;  // [m] of a threshold, to begin with
 
 constexpr bool needs_flow(AxisRule) noexcept { return false; }

@@ -24,6 +24,9 @@ enum class MouseButton : std::uint8_t { kLeft = 0, kRight = 1, kMiddle = 2 };
 /// Bits of InputEvent::modifiers, as GLFW has them.
 inline constexpr int kModifierShift = 1, kModifierControl = 2, kModifierAlt = 4;
 
+/// A press that is led farther than this is a drag, and no click [pixels].
+inline constexpr double kDrag = 4.0;
+
 struct InputEvent {
   InputKind kind = InputKind::kMove;
   double x = 0.0;  ///< [pixels] from the left of the window

@@ -9,13 +9,14 @@
 
 #include <imgui.h>
 
+#include "common/app/window/panel_parts.h"
 #include "common/base/text.h"
 #include "common/render/surface/surface_view.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kMillimetres = 1e3, kNearest = 0.5, kFarthest = 50.0;
+constexpr double kLeastMillimetres = 0.5, kMostMillimetres = 50.0;
 
 /// Bars over the range of the data, as roots, so that rare values show; a line at each isovalue. How far the
 /// isosurface is stands on it, so that no control below moves.
@@ -120,7 +121,7 @@ void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, cons
   draw_histogram(made.histogram.get(), *felt.field, felt.isovalues, fraction);
   if (const Isovalues edited = edit_values(felt); !(edited == felt.isovalues)) settings.isovalues = edited;
   choose_hold(settings);
-  if (distance_slider("lets through at", settings.depth, kNearest, kFarthest)) {
+  if (distance_slider("lets through at", settings.depth, kLeastMillimetres, kMostMillimetres)) {
     settings.snap_distance = std::min(settings.snap_distance, settings.depth);
   }
   if (settings.hold == IsosurfaceHold::kLayer) {

@@ -9,12 +9,11 @@
 #include <imgui.h>
 
 #include "common/app/haptic/grid_mode.h"
+#include "common/app/window/panel_parts.h"
 #include "common/haptics/widget/widget_text.h"
 
 namespace palpate {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 /// A number field that answers when the user is done with it.
 bool field(const char* label, double* values, int count) {

@@ -7,8 +7,6 @@ namespace palpate {
 namespace {
 
 constexpr int kLeftControlKey = 341, kRightControlKey = 345;  // GLFW's numbers
-/// A press that is led farther than this is a drag, and no click [pixels].
-constexpr double kDrag = 4.0;
 
 /// Moves the slice across axis 0, 1 or 2 of the data by one voxel, toward larger coordinates for `steps` > 0.
 void step_along(TensorView& view, std::size_t axis, int steps) {

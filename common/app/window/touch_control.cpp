@@ -14,8 +14,6 @@ namespace {
 constexpr int kLeftShift = 340, kRightShift = 344;
 /// A mouse that has not moved for so long rests [s].
 constexpr double kRest = 0.25;
-/// A press that is led farther than this is a drag, and no click [pixels].
-constexpr double kDrag = 4.0;
 
 PictureSize size_of(const PictureArea& area) {
   return {static_cast<int>(area.width), static_cast<int>(area.height)};

@@ -16,6 +16,7 @@
 #include "common/app/haptic/servo_rows.h"
 #include "common/app/window/curve_panel.h"
 #include "common/app/window/isosurface_panel.h"
+#include "common/app/window/panel_parts.h"
 #include "common/app/window/plane_panel.h"
 #include "common/app/window/readout_rows.h"
 #include "common/app/window/tensor_panel.h"
@@ -24,14 +25,6 @@
 
 namespace palpate {
 namespace {
-
-constexpr double kMillimetres = 1e3;
-
-bool slider(const char* label, double& value, double lower, double upper, const char* format,
-            ImGuiSliderFlags flags = 0) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
-                             flags | ImGuiSliderFlags_AlwaysClamp);
-}
 
 void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
   if (!ImGui::BeginCombo("mode", modes[choice.mode].name.c_str())) return;

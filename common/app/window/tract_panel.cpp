@@ -7,18 +7,13 @@
 
 #include <imgui.h>
 
+#include "common/app/window/panel_parts.h"
 #include "common/base/text.h"
 
 namespace palpate {
 namespace {
 
 constexpr int kMostSeedsPerVoxel = 64;
-
-bool slider(const char* label, double& value, double lower, double upper, const char* format,
-            ImGuiSliderFlags flags = 0) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
-                             flags | ImGuiSliderFlags_AlwaysClamp);
-}
 
 /// The shortest edge of a voxel [data units].
 double shortest_edge(const TensorVoxels& voxels) {

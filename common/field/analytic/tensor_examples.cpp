@@ -253,20 +253,20 @@ class FormulaTensor final : public AnalyticTensor {
 };
 
 template <typename Formula>
-std::shared_ptr<const AnalyticTensor> make() {
+std::shared_ptr<const AnalyticTensor> make_tensor() {
   return std::make_shared<FormulaTensor<Formula>>();
 }
 
-using Maker = std::shared_ptr<const AnalyticTensor> (*)();
-constexpr std::array<Maker, 8> kMakers{make<Helix>,   make<Straight>,          make<Crossing>,
-                                       make<Kissing>, make<Fanning>,           make<Isotropic>,
-                                       make<Planar>,  make<EigenvalueCrossing>};
+using TensorMaker = std::shared_ptr<const AnalyticTensor> (*)();
+constexpr std::array<TensorMaker, 8> kTensorMakers{
+    make_tensor<Helix>,   make_tensor<Straight>,  make_tensor<Crossing>, make_tensor<Kissing>,
+    make_tensor<Fanning>, make_tensor<Isotropic>, make_tensor<Planar>,   make_tensor<EigenvalueCrossing>};
 
 }  // namespace
 
 std::vector<ExampleInfo> tensor_examples() {
   std::vector<ExampleInfo> list;
-  for (const Maker maker : kMakers) {
+  for (const TensorMaker maker : kTensorMakers) {
     const auto formula = maker();
     list.push_back({formula->name(), formula->description()});
   }
@@ -275,7 +275,7 @@ std::vector<ExampleInfo> tensor_examples() {
 
 std::shared_ptr<const AnalyticTensor> tensor_formula(std::string_view name) {
   std::string known;
-  for (const Maker maker : kMakers) {
+  for (const TensorMaker maker : kTensorMakers) {
     auto formula = maker();
     if (formula->name() == name) return formula;
     known += (known.empty() ? "" : ", ") + formula->name();

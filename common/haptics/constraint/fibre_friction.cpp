@@ -9,10 +9,10 @@ namespace palpate {
 namespace {
 
 /// A motion below this is none [m].
-constexpr double kSettled = 1e-9;
-constexpr int kMostSteps = 24;
+constexpr double kNoDrag = 1e-9;
+constexpr int kMostDragSteps = 24;
 /// Longest step [m]: layers bend, and a faster hand is followed in several.
-constexpr double kStride = 0.005;
+constexpr double kDragStride = 0.005;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void FibreFriction::update(const Vec3& probe, const UpdateBudget& budget, LinkUp
   link.state = HoldState::kHeld;
   link.jacobian = Mat3{0.0};  // stuck
   bool rests = false;
-  for (int step = 0; step < kMostSteps && !rests; ++step) {
+  for (int step = 0; step < kMostDragSteps && !rests; ++step) {
     const FibreSample here = walk_.sample();
     if (here.status != SampleStatus::kOk || here.normal == Vec3{0.0}) {
       walk_.jump(asked);
@@ -46,7 +46,7 @@ void FibreFriction::update(const Vec3& probe, const UpdateBudget& budget, LinkUp
     r -= glm::dot(r, here.normal) * here.normal;
     const double length = glm::length(r) * to_metres;
     const double go = length - threshold_;
-    if (go <= kSettled) {
+    if (go <= kNoDrag) {
       rests = true;
       break;
     }
@@ -54,7 +54,7 @@ void FibreFriction::update(const Vec3& probe, const UpdateBudget& budget, LinkUp
     const Vec3 n = link.frame[0];
     const Mat3 in_layer = Mat3{1.0} - glm::outerProduct(n, n);
     link.jacobian = in_layer - (threshold_ / length) * (in_layer - glm::outerProduct(u, u));
-    if (!walk_.move(towards * (std::min(go, kStride) / to_metres), work)) break;
+    if (!walk_.move(towards * (std::min(go, kDragStride) / to_metres), work)) break;
   }
   if (!rests) link.state = HoldState::kFellBack;
   link.iterations = work.used;

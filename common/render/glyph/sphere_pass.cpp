@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 // Of shaders/glyph/sphere.vert.
-constexpr GLint kHaloWidth = 0, kOpacity = 1;
+constexpr GLint kHaloUniform = 0, kOpacityUniform = 1;
 constexpr GLuint kSpheresBinding = 0;
 constexpr GLsizei kCorners = 4;
 }  // namespace
@@ -24,8 +24,8 @@ void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width,
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpheresBinding, instances.name());
   glBindVertexArray(no_vertices_.name());
   draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
-    glUniform1f(kHaloWidth, opacity < 1.0F ? 0.0F : halo_width);
-    glUniform1f(kOpacity, opacity);
+    glUniform1f(kHaloUniform, opacity < 1.0F ? 0.0F : halo_width);
+    glUniform1f(kOpacityUniform, opacity);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));
   });
 }
