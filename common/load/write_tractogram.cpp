@@ -70,7 +70,7 @@ void write_array(OutputFile& file, const std::vector<T>& values) {
   file.write(std::as_bytes(std::span(values)));
 }
 
-void write_vtp_tracts(OutputFile& file, const Tractogram& lines) {
+void write_vtp(OutputFile& file, const Tractogram& lines) {
   const std::uint64_t point_bytes = lines.points.size() * sizeof(float);
   const std::uint64_t line_bytes = lines.line_count() * sizeof(std::int64_t);
   VtpAppendix appendix;
@@ -104,7 +104,7 @@ void write_vtp_tracts(OutputFile& file, const Tractogram& lines) {
   file.write("\n</AppendedData>\n</VTKFile>\n");
 }
 
-void write_csv_tracts(OutputFile& file, const Tractogram& lines) {
+void write_csv(OutputFile& file, const Tractogram& lines) {
   std::string text = "line,point,x,y,z";
   for (const auto& column : lines.of_points) (text += ',') += column.name;
   for (const auto& column : lines.of_lines) (text += ',') += column.name;
@@ -121,6 +121,17 @@ void write_csv_tracts(OutputFile& file, const Tractogram& lines) {
   }
 }
 
+using TractWriter = void (*)(OutputFile&, const Tractogram&);
+
+TractWriter tract_writer_for(const std::filesystem::path& path) {
+  const std::string ending = lower_ending(path);
+  if (ending == ".tck") return write_tck;
+  if (ending == ".trk") return write_trk;
+  if (ending == ".vtp") return write_vtp;
+  if (ending == ".csv") return write_csv;
+  throw usage_error(path.string() + ": tracts are written as .tck, .trk, .vtp or .csv, not '" + ending + "'");
+}
+
 }  // namespace
 
 std::string lower_ending(const std::filesystem::path& path) {
@@ -132,7 +143,7 @@ std::string lower_ending(const std::filesystem::path& path) {
 
 /// https://mrtrix.readthedocs.io, "MRtrix Tracks file format": a text header, then triplets of floats; NaN
 /// ends a track, infinity the file.
-void write_tck_tracts(OutputFile& file, const Tractogram& lines) {
+void write_tck(OutputFile& file, const Tractogram& lines) {
   check(lines);
   const std::string count = std::to_string(lines.line_count());
   const std::string start =
@@ -155,7 +166,7 @@ void write_tck_tracts(OutputFile& file, const Tractogram& lines) {
   file.write(std::as_bytes(std::span(last)));
 }
 
-void write_trk_tracts(OutputFile& file, const Tractogram& lines) {
+void write_trk(OutputFile& file, const Tractogram& lines) {
   check(lines);
   const TractogramImage image =
       lines.image.value_or(TractogramImage{.voxels = Index3{1}, .axes = Mat3{1.0}, .origin = Vec3{0.0}});
@@ -201,16 +212,7 @@ void write_trk_tracts(OutputFile& file, const Tractogram& lines) {
 
 void write_tractogram(const std::filesystem::path& path, const Tractogram& lines, bool overwrite) {
   check(lines);
-  const std::string ending = lower_ending(path);
-  const auto write = ending == ".tck"   ? write_tck_tracts
-                     : ending == ".trk" ? write_trk_tracts
-                     : ending == ".vtp" ? write_vtp_tracts
-                     : ending == ".csv" ? write_csv_tracts
-                                        : nullptr;
-  if (write == nullptr) {
-    throw usage_error(path.string() + ": tracts are written as .tck, .trk, .vtp or .csv, not '" + ending +
-                      "'");
-  }
+  const TractWriter write = tract_writer_for(path);
   OutputFile file(path, overwrite);
   try {
     write(file, lines);
