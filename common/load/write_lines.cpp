@@ -157,11 +157,11 @@ Tractogram tractogram_of(const std::vector<Line>& lines) {
   return packed;
 }
 
-void write_tck(OutputFile& file, const std::vector<Line>& lines, Columns) {
+void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, Columns) {
   write_tck(file, tractogram_of(lines));
 }
 
-void write_trk(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
+void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
   Tractogram packed = tractogram_of(lines);
   for (const PointColumn& column : columns) {
     auto& values =
@@ -204,8 +204,8 @@ using Writer = void (*)(OutputFile&, const std::vector<Line>&, Columns);
 Writer writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
   if (ending == ".vtp") return write_vtp;
-  if (ending == ".tck") return write_tck;
-  if (ending == ".trk") return write_trk;
+  if (ending == ".tck") return write_tck_lines;
+  if (ending == ".trk") return write_trk_lines;
   if (ending == ".csv") return write_csv;
   throw usage_error(path.string() + ": lines are written as .vtp, .tck, .trk or .csv, not '" + ending + "'");
 }

@@ -131,6 +131,74 @@ struct DicomImage {
   }
 };
 
+/// A sequence of the given items, each the bytes of its elements.
+inline std::string dicom_sequence(std::uint16_t group, std::uint16_t element,
+                                  const std::vector<std::string>& items) {
+  std::string bytes;
+  for (const std::string& item : items) {
+    bytes += as_bytes_of<std::uint16_t>({0xFFFE, 0xE000}) +
+             as_bytes_of({static_cast<std::uint32_t>(item.size())}) + item;
+  }
+  return dicom_element(group, element, "SQ", bytes);
+}
+
+/// The images as frames of one enhanced MR image (PS3.3 A.36): what they share stands once, places, gradients
+/// and times with each frame, as newer scanners write it.
+inline std::string enhanced_dicom(const std::vector<DicomImage>& frames, const std::vector<int>& times) {
+  const DicomImage& first = frames.front();
+  const auto whole = [](int value) { return as_bytes_of({static_cast<std::uint16_t>(value)}); };
+  const Vec3 x = first.along_row, y = first.along_column;
+  const std::string shared =
+      dicom_sequence(0x0020, 0x9116,
+                     {dicom_element(0x0020, 0x0037, "DS", decimals({x.x, x.y, x.z, y.x, y.y, y.z}))}) +
+      dicom_sequence(0x0028, 0x9110,
+                     {dicom_element(0x0028, 0x0030, "DS", decimals({first.row_step, first.column_step}))}) +
+      dicom_sequence(0x0028, 0x9145,
+                     {dicom_element(0x0028, 0x1052, "DS", "0") +
+                      dicom_element(0x0028, 0x1053, "DS", decimals({first.slope.value_or(1)}))});
+  std::vector<std::string> own;
+  std::string numbers;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const DicomImage& frame = frames[i];
+    std::string diffusion = dicom_element(0x0018, 0x9075, "CS", frame.gradient ? "DIRECTIONAL" : "NONE");
+    if (frame.gradient) {
+      const Vec3 g = *frame.gradient;
+      diffusion +=
+          dicom_sequence(0x0018, 0x9076, {dicom_element(0x0018, 0x9089, "FD", as_bytes_of({g.x, g.y, g.z}))});
+    }
+    diffusion += dicom_element(0x0018, 0x9087, "FD", as_bytes_of({frame.weighting}));
+    const Vec3 p = frame.position;
+    own.push_back(
+        dicom_sequence(0x0018, 0x9117, {diffusion}) +
+        dicom_sequence(
+            0x0020, 0x9111,
+            {dicom_element(0x0020, 0x9128, "UL", as_bytes_of({static_cast<std::uint32_t>(times[i])}))}) +
+        dicom_sequence(0x0020, 0x9113, {dicom_element(0x0020, 0x0032, "DS", decimals({p.x, p.y, p.z}))}));
+    for (const std::uint16_t pixel : frame.pixels) put(numbers, pixel);
+  }
+  constexpr const char* kEnhanced = "1.2.840.10008.5.1.4.1.1.4.1";
+  std::string meta = dicom_element(0x0002, 0x0001, "OB", std::string("\0\1", 2)) +
+                     dicom_element(0x0002, 0x0002, "UI", kEnhanced) +
+                     dicom_element(0x0002, 0x0003, "UI", first.series + ".1") +
+                     dicom_element(0x0002, 0x0010, "UI", first.syntax);
+  return std::string(128, '\0') + "DICM" +
+         dicom_element(0x0002, 0x0000, "UL", as_bytes_of({static_cast<std::uint32_t>(meta.size())})) + meta +
+         dicom_element(0x0008, 0x0008, "CS", first.image_type) +
+         dicom_element(0x0008, 0x0016, "UI", kEnhanced) +
+         dicom_element(0x0008, 0x0018, "UI", first.series + ".1") +
+         dicom_element(0x0008, 0x0060, "CS", "MR") + dicom_element(0x0008, 0x103e, "LO", first.title) +
+         dicom_element(0x0020, 0x000e, "UI", first.series) + dicom_element(0x0020, 0x0013, "IS", "1") +
+         dicom_element(0x0028, 0x0002, "US", whole(1)) + dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2") +
+         dicom_element(0x0028, 0x0008, "IS", std::to_string(frames.size())) +
+         dicom_element(0x0028, 0x0010, "US", whole(first.rows)) +
+         dicom_element(0x0028, 0x0011, "US", whole(first.columns)) +
+         dicom_element(0x0028, 0x0100, "US", whole(16)) +
+         dicom_element(0x0028, 0x0101, "US", whole(first.bits_stored)) +
+         dicom_element(0x0028, 0x0102, "US", whole(first.bits_stored - 1)) +
+         dicom_element(0x0028, 0x0103, "US", whole(0)) + dicom_sequence(0x5200, 0x9229, {shared}) +
+         dicom_sequence(0x5200, 0x9230, own) + dicom_element(0x7fe0, 0x0010, "OW", numbers);
+}
+
 /// `pixels` as one frame of run lengths (PS3.5 annex G), literal runs alone: high bytes, then low ones.
 inline std::string rle_pixels(const std::vector<std::uint16_t>& pixels) {
   std::vector<std::string> planes(2);

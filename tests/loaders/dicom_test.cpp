@@ -231,6 +231,53 @@ TEST_F(DicomTest, GradientsOfVendorsAreThoseOfTheStandard) {
   }
 }
 
+// One file with all frames, as newer scanners write it, is the series of single images.
+TEST_F(DicomTest, AnEnhancedImageIsTheSeriesOfItsFrames) {
+  std::vector<DicomImage> frames;
+  std::vector<int> times;
+  const std::vector<Vec3> directions{{0, 0, 0}, {0.6, 0.8, 0.0}, {0.0, -0.6, 0.8}};
+  for (const int k : {2, 0, 3, 1}) {
+    for (const int v : {1, 0, 2}) {
+      frames.push_back(slice(k, v));
+      frames.back().weighting = v == 0 ? 0.0 : 700.0;
+      if (v > 0) frames.back().gradient = directions[static_cast<std::size_t>(v)];
+      times.push_back(v + 1);
+    }
+  }
+  const auto file = folder_.write("enhanced", enhanced_dicom(frames, times));
+  Source source = open(file, true);
+  ASSERT_TRUE(source.info().diffusion.gradients);
+  const GradientTable& table = *source.info().diffusion.gradients;
+  EXPECT_EQ(table.weightings, (std::vector<double>{0.0, 700.0, 700.0}));
+  for (std::size_t v = 1; v < 3; ++v) {
+    const Vec3& g = directions[v];
+    EXPECT_LT(glm::distance(table.directions[v], Vec3(-g.x, -g.y, g.z)), 1e-8);
+  }
+  const DataSet block = source.read({kSignalArray}).front();
+  ASSERT_EQ(block.arrays.front().components, 3);
+  for (std::size_t p = 0; p < 48; ++p) {
+    for (int v = 1; v < 3; ++v)
+      EXPECT_EQ(block.arrays.front().at(p, v) - block.arrays.front().at(p, 0), 1000.0 * v);
+  }
+
+  // One volume, rescaled by what the frames share.
+  std::vector<DicomImage> still;
+  for (const int k : {3, 1, 0, 2}) still.push_back(slice(k));
+  const TempFolder other;
+  expect_truth(open(other.write("still", enhanced_dicom(still, {1, 1, 1, 1}))).read({"scalars"}).front());
+  for (DicomImage& frame : still) {
+    frame.slope = 0.5;
+    for (std::uint16_t& pixel : frame.pixels) pixel = static_cast<std::uint16_t>(2 * pixel);
+  }
+  expect_truth(open(other.write("rescaled", enhanced_dicom(still, {1, 1, 1, 1}))).read({"scalars"}).front());
+
+  // Frames that are not all described.
+  std::string cut = enhanced_dicom(still, {1, 1, 1, 1});
+  const std::string counted = dicom_element(0x0028, 0x0008, "IS", "4");
+  cut.replace(cut.find(counted), counted.size(), dicom_element(0x0028, 0x0008, "IS", "6"));
+  EXPECT_NE(refusal(other.write("cut", cut)).find("frame 5 has no place"), std::string::npos);
+}
+
 TEST_F(DicomTest, TraceImagesAreLeftOutAndMixedGradientsRefused) {
   std::vector<DicomImage> images;
   for (int k = 0; k < 4; ++k) {
