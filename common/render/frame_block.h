@@ -19,6 +19,8 @@ struct FrameBlock {
   glm::vec4 size{0.0F};       ///< width, height [pixels]; N a pixel at the focal point; focal distance
   glm::vec4 depth_cue{0.0F};  ///< nearest and farthest depth; fading at the far end; strength of highlights
   glm::vec4 background_top{0.0F}, background_bottom{0.0F};  ///< sRGB
+
+  bool operator==(const FrameBlock&) const = default;
 };
 
 /// @param width, height of the framebuffer [pixels].

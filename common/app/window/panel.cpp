@@ -196,7 +196,8 @@ void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   }
   bool automatic = !style.range.has_value();
   if (ImGui::Checkbox("automatic range", &automatic)) {
-    style.range = automatic ? std::nullopt : std::optional(state.automatic_range.value_or(ValueRange{}));
+    style.range =
+        automatic ? std::nullopt : std::optional(state.picture.automatic_range.value_or(ValueRange{}));
   }
   if (style.range) {
     ValueRange range = *style.range;

@@ -4,14 +4,13 @@
 #include <optional>
 #include <string>
 
+#include "common/app/window/live_picture.h"
 #include "common/app/window/seed_choice.h"
 #include "common/app/window/touch_panel.h"
 #include "common/app/window/tract_panel.h"
 #include "common/app/window/transfer_panel.h"
 #include "common/app/window/view_control.h"
 #include "common/app/window/window_model.h"
-#include "common/render/frame_budget.h"
-#include "common/render/scene_renderer.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"
 
@@ -19,17 +18,13 @@ namespace palpate {
 
 /// What panel and status line show and change.
 struct PanelState {
-  const SceneState* scene = nullptr;          ///< null until the first one is there
-  const Progress* job = nullptr;              ///< null while none runs
-  SceneSettings settings;                     ///< edited
-  SeedChoice seeds;                           ///< edited; goes into the settings
-  std::optional<ValueRange> automatic_range;  ///< that colours have while the view gives none
+  const SceneState* scene = nullptr;  ///< null until the first one is there
+  const Progress* job = nullptr;      ///< null while none runs
+  SceneSettings settings;             ///< edited
+  SeedChoice seeds;                   ///< edited; goes into the settings
+  PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
   bool message_is_error = false;
-  double frame_ms = 0.0;
-  FrameQuality quality;    ///< of the picture that was drawn
-  TractShare tract_share;  ///< likewise
-  double frames_per_second = 0.0;
   bool show_help = false;
   bool show_rates = false;
   bool playing = false;

@@ -55,16 +55,16 @@ std::string status_text(const SceneState& scene) {
 /// What is given up, first what is given up first, and the time.
 std::string frame_text(const PanelState& state) {
   std::string text;
-  const FrameQuality& quality = state.quality;
+  const FrameQuality& quality = state.picture.quality;
   std::array<char, 80> part{};
   if (quality != FrameQuality{}) {
     std::snprintf(part.data(), part.size(), "%.0f %% of the samples, %.0f %% of the resolution, ",
                   100.0 * quality.context, 100.0 * quality.resolution);
     text += part.data();
   }
-  if (const TractShare& share = state.tract_share; share.drawn < share.all)
+  if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
-  std::snprintf(part.data(), part.size(), "%.1f ms", state.frame_ms);
+  std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);
   return text + part.data();
 }
 
@@ -151,8 +151,8 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
   ImGui::SetNextWindowBgAlpha(0.7F);
   ImGui::Begin("rates", nullptr, kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   ReadoutRows rows("rates");
-  rows.add("picture", "%.1f ms", state.frame_ms);
-  rows.add("frames", "%.1f /s", state.frames_per_second);
+  rows.add("picture", "%.1f ms", state.picture.milliseconds);
+  rows.add("frames", "%.1f /s", state.picture.frames_per_second);
   if (state.scene != nullptr) {
     std::size_t points = 0;
     for (const Line& line : *state.scene->lines) points += line.points.size();

@@ -21,6 +21,7 @@
 #include "common/app/window/gui.h"
 #include "common/app/window/keys.h"
 #include "common/app/window/lens_control.h"
+#include "common/app/window/live_picture.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
 #include "common/app/window/saved_files.h"
@@ -33,11 +34,8 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/render/frame_budget.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
-#include "common/render/scene_renderer.h"
-#include "common/render/tract/tract_progress.h"
 
 namespace palpate {
 namespace {
@@ -45,14 +43,8 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
-// Pictures' worth of tracts that are added at once while nothing else happens.
-constexpr double kPatientPictures = 5.0;
 // Rest between two looks at the world while nothing happens [s].
 constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
-// A lens that has not moved for so long stands still: its picture is drawn sharp [s].
-constexpr double kLensRest = 0.3;
-// What is kept of a plane while it moves is given back after so long a rest [s].
-constexpr double kSlabRest = 5.0;
 
 class Window {
  public:
@@ -61,16 +53,14 @@ class Window {
         options_(options),
         files_(options.picture_folder, options.program),
         glfw_(options),
-        view_(options.view),
-        budget_(options.frame_budget),
-        tract_time_(options.frame_budget) {
+        view_(options.view) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
     glfwGetWindowContentScale(window, &scale, nullptr);
     constexpr float kTextHeight = 14.0F;
     gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
-    renderer_ = std::make_unique<SceneRenderer>();
+    live_ = std::make_unique<LivePicture>(options_.frame_budget);
     touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
     touch_control_ = std::make_unique<TouchControl>(*touch_);
     state_.touch = touch_.get();
@@ -107,11 +97,7 @@ class Window {
                         .tensor = state_.tensor,
                         .replay = touch_->replay_verdict()};
     std::tie(result.width, result.height) = glfw_.size();
-    if (!frame_ms_.empty()) {
-      const auto middle = frame_ms_.begin() + static_cast<std::ptrdiff_t>(frame_ms_.size() / 2);
-      std::nth_element(frame_ms_.begin(), middle, frame_ms_.end());
-      result.median_frame_ms = *middle;
-    }
+    result.median_frame_ms = live_->median_milliseconds();
     return result;
   }
 
@@ -126,7 +112,7 @@ class Window {
       return;
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-    if (renderer_->complete()) {
+    if (live_->complete()) {
       glfwWaitEventsTimeout(busy() ? kBusyRest : kIdleRest);
     } else {
       glfwPollEvents();  // there is work to do meanwhile: more tracts
@@ -218,7 +204,7 @@ class Window {
       } else {
         fail(outcome->error);
       }
-      dirty_ = true;
+      live_->damage();
     }
     if (job_->running()) return;
     if (to_open_) {
@@ -387,7 +373,7 @@ class Window {
       }
     }
     const PlanePoses& poses = touch_->planes()->poses;
-    if (!(poses == cut_planes_)) lens_moved_ = glfwGetTime();
+    if (!(poses == cut_planes_)) live_->lens_moved(glfwGetTime());
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
   }
@@ -428,7 +414,7 @@ class Window {
 
   bool handle_lens(const InputEvent& event, const PictureArea& area) {
     if (!view_.volume) return false;
-    if (lens_control_.followed()) lens_moved_ = glfwGetTime();
+    if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
   }
 
@@ -480,7 +466,7 @@ class Window {
         state_.show_rates = !state_.show_rates;
         break;
       case Command::kSavePicture:
-        attempt([this] { return files_.save_picture(renderer_->read(), picture_texts()); });
+        attempt([this] { return files_.save_picture(live_->read(), picture_texts()); });
         break;
       case Command::kSaveSession:
         if (scene_)
@@ -497,7 +483,7 @@ class Window {
   void run_lens(Command command) {
     if (!scene_ || !view_.volume) return;
     say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
-    lens_moved_ = glfwGetTime();
+    live_->lens_moved(glfwGetTime());
   }
 
   void run_touch(Command command) {
@@ -567,47 +553,20 @@ class Window {
 
   void draw_picture(const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
-    // While something moves, a picture that takes long is drawn coarser; it is as asked for again at rest.
-    const bool moving = control_.dragging() || slice_control_.dragging() || state_.playing ||
-                        glfwGetTime() - lens_moved_ < kLensRest;
-    dirty_ = glfw_.take_damage() || dirty_;
-    SceneView picture = with_focus();
-    const bool volume = picture.volume && picture.volume->shown;
-    budget_.show(volume, volume && !picture.volume->lenses.empty());
-    const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
-    picture = with_quality(std::move(picture), quality);
-    if (dirty_ || w != picture_width_ || h != picture_height_ || !same_picture(picture, shown_) ||
-        quality.resolution != state_.quality.resolution || !renderer_->complete()) {
-      // While nobody waits for them, fewer pictures are shown, and more time is left for tracts: until
-      // something happens.
-      const bool patient = !moving && !busy() && !scripted();
-      const auto stop = [this] {
+    if (glfw_.take_damage()) live_->damage();
+    PictureMoment moment{.seconds = glfwGetTime(),
+                         .moving = control_.dragging() || slice_control_.dragging() || state_.playing};
+    if (!busy() && !scripted()) {
+      moment.interrupted = [this] {
         glfwPollEvents();
         return !glfw_.events().empty();
       };
-      renderer_->draw(picture, w, h, quality.resolution,
-                      (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
-                      patient ? std::function<bool()>(stop) : nullptr);
-      state_.frame_ms = renderer_->finish();
-      state_.tract_share = renderer_->tract_share();
-      if (moving) tract_time_.drawn(state_.frame_ms, state_.tract_share.milliseconds);
-      // A picture that keeps slabs for the next ones says nothing of their time.
-      if (moving && !renderer_->made_slabs()) budget_.drawn(state_.frame_ms);
-      state_.quality = quality;
-      frame_ms_.push_back(state_.frame_ms);
-      const double now = glfwGetTime();
-      state_.frames_per_second = now > last_drawn_ ? 1.0 / (now - last_drawn_) : 0.0;
-      last_drawn_ = now;
-      state_.automatic_range = renderer_->range();
-      shown_ = std::move(picture);
-      picture_width_ = w;
-      picture_height_ = h;
-      dirty_ = false;
     }
-    if (glfwGetTime() - lens_moved_ > kSlabRest) renderer_->forget_slabs();
+    live_->draw(with_focus(), w, h, moment);
+    state_.picture = live_->figures();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
-    renderer_->show(static_cast<int>(parts.picture.left), height - h);
+    live_->show(static_cast<int>(parts.picture.left), height - h);
   }
 
   WindowModel& model_;
@@ -615,29 +574,22 @@ class Window {
   SavedFiles files_;
   GlfwWindow glfw_;  // first in, last out: the others need its context
   std::unique_ptr<Gui> gui_;
-  std::unique_ptr<SceneRenderer> renderer_;
+  std::unique_ptr<LivePicture> live_;
 
-  SceneView view_;   // as the user wants it
-  SceneView shown_;  // as it was drawn last
+  SceneView view_;  // as the user wants it
   PictureArea picture_;
-  FrameBudget budget_;
-  TractTime tract_time_;  // what is left of tracts then is added by the next pictures
-  int picture_width_ = 0, picture_height_ = 0;
-  bool dirty_ = true, needs_camera_ = true;
+  bool needs_camera_ = true;
   std::optional<SceneState> scene_;
   PanelState state_;
   SceneSettings requested_;  // of the last job
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
-  PlanePoses cut_planes_;     // those of the hand for which the first cuts stand
-  double lens_moved_ = -1.0;  // [s]
+  PlanePoses cut_planes_;  // those of the hand for which the first cuts stand
   std::optional<InputFiles> to_open_;
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;
-  double last_drawn_ = 0.0;  // [s]
-  std::vector<double> frame_ms_;
   std::string told_fault_;
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <epoxy/gl.h>
 
@@ -110,7 +109,7 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
 
 bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaque) const {
   if (opaque != static_cast<bool>(depth_) || view.cuts.size() != view_.cuts.size()) return false;
-  if (std::memcmp(&block, &block_, sizeof block) != 0) return false;
+  if (!(block == block_)) return false;
   VolumeView moved = view;
   moved.cuts[cut_].kept.offset = view_.cuts[cut_].kept.offset;
   return same_picture(moved, view_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <epoxy/gl.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -71,7 +70,7 @@ void TilePass::set_bricks(std::span<const std::uint32_t> shell) {
 
 std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, const FrameBlock& block) {
   // The frame of the scene is that of the image, whose bricks these are.
-  if (drawn_ && std::memcmp(&*drawn_, &block, sizeof block) == 0) return tiles_.name();
+  if (drawn_ && *drawn_ == block) return tiles_.name();
   drawn_ = block;
   std::array<GLint, 4> viewport{};
   GLint framebuffer = 0;

@@ -1,0 +1,58 @@
+#include "common/app/window/live_picture.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace palpate {
+namespace {
+
+// Pictures' worth of tracts that are added at once while nothing else happens.
+constexpr double kPatientPictures = 5.0;
+// A lens that has not moved for so long stands still: its picture is drawn sharp [s].
+constexpr double kLensRest = 0.3;
+// What is kept of a plane while it moves is given back after so long a rest [s].
+constexpr double kSlabRest = 5.0;
+
+}  // namespace
+
+void LivePicture::draw(SceneView view, int width, int height, const PictureMoment& moment) {
+  const double rest = moment.seconds - lens_moved_;
+  const bool moving = moment.moving || rest < kLensRest;
+  const bool volume = view.volume && view.volume->shown;
+  budget_.show(volume, volume && !view.volume->lenses.empty());
+  const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
+  view = with_quality(std::move(view), quality);
+  if (dirty_ || width != width_ || height != height_ || !same_picture(view, shown_) ||
+      quality.resolution != figures_.quality.resolution || !renderer_.complete()) {
+    const bool patient = !moving && moment.interrupted;
+    renderer_.draw(view, width, height, quality.resolution,
+                   (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
+                   patient ? moment.interrupted : nullptr);
+    figures_.milliseconds = renderer_.finish();
+    figures_.tracts = renderer_.tract_share();
+    if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
+    // A picture that keeps slabs for the next ones says nothing of their time.
+    if (moving && !renderer_.made_slabs()) budget_.drawn(figures_.milliseconds);
+    figures_.quality = quality;
+    milliseconds_.push_back(figures_.milliseconds);
+    figures_.frames_per_second = moment.seconds > last_drawn_ ? 1.0 / (moment.seconds - last_drawn_) : 0.0;
+    last_drawn_ = moment.seconds;
+    figures_.automatic_range = renderer_.range();
+    shown_ = std::move(view);
+    width_ = width;
+    height_ = height;
+    dirty_ = false;
+  }
+  if (rest > kSlabRest) renderer_.forget_slabs();
+}
+
+double LivePicture::median_milliseconds() const {
+  if (milliseconds_.empty()) return 0.0;
+  std::vector<double> sorted = milliseconds_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+}  // namespace palpate

@@ -1,0 +1,69 @@
+/// The picture of a window: drawn when something changed, coarser while something moves, refined at rest.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "common/render/frame_budget.h"
+#include "common/render/scene_renderer.h"
+#include "common/render/scene_view.h"
+#include "common/render/tract/tract_progress.h"
+
+namespace palpate {
+
+/// What is known of the picture that was drawn last.
+struct PictureFigures {
+  std::optional<ValueRange> automatic_range;  ///< that colours have while the view gives none
+  double milliseconds = 0.0;
+  double frames_per_second = 0.0;
+  FrameQuality quality;
+  TractShare tracts;
+};
+
+/// When a picture is asked for.
+struct PictureMoment {
+  double seconds = 0.0;  ///< of the window's clock
+  bool moving = false;   ///< something is dragged or played: the budget holds
+  /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, until it
+  /// returns true.
+  std::function<bool()> interrupted;
+};
+
+/// Needs the window's context from its construction to its end.
+class LivePicture {
+ public:
+  /// @param budget of a picture while something moves [ms]; 0: none.
+  explicit LivePicture(double budget) : budget_(budget), tract_time_(budget) {}
+
+  /// The next picture is drawn whatever it shows: the window was uncovered, or the scene is another.
+  void damage() { dirty_ = true; }
+  /// A lens or a plane was moved at `seconds`: until it has rested, pictures count as moving.
+  void lens_moved(double seconds) { lens_moved_ = seconds; }
+
+  /// Draws `width` x `height` pixels of `view` where they differ from what was drawn last, or more is to be
+  /// added to them.
+  void draw(SceneView view, int width, int height, const PictureMoment& moment);
+  /// Copies the picture into the bound framebuffer. @param left, bottom its corner there [pixels].
+  void show(int left, int bottom) { renderer_.show(left, bottom); }
+
+  /// Whether nothing is left to be added.
+  [[nodiscard]] bool complete() const { return renderer_.complete(); }
+  [[nodiscard]] const PictureFigures& figures() const { return figures_; }
+  [[nodiscard]] auto read() { return renderer_.read(); }
+  /// Of all pictures [ms]; 0 where there are none.
+  [[nodiscard]] double median_milliseconds() const;
+
+ private:
+  SceneRenderer renderer_;
+  FrameBudget budget_;
+  TractTime tract_time_;  // what is left of tracts then is added by the next pictures
+  SceneView shown_;       // as it was drawn last
+  int width_ = 0, height_ = 0;
+  bool dirty_ = true;
+  double lens_moved_ = -1.0, last_drawn_ = 0.0;  // [s]
+  std::vector<double> milliseconds_;
+  PictureFigures figures_;
+};
+
+}  // namespace palpate
