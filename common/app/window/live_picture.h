@@ -33,7 +33,7 @@ struct PictureMoment {
 /// Needs the window's context from its construction to its end.
 class LivePicture {
  public:
-  /// @param budget of a picture while something moves [ms]; 0: none.
+  /// @param budget of a picture while something moves [ms], above 0.
   explicit LivePicture(double budget) : budget_(budget), tract_time_(budget) {}
 
   /// The next picture is drawn whatever it shows: the window was uncovered, or the scene is another.

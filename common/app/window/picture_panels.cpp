@@ -57,11 +57,13 @@ std::string frame_text(const PanelState& state) {
   std::string text;
   const FrameQuality& quality = state.picture.quality;
   std::array<char, 80> part{};
-  if (quality != FrameQuality{}) {
-    std::snprintf(part.data(), part.size(), "%.0f %% of the samples, %.0f %% of the resolution, ",
-                  100.0 * quality.context, 100.0 * quality.resolution);
+  const auto give_up = [&](double share, const char* what) {
+    if (share >= 1.0) return;
+    std::snprintf(part.data(), part.size(), "%.0f %% of the %s, ", 100.0 * share, what);
     text += part.data();
-  }
+  };
+  give_up(quality.context, "samples");
+  give_up(quality.resolution, "resolution");
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
   std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);
