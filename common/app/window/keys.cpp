@@ -6,7 +6,7 @@
 namespace palpate {
 
 std::span<const KeyBinding> key_bindings() noexcept {
-  constexpr int kEscape = 256, kEnter = 257, kF12 = 301;
+  constexpr int kEscape = 256, kEnter = 257, kF5 = 294, kF6 = 295, kF7 = 296, kF12 = 301;
   constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267;
   static constexpr std::array kBindings = std::to_array<KeyBinding>({
       {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
@@ -32,6 +32,9 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'H', 0, Command::kHelp, "H", "this list"},
       {'F', 0, Command::kFullScreen, "F", "full screen"},
       {kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},
+      {kF5, 0, Command::kLookAlongX, "F5, F6, F7", "look along x, y, z; again: from the other side"},
+      {kF6, 0, Command::kLookAlongY, "", ""},
+      {kF7, 0, Command::kLookAlongZ, "", ""},
       {' ', 0, Command::kPlay, "Space", "play the time steps; with the probe grabbed, keep the line"},
       {kEscape, 0, Command::kLetGo, "Esc", "let go, cancel the job, close this list"},
       {'B', 0, Command::kColorBar, "B", "colour bar"},

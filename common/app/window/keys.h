@@ -13,6 +13,9 @@ enum class Command : std::uint8_t {
   kHelp,
   kFullScreen,
   kResetCamera,
+  kLookAlongX,  ///< again: from the other side
+  kLookAlongY,
+  kLookAlongZ,
   kPlay,
   kLetGo,
   kQuit,

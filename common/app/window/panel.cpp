@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -321,6 +322,13 @@ void draw_look(SceneView& view, PanelActions& actions) {
   ImGui::Spacing();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
+  constexpr std::array kLooks{std::pair{"x", Command::kLookAlongX}, std::pair{"y", Command::kLookAlongY},
+                              std::pair{"z", Command::kLookAlongZ}};
+  for (const auto& [axis, command] : kLooks) {
+    if (ImGui::Button(axis, ImVec2{(size.x - 2.0F * gap) / 3.0F, 0.0F})) actions.look = command;
+    ImGui::SameLine();
+  }
+  ImGui::TextUnformatted("look along");
   actions.reset_camera |= ImGui::Button("Reset view", size);
   ImGui::SameLine();
   actions.save_picture |= ImGui::Button("Save picture", size);

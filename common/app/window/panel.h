@@ -44,6 +44,7 @@ struct PanelState {
 struct PanelActions {
   bool cancel = false;
   bool reset_camera = false;
+  std::optional<Command> look;  ///< along an axis
   bool save_picture = false;
   bool save_session = false;
   std::optional<InputFiles> open;  ///< one of the recent inputs

@@ -64,4 +64,28 @@ bool ViewControl::handle(const InputEvent& event, const PictureArea& area, const
   }
 }
 
+bool ViewControl::look(Command command, const Box& bounds, double aspect, Camera& camera) {
+  CameraAngles side{.azimuth = 0.0, .elevation = 0.0}, other{.azimuth = 180.0, .elevation = 0.0};
+  switch (command) {
+    case Command::kLookAlongX:
+      side.azimuth = 90.0;
+      other.azimuth = -90.0;
+      break;
+    case Command::kLookAlongY:
+      break;
+    case Command::kLookAlongZ:
+      side.elevation = 90.0;
+      other.elevation = -90.0;
+      break;
+    default:
+      return false;
+  }
+  const Camera before = camera;
+  camera = make_camera(bounds, side, aspect, before.projection);
+  constexpr double kThere = 1.0 - 1e-9;  // cosine
+  if (glm::dot(before.axes[1], camera.axes[1]) > kThere && glm::dot(before.axes[2], camera.axes[2]) > kThere)
+    camera = make_camera(bounds, other, aspect, before.projection);
+  return true;
+}
+
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "common/app/window/input_event.h"
+#include "common/app/window/keys.h"
 #include "common/render/camera.h"
 
 namespace palpate {
@@ -23,6 +24,10 @@ class ViewControl {
   /// Presses and wheel count over `area` only; a drag goes on outside it until its button is let go.
   /// @return whether the camera changed.
   bool handle(const InputEvent& event, const PictureArea& area, const Box& bounds, Camera& camera);
+  /// Looks along an axis of the data at all of `bounds`, upright: along x and y with z up, along z with y up.
+  /// First from +x, from -y (x to the right) and from +z; where the camera is there already, from the other
+  /// side. @param aspect width / height of the picture. @return whether `command` asks for that.
+  static bool look(Command command, const Box& bounds, double aspect, Camera& camera);
   /// Where the mouse has gone while something else was moved by it.
   void place(double x, double y) noexcept {
     x_ = x;

@@ -313,6 +313,7 @@ class Window {
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
+    if (actions.look) run_command(*actions.look);
     if (actions.open) open(*actions.open);
     answer_question();
     if (actions.save_picture) run_command(Command::kSavePicture);
@@ -487,6 +488,7 @@ class Window {
   }
 
   void run_touch(Command command) {
+    if (ViewControl::look(command, view_.bounds, picture_.width / picture_.height, view_.camera)) return;
     if (view_.tensors && SliceControl::run(command, *view_.tensors)) return;
     if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
   }

@@ -49,6 +49,26 @@ TEST_F(ViewControlTest, DraggingThereAndBackReturns) {
   EXPECT_LT(glm::distance(camera_.axes[2], before_.axes[2]), 1e-14);
 }
 
+TEST_F(ViewControlTest, LooksAlongAnAxisUprightAndThenFromTheOtherSide) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  struct Look {
+    Command command;
+    Vec3 from, up;
+  };
+  roll(camera_, 0.3);
+  for (const auto& [command, from, up] : {Look{Command::kLookAlongX, x, z}, Look{Command::kLookAlongY, -y, z},
+                                          Look{Command::kLookAlongZ, z, y}}) {
+    for (const double side : {1.0, -1.0, 1.0}) {
+      EXPECT_TRUE(ViewControl::look(command, kBox, 2.0, camera_));
+      EXPECT_LT(glm::distance(camera_.axes[2], side * from), 1e-12)
+          << static_cast<int>(command) << " " << side;
+      EXPECT_LT(glm::distance(camera_.axes[1], up), 1e-12) << static_cast<int>(command) << " " << side;
+    }
+  }
+  EXPECT_EQ(camera_.focal_point, kBox.center());
+  EXPECT_FALSE(ViewControl::look(Command::kResetCamera, kBox, 2.0, camera_));
+}
+
 TEST_F(ViewControlTest, MiddleDragMovesTheFocalPlaneWithTheMouse) {
   const Vec3 point = camera_.focal_point;
   move(200, 100);
