@@ -60,7 +60,8 @@ std::vector<Ids> faces_of_cube(const Ids& v) {
 void CellSoup::add_polyhedron(const std::vector<Ids>& faces, std::mt19937_64& random) {
   Ids stream{static_cast<std::int64_t>(faces.size())};
   for (Ids face : faces) {
-    std::ranges::rotate(face, face.begin() + static_cast<std::ptrdiff_t>(below(random, face.size())));
+    std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(below(random, face.size())),
+                face.end());
     if (below(random, 2) == 0) std::ranges::reverse(face);
     stream.push_back(static_cast<std::int64_t>(face.size()));
     stream.insert(stream.end(), face.begin(), face.end());
