@@ -10,18 +10,12 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#if defined(__SANITIZE_THREAD__)
-#define PALPATE_PLAIN_THREADS 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define PALPATE_PLAIN_THREADS 1
-#endif
-#endif
+#include "common/base/sanitizers.h"
 
 namespace palpate {
 namespace {
 
-#ifdef PALPATE_PLAIN_THREADS
+#if PALPATE_UNDER_TSAN
 /// ThreadSanitizer sees nothing of how TBB's library, which is not built with it, hands work over and back:
 /// it would report every use of a result as a race, and a suppression would hide our own races with them.
 /// Under it the pieces are shared among plain threads, whose start and join it knows.

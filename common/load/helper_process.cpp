@@ -17,16 +17,13 @@
 
 #include "common/base/errno_text.h"
 #include "common/base/error.h"
+#include "common/base/sanitizers.h"
 
 namespace palpate {
 namespace {
 
 // The sanitizers reserve terabytes of address space, so a limit on it would stop every helper.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitAddressSpace = false;
-#else
-constexpr bool kLimitAddressSpace = true;
-#endif
+constexpr bool kLimitAddressSpace = PALPATE_UNDER_ASAN == 0 && PALPATE_UNDER_TSAN == 0;
 
 /// How often a wait looks at the cancel flag [ms].
 constexpr int kCancelPoll = 50;

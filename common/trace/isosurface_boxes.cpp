@@ -195,8 +195,9 @@ int FormulaIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const Su
                                      SearchWork& work) const noexcept {
   const Box box = formula_.bounds();
   const Vec3 from = path.at, d = to - from;
-  const int samples =
-      std::clamp(static_cast<int>(std::ceil(glm::length(d) * kSamples / scale_.diagonal)), 1, 1 << 16);
+  // A leap may be longer than any int, or no number: in that order min and max make 1 of NaN.
+  const int samples = static_cast<int>(
+      std::min(std::max(1.0, std::ceil(glm::length(d) * kSamples / scale_.diagonal)), double{1 << 16}));
   double before = inside(box, from) ? formula_.value(from) : NAN;
   for (int n = 1; n <= samples; ++n) {
     if (n > 1 && !work.take()) return -1;

@@ -9,6 +9,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/sanitizers.h"
 #include "common/load/load.h"
 #include "common/load/trk_header.h"
 #include "tests/loaders/case_fixtures.h"
@@ -21,7 +22,7 @@ namespace palpate {
 namespace {
 
 constexpr double kMostSeconds = 10.0;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if PALPATE_UNDER_ASAN || PALPATE_UNDER_TSAN
 constexpr long kMostKilobytes = 4L << 20;  // their shadow memory counts too
 #else
 constexpr long kMostKilobytes = 1L << 20;

@@ -1,6 +1,8 @@
 #include "tests/support/lock_count.h"
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#include "common/base/sanitizers.h"
+
+#if defined(__linux__) && !PALPATE_UNDER_ASAN && !PALPATE_UNDER_TSAN
 #define PALPATE_COUNTS_LOCKS
 #include <dlfcn.h>
 #include <pthread.h>

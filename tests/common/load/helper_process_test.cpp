@@ -14,6 +14,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/sanitizers.h"
 #include "common/load/load.h"
 #include "tests/support/temp_folder.h"
 
@@ -73,7 +74,7 @@ TEST_F(FakeHelper, OneThatOnlyReportsProgressIsStoppedToo) {
   EXPECT_TRUE(contains(refusal("flood"), "stopped after"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !PALPATE_UNDER_ASAN && !PALPATE_UNDER_TSAN
 TEST_F(FakeHelper, AddressSpaceIsLimited) { EXPECT_TRUE(contains(refusal("memory"), "refused after")); }
 #endif
 TEST_F(FakeHelper, SharedMemoryIsLimited) { EXPECT_TRUE(contains(refusal("file"), "signal 25")); }
