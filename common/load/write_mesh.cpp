@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
+#include "common/base/text.h"
 #include "common/load/vtp_appendix.h"
 #include "common/load/write_tractogram.h"
 
