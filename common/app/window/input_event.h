@@ -25,7 +25,7 @@ enum class MouseButton : std::uint8_t { kLeft = 0, kRight = 1, kMiddle = 2 };
 inline constexpr int kModifierShift = 1, kModifierControl = 2, kModifierAlt = 4;
 
 /// A press that is led farther than this is a drag, and no click [pixels].
-inline constexpr double kDrag = 4.0;
+inline constexpr double kDragDistance = 4.0;
 
 struct InputEvent {
   InputKind kind = InputKind::kMove;

@@ -35,7 +35,7 @@ bool SliceControl::handle(const InputEvent& event, const PictureArea& area, cons
       x_ = event.x;
       y_ = event.y;
       if (dragging_) put_crosshair();
-      if (std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDrag) clicking_ = false;
+      if (std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDragDistance) clicking_ = false;
       return dragging_;
     case InputKind::kPress:
       clicking_ = event.button == MouseButton::kLeft && area.contains(x_, y_);

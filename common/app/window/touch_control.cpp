@@ -155,7 +155,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       x_ = event.x;
       y_ = event.y;
       if (!grabbed_ || (buttons_ > 0 && !by_button_ && !on_plane_)) return false;
-      dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDrag;
+      dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDragDistance;
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
       // A mouse that rested means the line that it rested on: on to the panel it may be led over others.
