@@ -22,6 +22,9 @@ constexpr double kDetentReach = 3.0 * kDegrees;
 constexpr double kCore = 0.25;          // part of the radius within which the sphere lets go
 constexpr double kLeastPart = 0x1p-20;  // of the radius, below which there is no direction
 constexpr unsigned kSphereBit = 8;
+/// Of a blend, at its steepest [N a step]: 200 N/s, the slew limit of the devices here, at 10 kHz.
+constexpr double kMostBlend = 0.02;
+constexpr int kShortestBlend = 50;  // [steps]
 
 Quaternion quaternion(const PlanePose& pose) noexcept {
   return {pose.turn.w, pose.turn.x, pose.turn.y, pose.turn.z};
@@ -69,6 +72,8 @@ PlaneWidget::PlaneWidget(double scale, const Mat3& data_axes, const PlanePose& o
     : scale_(scale), data_axes_(data_axes), otherwise_(otherwise), news_(std::move(news)) {}
 
 void PlaneWidget::apply(const ChainSettings& settings) noexcept {
+  // The hand may be on what is put elsewhere, or grows stiffer.
+  if (!(settings.plane_widget == settings_) || settings.stiffness != stiffness_) signature_ = kChanged;
   const bool edited = !started_ || settings.plane_widget.edit != settings_.edit;
   settings_ = settings.plane_widget;
   stiffness_ = settings.stiffness;
@@ -90,8 +95,14 @@ void PlaneWidget::apply(const ChainSettings& settings) noexcept {
 void PlaneWidget::lose() noexcept {
   state_ = state_after(state_, WidgetEvent::kLost);
   was_down_ = false;
-  total_ = offset_ = Vec3{0.0};
-  since_ = kBlendSteps;
+  // The next hand begins with no force, wherever it comes in.
+  total_ = Vec3{0.0};
+  signature_ = kChanged;
+}
+
+/// How near to the sphere it holds: its core never does, where the nearest place of it changes sides.
+double PlaneWidget::sphere_reach() const noexcept {
+  return std::min(settings_.reach, (1.0 - kCore) * settings_.radius);
 }
 
 /// What is within reach; a free hand takes the nearest plane, one at a plane stays there while it is in
@@ -104,7 +115,7 @@ WidgetEvent PlaneWidget::sense(const Vec3& x) noexcept {
                      std::abs(glm::dot(away, axes_of(pose)[2]))};
   };
   auto [sphere, plane] = distances(current_);
-  if (std::min(sphere, plane) >= settings_.reach) {
+  if (sphere >= sphere_reach() && plane >= settings_.reach) {
     for (int i = 0; i < poses_.count; ++i) {
       const auto [s, p] = distances(i);
       if (std::min(s, p) >= std::min(sphere, plane)) continue;
@@ -112,7 +123,7 @@ WidgetEvent PlaneWidget::sense(const Vec3& x) noexcept {
       current_ = i;
     }
   }
-  if (sphere < settings_.reach) return WidgetEvent::kNearSphere;
+  if (sphere < sphere_reach()) return WidgetEvent::kNearSphere;
   return plane < settings_.reach ? WidgetEvent::kNearPlane : WidgetEvent::kFar;
 }
 
@@ -181,7 +192,7 @@ void PlaneWidget::explore(const Vec3& x) noexcept {
   } else if (state_ == WidgetState::kOnSphere) {
     outward_ = unit_or(x - pose.center, outward_);
     const double d = glm::distance(x, pose.center) - settings_.radius;
-    hold_sphere(at, outward_, frame_along(outward_), {notch_hold(d, settings_.reach), 0.0, 0.0});
+    hold_sphere(at, outward_, frame_along(outward_), {notch_hold(d, sphere_reach()), 0.0, 0.0});
   }
 }
 
@@ -262,7 +273,7 @@ void PlaneWidget::rotate(const Vec3& x) noexcept {
   }
   outward_ = toward;
   const double core = fade(away / (kCore * settings_.radius));
-  const double held = core * notch_hold(away - settings_.radius, settings_.reach);
+  const double held = notch_hold(away - settings_.radius, sphere_reach());
   hold_sphere(at, toward, frame_along(toward), {held, core * tangential, core * tangential});
 }
 
@@ -303,9 +314,12 @@ void PlaneWidget::blend(const Vec3& x) noexcept {
     signature_ = signature;
     offset_ = total_ - force;
     since_ = 0;
+    constexpr double kSteepest = 1.5;  // of fade()
+    const double least = std::ceil(kSteepest * glm::length(offset_) / kMostBlend);
+    blend_steps_ = least > kShortestBlend ? static_cast<int>(std::min(least, 1e6)) : kShortestBlend;
   }
-  const Vec3 extra = offset_ * (1.0 - fade(static_cast<double>(since_) / kBlendSteps));
-  since_ = std::min(since_ + 1, kBlendSteps);
+  const Vec3 extra = offset_ * (1.0 - fade(static_cast<double>(since_) / blend_steps_));
+  since_ = std::min(since_ + 1, blend_steps_);
   links_[0].extra_force = extra;
   total_ = force + extra;
 }

@@ -11,8 +11,13 @@
 ///                         turn from g to p                                                              (4)
 ///
 /// (3) and (4) start from the pose at the grip, so that errors do not add up; quaternions are made unit
-/// again. Detents: within 3 degrees of a multiple of the step about e_a, and where e_3 comes as near to an
-/// axis of the data, Q is that very turn and kappa along the sphere a notch of that width.
+/// again. The sphere's w is three quarters of r at most: its core holds nothing. Detents: within 3 degrees of
+/// a multiple of the step about e_a, and where e_3 comes as near to an axis of the data, Q is that very turn
+/// and kappa along the sphere a notch of that width.
+///
+/// Where constraints, settings or planes change, or a hand comes back, the force goes on from what it was
+/// and comes to what it shall be along fade(), in 50 steps or as many more as it takes to change by no more
+/// than 0.02 N a step.
 #pragma once
 
 #include <array>
@@ -43,8 +48,7 @@ using WidgetNewsBuffer = TripleBuffer<WidgetNews>;
 
 class PlaneWidget {
  public:
-  static constexpr int kLinks = 4;        ///< of a chain that has it
-  static constexpr int kBlendSteps = 50;  ///< in which a change of constraints is spread over the force
+  static constexpr int kLinks = 4;  ///< of a chain that has it
 
   /// @param scale metres per data unit  @param data_axes orthonormal, for detents
   /// @param otherwise pose where the settings have none, data coordinates.
@@ -67,6 +71,7 @@ class PlaneWidget {
 
  private:
   [[nodiscard]] PlanePose& current() noexcept { return poses_.pose[static_cast<std::size_t>(current_)]; }
+  [[nodiscard]] double sphere_reach() const noexcept;
   [[nodiscard]] WidgetEvent sense(const Vec3& x) noexcept;
   void go(WidgetEvent event, const Vec3& x) noexcept;
   void grip(const Vec3& x) noexcept;
@@ -103,10 +108,11 @@ class PlaneWidget {
   unsigned holding_ = 0;
   int detent_ = 0;  ///< which one is held; 0: none
 
-  std::uint64_t signature_ = 0;  ///< of the constraints of the last step
-  Vec3 total_{0.0};              ///< force of the last step [N]
-  Vec3 offset_{0.0};             ///< by which it is off since the last change
-  int since_ = kBlendSteps;
+  static constexpr std::uint64_t kChanged = ~std::uint64_t{0};  ///< no constraints have it
+  std::uint64_t signature_ = kChanged;                          ///< of the constraints of the last step
+  Vec3 total_{0.0};                                             ///< force of the last step [N]
+  Vec3 offset_{0.0};                                            ///< by which it is off since the last change
+  int since_ = 0, blend_steps_ = 1;                             ///< steps since then, and until it is gone
 };
 
 }  // namespace palpate

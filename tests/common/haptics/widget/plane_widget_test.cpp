@@ -1,5 +1,5 @@
-// The cutting-plane widget: every transition of its table, forces without jumps, planes put where three
-// points say, and axes that stay orthonormal.
+// The cutting-plane widget: every transition of its table, planes put where three points say, and axes that
+// stay orthonormal. What the hand feels of transitions: plane_widget_force_test.cpp.
 
 #include "common/haptics/widget/plane_widget.h"
 
@@ -14,9 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/haptics/widget/plane_widget_link.h"
 #include "common/haptics/widget/widget_text.h"
-#include "common/servo/hand_step.h"
+#include "tests/common/haptics/widget/widget_bench.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/project_folders.h"
 
@@ -25,46 +24,6 @@ namespace {
 
 constexpr double kRadius = 0.025, kReach = 0.008;  // defaults [m]
 constexpr double kDegrees = std::numbers::pi / 180.0;
-
-/// A widget about the origin with its plane across z, in metres, and a hand that goes to places.
-class Bench {
- public:
-  explicit Bench(double detent = 0.0, const PlanePoses& poses = {}, const Mat3& data_axes = Mat3{1.0}) {
-    settings_.plane_widget.detent = detent;
-    settings_.plane_widget.poses = poses;
-    std::vector<std::unique_ptr<Constraint>> links;
-    widget_ = std::make_shared<PlaneWidget>(1.0, data_axes, PlanePose{}, news_);
-    for (int place = 0; place < PlaneWidget::kLinks; ++place)
-      links.push_back(std::make_unique<PlaneWidgetLink>(widget_, place));
-    chain_ = std::make_unique<ProxyChain>(std::move(links), settings_);
-  }
-
-  /// One step of the chain at `x`.
-  ChainStep at(const Vec3& x, bool down = false) {
-    chain_->press(down ? 1U : 0U);
-    return chain_->step(x);
-  }
-  /// A straight way there in steps of at most a tenth of a millimetre.
-  ChainStep lead(const Vec3& to, bool down) {
-    const int steps = 1 + static_cast<int>(glm::distance(to, hand_) / 1e-4);
-    ChainStep step;
-    for (int i = 1; i <= steps; ++i) step = at(glm::mix(hand_, to, static_cast<double>(i) / steps), down);
-    hand_ = to;
-    return step;
-  }
-  void put(const Vec3& x) { hand_ = x; }
-
-  ProxyChain& chain() { return *chain_; }
-  PlaneWidget& widget() { return *widget_; }
-  ChainSettings& settings() { return settings_; }
-
- private:
-  ChainSettings settings_;
-  std::shared_ptr<WidgetNewsBuffer> news_ = std::make_shared<WidgetNewsBuffer>();
-  std::shared_ptr<PlaneWidget> widget_;
-  std::unique_ptr<ProxyChain> chain_;
-  Vec3 hand_{0.2};
-};
 
 const Vec3 kFarAway{0.1, 0.0, 0.05}, kAtPlane{0.1, 0.0, 0.002}, kAtSphere{0.013, 0.010, 0.020};
 
@@ -195,7 +154,7 @@ TEST(PlaneWidget, HasDetentsAtItsStepsAndAtTheAxes) {
   const Mat3 data_axes{glm::normalize(Vec3(1.0, -1.0, 0.0)),
                        glm::cross(askew, glm::normalize(Vec3(1.0, -1.0, 0.0))), askew};
   for (const double short_of : {2.0, 4.0}) {
-    Bench free(15.0, {}, data_axes);
+    Bench free(15.0, data_axes);
     const auto on_sphere = [&](double angle) {
       return kRadius * (std::cos(angle) * u + std::sin(angle) * Vec3(0.0, 0.0, 1.0));
     };
@@ -230,54 +189,6 @@ TEST(PlaneWidget, StaysOrthonormalAfterAMillionIncrements) {
     for (int b = 0; b < 3; ++b) EXPECT_NEAR(product[a][b], a == b ? 1.0 : 0.0, 4e-16 * 4);
   }
   EXPECT_NEAR(glm::determinant(axes), 1.0, 4e-15);
-}
-
-/// A hand of tremor and haste presses and lets go at random: from one step to the next, the force of the
-/// chain changes by no more than springs of 200 N/m ask for on that way, and the share of a transition, 1.5
-/// times what the force was off over kBlendSteps.
-TEST(PlaneWidget, NoTransitionJumpsTheForceAboveTheSlewLimit) {
-  constexpr double kSlew = 200.0, kTick = 1e-3;  // [N/s], [s]
-  std::array<int, kWidgetTransitions.size()> seen{};
-  for (const double detent : {0.0, 15.0}) {
-    PlanePoses poses;
-    poses.count = 2;
-    poses.pose[1] = pose_of_plane({1.0, 1.0, 0.5}, 0.02, {0.04, 0.0, 0.0});
-    Bench bench(detent, poses);
-    std::mt19937 random{9};
-    std::normal_distribution<double> normal;
-    Vec3 hand{0.05}, velocity{0.0}, before{0.0};
-    bool down = false;
-    int changes = 0;
-    constexpr int kSteps = 400'000;
-    for (int n = 0; n < kSteps; ++n) {
-      velocity = 0.995 * velocity + 3e-6 * Vec3(normal(random), normal(random), normal(random)) - 2e-5 * hand;
-      const Vec3 step = velocity;
-      hand += step;
-      if (n % 701 == 0) down = !down;
-      const WidgetState state = bench.widget().state();
-      const ChainStep result = bench.at(hand, down);
-      const WidgetState now = bench.widget().state();
-      if (now != state) {
-        ++changes;
-        for (std::size_t t = 0; t < kWidgetTransitions.size(); ++t) {
-          const WidgetTransition& each = kWidgetTransitions[t];
-          if (each.from == state && each.to == now) ++seen[t];
-        }
-      }
-      // No spring is stiffer than k along an axis, sphere and plane with their notches at most twice as
-      // stiff.
-      const double springs = 2.0 * 200.0 * glm::length(step);
-      ASSERT_LE(glm::length(result.force - before), kSlew * kTick + springs)
-          << "step " << n << ", " << name_of(state) << " to " << name_of(now);
-      before = result.force;
-    }
-    EXPECT_GT(changes, 100);
-  }
-  for (std::size_t t = 0; t < seen.size(); ++t) {
-    if (kWidgetTransitions[t].event == WidgetEvent::kLost) continue;
-    EXPECT_GT(seen[t], 0) << name_of(kWidgetTransitions[t].from) << " to "
-                          << name_of(kWidgetTransitions[t].to);
-  }
 }
 
 TEST(PlaneWidget, GoesThroughThreePoints) {
