@@ -1,0 +1,122 @@
+/// The border between the programs and driver modules: what a module gives, opened by its name.
+///
+/// A driver is a link to one device, worked in rounds by whoever has it: a thread of its own for the servo
+/// (linked_device.h), a loop in `workbench monitor`, a test in simulated time. It finds the device, prepares
+/// it and, plugged out and in again, starts over by itself, without force.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/device/atoms.h"
+#include "common/device/device_limits.h"
+
+namespace palpate {
+
+enum class LinkPhase : std::uint8_t {
+  kAbsent,         ///< not plugged in
+  kRefused,        ///< there, but it cannot be opened
+  kNeedsFirmware,  ///< waits for a file that the user has
+  kLoading,        ///< takes its firmware
+  kNeedsHoming,    ///< waits for the user to move it to its ends
+  kReady           ///< samples come
+};
+[[nodiscard]] constexpr std::string_view name_of(LinkPhase phase) noexcept {
+  switch (phase) {
+    case LinkPhase::kAbsent:
+      return "absent";
+    case LinkPhase::kRefused:
+      return "refused";
+    case LinkPhase::kNeedsFirmware:
+      return "needs_firmware";
+    case LinkPhase::kLoading:
+      return "loading";
+    case LinkPhase::kNeedsHoming:
+      return "needs_homing";
+    case LinkPhase::kReady:
+      return "ready";
+  }
+  return "";
+}
+
+struct LinkStatus {
+  LinkPhase phase = LinkPhase::kAbsent;
+  std::uint64_t rounds = 0;       ///< exchanges that were answered
+  std::uint64_t lost = 0;         ///< that were not, in time
+  std::uint64_t implausible = 0;  ///< answers that no hand could have made
+  std::uint64_t dropped = 0;      ///< bytes that were of no answer
+  std::uint64_t faults = 0;       ///< times that the device was given up, or lost its zero
+  std::uint64_t opened = 0;       ///< times that it was found and opened
+  std::uint64_t uploads = 0;      ///< tries to load the firmware
+};
+
+class DriverLink {
+ public:
+  DriverLink() = default;
+  DriverLink(const DriverLink&) = delete;
+  DriverLink& operator=(const DriverLink&) = delete;
+  /// Leaves the device without force.
+  virtual ~DriverLink() = default;
+
+  /// Does what is next, for some milliseconds with a device that is ready, for less than kLongestRound else.
+  /// The device shows `force` [N, frame D] from then on if it is ready, the force is finite and every answer
+  /// made sense, else none.
+  /// @return whether atoms() are new. One thread.
+  virtual bool round(const Vec3& force) noexcept = 0;
+  [[nodiscard]] virtual const DeviceAtoms& atoms() const noexcept = 0;
+  [[nodiscard]] virtual const LinkStatus& status() const noexcept = 0;
+  /// What the user should know or do now, one sentence; empty where there is nothing to say.
+  [[nodiscard]] virtual std::string advice() const = 0;
+  [[nodiscard]] virtual const DeviceLimits& limits() const noexcept = 0;
+  /// Bus and place, "usb 1-2.3", or empty while there is none.
+  [[nodiscard]] virtual std::string place() const = 0;
+
+  static constexpr double kLongestRound = 2.0;  ///< [s]
+};
+
+/// What a driver is told: `falcon:firmware=FILE,gain=3500` as names and values.
+using DriverOptions = std::vector<std::pair<std::string, std::string>>;
+
+/// Something that a driver found on its bus.
+struct FoundDevice {
+  std::string name;    ///< "Novint Falcon"
+  std::string id;      ///< "0403:cb48"
+  std::string place;   ///< "usb 1-2.3"
+  std::string access;  ///< "ok", or why it cannot be opened: "denied", "busy"
+  std::string driver;  ///< for `--device`; empty where there is none
+  std::string note;    ///< what the user should do; may be empty
+};
+
+/// The face of a module. Nothing is thrown across the border: what went wrong is in `error`, one line.
+class DriverModule {
+ public:
+  DriverModule() = default;
+  DriverModule(const DriverModule&) = delete;
+  DriverModule& operator=(const DriverModule&) = delete;
+  virtual ~DriverModule() = default;
+
+  /// Of the options it knows: "firmware=FILE  …", a line each, for help.
+  [[nodiscard]] virtual std::string help() const = 0;
+  /// Null, with `error`, for options that make no sense or a bus that cannot be used.
+  [[nodiscard]] virtual std::unique_ptr<DriverLink> make_link(const DriverOptions& options,
+                                                              std::string& error) noexcept = 0;
+  /// All devices of any kind that this bus has and some driver knows.
+  [[nodiscard]] virtual std::vector<FoundDevice> find(std::string& error) noexcept = 0;
+};
+
+/// What a module exports by the name kDriverEntry: the build that it is of, and its face.
+struct DriverEntry {
+  const char* build = nullptr;                   ///< must be driver_build() of the program that opens it
+  DriverModule* (*module)() noexcept = nullptr;  ///< lives as long as the program; null: see `why`
+  const char* (*why)() noexcept = nullptr;
+};
+inline constexpr const char* kDriverEntry = "palpate_driver_entry";
+
+/// Compiler, and a checksum of the headers that make the border: what a program and its modules must share.
+[[nodiscard]] const char* driver_build() noexcept;
+
+}  // namespace palpate
