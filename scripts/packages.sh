@@ -7,6 +7,8 @@ packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev li
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev zlib1g-dev"
+# The drivers of devices: modules that only --device opens.
+packages_drivers="libusb-1.0-0-dev"
 # The mesher of cardiac.
 packages_mesher="libcgal-dev libtet1.5-dev"
 # The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.

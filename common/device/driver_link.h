@@ -86,7 +86,7 @@ struct FoundDevice {
   std::string name;    ///< "Novint Falcon"
   std::string id;      ///< "0403:cb48"
   std::string place;   ///< "usb 1-2.3"
-  std::string access;  ///< "ok", or why it cannot be opened: "denied", "busy"
+  std::string access;  ///< "ok", or why it cannot be opened: "denied", "gone"
   std::string driver;  ///< for `--device`; empty where there is none
   std::string note;    ///< what the user should do; may be empty
 };
@@ -110,9 +110,9 @@ class DriverModule {
 
 /// What a module exports by the name kDriverEntry: the build that it is of, and its face.
 struct DriverEntry {
-  const char* build = nullptr;                   ///< must be driver_build() of the program that opens it
-  DriverModule* (*module)() noexcept = nullptr;  ///< lives as long as the program; null: see `why`
-  const char* (*why)() noexcept = nullptr;
+  const char* build = nullptr;  ///< must be driver_build() of the program that opens it
+  /// Lives as long as the program. Null, with `error`, where the bus cannot be used.
+  DriverModule* (*module)(std::string& error) noexcept = nullptr;
 };
 inline constexpr const char* kDriverEntry = "palpate_driver_entry";
 

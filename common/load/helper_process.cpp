@@ -63,11 +63,6 @@ void limit(__rlimit_resource resource, std::uint64_t value) {
   ::_exit(127);
 }
 
-std::filesystem::path folder_of_this_program() {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-}
-
 /// The last line that is not empty.
 std::string last_line(int fd) {
   std::array<char, 2048> tail{};
@@ -81,21 +76,6 @@ std::string last_line(int fd) {
 }
 
 }  // namespace
-
-std::filesystem::path find_helper(std::string_view name) {
-  std::vector<std::filesystem::path> folders;
-  if (const char* chosen = std::getenv("PALPATE_HELPERS")) {  // NOLINT(concurrency-mt-unsafe): read only
-    folders.emplace_back(chosen);
-  } else {
-    const std::filesystem::path bin = folder_of_this_program();
-    folders = {bin / "../lib/palpate", bin / "../" PALPATE_INSTALL_LIBDIR "/palpate"};
-  }
-  for (const auto& folder : folders) {
-    std::filesystem::path path = folder / name;
-    if (::access(path.c_str(), X_OK) == 0) return path.lexically_normal();
-  }
-  return {};
-}
 
 HelperProcess::HelperProcess(const std::filesystem::path& program, const LoadLimits& limits)
     : limits_(limits) {

@@ -16,10 +16,6 @@
 
 namespace palpate {
 
-/// Where the helper program `name` is: lib/palpate beside the folder of the running program, or where it is
-/// installed. PALPATE_HELPERS, if set, names the folder instead (packagers, tests). Empty where it is not.
-[[nodiscard]] std::filesystem::path find_helper(std::string_view name);
-
 /// How the last exchange with a helper went wrong.
 struct HelperFailure {
   enum class Kind { kTimeOut, kEnded, kMalformed };

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/find_helper.h"
 #include "common/load/format.h"
 #include "common/load/helper_process.h"
 #include "common/load/protocol.h"

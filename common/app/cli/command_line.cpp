@@ -244,9 +244,9 @@ class VerbParser {
   void add_record() {
     app_.add_option(
             "--device", options_.device,
-            "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, or "
+            "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, "
             "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
-            "wander")
+            "wander, or a real device by its driver: falcon[:firmware=FILE], spacemouse")
         ->type_name("D")
         ->group("Touch");
     add_rate();

@@ -1,6 +1,7 @@
 #include "common/app/cli/window_touch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/servo_rows.h"
 #include "common/base/version.h"
+#include "common/device/driver_library.h"
 #include "common/scene/session.h"
 #include "common/servo/recording.h"
 #include "common/servo/wall_loop.h"
@@ -19,7 +21,7 @@ namespace palpate {
 namespace {
 
 /// The path of `--device replay:FILE`; none for others.
-/// @throws Error (usage) for an unknown device; (bad input).
+/// @throws Error (usage); (bad input).
 std::vector<PathRow> device_path(const std::string& device) {
   constexpr std::string_view kReplay = "replay:";
   if (device.starts_with(kReplay)) {
@@ -27,10 +29,18 @@ std::vector<PathRow> device_path(const std::string& device) {
     if (path.empty()) throw usage_error("--device " + device + ": the path has no rows");
     return path;
   }
-  if (device != "mouse" && !simulated_option(device)) {
-    throw usage_error("unknown device '" + device + "'; known are mouse, replay:FILE.csv, simulated");
-  }
   return {};
+}
+
+/// The limits of a real device, caps no higher than those of `asked`; its reach is its own affair
+/// (PlacedDevice).
+DeviceLimits linked_limits(const DriverLink& link, const DeviceLimits& asked) {
+  DeviceLimits limits = link.limits();
+  limits.force_cap = std::min(limits.force_cap, asked.force_cap);
+  limits.slew_cap = std::min(limits.slew_cap, asked.slew_cap);
+  limits.reach_lower = Vec3{-HUGE_VAL};
+  limits.reach_upper = Vec3{HUGE_VAL};
+  return limits;
 }
 
 /// What is said when the window is closed: how the servo did, in a row a line.
@@ -71,6 +81,9 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
+  } else if (options.device != "mouse" && touch.path.empty()) {
+    touch.link = open_link(options.device);
+    touch.limits = linked_limits(*touch.link, touch.limits);
   }
   if (!options.replay.empty()) {
     touch.replay = read_recording(options.replay.string());

@@ -30,6 +30,7 @@ struct ProbeReadout {
   double stretch = 0.0;  ///< [mm]
   ServoState servo;      ///< rates and lateness
   std::string fault;     ///< where the seconds before the last fault were saved, a sentence; empty: none
+  std::string device;    ///< what the user should know or do about a real device now; empty: nothing
 };
 
 /// Cells that were sampled last.

@@ -103,9 +103,22 @@ void ProbeSession::start_replay() {
   servo_ = std::make_unique<ServoLoop>(*replay_, ServoOptions{.rate = options_.servo_rate});
 }
 
+Placement ProbeSession::placement(const Camera& camera) const {
+  return {workspace().workspace_from_data(camera.focal_point), camera.axes};
+}
+
 /// The device of this session; a path is laid over the first field that is opened.
 Device& ProbeSession::device() {
   const Workspace workspace = this->workspace();
+  if (options_.link) {
+    // The next picture says which way the view is.
+    const Box& box = open_.bounds();
+    const Box bounds{workspace.workspace_from_data(box.lower), workspace.workspace_from_data(box.upper)};
+    linked_ = std::make_unique<LinkedDevice>(options_.link);
+    placed_ = std::make_unique<PlacedDevice>(*linked_, options_.limits, Placement{.middle = bounds.center()},
+                                             bounds);
+    return *placed_;
+  }
   Device* leader = mouse_.get();
   if (!options_.path.empty()) {
     path_device_ =
@@ -151,7 +164,7 @@ void ProbeSession::follow_chain(const HapticChain& made) {
 }
 
 void ProbeSession::grab(double time, const Vec3& position) {
-  if (!servo_ || replay_ || path_device_) return;
+  if (!servo_ || replay_ || path_device_ || linked_) return;
   target_ = position;
   noted_.reset();
   if (drawing_) drawing_->forget_note();
@@ -276,6 +289,8 @@ void ProbeSession::clear_path() {
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
   if (!servo_) return;
   if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), buttons());
+  if (placed_) placed_->place(placement(camera));
+  if (linked_) readout_.device = linked_->advice();
   servo_->collect_retired();
   servo_->read(readout_.servo);
   if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);
@@ -400,7 +415,7 @@ std::optional<ValueRange> ProbeSession::tension_range() const {
 }
 
 bool ProbeSession::lively() const noexcept {
-  return mouse_->grabbed() || growing_ || ((path_device_ || simulated_) && readout_.held) ||
+  return mouse_->grabbed() || growing_ || ((path_device_ || simulated_ || linked_) && readout_.held) ||
          (replay_ && !readout_.servo.replay_done);
 }
 

@@ -26,12 +26,15 @@
 #include "common/app/haptic/probe_readout.h"
 #include "common/app/haptic/touch_choice.h"
 #include "common/app/haptic/tract_drawing.h"
+#include "common/device/driver_link.h"
 #include "common/device/mouse_device.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
 #include "common/device/simulated_device.h"
 #include "common/render/camera.h"
 #include "common/render/probe_view.h"
+#include "common/servo/linked_device.h"
+#include "common/servo/placed_device.h"
 #include "common/servo/servo_loop.h"
 
 namespace palpate {
@@ -48,6 +51,9 @@ struct ProbeSessionOptions {
   /// A simulated arm and hand that follow mouse or path, and wander about the field while neither leads;
   /// none: the probe is where mouse or path are. Its limits and path are not looked at.
   std::optional<SimulatedDeviceOptions> simulated;
+  /// A real device, laid over the field as the view shows it; in place of mouse, path and simulation. None:
+  /// null.
+  std::shared_ptr<DriverLink> link;
   /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
   std::filesystem::path record;
   bool overwrite = false;
@@ -144,8 +150,10 @@ class ProbeSession {
   /// Notes the line that is followed now, or how far the tract is drawn, while the hand rests: on its way to
   /// a panel it may slip to others.
   void note_line();
-  /// Whether mouse and keys move the probe: not in a replay, nor with a path as the device.
-  [[nodiscard]] bool by_mouse() const noexcept { return options_.path.empty() && !replaying(); }
+  /// Whether mouse and keys move the probe: not in a replay, nor with a path or a real device.
+  [[nodiscard]] bool by_mouse() const noexcept {
+    return options_.path.empty() && !options_.link && !replaying();
+  }
   [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
   /// Takes out the kept line at `index`. @pre index < kept().entries().size().
   void remove_kept(std::size_t index);
@@ -177,6 +185,8 @@ class ProbeSession {
   void restart_chain();
   void start_replay();
   [[nodiscard]] Device& device();
+  /// Where a real device lies: its middle at the focal point of the view, its axes those of the view.
+  [[nodiscard]] Placement placement(const Camera& camera) const;
   void take(const HandStep& step);
   void follow_replayed_chain(std::uint64_t step);
   void ask_local(const Camera& camera);
@@ -218,12 +228,14 @@ class ProbeSession {
   std::unique_ptr<MouseDevice> mouse_;
   std::unique_ptr<ReplayDevice> path_device_;   ///< in place of the mouse
   std::unique_ptr<SimulatedDevice> simulated_;  ///< led by either
+  std::unique_ptr<LinkedDevice> linked_;        ///< the real one
+  std::unique_ptr<PlacedDevice> placed_;        ///< over it
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FaultRecorder> faults_;
   std::unique_ptr<FeltSurfaces> surfaces_;
   std::vector<HapticChain> replay_chains_;  ///< what is drawn of the chains of the replay, in order
   std::unique_ptr<ReplaySource> replay_;
-  std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the four above
+  std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the above
 };
 
 }  // namespace palpate

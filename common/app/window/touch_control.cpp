@@ -240,7 +240,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
   switch (command) {
     case Command::kGrab:
       if (!session_.by_mouse() && !session_.replaying()) {
-        return "the probe is moved by the path that was given as the device";
+        return "the probe is moved by what was given as the device";
       }
       if (grabbed_) {
         let_go();

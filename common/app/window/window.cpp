@@ -350,6 +350,10 @@ class Window {
       told_fault_ = touch_->readout().fault;
       say(told_fault_, true);
     }
+    if (touch_->readout().device != told_device_) {
+      told_device_ = touch_->readout().device;
+      say(told_device_.empty() ? "the device is ready" : told_device_, false);
+    }
     play();
     follow_layer();
     // A slow job whose answer is no longer wanted makes way for the next.
@@ -592,7 +596,7 @@ class Window {
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;
-  std::string told_fault_;
+  std::string told_fault_, told_device_;
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;
   std::unique_ptr<TouchControl> touch_control_;

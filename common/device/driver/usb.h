@@ -103,6 +103,8 @@ class UsbTransport {
   /// Opens the device that is plugged in at `path`, takes `interface` from the system's own driver, if one
   /// has it, and claims it.
   [[nodiscard]] virtual UsbOpened open(const std::string& path, int interface) = 0;
+  /// Whether this user may open it; claims nothing, so that a program that has it goes on undisturbed.
+  [[nodiscard]] virtual UsbStatus access(const std::string& path) = 0;
   /// [s] of a clock that only goes forward: CLOCK_MONOTONIC but in tests.
   [[nodiscard]] virtual double now() const noexcept = 0;
   virtual void sleep(double seconds) noexcept = 0;

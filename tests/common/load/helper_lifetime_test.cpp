@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/base/find_helper.h"
 #include "common/load/helper_process.h"
 
 namespace palpate {

@@ -99,6 +99,10 @@ UsbOpened FakeUsb::open(const std::string& path, int /*interface*/) {
   return {UsbStatus::kOk, std::make_unique<Connection>(*this, path, found->second)};
 }
 
+UsbStatus FakeUsb::access(const std::string& path) {
+  return devices_.count(path) > 0 ? refused_ : UsbStatus::kGone;
+}
+
 double FakeUsb::now() const noexcept {
   if (clock_ == Clock::kVirtual) return now_;
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -62,6 +62,7 @@ class FakeUsb final : public UsbTransport {
 
   std::vector<UsbDevice> devices() override;
   UsbOpened open(const std::string& path, int interface) override;
+  UsbStatus access(const std::string& path) override;
   [[nodiscard]] double now() const noexcept override;
   void sleep(double seconds) noexcept override;
 

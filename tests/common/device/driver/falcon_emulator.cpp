@@ -22,7 +22,8 @@ constexpr double kOut = 60.0 * kDegree,
 
 }  // namespace
 
-FalconEmulator::FalconEmulator(const EmulatedFalcon& settings) : settings_(settings), random_(settings.seed) {
+FalconEmulator::FalconEmulator(const EmulatedFalcon& settings)
+    : settings_(settings), random_(settings.seed), x_(settings.start) {
   running_ = settings.loaded;
   homed_ = settings.homed ? 7 : 0;
   for (int& offset : offset_) offset = static_cast<int>(random_() % 3000) - 1500;
@@ -121,8 +122,11 @@ void FalconEmulator::move(double dt) {
   }
   const Vec3 next = x_ + dt * v_;
   std::array<Leg, 3> legs = legs_;
-  if (!legs_at(next, legs)) {  // an end stop
+  if (!legs_at(next, legs)) {  // an end stop, soft enough to slide along
+    constexpr double kGiven = 1e-3;
     v_ = Vec3{0.0};
+    x_ += kGiven * (kMiddle - x_);
+    (void)legs_at(x_, legs_);
     return;
   }
   x_ = next;
@@ -199,8 +203,10 @@ void FalconEmulator::write(double now, std::uint8_t endpoint, std::span<const st
 }
 
 std::size_t FalconEmulator::read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) {
+  // Between two flushes nothing can be seen of it.
+  if (now < next_flush_) return 0;
   advance(now);
-  if (endpoint != 0x81 || now < next_flush_ || data.size() < 64) return 0;
+  if (endpoint != 0x81 || data.size() < 64) return 0;
   next_flush_ = now + 1e-3 * latency_;
   const bool cts = settings_.raises_cts && divisor_ == 0x0015 && greeted_;
   data[0] = cts ? 0x11 : 0x01;

@@ -29,6 +29,7 @@ struct EmulatedFalcon {
   int failing_uploads = 0;  ///< so many have a wrong echo in them
   bool deaf_loader = false;
   bool raises_cts = true;
+  Vec3 start{0.0, 0.0, 0.12};  ///< [m] where it rests at first
   std::uint64_t seed = 5;
 };
 
@@ -114,7 +115,7 @@ class FalconEmulator final : public FakeDevice {
 
   // The arm.
   double time_ = 0.0;
-  Vec3 x_{0.0, 0.0, 0.12}, v_{0.0}, target_{kMiddle}, motor_force_{0.0};
+  Vec3 x_, v_{0.0}, target_{kMiddle}, motor_force_{0.0};
   std::array<Leg, 3> legs_{};
   std::array<int, 3> motors_{}, offset_{}, slipped_{};
   std::array<bool, 3> was_out_{};

@@ -1,0 +1,75 @@
+#include "common/device/driver/known_devices.h"
+
+#include <algorithm>
+#include <array>
+
+namespace palpate {
+namespace {
+
+constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse";
+constexpr std::string_view kUnloaded = "waits for its firmware, which its maker's software loads (fxload)";
+constexpr std::string_view kNotYet = "there is no driver for it yet";
+
+constexpr std::array kKnown{
+    KnownDevice{{0x0403, 0xcb48}, "Novint Falcon", kFalconDriver, ""},
+    KnownDevice{{0x046d, 0xc603}, "SpaceMouse Plus XT", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc605}, "CadMan", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc606}, "SpaceMouse Classic", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc621}, "SpaceBall 5000", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc623}, "SpaceTraveler", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc625}, "SpacePilot", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc626}, "SpaceNavigator", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc627}, "SpaceExplorer", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc628}, "SpaceNavigator for Notebooks", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc629}, "SpacePilot Pro", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc62b}, "SpaceMouse Pro", kMouseDriver, ""},
+    KnownDevice{{0x046d, 0xc640}, "NuLooq", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc62e}, "SpaceMouse Wireless (cable)", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc62f}, "SpaceMouse Wireless receiver", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc631}, "SpaceMouse Pro Wireless (cable)", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc632}, "SpaceMouse Pro Wireless receiver", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc633}, "SpaceMouse Enterprise", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc635}, "SpaceMouse Compact", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc636}, "SpaceMouse Module", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc638}, "SpaceMouse Pro Wireless Bluetooth (cable)", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc63a}, "SpaceMouse Wireless Bluetooth", kMouseDriver, ""},
+    KnownDevice{{0x256f, 0xc652}, "3Dconnexion Universal Receiver", kMouseDriver, ""},
+    KnownDevice{{0x0f44, 0x0001}, "Polhemus Fastrak", "", kUnloaded},
+    KnownDevice{{0x0f44, 0x0002}, "Polhemus Fastrak", "", kNotYet},
+    KnownDevice{{0x0f44, 0xef11}, "Polhemus Patriot", "", kUnloaded},
+    KnownDevice{{0x0f44, 0xef12}, "Polhemus Patriot", "", kNotYet},
+    KnownDevice{{0x0f44, 0xef20}, "Polhemus Patriot HS", "", kNotYet},
+    KnownDevice{{0x0f44, 0xef21}, "Polhemus Patriot HS", "", kUnloaded},
+    KnownDevice{{0x0f44, 0xff11}, "Polhemus Liberty", "", kUnloaded},
+    KnownDevice{{0x0f44, 0xff12}, "Polhemus Liberty", "", kNotYet},
+    KnownDevice{{0x0f44, 0xff20}, "Polhemus Liberty 2", "", kNotYet},
+    KnownDevice{{0x0f44, 0xff21}, "Polhemus Liberty 2", "", kUnloaded},
+    KnownDevice{{0x0f44, 0xcf01}, "Polhemus G4", "", "speaks through its maker's library only"},
+};
+
+}  // namespace
+
+std::span<const KnownDevice> known_devices() noexcept { return kKnown; }
+
+const KnownDevice* find_known(UsbId id) noexcept {
+  const auto* const found =
+      std::find_if(kKnown.begin(), kKnown.end(), [id](const KnownDevice& each) { return each.id == id; });
+  return found != kKnown.end() ? found : nullptr;
+}
+
+std::vector<FoundDevice> find_devices(UsbTransport& transport) {
+  std::vector<FoundDevice> found;
+  for (const UsbDevice& device : transport.devices()) {
+    const KnownDevice* const known = find_known(device.id);
+    if (known == nullptr) continue;
+    found.push_back({.name = std::string(known->name),
+                     .id = text_of(device.id),
+                     .place = "usb " + device.path,
+                     .access = std::string(name_of(transport.access(device.path))),
+                     .driver = std::string(known->driver),
+                     .note = std::string(known->note)});
+  }
+  return found;
+}
+
+}  // namespace palpate

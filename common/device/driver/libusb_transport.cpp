@@ -1,0 +1,211 @@
+#include "common/device/driver/libusb_transport.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include <libusb-1.0/libusb.h>
+
+namespace palpate {
+namespace {
+
+struct EndContext {
+  void operator()(libusb_context* context) const noexcept { libusb_exit(context); }
+};
+struct CloseHandle {
+  void operator()(libusb_device_handle* handle) const noexcept { libusb_close(handle); }
+};
+struct FreeConfiguration {
+  void operator()(libusb_config_descriptor* configuration) const noexcept {
+    libusb_free_config_descriptor(configuration);
+  }
+};
+using Handle = std::unique_ptr<libusb_device_handle, CloseHandle>;
+using Context = std::shared_ptr<libusb_context>;
+
+UsbStatus status_of(int code) noexcept {
+  switch (code) {
+    case LIBUSB_SUCCESS:
+      return UsbStatus::kOk;
+    case LIBUSB_ERROR_TIMEOUT:
+      return UsbStatus::kTimeout;
+    case LIBUSB_ERROR_PIPE:
+    case LIBUSB_ERROR_OVERFLOW:
+      return UsbStatus::kStall;
+    case LIBUSB_ERROR_NO_DEVICE:
+    case LIBUSB_ERROR_NOT_FOUND:
+      return UsbStatus::kGone;
+    case LIBUSB_ERROR_ACCESS:
+      return UsbStatus::kDenied;
+    case LIBUSB_ERROR_BUSY:
+      return UsbStatus::kBusy;
+    default:
+      return UsbStatus::kFailed;
+  }
+}
+
+/// At least one: zero would mean no limit at all.
+unsigned milliseconds(double seconds) noexcept {
+  return static_cast<unsigned>(std::clamp(std::ceil(1e3 * seconds), 1.0, 60'000.0));
+}
+
+/// Bus and the ports on the way, as the kernel names them: "1-2.3".
+std::string path_of(libusb_device* device) {
+  constexpr int kMostPorts = 7;
+  std::uint8_t ports[kMostPorts];
+  const int count = libusb_get_port_numbers(device, ports, kMostPorts);
+  std::string path = std::to_string(libusb_get_bus_number(device));
+  for (int i = 0; i < count; ++i) path += (i == 0 ? "-" : ".") + std::to_string(ports[i]);
+  return path;
+}
+
+std::vector<UsbEndpoint> endpoints_of(libusb_device* device) {
+  std::vector<UsbEndpoint> endpoints;
+  libusb_config_descriptor* raw = nullptr;
+  if (libusb_get_active_config_descriptor(device, &raw) != LIBUSB_SUCCESS) return endpoints;
+  const std::unique_ptr<libusb_config_descriptor, FreeConfiguration> configuration(raw);
+  for (int i = 0; i < configuration->bNumInterfaces; ++i) {
+    const libusb_interface& interface = configuration->interface[i];
+    if (interface.num_altsetting < 1) continue;
+    const libusb_interface_descriptor& setting = interface.altsetting[0];
+    for (int e = 0; e < setting.bNumEndpoints; ++e) {
+      const libusb_endpoint_descriptor& endpoint = setting.endpoint[e];
+      const unsigned kind = endpoint.bmAttributes & 3U;
+      if (kind != LIBUSB_TRANSFER_TYPE_BULK && kind != LIBUSB_TRANSFER_TYPE_INTERRUPT) continue;
+      endpoints.push_back({.interface = setting.bInterfaceNumber,
+                           .address = endpoint.bEndpointAddress,
+                           .packet = static_cast<std::uint16_t>(endpoint.wMaxPacketSize & 0x7FFU),
+                           .interrupt = kind == LIBUSB_TRANSFER_TYPE_INTERRUPT});
+    }
+  }
+  return endpoints;
+}
+
+class LibusbConnection final : public UsbConnection {
+ public:
+  /// @pre `interface` of `handle` is claimed.
+  LibusbConnection(Context context, Handle handle, int interface)
+      : context_(std::move(context)), handle_(std::move(handle)), interface_(interface) {}
+  ~LibusbConnection() override { libusb_release_interface(handle_.get(), interface_); }
+
+  UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
+                    double seconds) noexcept override {
+    const int done = libusb_control_transfer(handle_.get(), setup.request_type, setup.request, setup.value,
+                                             setup.index, const_cast<std::uint8_t*>(data.data()),
+                                             static_cast<std::uint16_t>(data.size()), milliseconds(seconds));
+    if (done < 0) return {status_of(done), 0};
+    return {UsbStatus::kOk, static_cast<std::size_t>(done)};
+  }
+
+  UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
+                  double seconds) noexcept override {
+    // libusb does not write to what it sends.
+    return transfer(endpoint, const_cast<std::uint8_t*>(data.data()), data.size(), seconds);
+  }
+
+  UsbResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
+                 double seconds) noexcept override {
+    return transfer(endpoint, data.data(), data.size(), seconds);
+  }
+
+ private:
+  UsbResult transfer(const UsbEndpoint& endpoint, std::uint8_t* data, std::size_t bytes,
+                     double seconds) noexcept {
+    int done = 0;
+    auto* const move = endpoint.interrupt ? libusb_interrupt_transfer : libusb_bulk_transfer;
+    const int code =
+        move(handle_.get(), endpoint.address, data, static_cast<int>(bytes), &done, milliseconds(seconds));
+    if (code == LIBUSB_ERROR_PIPE) libusb_clear_halt(handle_.get(), endpoint.address);
+    return {status_of(code), static_cast<std::size_t>(std::max(done, 0))};
+  }
+
+  Context context_;
+  Handle handle_;
+  int interface_;
+};
+
+class LibusbTransport final : public UsbTransport {
+ public:
+  explicit LibusbTransport(Context context) : context_(std::move(context)) {}
+
+  std::vector<UsbDevice> devices() override {
+    std::vector<UsbDevice> all;
+    each([&](libusb_device* device) {
+      libusb_device_descriptor description{};
+      if (libusb_get_device_descriptor(device, &description) != LIBUSB_SUCCESS) return true;
+      all.push_back({.id = {description.idVendor, description.idProduct},
+                     .path = path_of(device),
+                     .endpoints = endpoints_of(device)});
+      return true;
+    });
+    return all;
+  }
+
+  UsbOpened open(const std::string& path, int interface) override {
+    UsbOpened opened{.status = UsbStatus::kGone};
+    Handle handle = handle_at(path, opened.status);
+    if (!handle) return opened;
+    // Where the system has no driver to be detached this says so, which is no fault.
+    libusb_set_auto_detach_kernel_driver(handle.get(), 1);
+    opened.status = status_of(libusb_claim_interface(handle.get(), interface));
+    if (opened.status == UsbStatus::kOk) {
+      opened.connection = std::make_unique<LibusbConnection>(context_, std::move(handle), interface);
+    }
+    return opened;
+  }
+
+  UsbStatus access(const std::string& path) override {
+    UsbStatus status = UsbStatus::kGone;
+    (void)handle_at(path, status);
+    return status;
+  }
+
+  [[nodiscard]] double now() const noexcept override {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  void sleep(double seconds) noexcept override {
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  }
+
+ private:
+  /// Calls `use` with each device until it returns false.
+  template <class Use>
+  void each(const Use& use) {
+    libusb_device** list = nullptr;
+    const ssize_t count = libusb_get_device_list(context_.get(), &list);
+    for (ssize_t i = 0; i < count; ++i) {
+      if (!use(list[i])) break;
+    }
+    if (count >= 0) libusb_free_device_list(list, 1);
+  }
+
+  Handle handle_at(const std::string& path, UsbStatus& status) {
+    Handle handle;
+    each([&](libusb_device* device) {
+      if (path_of(device) != path) return true;
+      libusb_device_handle* raw = nullptr;
+      status = status_of(libusb_open(device, &raw));
+      handle.reset(raw);
+      return false;
+    });
+    return handle;
+  }
+
+  Context context_;
+};
+
+}  // namespace
+
+std::unique_ptr<UsbTransport> make_libusb_transport(std::string& error) {
+  libusb_context* raw = nullptr;
+  const int code = libusb_init(&raw);
+  if (code != LIBUSB_SUCCESS) {
+    error = std::string("libusb cannot start: ") + libusb_strerror(static_cast<libusb_error>(code));
+    return nullptr;
+  }
+  return std::make_unique<LibusbTransport>(Context(raw, EndContext{}));
+}
+
+}  // namespace palpate

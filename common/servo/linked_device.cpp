@@ -1,0 +1,82 @@
+#include "common/servo/linked_device.h"
+
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/servo/real_time.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kLinkPriority = 80;  // the servo's: each needs the other's newest
+
+double now_seconds() noexcept { return 1e-9 * static_cast<double>(monotonic_ns()); }
+
+}  // namespace
+
+LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link) : link_(std::move(link)) {
+  PALPATE_CHECK(link_ != nullptr);
+  limits_ = link_->limits();
+  advice_ = link_->advice();
+  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+LinkedDevice::~LinkedDevice() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void LinkedDevice::work(const std::stop_token& stop) {
+  request_real_time_priority(kLinkPriority);
+  Order order;
+  LinkPhase told = LinkPhase::kAbsent;
+  double told_at = 0.0;
+  while (!stop.stop_requested()) {
+    (void)orders_.read(order);
+    const double now = now_seconds();
+    const bool fresh = now - order.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
+    if (link_->round(fresh ? order.force : Vec3{0.0})) atoms_.write(link_->atoms());
+    // Words are for people: when something has changed, and now and then.
+    constexpr double kPause = 0.1;  // [s]
+    const LinkStatus& status = link_->status();
+    if (status.phase == told && now - told_at < kPause) continue;
+    told = status.phase;
+    told_at = now;
+    std::string advice = link_->advice();
+    const std::lock_guard lock(mutex_);
+    status_ = status;
+    advice_ = std::move(advice);
+  }
+  (void)link_->round(Vec3{0.0});
+}
+
+bool LinkedDevice::read_atoms(double now, DeviceAtoms& atoms) noexcept {
+  if (atoms_.read(newest_)) seen_ = true;
+  if (!seen_ || now - newest_.time > kKept) return false;
+  atoms = newest_;
+  return true;
+}
+
+bool LinkedDevice::read(double now, DeviceSample& sample) noexcept {
+  DeviceAtoms atoms;
+  if (!read_atoms(now, atoms) || !atoms.has_position) return false;
+  sample = {atoms.time, atoms.position, atoms.buttons};
+  return true;
+}
+
+void LinkedDevice::command(const Vec3& force) noexcept {
+  stopped_.store(false, std::memory_order_release);
+  orders_.write({force, now_seconds()});
+}
+
+LinkStatus LinkedDevice::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+
+std::string LinkedDevice::advice() const {
+  const std::lock_guard lock(mutex_);
+  return advice_;
+}
+
+}  // namespace palpate

@@ -1,0 +1,72 @@
+/// A driver's link as a device of the servo: the link is worked by a thread of its own, and both exchange
+/// their newest by triple buffers, so that neither waits for the other.
+///
+/// Three lines of defence stand between a stalled program and a force that stays: a force that the servo has
+/// not renewed for kFreshFor is zero to the link, the watchdog's emergency_stop() too, and the link itself
+/// shows none without sense in its device's answers.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "common/base/triple_buffer.h"
+#include "common/device/device.h"
+#include "common/device/driver_link.h"
+
+namespace palpate {
+
+class LinkedDevice final : public Device {
+ public:
+  static constexpr double kFreshFor = 0.020;  ///< [s]
+  /// [s] for which the last sample of a device that fell silent is still given, so that its age is seen as
+  /// the fault that it is.
+  static constexpr double kKept = 0.25;
+
+  /// Starts the thread. @pre link is not null.
+  explicit LinkedDevice(std::shared_ptr<DriverLink> link);
+  /// Leaves the device without force.
+  ~LinkedDevice() override;
+
+  /// In frame D. False where there is no device, or it has no position.
+  bool read(double now, DeviceSample& sample) noexcept override;
+  void command(const Vec3& force) noexcept override;
+  void emergency_stop() noexcept override { stopped_.store(true, std::memory_order_release); }
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+
+  /// The newest of all that the device has, at most kKept old. Servo thread, in place of read(). @rt Safe.
+  bool read_atoms(double now, DeviceAtoms& atoms) noexcept;
+
+  /// @name Any thread but the servo's
+  /// @{
+  [[nodiscard]] LinkStatus status() const;
+  /// What the user should know or do now; empty: nothing.
+  [[nodiscard]] std::string advice() const;
+  /// @}
+
+ private:
+  struct Order {
+    Vec3 force{0.0};
+    double time = 0.0;  ///< [s]
+  };
+
+  void work(const std::stop_token& stop);
+
+  std::shared_ptr<DriverLink> link_;
+  DeviceLimits limits_;
+  TripleBuffer<DeviceAtoms> atoms_;
+  TripleBuffer<Order> orders_;
+  std::atomic<bool> stopped_{false};
+
+  DeviceAtoms newest_;  ///< the servo thread's
+  bool seen_ = false;
+
+  mutable std::mutex mutex_;  ///< of the next two
+  LinkStatus status_;
+  std::string advice_;
+  std::jthread thread_;  // last: it uses all of the above
+};
+
+}  // namespace palpate

@@ -1,0 +1,60 @@
+#include "common/servo/placed_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/servo/safety_rules.h"
+
+namespace palpate {
+
+PlacedDevice::PlacedDevice(LinkedDevice& device, const DeviceLimits& limits, const Placement& placement,
+                           const Box& bounds) noexcept
+    : device_(device),
+      limits_(limits),
+      bounds_(bounds),
+      asked_(placement),
+      placement_(placement),
+      steered_(placement.middle) {}
+
+void PlacedDevice::place(const Placement& placement) noexcept {
+  if (placement == asked_) return;
+  asked_ = placement;
+  placements_.write(placement);
+}
+
+bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
+  const bool moved = placements_.read(placement_);
+  DeviceAtoms atoms;
+  if (!device_.read_atoms(now, atoms)) {
+    steered_at_ = -1.0;
+    inside_ = false;
+    return false;
+  }
+  if (atoms.has_valuators) return steer(now, atoms, sample);
+  if (!atoms.has_position) return false;
+  inside_ = within_reach(device_.limits(), atoms.position);
+  if (moved) return false;
+  sample = {atoms.time, placement_.middle + placement_.axes * atoms.position, atoms.buttons};
+  return true;
+}
+
+bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sample) noexcept {
+  const double dt = steered_at_ < 0.0 ? 0.0 : std::clamp(now - steered_at_, 0.0, kLongestStep);
+  steered_at_ = now;
+  Vec3 push{0.0};
+  for (int a = 0; a < 3; ++a) {
+    const double n = atoms.valuators[static_cast<std::size_t>(a)];
+    push[a] = std::isfinite(n) ? n * std::abs(n) : 0.0;  // (1)
+  }
+  steered_ += placement_.axes * (kTopSpeed * dt * push);
+  if (!bounds_.empty()) steered_ = glm::clamp(steered_, bounds_.lower, bounds_.upper);
+  sample = {now, steered_, atoms.buttons};  // at rest it is no stale one
+  return true;
+}
+
+void PlacedDevice::command(const Vec3& force) noexcept {
+  // Frame D's reach is a box in W only where it is not turned: so it is kept here, not by the safety stage.
+  device_.command(inside_ ? force * placement_.axes : Vec3{0.0});  // row vector times R is R^T times column
+}
+
+}  // namespace palpate

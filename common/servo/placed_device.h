@@ -1,0 +1,52 @@
+/// A linked device in the workspace: a position laid over it, or valuators that steer through it.
+///
+/// A device with a position is laid over the workspace by a Placement. Where that changes while the hand is
+/// on the device, the hand is let go for a step and taken anew: nothing is pulled along, the force grows from
+/// zero.
+///
+/// A device of valuators (a SpaceMouse) moves the probe at a speed in proportion to how far each is pushed,
+/// in the axes of the placement, and stays where it is when the cap is let go:
+///
+///   v = v_max n |n|^(p - 1),  n the push in [-1, 1] per axis,  p = 2: slow near rest, fast at the end (1)
+#pragma once
+
+#include "common/base/triple_buffer.h"
+#include "common/device/device.h"
+#include "common/device/placement.h"
+#include "common/servo/linked_device.h"
+
+namespace palpate {
+
+class PlacedDevice final : public Device {
+ public:
+  static constexpr double kTopSpeed = 0.15;     ///< v_max of (1) [m/s]
+  static constexpr double kLongestStep = 0.05;  ///< [s] a longer pause moves no further
+
+  /// `device` outlives this. @param limits in W: without a reach.
+  PlacedDevice(LinkedDevice& device, const DeviceLimits& limits, const Placement& placement,
+               const Box& bounds) noexcept;
+
+  /// Window thread, wait-free.
+  void place(const Placement& placement) noexcept;
+
+  bool read(double now, DeviceSample& sample) noexcept override;
+  void command(const Vec3& force) noexcept override;
+  void emergency_stop() noexcept override { device_.emergency_stop(); }
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+
+ private:
+  bool steer(double now, const DeviceAtoms& atoms, DeviceSample& sample) noexcept;
+
+  LinkedDevice& device_;
+  DeviceLimits limits_;
+  Box bounds_;       ///< [m] in which valuators steer
+  Placement asked_;  ///< window thread
+  TripleBuffer<Placement> placements_;
+
+  Placement placement_;  ///< servo thread, as all below
+  Vec3 steered_{0.0};
+  double steered_at_ = -1.0;  ///< [s] negative: not yet
+  bool inside_ = false;       ///< of the reach of the device, at the last sample
+};
+
+}  // namespace palpate

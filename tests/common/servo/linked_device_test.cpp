@@ -1,0 +1,211 @@
+// A link on its thread, and a device laid over the workspace: who is told what, and what is left when either
+// side falls silent.
+
+#include "common/servo/linked_device.h"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "common/servo/placed_device.h"
+#include "common/servo/real_time.h"
+
+namespace palpate::test {
+namespace {
+
+/// Says what the test wants and remembers what it was told.
+class ScriptedLink final : public DriverLink {
+ public:
+  bool round(const Vec3& force) noexcept override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::lock_guard lock(mutex_);
+    told_ = force;
+    ++rounds_;
+    atoms_ = said_;
+    return speaks_;
+  }
+  [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
+  [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
+  [[nodiscard]] std::string advice() const override { return "move it"; }
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  [[nodiscard]] std::string place() const override { return "here"; }
+
+  void say(const DeviceAtoms& atoms) {
+    const std::lock_guard lock(mutex_);
+    said_ = atoms;
+    speaks_ = true;
+  }
+  [[nodiscard]] Vec3 told() const {
+    const std::lock_guard lock(mutex_);
+    return told_;
+  }
+  [[nodiscard]] std::uint64_t rounds() const {
+    const std::lock_guard lock(mutex_);
+    return rounds_;
+  }
+  DeviceLimits limits_;
+
+ private:
+  mutable std::mutex mutex_;
+  Vec3 told_{0.0};
+  std::uint64_t rounds_ = 0;
+  bool speaks_ = false;
+  DeviceAtoms said_, atoms_;
+  LinkStatus status_;
+};
+
+double now() { return 1e-9 * static_cast<double>(monotonic_ns()); }
+
+/// Whether `what` comes true at all; how long it takes is no matter.
+bool comes(const std::function<bool()>& what) {
+  constexpr double kLimit = 20.0;  // [s]
+  for (const double until = now() + kLimit; now() < until;) {
+    if (what()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+class LinkedDeviceTest : public ::testing::Test {
+ protected:
+  void say(const Vec3& position) {
+    link_->say({.time = now(), .buttons = 3, .has_position = true, .position = position});
+  }
+
+  std::shared_ptr<ScriptedLink> link_ = std::make_shared<ScriptedLink>();
+};
+
+TEST_F(LinkedDeviceTest, GivesTheNewestSampleAndKeepsItForAWhile) {
+  LinkedDevice device(link_);
+  DeviceSample sample;
+  EXPECT_FALSE(device.read(now(), sample));
+  say({0.1, 0.2, 0.3});
+  ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+  EXPECT_EQ(sample.position, Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(sample.buttons, 3U);
+  // Its age is what the safety stage sees; then there is no hand any more.
+  const double time = sample.time;
+  EXPECT_TRUE(device.read(time + 0.9 * LinkedDevice::kKept, sample));
+  EXPECT_EQ(sample.time, time);
+  EXPECT_FALSE(device.read(time + 1.1 * LinkedDevice::kKept, sample));
+  EXPECT_EQ(device.advice(), "move it");
+}
+
+TEST_F(LinkedDeviceTest, PassesForcesOnWhileTheyAreRenewed) {
+  LinkedDevice device(link_);
+  const Vec3 force{1.0, 2.0, 3.0};
+  EXPECT_TRUE(comes([&] {
+    device.command(force);
+    return link_->told() == force;
+  }));
+  // A servo that has stalled renews nothing.
+  EXPECT_TRUE(comes([&] { return link_->told() == Vec3{0.0}; }));
+}
+
+TEST_F(LinkedDeviceTest, StopsAtOnceAndUntilTheNextCommand) {
+  LinkedDevice device(link_);
+  const Vec3 force{1.0, 0.0, 0.0};
+  ASSERT_TRUE(comes([&] {
+    device.command(force);
+    return link_->told() == force;
+  }));
+  device.command(force);
+  device.emergency_stop();
+  const std::uint64_t before = link_->rounds();
+  ASSERT_TRUE(comes([&] { return link_->rounds() >= before + 2; }));
+  EXPECT_EQ(link_->told(), Vec3{0.0});
+  EXPECT_TRUE(comes([&] {
+    device.command(force);
+    return link_->told() == force;
+  }));
+}
+
+TEST_F(LinkedDeviceTest, LeavesNoForceBehind) {
+  {
+    LinkedDevice device(link_);
+    ASSERT_TRUE(comes([&] {
+      device.command({0.0, 5.0, 0.0});
+      return link_->told() == Vec3(0.0, 5.0, 0.0);
+    }));
+  }
+  EXPECT_EQ(link_->told(), Vec3{0.0});
+}
+
+class PlacedDeviceTest : public LinkedDeviceTest {
+ protected:
+  PlacedDeviceTest() {
+    link_->limits_.reach_lower = Vec3{-0.05};
+    link_->limits_.reach_upper = Vec3{0.05};
+  }
+  /// Right, up and towards the user are x, z and -y, as in a view along y.
+  const Placement placement_{.middle = {1.0, 2.0, 3.0},
+                             .axes = Mat3{Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}}};
+};
+
+TEST_F(PlacedDeviceTest, LaysPositionsAndForcesOverTheView) {
+  LinkedDevice linked(link_);
+  PlacedDevice device(linked, {}, placement_, {});
+  DeviceSample sample;
+  say({0.01, 0.02, 0.03});
+  ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+  EXPECT_LT(glm::distance(sample.position, Vec3(1.01, 1.97, 3.02)), 1e-15);
+  EXPECT_TRUE(comes([&] {
+    device.command({0.0, -2.0, 1.0});
+    return glm::distance(link_->told(), Vec3(0.0, 1.0, 2.0)) < 1e-15;
+  }));
+}
+
+TEST_F(PlacedDeviceTest, LetsGoOfTheHandWhereTheViewTurns) {
+  LinkedDevice linked(link_);
+  PlacedDevice device(linked, {}, placement_, {});
+  DeviceSample sample;
+  say({0.0, 0.0, 0.0});
+  ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+  device.place({.middle = {7.0, 8.0, 9.0}});
+  EXPECT_FALSE(device.read(now(), sample));
+  ASSERT_TRUE(comes([&] {
+    say({0.0, 0.0, 0.0});
+    return device.read(now(), sample);
+  }));
+  EXPECT_EQ(sample.position, Vec3(7.0, 8.0, 9.0));
+}
+
+TEST_F(PlacedDeviceTest, ShowsNoForceOutsideOfTheReach) {
+  LinkedDevice linked(link_);
+  PlacedDevice device(linked, {}, placement_, {});
+  DeviceSample sample;
+  say({0.051, 0.0, 0.0});
+  ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+  for (int n = 0; n < 20; ++n) {
+    device.command({1.0, 0.0, 0.0});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(link_->told(), Vec3{0.0});
+  }
+}
+
+TEST_F(PlacedDeviceTest, IsSteeredByValuatorsWithinTheData) {
+  LinkedDevice linked(link_);
+  const Box bounds{{0.0, 1.0, 2.0}, {1.5, 3.0, 4.0}};
+  PlacedDevice device(linked, {}, placement_, bounds);
+  // Half pushed to the right, fully upwards.
+  link_->say({.time = now() + 100.0, .has_valuators = true, .valuators = {0.5, 1.0, 0.0, 0.0, 0.0, 0.0}});
+  DeviceSample sample;
+  const double start = now();
+  ASSERT_TRUE(comes([&] { return device.read(start, sample); }));
+  EXPECT_EQ(sample.position, placement_.middle);
+  ASSERT_TRUE(device.read(start + 0.02, sample));
+  const double step = 0.02 * PlacedDevice::kTopSpeed;
+  EXPECT_LT(glm::distance(sample.position, placement_.middle + Vec3{0.25 * step, 0.0, step}), 1e-12);
+  EXPECT_EQ(sample.time, start + 0.02);
+  for (int n = 0; n < 1000; ++n) ASSERT_TRUE(device.read(start + 0.02 * (n + 2), sample));
+  EXPECT_EQ(sample.position.x, 1.5);
+  EXPECT_EQ(sample.position.z, 4.0);
+}
+
+}  // namespace
+}  // namespace palpate::test
