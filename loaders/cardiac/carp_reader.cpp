@@ -144,7 +144,7 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   if (!files.lon.empty()) {
     TextLines lines(files.lon, '#');
     const std::int64_t vectors = lines.integer("1 or 2 directions an element,", 1, 2);
-    const Directions directions = read_directions(lines, elements, vectors == 2 ? 6 : 3);
+    const Directions directions = read_directions(lines, elements, {.numbers = vectors == 2 ? 6 : 3});
     if (!lines.word().empty())
       lines.refuse("goes on after " + std::to_string(elements) + " directions", "one an element");
     add_directions(directions, mesh);

@@ -44,18 +44,25 @@ std::size_t believed_count(TextLines& lines, const char* what, std::size_t least
   return static_cast<std::size_t>(lines.integer(what, 0, static_cast<std::int64_t>(most)));
 }
 
-Directions read_directions(TextLines& lines, std::size_t count, int per_row) {
+Directions read_directions(TextLines& lines, std::size_t count, const DirectionRows& rows) {
   Directions directions;
+  const int per_row = rows.numbers;
+  std::int64_t first = 0;
   for (std::size_t row = 0; row < count; ++row) {
+    if (rows.numbered) {
+      const std::int64_t next = first + static_cast<std::int64_t>(row);
+      const std::int64_t read = lines.integer("the next element's number", next, row == 0 ? 1 : next);
+      if (row == 0) first = read;
+    }
     Vec3 vectors[3] = {Vec3{0.0}, Vec3{0.0}, Vec3{0.0}};
-    for (int n = 0; n < per_row; ++n) {
+    for (int n = 0; n < per_row * rows.places; ++n) {
       const std::string_view word = lines.word();
       if (word.empty())
         lines.refuse("ends after " + std::to_string(row) + " directions", std::to_string(count));
       const auto value = number(word);
       if (!value)
         lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a component of a direction");
-      vectors[n / 3][n % 3] = *value;
+      if (n < per_row) vectors[n / 3][n % 3] = *value;
     }
     const Vec3 fibre = unit_or_nan(vectors[0]);
     if (std::isnan(fibre[0])) ++directions.missing;

@@ -27,15 +27,20 @@ inline constexpr std::uint8_t kVtkQuadraticTetrahedron = 24;
 /// @throws Error (bad input) where it is no whole number, below zero or more than the file can hold.
 [[nodiscard]] std::size_t believed_count(TextLines& lines, const char* what, std::size_t least_bytes);
 
-/// Reads `count` vectors of three numbers, row after row. Used for fibre directions: one that is zero or
-/// missing (a row of zeros or "nan") becomes NaN.
+/// Fibre directions of elements; one that is zero or missing (zeros or "nan") is NaN.
 struct Directions {
   std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
   std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
 };
-/// @param per_row 3, 6 or 9 numbers. With 6 the normal is their cross product.
+/// What a row of directions holds.
+struct DirectionRows {
+  int numbers = 9;        ///< 3, 6 or 9 of them; with 6 the normal is the cross product of both
+  int places = 1;         ///< of an element, each with as many numbers; the first of them is taken
+  bool numbered = false;  ///< the element's number stands first: 0 or 1, then the next one
+};
+/// Reads `count` rows.
 /// @throws Error (bad input) naming the line where a row has other numbers or the file ends.
-[[nodiscard]] Directions read_directions(TextLines& lines, std::size_t count, int per_row);
+[[nodiscard]] Directions read_directions(TextLines& lines, std::size_t count, const DirectionRows& rows);
 
 /// Adds them as cell arrays "fibre", "sheet", "normal", normalised.
 void add_directions(const Directions& directions, DataSet& mesh);

@@ -18,6 +18,7 @@ namespace palpate {
 namespace {
 
 constexpr std::int64_t kMostAttributes = 100;
+constexpr std::int64_t kMostPlaces = 1000;        // in an element, where directions are given
 constexpr std::string_view kQuadratic = "_quad";  // what Chaste puts behind the name of a quadratic mesh
 /// The edges of a tetrahedron in VTK's order of the nodes that halve them.
 constexpr std::array<std::pair<std::size_t, std::size_t>, 6> kEdges{
@@ -147,7 +148,7 @@ TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
     throw input_error({any, "", "has no .ele file beside it", stem_of(any) + ".ele", "name it too"});
   std::string stem = stem_of(files.ele);
   for (int without_quad = 0; without_quad < 2 && files.directions.empty(); ++without_quad) {
-    for (const char* ending : {".ortho", ".axi"})
+    for (const char* ending : {".ortho", ".axi", ".bases"})
       if (files.directions.empty()) files.directions = sibling(stem + ".ele", ending);
     if (stem.ends_with(kQuadratic)) stem.resize(stem.size() - kQuadratic.size());
   }
@@ -164,13 +165,19 @@ DataSet read_tetgen(const TetgenFiles& files, std::vector<std::string>& notes) {
   mesh.topology = std::move(topology);
   if (!files.directions.empty()) {
     TextLines lines(files.directions, '#');
-    const int per_row = ending_of(files.directions) == ".axi" ? 3 : 9;
-    const auto rows = static_cast<std::size_t>(lines.integer("the number of directions", 0, 2'000'000'000));
-    if (rows != elements)
-      lines.refuse("has " + std::to_string(rows) + " directions",
+    const std::string ending = ending_of(files.directions);
+    const auto count = static_cast<std::size_t>(lines.integer("the number of directions", 0, 2'000'000'000));
+    if (count != elements)
+      lines.refuse("has " + std::to_string(count) + " directions",
                    std::to_string(elements) + ", one an element");
-    const Directions directions = read_directions(lines, rows, per_row);
+    DirectionRows rows{.numbers = ending == ".axi" ? 3 : 9, .numbered = ending == ".bases"};
+    if (rows.numbered)
+      rows.places = static_cast<int>(lines.integer("the number of places in an element", 1, kMostPlaces));
+    const Directions directions = read_directions(lines, count, rows);
     add_directions(directions, mesh);
+    if (rows.places > 1)
+      notes.push_back("of " + counted(static_cast<std::uint64_t>(rows.places), "direction") +
+                      " in each element, that at its centroid is taken");
     if (directions.missing > 0)
       notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");
     notes.push_back("fibres from " + files.directions);

@@ -1,4 +1,9 @@
-/// Meshes of TetGen and Chaste: .node and .ele, fibre directions in .ortho or .axi.
+/// Meshes of TetGen, Chaste and CardioMechanics: .node and .ele, fibre directions in .ortho, .axi or .bases.
+///
+/// A .bases file (CardioMechanics of the Karlsruhe Institute of Technology, user manual, "Fiber Orientation
+/// File") begins with the counts of elements and of places in an element, centroid first, then its quadrature
+/// points. A row is the element's number and nine numbers for each place: fibre, sheet and normal. The
+/// directions at the centroid are taken; they stay constant in the element as those of the other files do.
 #pragma once
 
 #include <string>
@@ -11,8 +16,7 @@ namespace palpate {
 struct TetgenFiles {
   std::string node;
   std::string ele;
-  std::string
-      directions;  ///< .ortho (fibre, sheet, normal) or .axi (fibre), one row an element; may be empty
+  std::string directions;  ///< .ortho, .bases (fibre, sheet, normal) or .axi (fibre); may be empty
 };
 
 /// The set that `named` belongs to: files with the same stem (for directions also without "_quad" behind it)

@@ -70,7 +70,7 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
   if (choices.empty()) {
     throw input_error(
         {file, "", "has no fibres", "an array of three numbers a point or cell",
-         "fibres come with EX and openCARP models, .ortho and .axi files, or as an array 'fibre'"});
+         "fibres come with EX and openCARP models, .ortho, .axi and .bases files, or as an array 'fibre'"});
   }
   HeartChoice choice{.fibre = choices.front()};
   if (!fibre.empty()) {

@@ -225,6 +225,43 @@ TEST(Tetgen, WhatIsOffIsNamed) {
   expect_refused(node, "coordinate");
 }
 
+// Rows as CardioMechanics' manual has them: the element's number, then fibre, sheet and normal at its
+// centroid and at each quadrature point.
+TEST(Tetgen, OfBasesTheDirectionsAtTheCentroidAreTaken) {
+  const test::TempFolder folder;
+  const auto node = folder.write("a.node", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n");
+  folder.write("a.ele", "2 4 1\n1 1 2 3 4 7\n2 2 3 4 5 7\n");
+  const std::string first = " 0 2 0 0 0 3 5 0 0", second = " 0 0 0 0 1 0 0 0 1", other = " 1 0 0 0 1 0 0 0 1";
+  for (const int number : {0, 1}) {
+    for (const int places : {1, 2}) {
+      const std::string more = places == 2 ? other : "";
+      const auto bases =
+          folder.write("a.bases", "2 " + std::to_string(places) + "\n" + std::to_string(number) + first +
+                                      more + "\n" + std::to_string(number + 1) + second + more + "\n");
+      for (const auto& named : {node, bases}) {
+        Source source = open(named);
+        const DataSet mesh = source.read({"fibre", "sheet", "normal"}).at(0);
+        const DataArray* fibre = mesh.find("fibre", Association::kCell);
+        ASSERT_NE(fibre, nullptr);
+        EXPECT_EQ(fibre->at(0, 1), 1.0);
+        EXPECT_TRUE(std::isnan(fibre->at(1, 0)));
+        EXPECT_EQ(mesh.find("sheet", Association::kCell)->at(0, 2), 1.0);
+        EXPECT_EQ(mesh.find("normal", Association::kCell)->at(0, 0), 1.0);
+      }
+    }
+  }
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"3 1\n", "3 directions"},
+           {"2 0\n", "places in an element"},
+           {"2\n1" + first + "\n2" + second + "\n", "element's number"},
+           {"2 1\n1" + first + "\n3" + second + "\n", "element's number"},
+           {"2 1\n1" + first + "\n2 0 0\n", "ends after 1"},
+           {"2 1\n1" + first + "\n2 x" + second + "\n", "\"x\""}}) {
+    folder.write("a.bases", text);
+    expect_refused(node, word);
+  }
+}
+
 TEST(Tetgen, TheEllipsoidOpensWithItsFibres) {
   PALPATE_NEED_DATA(file, "cardiac/chaste-ellipsoid/ellipsoid_8225_elements_quad.node");
   Source source = open(file);
