@@ -9,63 +9,17 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/ventricle.h"
-#include "common/haptics/constraint/fibre_friction.h"
-#include "common/haptics/constraint/fibre_groove.h"
-#include "common/haptics/constraint/layer.h"
-#include "common/haptics/proxy_chain.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
+#include "tests/common/haptics/fibre_chain.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/shared_data.h"
 
 namespace palpate {
 namespace {
 
-std::shared_ptr<const LayeredHeart> layered(const DataSet& mesh) {
-  std::vector<ArrayInfo> arrays;
-  for (const DataArray& a : mesh.arrays)
-    arrays.push_back({a.name, a.association, a.components, a.type, a.tuples});
-  return std::make_shared<const LayeredHeart>(make_heart(mesh, choose_heart(arrays, "", "mesh"), "mesh"));
-}
-
-/// Layer, groove and friction in a chain, as the modes of cardiac have them.
-class Chain {
- public:
-  explicit Chain(std::shared_ptr<const LayeredHeart> heart, const ChainSettings& settings = {}, int links = 3)
-      : heart_(std::move(heart)),
-        workspace_(Workspace::default_scale(heart_->heart().layer->diagonal()), heart_->frame()) {
-    const auto& depth = heart_->heart().layer;
-    std::vector<std::unique_ptr<Constraint>> made;
-    auto layer = std::make_unique<LayerConstraint>(depth, workspace_, default_layers(*depth));
-    layer_ = layer.get();
-    made.push_back(std::move(layer));
-    auto groove = std::make_unique<FibreGroove>(heart_, *layer_);
-    auto friction = std::make_unique<FibreFriction>(heart_, *layer_, *groove);
-    friction_ = friction.get();
-    if (links > 1) made.push_back(std::move(groove));
-    if (links > 2) made.push_back(std::move(friction));
-    chain_ = std::make_unique<ProxyChain>(std::move(made), settings);
-  }
-
-  ChainStep step(const Vec3& x_data) { return chain_->step(workspace_.workspace_from_data(x_data)); }
-  [[nodiscard]] Vec3 proxy(const ChainStep& step, std::size_t link) const {
-    return workspace_.data_from_workspace(step.proxies[link]);
-  }
-  [[nodiscard]] int layer() const { return layer_->surface().held_by(); }
-  [[nodiscard]] double level() const {
-    return layer_->surface().point().level / heart_->heart().layer->value_scale();
-  }
-  [[nodiscard]] double threshold() const { return friction_->threshold(); }
-  [[nodiscard]] const Workspace& workspace() const { return workspace_; }
-  [[nodiscard]] const LayeredHeart& heart() const { return *heart_; }
-
- private:
-  std::shared_ptr<const LayeredHeart> heart_;
-  Workspace workspace_;
-  LayerConstraint* layer_ = nullptr;
-  FibreFriction* friction_ = nullptr;
-  std::unique_ptr<ProxyChain> chain_;
-};
+using Chain = test::FibreChain;
+using test::layered;
 
 /// A slab 0 <= x, y <= 4, 0 <= z <= 1 with depth z and fibres that lean out of the layers by `lean`, at the
 /// angle `turn` from x.

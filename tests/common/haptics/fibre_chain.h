@@ -1,0 +1,63 @@
+/// Hearts as constraints take them, and the chain of layer, groove and friction as the modes of cardiac have
+/// it.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "common/haptics/constraint/fibre_friction.h"
+#include "common/haptics/constraint/fibre_groove.h"
+#include "common/haptics/constraint/layer.h"
+#include "common/haptics/proxy_chain.h"
+
+namespace palpate::test {
+
+inline std::shared_ptr<const LayeredHeart> layered(const DataSet& mesh) {
+  std::vector<ArrayInfo> arrays;
+  for (const DataArray& a : mesh.arrays)
+    arrays.push_back({a.name, a.association, a.components, a.type, a.tuples});
+  return std::make_shared<const LayeredHeart>(make_heart(mesh, choose_heart(arrays, "", "mesh"), "mesh"));
+}
+
+/// Layer, groove and friction in a chain.
+class FibreChain {
+ public:
+  explicit FibreChain(std::shared_ptr<const LayeredHeart> heart, const ChainSettings& settings = {},
+                      int links = 3)
+      : heart_(std::move(heart)),
+        workspace_(Workspace::default_scale(heart_->heart().layer->diagonal()), heart_->frame()) {
+    const auto& depth = heart_->heart().layer;
+    std::vector<std::unique_ptr<Constraint>> made;
+    auto layer = std::make_unique<LayerConstraint>(depth, workspace_, default_layers(*depth));
+    layer_ = layer.get();
+    made.push_back(std::move(layer));
+    auto groove = std::make_unique<FibreGroove>(heart_, *layer_);
+    auto friction = std::make_unique<FibreFriction>(heart_, *layer_, *groove);
+    friction_ = friction.get();
+    if (links > 1) made.push_back(std::move(groove));
+    if (links > 2) made.push_back(std::move(friction));
+    chain_ = std::make_unique<ProxyChain>(std::move(made), settings);
+  }
+
+  ChainStep step(const Vec3& x_data) { return chain_->step(workspace_.workspace_from_data(x_data)); }
+  [[nodiscard]] Vec3 proxy(const ChainStep& step, std::size_t link) const {
+    return workspace_.data_from_workspace(step.proxies[link]);
+  }
+  [[nodiscard]] int layer() const { return layer_->surface().held_by(); }
+  [[nodiscard]] double level() const {
+    return layer_->surface().point().level / heart_->heart().layer->value_scale();
+  }
+  [[nodiscard]] double threshold() const { return friction_->threshold(); }
+  [[nodiscard]] const Workspace& workspace() const { return workspace_; }
+  [[nodiscard]] const LayeredHeart& heart() const { return *heart_; }
+
+ private:
+  std::shared_ptr<const LayeredHeart> heart_;
+  Workspace workspace_;
+  LayerConstraint* layer_ = nullptr;
+  FibreFriction* friction_ = nullptr;
+  std::unique_ptr<ProxyChain> chain_;
+};
+
+}  // namespace palpate::test
