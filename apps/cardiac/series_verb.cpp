@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "apps/cardiac/heart_verbs.h"
 #include "common/app/cli/json_output.h"
@@ -28,16 +29,6 @@ std::vector<Vec3> places_of(const SeriesOptions& series) {
   }
   if (places.empty()) throw usage_error("series needs a place: try --at x,y,z");
   return places;
-}
-
-/// The steps by their times; those of one time stay in the order of the file.
-std::vector<std::size_t> steps_of(const std::vector<double>& times) {
-  std::vector<std::size_t> steps(std::max<std::size_t>(1, times.size()));
-  std::iota(steps.begin(), steps.end(), std::size_t{0});
-  if (!times.empty())
-    std::stable_sort(steps.begin(), steps.end(),
-                     [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
-  return steps;
 }
 
 std::string number_or_nothing(double value) { return std::isfinite(value) ? exact_number(value) : "nan"; }
@@ -78,6 +69,14 @@ std::string summary_text(const SeriesSummary& summary) {
   return text;
 }
 
+/// Whether both have the same cells at the same points, to the last bit.
+bool same_cells(const DataSet& a, const DataSet& b) {
+  const auto* x = std::get_if<UnstructuredTopology>(&a.topology);
+  const auto* y = std::get_if<UnstructuredTopology>(&b.topology);
+  return x != nullptr && y != nullptr && x->connectivity == y->connectivity && x->types == y->types &&
+         std::ranges::equal(x->positions.bytes, y->positions.bytes);
+}
+
 ExitCode run_series(const Options& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty() && !options.common.json)
@@ -95,10 +94,12 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
   summary.value = label_of(choice, input.arrays());
 
   const std::vector<double>& times = input.times();
-  const std::vector<std::size_t> steps = steps_of(times);
+  const std::vector<std::size_t> steps = steps_in_order(times);
   for (std::size_t t = 0; t < steps.size(); ++t) summary.unordered += steps[t] == t ? 0 : 1;
   if (summary.unordered > 0)
     context.console.note(counted(summary.unordered, "time step") + " not in the order of time: sorted");
+  std::shared_ptr<const FieldGrid> grid;
+  DataSet before;
   context.progress.begin("reading time steps", steps.size());
   for (const std::size_t step : steps) {
     context.progress.check();
@@ -106,8 +107,10 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
     const std::vector<DataSet> blocks = input.read({choice.array});
     if (blocks.size() != 1)
       throw input_error({input.title(), "", "has " + counted(blocks.size(), "block"), "one mesh"});
-    // The grid of each step by itself: a wall that moves has another one at every time.
-    const auto grid = make_field_grid(blocks, input.title(), options.common.threads);
+    // A wall that moves has another grid at every time; one that does not has been seen before.
+    if (!grid || !same_cells(blocks.front(), before))
+      grid = make_field_grid(blocks, input.title(), options.common.threads);
+    before = blocks.front();
     const auto field = make_scalar_field(grid, blocks.front(), choice, input.title(), options.common.threads);
     summary.times.push_back(times.empty() ? 0.0 : times[step]);
     for (const Vec3& x : summary.places) {

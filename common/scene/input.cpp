@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/analytic/ventricle.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/field_on_grid.h"
 #include "common/load/volume_block.h"
@@ -83,6 +83,15 @@ std::vector<ExampleInfo> examples_of(FieldKind kind) {
   return examples();
 }
 
+std::vector<std::size_t> steps_in_order(const std::vector<double>& times) {
+  std::vector<std::size_t> steps(std::max<std::size_t>(1, times.size()));
+  std::iota(steps.begin(), steps.end(), std::size_t{0});
+  if (!times.empty())
+    std::stable_sort(steps.begin(), steps.end(),
+                     [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+  return steps;
+}
+
 Input Input::open(const InputSpec& spec, Progress* progress) {
   if (spec.files.empty() && spec.example.empty()) {
     throw usage_error("no input: give a file, or --example NAME (--example list shows them)");
@@ -137,11 +146,12 @@ void Input::open_example() {
     return;
   }
   if (spec_.kind == FieldKind::kFibre) {
-    made_ = heart_example(spec_.example);
-    for (const DataArray& array : made_->arrays)
-      arrays_.push_back({array.name, array.association, array.components, array.type, array.tuples});
+    made_heart_.emplace(spec_.example);
+    arrays_ = made_heart_->arrays();
     made_info_ = FileInfo{.format = "made on the fly", .units = "coordinates in mm"};
-    made_info_->blocks.push_back(describe_mesh(*made_));
+    made_info_->times = made_heart_->times();
+    made_info_->blocks.push_back(describe_mesh(made_heart_->mesh()));
+    made_info_->blocks.back().arrays = arrays_;
     return;
   }
   made_ = spec_.kind == FieldKind::kTensor ? tensor_example(spec_.example) : volume_example(spec_.example);
@@ -172,7 +182,8 @@ std::vector<std::string> Input::notes() const {
 
 const std::vector<double>& Input::times() const noexcept {
   static const std::vector<double> kNone;
-  return source_ ? source_->info().times : kNone;
+  const FileInfo* info = file();
+  return info ? info->times : kNone;
 }
 
 VectorChoice Input::choice() const {
@@ -231,6 +242,7 @@ std::string Input::choice_sentence() const {
 
 std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress* progress) {
   if (made_) return {*made_};
+  if (made_heart_) return {made_heart_->read(names, time_.step)};
   return source_->read(names, time_.step, progress);
 }
 

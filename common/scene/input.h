@@ -12,6 +12,7 @@
 
 #include "common/base/progress.h"
 #include "common/field/analytic/examples.h"
+#include "common/field/analytic/heart_example.h"
 #include "common/field/heart/heart.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
@@ -56,6 +57,9 @@ struct TimeChoice {
 /// @throws Error (usage) that names the range, where `text` is no time or lies outside by more than the
 /// nearest interval.
 [[nodiscard]] TimeChoice choose_time(const std::vector<double>& times, std::string_view text);
+
+/// The steps by their times; those of one time stay in the order of the file. Without times the only one.
+[[nodiscard]] std::vector<std::size_t> steps_in_order(const std::vector<double>& times);
 
 class Input {
  public:
@@ -136,6 +140,7 @@ class Input {
   std::string raw_note_;
   std::optional<Source> source_;
   std::optional<DataSet> made_;  ///< a built-in volume
+  std::optional<HeartExample> made_heart_;
   std::optional<FileInfo> made_info_;
   std::vector<ArrayInfo> arrays_;
   std::vector<std::string> fields_;

@@ -390,6 +390,14 @@ std::string series_json(const SeriesSummary& summary) {
                   {"version", version()}});
 }
 
+std::string convert_json(const ConvertSummary& summary) {
+  return text_of({{"input", summary.input},
+                  {"files", summary.files},
+                  {"times", summary.times},
+                  {"seconds", summary.seconds},
+                  {"version", version()}});
+}
+
 std::string mesh_json(const MeshSummary& summary) {
   const MeshQuality& quality = summary.quality;
   const bool curved = summary.exact_volume > 0.0;

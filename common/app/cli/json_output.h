@@ -20,6 +20,7 @@ namespace palpate {
 [[nodiscard]] std::string image_json(const ImageSummary& summary);
 [[nodiscard]] std::string map_json(const MapSummary& summary);
 [[nodiscard]] std::string series_json(const SeriesSummary& summary);
+[[nodiscard]] std::string convert_json(const ConvertSummary& summary);
 [[nodiscard]] std::string mesh_json(const MeshSummary& summary);
 [[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);

@@ -222,6 +222,14 @@ struct SeriesSummary {
   double seconds = 0.0;
 };
 
+/// A heart that was written in another format.
+struct ConvertSummary {
+  std::string input;
+  std::vector<std::string> files;
+  std::size_t times = 0;  ///< steps; 0: it has no times
+  double seconds = 0.0;
+};
+
 /// A wall that was filled with tetrahedra.
 struct MeshSummary {
   std::string input;

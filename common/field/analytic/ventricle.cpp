@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <string>
+#include <vector>
 
-#include "common/base/error.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 
@@ -18,7 +17,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint8_t kHexahedron = 12, kWedge = 13;  // VTK's numbers
-constexpr const char* kVentricle = "ventricle";
 
 /// Points of one layer: the apex, then rings towards the base.
 struct Numbering {
@@ -135,15 +133,6 @@ DataSet ventricle_mesh(const Ventricle& ventricle, const VentricleCells& cells) 
   keep(kLayerArray, 1, layer);
   keep(kSurfaceArray, 1, surface);
   return mesh;
-}
-
-std::vector<ExampleInfo> heart_examples() {
-  return {{kVentricle, "left ventricle: half an ellipsoidal shell, fibres turn from +60 to -60 degrees"}};
-}
-
-DataSet heart_example(std::string_view name) {
-  if (name != kVentricle) throw usage_error("no example '" + std::string(name) + "'; there is " + kVentricle);
-  return ventricle_mesh({}, {});
 }
 
 }  // namespace palpate

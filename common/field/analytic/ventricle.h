@@ -23,11 +23,8 @@
 /// h_mu = f sqrt(a^2 + sin^2 mu), h_theta = f a sin(mu).
 #pragma once
 
-#include <string_view>
-#include <vector>
-
-#include "common/field/analytic/examples.h"
 #include "common/field/data_set.h"
+#include "common/math/vec.h"
 
 namespace palpate {
 
@@ -66,11 +63,5 @@ struct VentricleCells {
 /// "normal" (unit; the sheet transmural, NaN at the apex), "layer" (the depth) and "surface"
 /// (layer/wall_surfaces.h).
 [[nodiscard]] DataSet ventricle_mesh(const Ventricle& ventricle, const VentricleCells& cells);
-
-/// The built-in hearts; the first is the one shown by default.
-[[nodiscard]] std::vector<ExampleInfo> heart_examples();
-
-/// The mesh of an example. @throws Error (usage) that lists the known ones.
-[[nodiscard]] DataSet heart_example(std::string_view name);
 
 }  // namespace palpate

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
-
 namespace palpate {
 namespace {
 
@@ -48,16 +46,6 @@ TEST(Ventricle, FibresRunAlongTheirClosedForm) {
       const Vec3 fibre = shape.fibre({lambda, mu, 0.3});
       EXPECT_NEAR(std::abs(glm::dot(tangent, fibre)), 1.0, 1e-9) << lambda << " " << mu;
     }
-  }
-}
-
-TEST(Ventricle, UnknownExamplesAreRefusedAndListed) {
-  try {
-    (void)heart_example("kidney");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_NE(std::string(error.what()).find("ventricle"), std::string::npos);
   }
 }
 

@@ -1,0 +1,56 @@
+/// Writing meshes and results for openCARP: STEM.pts (micrometres), STEM.elem and STEM.lon, results beside
+/// them. Formats: openCARP user's manual, "Mesh files" and "IGB files".
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/grid/tet_mesh.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// Times as a .igb file states them: evenly apart.
+struct IgbTimes {
+  double first = 0.0, apart = 1.0;
+  std::size_t count = 1;
+};
+
+/// @throws Error (bad input) with `file` where they are not rising and evenly apart to a thousandth.
+[[nodiscard]] IgbTimes igb_times(const std::vector<double>& times, const std::string& file);
+
+/// A set of files; none of them is there under its name before finish().
+class CarpOutput {
+ public:
+  /// @param pts STEM.pts. @throws Error as OutputFile does.
+  CarpOutput(std::filesystem::path pts, bool overwrite);
+  ~CarpOutput();
+
+  /// @param micrometres of a unit of `points`. @param regions one a cell, or none: 1 for all.
+  void write_mesh(std::span<const Vec3> points, double micrometres, std::span<const TetMesh::Tet> cells,
+                  std::span<const int> regions);
+  /// One a cell, of any length; zero or not finite: written as zeros, which mean no direction.
+  /// @param sheets as many, or none.
+  void write_directions(std::span<const Vec3> fibres, std::span<const Vec3> sheets);
+  /// NAME.dat: numbers of points or of cells.
+  void write_values(const std::string& name, std::span<const double> values);
+  /// NAME.igb, whose steps follow by write_step() in their order.
+  /// @return its number.
+  std::size_t begin_series(const std::string& name, std::size_t points, const IgbTimes& times);
+  void write_step(std::size_t series, std::span<const double> values);
+
+  void finish();
+  [[nodiscard]] const std::vector<std::filesystem::path>& files() const noexcept { return names_; }
+
+ private:
+  class Files;
+  std::filesystem::path pts_;
+  std::vector<std::filesystem::path> names_;
+  std::unique_ptr<Files> files_;
+};
+
+}  // namespace palpate

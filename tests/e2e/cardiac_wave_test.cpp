@@ -1,0 +1,109 @@
+// The built-in wave, and `cardiac convert`: what is written opens again and says the same.
+#include <cmath>
+#include <fstream>
+
+#include "tests/e2e/explorer_test.h"
+
+namespace palpate::test {
+namespace {
+
+class CardiacWave : public ExplorerTest {
+ protected:
+  CardiacWave() : ExplorerTest("cardiac") {}
+
+  /// Potentials over time at three places of the wall.
+  Json series(std::vector<std::string> input, const std::string& value) {
+    input.insert(input.begin(), "series");
+    input.insert(input.end(), {"--value", value, "--at", "26,5,-10", "--at", "-26,3,-12", "--at", "4,28,2"});
+    return json(input);
+  }
+  /// Of the example itself, which takes some seconds.
+  const Json& built_in() {
+    static const Json potential = series({"--example", "wave"}, "potential");
+    return potential;
+  }
+  static void expect_same(const Json& a, const Json& b) {
+    ASSERT_EQ(a["times"].size(), b["times"].size());
+    for (std::size_t p = 0; p < 3; ++p) {
+      for (std::size_t t = 0; t < a["times"].size(); ++t) {
+        EXPECT_NEAR(a["times"][t].get<double>(), b["times"][t].get<double>(), 1e-9);
+        EXPECT_NEAR(a["places"][p]["values"][t].get<double>(), b["places"][p]["values"][t].get<double>(),
+                    1e-3)
+            << p << " " << t;
+      }
+    }
+  }
+};
+
+TEST_F(CardiacWave, TravelsOverTheVentricleInTime) {
+  EXPECT_EQ(json({"info", "--example", "wave"})["times"].size(), 81U);
+  const Json& potential = built_in();
+  for (std::size_t p = 0; p < 3; ++p) {
+    double lowest = 1e9, highest = -1e9;
+    for (const Json& v : potential["places"][p]["values"]) {
+      lowest = std::min(lowest, v.get<double>());
+      highest = std::max(highest, v.get<double>());
+    }
+    EXPECT_LT(lowest, -75.0);
+    EXPECT_GT(highest, 0.0);
+  }
+  const Json map = json({"map", "--example", "wave", "--angle", "activation", "--out", "act.csv"});
+  EXPECT_EQ(map["undefined"], 0);
+  EXPECT_EQ(run({"info", "--example", "wave", "--time", "900", "--json"}).exit_code, 2);
+}
+
+TEST_F(CardiacWave, IsWrittenForOpenCarpAndReadBack) {
+  const Json written = json({"convert", "--example", "wave", "--out", "wave.pts"});
+  EXPECT_EQ(written["times"], 81);
+  for (const char* file :
+       {"wave.pts", "wave.elem", "wave.lon", "potential.igb", "activation.dat", "layer.dat"})
+    EXPECT_TRUE(std::filesystem::exists(folder_.path(file))) << file;
+  expect_same(built_in(), series({"wave.pts", "potential.igb"}, "potential"));
+  // Fibres of its elements turn as those of the points do, as far as the middle of the outermost layers'
+  // cells.
+  const Json map = json({"map", "wave.pts", "layer.dat", "--angle", "helix"});
+  EXPECT_NEAR(map["bands"].front()["mean"].get<double>(), 60.0, 12.0);
+  EXPECT_NEAR(map["bands"].back()["mean"].get<double>(), -60.0, 12.0);
+  EXPECT_EQ(run({"convert", "--example", "wave", "--out", "wave.pts", "--json"}).exit_code, 2)
+      << "they exist";
+}
+
+TEST_F(CardiacWave, IsWrittenAsATimeSeriesOfVtkAndReadBack) {
+  const Json written = json({"convert", "--example", "wave", "--out", "wave.pvd"});
+  EXPECT_EQ(written["files"].size(), 82U);
+  expect_same(built_in(), series({"wave.pvd"}, "potential"));
+  const Json map = json({"map", "wave.pvd", "--time", "last", "--angle", "helix"});
+  EXPECT_NEAR(map["bands"].front()["mean"].get<double>(), 60.0, 2.0);
+}
+
+TEST_F(CardiacWave, WhatCannotBeWrittenIsNamedAndNothingIsLeft) {
+  EXPECT_EQ(run({"convert", "--example", "wave", "--json"}).exit_code, 2);
+  EXPECT_EQ(run({"convert", "--example", "wave", "--out", "wave.vtk", "--json"}).exit_code, 2);
+  // Steps that are not evenly apart do not fit into .igb.
+  const std::string vtu =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+      "NumberOfCells=\"1\"><PointData><DataArray type=\"Float64\" Name=\"vm\" format=\"ascii\">1 2 3 "
+      "4</DataArray>"
+      "</PointData><Points><DataArray type=\"Float64\" Name=\"x\" NumberOfComponents=\"3\" "
+      "format=\"ascii\">0 0 0 1 "
+      "0 0 0 1 0 0 0 1</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+      "format=\"ascii\">0 1 2 3</DataArray><DataArray type=\"Int64\" Name=\"offsets\" "
+      "format=\"ascii\">4</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" "
+      "format=\"ascii\">10</DataArray></Cells></Piece></UnstructuredGrid>"
+      "</VTKFile>";
+  for (const char* name : {"a.vtu", "b.vtu", "c.vtu"}) (void)folder_.write(name, vtu);
+  (void)folder_.write("uneven.pvd",
+                      "<?xml version=\"1.0\"?><VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+                      "<DataSet timestep=\"0\" file=\"a.vtu\"/><DataSet timestep=\"1\" file=\"b.vtu\"/>"
+                      "<DataSet timestep=\"5\" file=\"c.vtu\"/></Collection></VTKFile>");
+  const ProgramResult uneven = run({"convert", "uneven.pvd", "--out", "u.pts", "--json"});
+  EXPECT_EQ(uneven.exit_code, 3);
+  EXPECT_NE(uneven.err.find("evenly"), std::string::npos) << uneven.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("u.pts")));
+  // A mesh of one element without fibres.
+  EXPECT_EQ(json({"convert", "a.vtu", "--out", "one.pts"})["files"].size(), 4U);
+}
+
+}  // namespace
+}  // namespace palpate::test
