@@ -20,7 +20,9 @@ constexpr const char* kExamples =
     "  workbench calibrate pivot --example                   what a calibration says, on made measurements\n"
     "  workbench example arm --out grid.csv                  how a table of measurements looks\n"
     "  workbench screen --distance 0.7 --position-error 5,5 --orientation-error 1\n"
-    "  workbench stability --out stability                   how stiff walls may be\n";
+    "  workbench stability --out stability                   how stiff walls may be\n"
+    "  workbench devices                                     what is plugged in\n"
+    "  workbench doctor --device falcon                      whether it works, and what to do if not\n";
 
 constexpr const char* kCalibrateExamples =
     "Measurements (CSV with a header; metres, radians, unit quaternions):\n"
@@ -56,11 +58,43 @@ void add_kind(CLI::App& verb, WorkbenchOptions& o) {
       ->check(CLI::IsMember({"tracker", "apparatus", "arm", "coregister", "pivot", "eyes"}));
 }
 
+/// Verbs of devices in the hand.
+void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
+  constexpr const char* kDevice =
+      "driver and its options: falcon[:firmware=FILE], spacemouse[:invert=LETTERS]";
+  CLI::App& devices = *app.add_subcommand("devices", "devices that are plugged in, and drivers for them");
+  add_common(devices, o);
+  devices.add_option("--device", o.device, kDevice);
+  devices.footer("Examples:\n  workbench devices\n  workbench devices --json\n");
+
+  CLI::App& doctor = *app.add_subcommand(
+      "doctor", "permissions, firmware, rate, jitter and latency of a device, and what to do about them");
+  add_common(doctor, o);
+  doctor.add_option("--device", o.device,
+                    std::string(kDevice) + "; default: the first one that is plugged in");
+  doctor.add_option("--seconds", o.seconds, "of measurement; default 3")->check(CLI::Range(0.1, 3600.0));
+  doctor.add_option("--patience", o.patience, "seconds in which it must become ready; default 30")
+      ->check(CLI::Range(0.1, 3600.0));
+  doctor.footer("Examples:\n  workbench doctor\n  workbench doctor --device falcon:firmware=firmware.bin\n");
+
+  CLI::App& monitor =
+      *app.add_subcommand("monitor", "read-outs of a device as it is moved; it shows no force");
+  add_common(monitor, o);
+  monitor.add_option("--device", o.device, kDevice)->required();
+  monitor.add_option("--seconds", o.seconds, "how long; default 3")->check(CLI::Range(0.1, 86400.0));
+  monitor.add_option("--rate", o.rate, "read-outs a second; default 10")->check(CLI::Range(0.1, 1000.0));
+  monitor.footer(
+      "Examples:\n  workbench monitor --device spacemouse --seconds 60\n"
+      "  workbench monitor --device falcon --rate 100 --json\n");
+}
+
 }  // namespace
 
 WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
   WorkbenchOptions o;
-  CLI::App app("Calibrate devices and displays, and judge what their errors do", "workbench");
+  CLI::App app(
+      "Calibrate devices and displays, judge what their errors do, and look after what is plugged in",
+      "workbench");
   app.footer(kExamples);
   app.set_version_flag("--version", version_text("workbench"));
   add_common(app, o);
@@ -134,6 +168,7 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
   add_common(stability, o);
   stability.add_option("--out", o.out, "folder for the report")->required();
   stability.footer("Examples:\n  workbench stability --out stability\n");
+  add_device_verbs(app, o);
   app.require_subcommand(0, 1);
 
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

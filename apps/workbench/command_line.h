@@ -14,7 +14,8 @@
 namespace palpate {
 
 struct WorkbenchOptions {
-  std::string verb;  ///< "calibrate", "example", "report", "screen", "stability"; empty: `text` is all
+  std::string verb;  ///< "calibrate", "devices", "doctor", "example", "monitor", "report", "screen",
+                     ///< "stability"; empty: `text` is all
   std::string text;  ///< --help or --version
   std::string kind;  ///< "tracker", "apparatus", "arm", "coregister", "pivot", "eyes"
   std::filesystem::path file, out, report, nominal;
@@ -29,6 +30,10 @@ struct WorkbenchOptions {
   bool offsets_only = false;
   RegistrationNoise noise;
   HeadErrorSetup screen;
+  std::string device;      ///< as for `--device` of the explorers
+  double seconds = 3.0;    ///< doctor: of measurement; monitor: how long
+  double patience = 30.0;  ///< [s] doctor: in which the device must become ready
+  double rate = 10.0;      ///< [Hz] monitor: of read-outs
 };
 
 /// @throws Error (usage).

@@ -30,7 +30,8 @@ int run(const std::vector<std::string>& arguments) {
   const WorkbenchContext context{console, progress, line};
   const std::map<std::string, void (*)(const WorkbenchOptions&, const WorkbenchContext&)> verbs{
       {"calibrate", run_calibrate}, {"example", run_example},          {"report", run_workbench_report},
-      {"screen", run_screen},       {"stability", run_stability_verb},
+      {"screen", run_screen},       {"stability", run_stability_verb}, {"devices", run_devices},
+      {"doctor", run_doctor},       {"monitor", run_monitor},
   };
   try {
     verbs.at(options.verb)(options, context);

@@ -26,6 +26,9 @@ void run_example(const WorkbenchOptions& options, const WorkbenchContext& contex
 void run_workbench_report(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_screen(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_stability_verb(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_devices(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context);
 /// @}
 
 /// A calibration and the section of workbench.toml that it gives.

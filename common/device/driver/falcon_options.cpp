@@ -16,6 +16,9 @@ struct NumberOption {
   std::string_view name;
   double& (*in)(FalconSettings&);
   std::string_view help;
+
+  /// @throws Error (usage).
+  void set(FalconSettings& settings, const std::string& value) const;
 };
 
 const std::array kNumbers{
@@ -57,6 +60,24 @@ std::vector<std::uint8_t> read_image(const std::string& file) {
   return image;
 }
 
+const NumberOption& number_option(const std::string& name) {
+  const auto* const option = std::find_if(kNumbers.begin(), kNumbers.end(),
+                                          [&](const NumberOption& each) { return each.name == name; });
+  if (option != kNumbers.end()) return *option;
+  std::string known(kFirmware);
+  for (const NumberOption& each : kNumbers) (known += ", ") += each.name;
+  throw usage_error("the driver falcon knows no option '" + name + "'; known are " + known);
+}
+
+void NumberOption::set(FalconSettings& settings, const std::string& value) const {
+  const auto parsed = number(value);
+  if (!parsed) throw usage_error("falcon: " + std::string(name) + " takes a number, found '" + value + "'");
+  in(settings) = *parsed;
+  if (!settings.valid()) {
+    throw usage_error("falcon: " + std::string(name) + "=" + value + " is out of bounds");
+  }
+}
+
 }  // namespace
 
 FalconSettings falcon_settings(const DriverOptions& options) {
@@ -64,19 +85,9 @@ FalconSettings falcon_settings(const DriverOptions& options) {
   for (const auto& [name, value] : options) {
     if (name == kFirmware) {
       settings.firmware = read_image(value);
-      continue;
+    } else {
+      number_option(name).set(settings, value);
     }
-    const auto* const option = std::find_if(kNumbers.begin(), kNumbers.end(),
-                                            [&](const NumberOption& each) { return each.name == name; });
-    if (option == kNumbers.end()) {
-      std::string known(kFirmware);
-      for (const NumberOption& each : kNumbers) (known += ", ") += each.name;
-      throw usage_error("the driver falcon knows no option '" + name + "'; known are " + known);
-    }
-    const auto parsed = number(value);
-    if (!parsed) throw usage_error("falcon: " + name + " takes a number, found '" + value + "'");
-    option->in(settings) = *parsed;
-    if (!settings.valid()) throw usage_error("falcon: " + name + "=" + value + " is out of bounds");
   }
   return settings;
 }

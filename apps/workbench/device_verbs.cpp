@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/workbench/link_check.h"
+#include "apps/workbench/workbench_verbs.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/device/driver_library.h"
+#include "common/servo/real_time.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string dumped(const Json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A driver and whether it can start on this machine.
+struct DriverState {
+  std::string name;
+  std::string problem;  ///< empty: none
+};
+
+/// What the drivers see on this machine's buses.
+struct Survey {
+  std::vector<DriverState> drivers;
+  std::vector<FoundDevice> devices;
+};
+
+/// Asks every driver, and the one of `device` where that is another.
+Survey survey(const std::string& device) {
+  std::vector<std::string> names = driver_names();
+  if (const std::string asked = parse_device(device).name;
+      !asked.empty() && std::find(names.begin(), names.end(), asked) == names.end()) {
+    names.push_back(asked);
+  }
+  Survey seen;
+  for (const std::string& name : names) {
+    DriverState state{name, {}};
+    try {
+      std::vector<FoundDevice> found = open_driver(name).find(state.problem);
+      // Drivers on one bus see the same devices.
+      for (FoundDevice& each : found) {
+        const bool known = std::any_of(seen.devices.begin(), seen.devices.end(),
+                                       [&](const FoundDevice& d) { return d.place == each.place; });
+        if (!known) seen.devices.push_back(std::move(each));
+      }
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kUsage) throw;
+      state.problem = error.what();
+    }
+    seen.drivers.push_back(std::move(state));
+  }
+  return seen;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size() + 2, width), ' ');
+  return text;
+}
+
+std::string devices_text(const Survey& seen) {
+  std::string text;
+  for (const FoundDevice& each : seen.devices) {
+    text += padded(each.name, 34) + padded(each.id, 11) + padded(each.place, 12);
+    text += each.access == "ok" ? padded("", 10) : padded(each.access, 10);
+    text += each.driver.empty() ? each.note : "--device " + each.driver;
+    text += "\n";
+  }
+  if (seen.devices.empty()) text = "no device that this version knows is plugged in\n";
+  for (const DriverState& each : seen.drivers) {
+    if (!each.problem.empty()) text += "driver " + each.name + ": " + each.problem + "\n";
+  }
+  return text;
+}
+
+Json devices_json(const Survey& seen) {
+  Json devices = Json::array(), drivers = Json::array();
+  for (const FoundDevice& each : seen.devices) {
+    devices.push_back({{"name", each.name},
+                       {"id", each.id},
+                       {"place", each.place},
+                       {"access", each.access},
+                       {"driver", each.driver},
+                       {"note", each.note}});
+  }
+  for (const DriverState& each : seen.drivers) {
+    drivers.push_back({{"name", each.name}, {"ok", each.problem.empty()}, {"problem", each.problem}});
+  }
+  return {{"devices", devices}, {"drivers", drivers}};
+}
+
+std::string milliseconds(std::uint64_t ns) {
+  constexpr double kMicro = 1e-3;  // [ms] of a microsecond: as many digits as say something
+  return short_number(kMicro * std::round(1e-3 * static_cast<double>(ns))) + " ms";
+}
+
+std::string check_text(const LinkCheck& check) {
+  std::string text;
+  for (const LinkCheck::Step& step : check.steps) {
+    text += "  " + padded(short_number(std::round(1e3 * step.time)) + " ms", 12) +
+            std::string(name_of(step.phase)) + "\n";
+  }
+  if (check.status.uploads > 0) text += "  firmware    " + counted(check.status.uploads, "try") + "\n";
+  if (check.intervals.count() == 0) return text;
+  text += "  rate        " + short_number(std::round(check.rate())) + " samples a second\n";
+  text += "  evenness    half within " + milliseconds(check.intervals.percentile_ns(0.5)) + ", 99 % within " +
+          milliseconds(check.intervals.percentile_ns(0.99)) + ", at most " +
+          milliseconds(check.intervals.max_ns()) + "\n";
+  text += "  round       half within " + milliseconds(check.rounds.percentile_ns(0.5)) + ", 99 % within " +
+          milliseconds(check.rounds.percentile_ns(0.99)) + ", from command to position\n";
+  text += "  answers     " + std::to_string(check.status.rounds) + ", lost " +
+          std::to_string(check.status.lost) + ", implausible " + std::to_string(check.status.implausible) +
+          ", faults " + std::to_string(check.status.faults) + "\n";
+  return text;
+}
+
+Json check_json(const LinkCheck& check) {
+  Json steps = Json::array();
+  for (const LinkCheck::Step& step : check.steps) {
+    steps.push_back({{"seconds", step.time}, {"phase", name_of(step.phase)}});
+  }
+  const auto ms = [](std::uint64_t ns) { return 1e-6 * static_cast<double>(ns); };
+  return {{"phases", steps},
+          {"ready", check.ready},
+          {"place", check.place},
+          {"rate_hz", check.rate()},
+          {"interval_ms_p50", ms(check.intervals.percentile_ns(0.5))},
+          {"interval_ms_p99", ms(check.intervals.percentile_ns(0.99))},
+          {"interval_ms_max", ms(check.intervals.max_ns())},
+          {"round_ms_p50", ms(check.rounds.percentile_ns(0.5))},
+          {"round_ms_p99", ms(check.rounds.percentile_ns(0.99))},
+          {"rounds", check.status.rounds},
+          {"lost", check.status.lost},
+          {"implausible", check.status.implausible},
+          {"faults", check.status.faults},
+          {"uploads", check.status.uploads}};
+}
+
+/// The device that is asked for, or the first one that is plugged in, may be opened and has a driver.
+std::string device_to_check(const std::string& asked, const Survey& seen) {
+  if (!asked.empty()) return asked;
+  for (const FoundDevice& each : seen.devices) {
+    if (!each.driver.empty() && each.access == "ok") return each.driver;
+  }
+  return {};
+}
+
+std::string fixed(double value, int digits) {
+  const double unit = std::pow(10.0, digits);
+  std::string text = short_number(std::round(unit * value) / unit + 0.0);
+  constexpr std::size_t kWidth = 9;
+  return std::string(text.size() < kWidth ? kWidth - text.size() : 1, ' ') + text;
+}
+
+std::string atoms_text(double time, const DeviceAtoms& atoms) {
+  std::string text = fixed(time, 2) + " s ";
+  if (atoms.has_position) {
+    for (int a = 0; a < 3; ++a) text += fixed(1e3 * atoms.position[a], 2);
+    text += " mm";
+  }
+  if (atoms.has_valuators) {
+    for (const double value : atoms.valuators) text += fixed(value, 2);
+  }
+  text += "   buttons";
+  bool any = false;
+  for (unsigned i = 0; i < 32; ++i) {
+    if (((atoms.buttons >> i) & 1U) == 0) continue;
+    text += " " + std::to_string(i);
+    any = true;
+  }
+  return text + (any ? "\n" : " none\n");
+}
+
+Json atoms_json(double time, const DeviceAtoms& atoms) {
+  Json json{{"seconds", time}, {"buttons", atoms.buttons}};
+  if (atoms.has_position) json["position_m"] = {atoms.position.x, atoms.position.y, atoms.position.z};
+  if (atoms.has_valuators) json["valuators"] = atoms.valuators;
+  return json;
+}
+
+}  // namespace
+
+void run_devices(const WorkbenchOptions& options, const WorkbenchContext& context) {
+  const Survey seen = survey(options.device);
+  context.console.print(devices_text(seen));
+  context.console.print_json(dumped(devices_json(seen)));
+}
+
+void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context) {
+  const Survey seen = survey(options.device);
+  std::string text = devices_text(seen);
+  Json json = devices_json(seen);
+  std::vector<std::string> advice;
+  Json rules = Json::array();
+  for (const FoundDevice& each : seen.devices) {
+    if (each.access != "denied") continue;
+    rules.push_back(udev_rule(each.id));
+    advice.push_back("the " + each.name +
+                     " may not be opened by you: put this line into /etc/udev/rules.d/70-palpate.rules, run "
+                     "`udevadm control --reload`, and plug it in anew:\n    " +
+                     udev_rule(each.id));
+  }
+  const bool real_time = request_real_time_priority(1);
+  text += std::string("real-time priority is ") + (real_time ? "allowed\n" : "refused\n");
+  bool ready = false;
+  if (const std::string device = device_to_check(options.device, seen); !device.empty()) {
+    const std::unique_ptr<DriverLink> link = open_link(device);
+    context.progress.begin("working the device", 0);
+    const LinkCheck check = check_link(*link, options.seconds, options.patience, context.progress);
+    ready = check.ready;
+    text += device + "\n" + check_text(check);
+    json["device"] = device;
+    json["check"] = check_json(check);
+    for (std::string& line : advice_on(check)) advice.push_back(std::move(line));
+  }
+  for (const std::string& line : advice) text += "- " + line + "\n";
+  if (ready && advice.empty()) text += "all is well\n";
+  json["real_time_priority"] = real_time;
+  json["udev_rules"] = rules;
+  json["advice"] = advice;
+  context.console.print(text);
+  context.console.print_json(dumped(json));
+}
+
+void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
+  const std::unique_ptr<DriverLink> link = open_link(options.device);
+  const std::int64_t start = monotonic_ns();
+  const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
+  Json samples = Json::array();
+  std::string said;
+  for (double next = 0.0; elapsed() < options.seconds;) {
+    context.progress.check();
+    const bool fresh = link->round(Vec3{0.0});
+    const double now = elapsed();
+    if (std::string advice = link->advice(); advice != said) {
+      said = std::move(advice);
+      if (!said.empty()) context.console.note(said);
+    }
+    if (!fresh || now < next) continue;
+    next = now + 1.0 / options.rate;
+    if (options.json) {
+      samples.push_back(atoms_json(now, link->atoms()));
+    } else {
+      context.console.print(atoms_text(now, link->atoms()));
+    }
+  }
+  context.console.print_json(dumped({{"device", options.device},
+                                     {"phase", name_of(link->status().phase)},
+                                     {"advice", link->advice()},
+                                     {"samples", samples}}));
+}
+
+}  // namespace palpate

@@ -1,0 +1,72 @@
+// `workbench devices|doctor|monitor`, run as a user runs them, on an emulated Falcon.
+
+#include "tests/e2e/explorer_test.h"
+
+namespace palpate::test {
+namespace {
+
+class WorkbenchDevices : public ExplorerTest {
+ protected:
+  WorkbenchDevices() : ExplorerTest("workbench") {}
+};
+
+TEST_F(WorkbenchDevices, NamesWhatIsPluggedIn) {
+  const Json seen = json({"devices"});
+  ASSERT_GE(seen["drivers"].size(), 2U);
+  EXPECT_EQ(seen["drivers"][0]["name"], "falcon");
+  EXPECT_TRUE(seen["devices"].is_array());
+  // The emulated one is on its bus only after it was plugged in, by the making of a link.
+  const Json emulated = json({"devices", "--device", "falcon_emulated"});
+  EXPECT_EQ(emulated["drivers"].back()["name"], "falcon_emulated");
+  EXPECT_EQ(run({"devices", "--device", "nothing"}).exit_code, 2);
+}
+
+TEST_F(WorkbenchDevices, TheDoctorWaitsForHomingAndMeasures) {
+  const Json seen = json({"doctor", "--device", "falcon_emulated", "--seconds", "1"});
+  const Json& check = seen["check"];
+  EXPECT_EQ(check["ready"], true);
+  std::vector<std::string> phases;
+  for (const Json& step : check["phases"]) phases.push_back(step["phase"]);
+  EXPECT_EQ(phases.back(), "ready");
+  EXPECT_NE(std::find(phases.begin(), phases.end(), "needs_homing"), phases.end());
+  EXPECT_GT(check["rate_hz"].get<double>(), 10.0);
+  EXPECT_GE(check["interval_ms_p99"].get<double>(), check["interval_ms_p50"].get<double>());
+  EXPECT_EQ(check["faults"], 0);
+  EXPECT_EQ(check["place"], "usb 1-2");
+}
+
+TEST_F(WorkbenchDevices, TheDoctorSaysWhatIsMissing) {
+  const ProgramResult unloaded =
+      run({"doctor", "--device", "falcon_emulated:loaded=0", "--seconds", "0.2", "--patience", "2"});
+  EXPECT_EQ(unloaded.exit_code, 0) << unloaded.err;
+  EXPECT_NE(unloaded.out.find("needs_firmware"), std::string::npos) << unloaded.out;
+  EXPECT_NE(unloaded.out.find("falcon:firmware=FILE"), std::string::npos) << unloaded.out;
+
+  // And loads what it is given, with the number of tries.
+  folder_.write("image.bin", std::string(1500, '\x5a'));
+  const Json loaded =
+      json({"doctor", "--device", "falcon_emulated:loaded=0,firmware=image.bin", "--seconds", "0.2"});
+  EXPECT_EQ(loaded["check"]["ready"], true);
+  EXPECT_GE(loaded["check"]["uploads"].get<int>(), 1);
+
+  const Json absent = json({"doctor", "--device", "falcon_emulated:missing=1", "--patience", "0.3"});
+  EXPECT_EQ(absent["check"]["ready"], false);
+  EXPECT_NE(absent["advice"][0].get<std::string>().find("power supply"), std::string::npos);
+}
+
+TEST_F(WorkbenchDevices, TheMonitorReadsPositionsOut) {
+  const Json seen = json({"monitor", "--device", "falcon_emulated", "--seconds", "2", "--rate", "20"});
+  EXPECT_EQ(seen["phase"], "ready");
+  ASSERT_GT(seen["samples"].size(), 3U);
+  for (const Json& sample : seen["samples"]) {
+    ASSERT_EQ(sample["position_m"].size(), 3U);
+    for (const Json& x : sample["position_m"]) ASSERT_LT(std::abs(x.get<double>()), 0.06);
+  }
+  EXPECT_EQ(run({"monitor"}).exit_code, 2);
+  const ProgramResult text = run({"monitor", "--device", "falcon_emulated", "--seconds", "2"});
+  EXPECT_NE(text.out.find("mm   buttons none"), std::string::npos) << text.out;
+  EXPECT_NE(text.err.find("pull the grip out"), std::string::npos) << text.err;
+}
+
+}  // namespace
+}  // namespace palpate::test
