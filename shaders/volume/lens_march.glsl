@@ -14,14 +14,17 @@
 #ifdef MAGNIFIED
 #include "volume/magnify.glsl"
 #endif
+#ifdef CONTEXT
+#include "volume/enlarge.glsl"
+#endif
 
 layout(location = 0) out vec4 color;  // associated
 
 void main() {
   Ray ray = pixel_ray();
   vec2 inside[kMostLenses];
+  vec2 span = lens_span(ray, inside);
   int count = volume.counts.x;
-  for (int i = 0; i < count; ++i) inside[i] = lens_interval(i, ray);
   float t = ray.first, end = ray.last;
 #ifdef MAGNIFIED
   // What is seen enlarged reaches as far as its lens, out of the volume, too.
@@ -38,6 +41,14 @@ void main() {
   bool in_front;
   vec4 kept = enter_slab(ray, in_front);
   if (in_front) color = kept;
+#endif
+#ifdef CONTEXT
+  vec4 behind;
+  bool enlarged = enlarged_context(ray, span.x < span.y, color, behind);
+  if (enlarged) {
+    t = max(t, span.x);
+    end = min(end, span.y);
+  }
 #endif
 
   for (int k = 0; k <= 2 * count && t < end && color.a <= volume.lengths.z; ++k) {
@@ -69,5 +80,8 @@ void main() {
   }
 #ifdef SLABS
   if (!in_front) color += (1.0 - color.a) * kept;
+#endif
+#ifdef CONTEXT
+  if (enlarged) color += (1.0 - color.a) * behind;
 #endif
 }

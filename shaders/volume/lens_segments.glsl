@@ -7,13 +7,15 @@ layout(std140, binding = 2) uniform Lenses {
   vec4 planes[kMostLenses * kMostPlanes];  // outward unit normal, offset
 } lenses;
 
-// First and last t inside lens `i`; first >= last: nowhere.
-vec2 lens_interval(int i, Ray ray) {
+// First and last t inside lens `i`, grown by `slack` on all sides or more; first >= last: nowhere.
+vec2 lens_interval(int i, Ray ray, float slack) {
   const vec2 kNowhere = vec2(1e30, -1e30);
   vec2 inside = vec2(-1e30, 1e30);
   mat4 unit = lenses.unit_from_scene[i];
   if (unit[3][3] > 0.5) {
-    vec3 p = (unit * vec4(ray.origin, 1.0)).xyz, v = mat3(unit) * ray.direction;
+    float stretch = sqrt(dot(unit[0].xyz, unit[0].xyz) + dot(unit[1].xyz, unit[1].xyz) + dot(unit[2].xyz, unit[2].xyz));
+    float size = 1.0 / (1.0 + stretch * slack);
+    vec3 p = size * (unit * vec4(ray.origin, 1.0)).xyz, v = size * (mat3(unit) * ray.direction);
     float a = dot(v, v), b = dot(p, v);
     // The discriminant from the distance of the line to the centre: b^2 - a c would lose it in rounding.
     vec3 nearest = p - v * (b / max(a, 1e-30));
@@ -24,10 +26,22 @@ vec2 lens_interval(int i, Ray ray) {
   ivec2 range = lenses.faces[i].xy;
   for (int k = range.x; k < range.x + range.y; ++k) {
     vec4 plane = lenses.planes[k];
-    float speed = dot(plane.xyz, ray.direction), room = plane.w - dot(plane.xyz, ray.origin);
+    float speed = dot(plane.xyz, ray.direction), room = plane.w + slack - dot(plane.xyz, ray.origin);
     if (speed > 0.0) inside.y = min(inside.y, room / speed);
     if (speed < 0.0) inside.x = max(inside.x, room / speed);
     if (speed == 0.0 && room < 0.0) return kNowhere;
   }
   return inside;
+}
+
+// The interval inside each lens. @return the first and last t in lenses that nothing hides; first >= last: there are
+// none.
+vec2 lens_span(Ray ray, out vec2 inside[kMostLenses]) {
+  vec2 span = vec2(1e30, -1e30);
+  for (int i = 0; i < volume.counts.x; ++i) {
+    inside[i] = lens_interval(i, ray, 0.0);
+    vec2 seen = vec2(max(inside[i].x, ray.from), min(inside[i].y, ray.to));
+    if (seen.x < seen.y) span = vec2(min(span.x, seen.x), max(span.y, seen.y));
+  }
+  return span;
 }

@@ -11,11 +11,27 @@ struct Ray {
   float to;
 };
 
-// The t at which the opaque thing drawn at this pixel lies: depth z of the buffer gives the clip coordinate
+// The place of this pixel in the picture, and the pixel of opaque_depth that lies there.
+const float kTilePixels = 8.0;
+#ifdef SMALLER
+layout(location = 3) uniform vec3 depth_pixel;  // pixels there are those here times x, plus yz
+ivec2 opaque_pixel() {
+  ivec2 place = ivec2(floor(gl_FragCoord.xy * depth_pixel.x + depth_pixel.yz));
+  return clamp(place, ivec2(0), textureSize(opaque_depth, 0) - 1);
+}
+#else
+ivec2 opaque_pixel() { return ivec2(gl_FragCoord.xy); }
+#endif
+#ifdef TILES
+vec2 picture_pixel() { return kTilePixels * gl_FragCoord.xy; }
+#else
+vec2 picture_pixel() { return gl_FragCoord.xy; }
+#endif
+
+// The t at which an opaque thing of this depth lies: depth z of the buffer gives the clip coordinate
 // Z = 2 z - 1 = (z0 + t z1) / (w0 + t w1), with clip coordinates (z0, w0) of the origin and (z1, w1) of the
 // direction.
-float opaque_distance(Ray ray, float none) {
-  float z = texelFetch(opaque_depth, ivec2(gl_FragCoord.xy), 0).x;
+float opaque_distance(Ray ray, float z, float none) {
   if (z >= 1.0) return none;
   vec4 from = frame.clip_from_scene * vec4(ray.origin, 1.0);
   vec4 along = frame.clip_from_scene * vec4(ray.direction, 0.0);
@@ -24,7 +40,7 @@ float opaque_distance(Ray ray, float none) {
 }
 
 Ray pixel_ray() {
-  vec2 at = (gl_FragCoord.xy - 0.5 * frame.size.xy) * frame.size.z;
+  vec2 at = (picture_pixel() - 0.5 * frame.size.xy) * frame.size.z;
   vec3 across = at.x * frame.right.xyz + at.y * frame.up.xyz;
   bool perspective = frame.eye.w > 0.5;
   Ray ray;
@@ -40,7 +56,7 @@ Ray pixel_ray() {
   ray.last = min(far.x, min(far.y, far.z));
   ray.from = perspective ? 0.0 : -1e30;
   ray.to = 1e30;
-  if (has_opaque_depth) ray.to = opaque_distance(ray, ray.to);
+  if (has_opaque_depth) ray.to = opaque_distance(ray, texelFetch(opaque_depth, opaque_pixel(), 0).x, ray.to);
   for (int i = 0; i < volume.counts.y; ++i) {
     float speed = dot(volume.cuts[i].xyz, ray.direction), room = volume.cuts[i].w - dot(volume.cuts[i].xyz, ray.origin);
     if (speed > 0.0) ray.to = min(ray.to, room / speed);
@@ -49,8 +65,7 @@ Ray pixel_ray() {
   }
   ray.first = max(ray.first, ray.from);
   if (volume.lengths.w > 0.5) {
-    const int kTilePixels = 8;
-    vec2 span = texelFetch(tiles, ivec2(gl_FragCoord.xy) / kTilePixels, 0).xy;
+    vec2 span = texelFetch(tiles, ivec2(gl_FragCoord.xy) / int(kTilePixels), 0).xy;
     // Tiles know the shell of what is seen; a ray that begins in the volume may begin within the shell.
     if (!perspective || ray.first > 0.0) ray.first = max(ray.first, -span.x);
     ray.last = min(ray.last, span.y);

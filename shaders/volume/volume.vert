@@ -1,19 +1,16 @@
 #version 450 core
-// Rays for each pixel: of the whole picture, or of those tiles alone in which something may be seen (two triangles
-// each). Software rasterisers compute all of a ray that ends before it begins.
+// Rays for each pixel: of the whole picture, or of those tiles alone in which something may be seen, as points
+// (draw_tiles of common/render/volume/tile_pass.h). Software rasterisers compute all of a ray that ends before it
+// begins.
 #include "include/frame.glsl"
 #include "volume/volume_block.glsl"
 
 void main() {
-  const float kTilePixels = 8.0;
-  int corner = gl_VertexID % 6;
-  vec2 at = vec2(corner == 1 || corner == 3 || corner == 4 ? 1.0 : 0.0, corner == 2 || corner >= 4 ? 1.0 : 0.0);
+  vec2 at = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);  // one triangle
   if (volume.lengths.w > 0.5) {
-    int columns = textureSize(tiles, 0).x, tile = gl_VertexID / 6;
-    ivec2 place = ivec2(tile % columns, tile / columns);
+    ivec2 count = textureSize(tiles, 0), place = ivec2(gl_VertexID % count.x, gl_VertexID / count.x);
     vec2 span = texelFetch(tiles, place, 0).xy;
-    at = min((vec2(place) + at) * kTilePixels / frame.size.xy, 1.0);
-    if (-span.x > span.y) at = vec2(-1.0);  // all corners in one place
+    at = -span.x > span.y ? vec2(2.0) : 2.0 * (vec2(place) + 0.5) / vec2(count) - 1.0;
   }
-  gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
+  gl_Position = vec4(at, 0.0, 1.0);
 }

@@ -8,6 +8,7 @@
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
+#include "common/render/gl/framebuffer.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate {
@@ -18,35 +19,6 @@ constexpr std::uint64_t kMostBytes = 256ULL << 20U;  // of all P_k; fewer, thick
 constexpr int kMostSlabs = 48, kFewestSlabs = 6;
 constexpr std::size_t kSlabsBelow = 4;  // the plane, made one by one
 constexpr float kFar = 1e30F;
-
-GlTexture make_picture(GLenum format, int width, int height) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &name);
-  GlTexture texture(name);
-  glTextureStorage2D(name, 1, format, width, height);
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return texture;
-}
-
-// Keeps what is drawn to.
-class BoundFramebuffer {
- public:
-  BoundFramebuffer() {
-    glGetIntegerv(GL_VIEWPORT, viewport_.data());
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name_);
-  }
-  ~BoundFramebuffer() {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(name_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-  }
-  BoundFramebuffer(const BoundFramebuffer&) = delete;
-  BoundFramebuffer& operator=(const BoundFramebuffer&) = delete;
-
- private:
-  std::array<GLint, 4> viewport_{};
-  GLint name_ = 0;
-};
 
 // With the offset of one cut and the samples of another view.
 VolumeView with_cut_and_samples(VolumeView view, std::size_t cut, const VolumeView& of) {
@@ -100,10 +72,8 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   margin_ = step_lengths(view).longest * power_of_two(-frame.exponent);
   for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
   kept_.resize(borders_.size());
-  kept_.front() = make_picture(GL_RGBA16, width_, height_);
-  GLuint name = 0;
-  glCreateFramebuffers(1, &name);
-  framebuffer_ = GlFramebuffer(name);
+  kept_.front() = make_picture_texture(GL_RGBA16, width_, height_);
+  framebuffer_ = make_framebuffer();
   glClearTexImage(kept_.front().name(), 0, GL_RGBA, GL_FLOAT, nullptr);
 }
 
@@ -116,14 +86,14 @@ bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaqu
 }
 
 void SlabCache::copy_depth(std::uint32_t opaque_depth) {
-  depth_ = make_picture(GL_DEPTH_COMPONENT32F, width_, height_);
+  depth_ = make_picture_texture(GL_DEPTH_COMPONENT32F, width_, height_);
   glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
                      width_, height_, 1);
 }
 
 // P_to from P_from.
 void SlabCache::make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw) {
-  GlTexture made = make_picture(GL_RGBA16, width_, height_);
+  GlTexture made = make_picture_texture(GL_RGBA16, width_, height_);
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, made.name(), 0);
   constexpr std::array<float, 4> kNothing{};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
@@ -152,7 +122,7 @@ SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth,
 
   Slab slab{.normal = glm::vec3(n), .depth = depth_.name()};
   if (!kept_[k]) {
-    const BoundFramebuffer before;
+    const FramebufferGuard before;
     std::size_t have = k;
     while (!kept_[have]) --have;
     // From far below in one go, in which rays end where they are opaque; some slabs below the plane, so that

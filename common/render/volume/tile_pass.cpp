@@ -8,6 +8,7 @@
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
+#include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
 #include "common/render/volume/brick_map.h"
 
@@ -17,8 +18,6 @@ namespace {
 // Locations and bindings of shaders/volume/tiles.vert.
 enum Uniform : GLint { kSceneFromGrid = 1, kRadius = 2, kTileCount = 3 };
 constexpr GLuint kBricks = 0;
-constexpr int kTilePixels = 8;
-
 // The farthest corner of a brick from its middle; along an axis of one voxel a brick begins half a step
 // earlier.
 double brick_radius(const Mat3& scene_from_grid) {
@@ -32,6 +31,20 @@ double brick_radius(const Mat3& scene_from_grid) {
 }
 
 }  // namespace
+
+TileGrid TileGrid::of(const FrameBlock& block) noexcept {
+  return {(static_cast<int>(block.size.x) + kPixels - 1) / kPixels,
+          (static_cast<int>(block.size.y) + kPixels - 1) / kPixels};
+}
+
+void draw_tiles(const TileGrid& grid) {
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  glViewport(viewport[0], viewport[1], TileGrid::kPixels * grid.columns, TileGrid::kPixels * grid.rows);
+  glPointSize(TileGrid::kPixels);
+  glDrawArrays(GL_POINTS, 0, grid.columns * grid.rows);
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+}
 
 std::vector<std::uint32_t> shell_bricks(const Index3& bricks, std::span<const std::uint8_t> distances) {
   PALPATE_CHECK(std::max({bricks.x, bricks.y, bricks.z}) <= 1024);
@@ -72,28 +85,17 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   // The frame of the scene is that of the image, whose bricks these are.
   if (drawn_ && *drawn_ == block) return tiles_.name();
   drawn_ = block;
-  std::array<GLint, 4> viewport{};
-  GLint framebuffer = 0;
-  glGetIntegerv(GL_VIEWPORT, viewport.data());
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-  const int columns = (viewport[2] + kTilePixels - 1) / kTilePixels;
-  const int rows = (viewport[3] + kTilePixels - 1) / kTilePixels;
+  const FramebufferGuard before;
+  const TileGrid grid = TileGrid::of(block);
   if (!program_) {
     program_ = compile_program("volume/tiles.vert", "volume/tiles.frag");
     no_vertices_ = make_vertex_array();
   }
-  if (columns != columns_ || rows != rows_) {
-    GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    tiles_ = GlTexture(name);
-    glTextureStorage2D(name, 1, GL_RG32F, columns, rows);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glCreateFramebuffers(1, &name);
-    framebuffer_ = GlFramebuffer(name);
-    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, tiles_.name(), 0);
-    columns_ = columns;
-    rows_ = rows;
+  if (!(grid == grid_)) {
+    tiles_ = make_picture_texture(GL_RG32F, grid.columns, grid.rows);
+    framebuffer_ = make_framebuffer();
+    glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, tiles_.name(), 0);
+    grid_ = grid;
   }
 
   const double to_scene = power_of_two(-frame.exponent);
@@ -104,11 +106,11 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   constexpr std::array<float, 4> kNothing{-1e30F, -1e30F, 0.0F, 0.0F};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, columns, rows);
+  glViewport(0, 0, grid.columns, grid.rows);
   glUseProgram(program_.name());
   glUniformMatrix4fv(kSceneFromGrid, 1, GL_FALSE, glm::value_ptr(scene_from_grid));
   glUniform1f(kRadius, static_cast<float>(brick_radius(axes)));
-  glUniform2f(kTileCount, static_cast<float>(columns), static_cast<float>(rows));
+  glUniform2f(kTileCount, static_cast<float>(grid.columns), static_cast<float>(grid.rows));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBricks, bricks_.name());
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
@@ -117,8 +119,6 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * brick_count_));
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
-  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   return tiles_.name();
 }
 

@@ -25,17 +25,33 @@ namespace palpate {
 [[nodiscard]] std::vector<std::uint32_t> shell_bricks(const Index3& bricks,
                                                       std::span<const std::uint8_t> distances);
 
+/// Tiles of a picture of so many pixels.
+struct TileGrid {
+  static constexpr int kPixels = 8;  ///< along either edge of a tile
+  int columns = 0;
+  int rows = 0;
+
+  [[nodiscard]] static TileGrid of(const FrameBlock& block) noexcept;
+  bool operator==(const TileGrid&) const = default;
+};
+
+/// Draws one point for each tile with the program in use; vertex number column + columns row belongs to the
+/// middle of its tile in clip coordinates of all tiles, out of which tiles are left out. Points are squares
+/// of pixels, where two triangles would have software rasterisers compute those on their diagonal twice.
+/// Keeps the viewport.
+void draw_tiles(const TileGrid& grid);
+
 class TilePass {
  public:
   void set_bricks(std::span<const std::uint32_t> shell);
-  /// Draws the tiles of a picture as large as the viewport. Needs the frame's uniform block bound to 0; keeps
+  /// Draws the tiles of a picture as large as the frame's. Needs the frame's uniform block bound to 0; keeps
   /// the framebuffer and viewport.
   /// @return the name of the texture: minus the first and the last t of each tile; the last before the first
   /// where nothing is. The same bricks from the same place are not drawn again.
   /// @param block the frame's.
   [[nodiscard]] std::uint32_t draw(const VolumeImage& image, const SceneFrame& frame,
                                    const FrameBlock& block);
-  [[nodiscard]] int count() const noexcept { return columns_ * rows_; }  ///< tiles of the last picture
+  [[nodiscard]] const TileGrid& grid() const noexcept { return grid_; }  ///< of the last picture
   [[nodiscard]] bool compiled() const noexcept { return static_cast<bool>(program_); }
 
  private:
@@ -45,7 +61,7 @@ class TilePass {
   std::size_t brick_count_ = 0;
   GlTexture tiles_;
   GlFramebuffer framebuffer_;
-  int columns_ = 0, rows_ = 0;
+  TileGrid grid_;
   std::optional<FrameBlock> drawn_;  ///< what the tiles show these bricks from
 };
 

@@ -8,6 +8,7 @@
 /// layer of the preintegrated table for length d; a part of one from the two layers about its length (Ikits
 /// 2006, sec. 5.4). Rays choose d from the lengths of the table so that they sample a voxel as often as asked
 /// for, whatever the spacing of voxels along them; never more than kStepRatio times the shortest step of all.
+/// Around lenses the context may be drawn by itself, smaller and from coarser voxels (context_picture.h).
 #pragma once
 
 #include <cstdint>
@@ -27,14 +28,15 @@ class VolumePass {
   VolumePass& operator=(const VolumePass&) = delete;
 
   /// Uploads what `view` changes: voxels when the image is another one, tables when transfer functions or
-  /// lengths are, and compiles the shader that it needs.
+  /// lengths are.
   /// @pre view.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
   /// least two table entries, and lengths a multiple of kLengthGroup.
   /// @throws Error (usage) where the volume is larger than the driver's textures.
   void update(const VolumeView& view, const SceneFrame& frame);
 
-  /// Draws over the framebuffer that is bound, behind none of what it holds but in front of it as far as the
-  /// depths say: with associated colours, without writing depth. Needs the frame's uniform block bound to 0.
+  /// Draws over the framebuffer that is bound, with the one shader that this needs, behind none of what it
+  /// holds but in front of it as far as the depths say: with associated colours, without writing depth. Needs
+  /// the frame's uniform block bound to 0.
   /// @param opaque_depth a texture with the depths of opaque things, one sample for each pixel of the frame
   /// block, or 0 where there are none (RenderTarget::copy_depth).
   /// While one plane that cuts moves and all else stands still, what does not change is kept (slab_cache.h);
@@ -54,11 +56,12 @@ class VolumePass {
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU
     std::uint64_t table_bytes = 0;
     std::uint64_t brick_bytes = 0;
-    std::uint64_t slab_bytes = 0;  ///< kept of a plane that moves
-    double table_ms = 0.0;         ///< of the last preintegration
-    double empty_share = 0.0;      ///< of the bricks, for the context
+    std::uint64_t slab_bytes = 0;     ///< kept of a plane that moves
+    std::uint64_t context_bytes = 0;  ///< coarser voxels, tables and pictures of the context, drawn alone
+    double table_ms = 0.0;            ///< of the last preintegration
+    double empty_share = 0.0;         ///< of the bricks, for the context
   };
-  [[nodiscard]] const Cost& cost() const noexcept;
+  [[nodiscard]] Cost cost() const noexcept;
 
  private:
   struct State;

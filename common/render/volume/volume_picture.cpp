@@ -106,7 +106,7 @@ double VolumePicture::draw_again() {
   return 1e3 * clock.seconds();
 }
 
-const VolumePass::Cost& VolumePicture::cost() const { return state_->pass->cost(); }
+VolumePass::Cost VolumePicture::cost() const { return state_->pass->cost(); }
 
 Rgba FloatImage::at(int x, int y) const {
   const float* p = rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

@@ -38,7 +38,7 @@ class VolumePicture {
   double draw_alone(const VolumeView& view, const Camera& camera);
   /// Draws again what was drawn last and waits for it. [ms], by the clock.
   double draw_again();
-  [[nodiscard]] const VolumePass::Cost& cost() const;
+  [[nodiscard]] VolumePass::Cost cost() const;
 
  private:
   struct State;

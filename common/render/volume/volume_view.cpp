@@ -10,7 +10,7 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
          a.cuts == b.cuts && a.colored == b.colored && a.shown == b.shown &&
          a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
          a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
-         a.keep_slabs == b.keep_slabs;
+         a.keep_slabs == b.keep_slabs && a.context == b.context;
 }
 
 bool has_colored_parts(const VolumeView& view) noexcept {
@@ -26,6 +26,10 @@ bool is_cut(const VolumeView& view) {
 bool has_magnified_parts(const VolumeView& view) {
   return std::any_of(view.lenses.begin(), view.lenses.end(),
                      [](const Lens& lens) { return magnifies(lens); });
+}
+
+bool draws_context_alone(const VolumeView& view) {
+  return !view.lenses.empty() && !view.colored && (view.context.viewport < 1.0 || view.context.level > 0);
 }
 
 bool asks_tiles(const VolumeView& view) { return view.skip_empty && !has_magnified_parts(view); }

@@ -20,6 +20,17 @@ struct CuttingPlane {
 };
 inline constexpr std::size_t kMostCuts = 8;  ///< of one picture
 
+/// What is saved on all that lies outside lenses, where there are some (context_picture.h; Ikits 2006, sec.
+/// 5.7.3).
+struct ContextQuality {
+  double viewport = 1.0;    ///< its pixels along either edge, as a share of the picture's: in (0, 1]
+  int level = 0;            ///< voxels are means of about 2^level an axis: 0 to kCoarsestLevel
+  int table_entries = 128;  ///< as VolumeView has them, where it is drawn by itself
+
+  bool operator==(const ContextQuality&) const = default;
+};
+inline constexpr int kCoarsestLevel = 4;
+
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
   ColorTransfer transfer;
@@ -39,6 +50,7 @@ struct VolumeView {
   bool skip_empty = true;  ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
   /// Keep pictures of slabs while one cut moves (slab_cache.h); changes no pixel by 1/255.
   bool keep_slabs = true;
+  ContextQuality context;         ///< samples_per_voxel are of voxels of its level
   bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
 };
 
@@ -52,6 +64,9 @@ struct VolumeView {
 [[nodiscard]] bool is_cut(const VolumeView& view);
 /// Whether some lens enlarges.
 [[nodiscard]] bool has_magnified_parts(const VolumeView& view);
+/// Whether what lies outside lenses is a picture of its own: where there are some, quality is saved on it,
+/// and its colours are not those of the voxels.
+[[nodiscard]] bool draws_context_alone(const VolumeView& view);
 /// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere.
 [[nodiscard]] bool asks_tiles(const VolumeView& view);
 

@@ -1,0 +1,64 @@
+/// What the rays of a volume look up, on the GPU: voxels, preintegrated tables, where nothing is seen.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/render/gl/object.h"
+#include "common/render/volume/brick_map.h"
+#include "common/render/volume/tile_pass.h"
+#include "common/render/volume/volume_block.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+class VolumeTextures {
+ public:
+  /// Uploads what `view` changes: voxels when the image is another one, colours when some part is first drawn
+  /// in them, tables and bricks when transfer functions or lengths are others.
+  /// @pre view.image is not null; samples a voxel are positive and finite; at least two table entries, and
+  /// lengths a multiple of kLengthGroup.
+  /// @throws Error (usage) where the volume is larger than the driver's textures.
+  void update(const VolumeView& view);
+
+  /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
+  void bind(bool colors) const;
+
+  [[nodiscard]] const std::shared_ptr<const VolumeImage>& image() const noexcept { return image_; }
+  [[nodiscard]] const Index3& bricks() const noexcept { return ranges_.bricks; }  ///< an axis
+  [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
+  [[nodiscard]] const TilePass& tiles() const noexcept { return tiles_; }
+
+  struct Cost {
+    std::uint64_t voxel_bytes = 0, table_bytes = 0, brick_bytes = 0;
+    double table_ms = 0.0;     ///< of the last preintegration
+    double empty_share = 0.0;  ///< of the bricks, for the context
+  };
+  [[nodiscard]] const Cost& cost() const noexcept { return cost_; }
+
+ private:
+  /// All that the tables depend on.
+  struct TableKey {
+    std::vector<ColorTransfer> transfers;
+    NumberRange range;
+    double longest = 0.0;  ///< in units of the opacity length
+    int entries = 0, lengths = 0;
+
+    bool operator==(const TableKey& other) const;
+  };
+  void update_image(const VolumeView& view);
+  void update_colors(const VolumeView& view);
+  void update_tables(const VolumeView& view);
+
+  GlTexture voxels_, colors_, tables_, empty_bricks_;
+  std::shared_ptr<const VolumeImage> image_;
+  BrickRanges ranges_;
+  TilePass tiles_;
+  TableKey key_;
+  /// Kept: it is large and asked for again while a function is dragged.
+  std::vector<std::uint16_t> table_;
+  Cost cost_;
+};
+
+}  // namespace palpate

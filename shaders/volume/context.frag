@@ -1,0 +1,3 @@
+#version 450 core
+// The context alone.
+#include "volume/context.glsl"
