@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "common/device/simulated_device.h"
 #include "common/haptics/constraint/grid_axis.h"
 #include "common/haptics/widget/plane_widget_link.h"
+#include "common/report/html.h"
 #include "common/servo/hand_step.h"
 
 namespace palpate {
@@ -97,7 +99,35 @@ double at_part(std::vector<double> values, double part) {
 
 std::string millimetres(double metres) { return short_number(1e3 * metres); }
 
+/// "1.2 (0.9 to 1.4)", all times `unit`.
+std::string interval_text(const MedianInterval& interval, double unit = 1.0) {
+  const auto digits = [unit](double value) { return three_digits(unit * value); };
+  std::string text = digits(interval.median);
+  if (std::isfinite(interval.low) && std::isfinite(interval.high))
+    text += " (" + digits(interval.low) + " to " + digits(interval.high) + ")";
+  return text;
+}
+
 }  // namespace
+
+MedianInterval median_interval(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  const double median = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+  // P(at most k of n values lie below the median) = sum_(i <= k) binomial(n, i) / 2^n, by logarithms.
+  constexpr double kEitherTail = 0.025;
+  double tail = 0.0;
+  std::size_t rank = 0;  // of values from either end that are left out
+  for (std::size_t i = 0; i < n / 2; ++i) {
+    const auto all = static_cast<double>(n), part = static_cast<double>(i);
+    tail += std::exp(std::lgamma(all + 1.0) - std::lgamma(part + 1.0) - std::lgamma(all - part + 1.0) -
+                     all * std::numbers::ln2);
+    if (tail > kEitherTail) break;
+    rank = i + 1;
+  }
+  if (rank == 0) return {median, -HUGE_VAL, HUGE_VAL};
+  return {median, values[rank - 1], values[n - rank]};
+}
 
 std::string name_of(PlacingMeans means) {
   constexpr std::array<const char*, kPlacingMeansCount> kNames{
@@ -156,25 +186,30 @@ std::vector<PlacingRow> run_plane_placing(const PlacingSettings& settings, Progr
     progress->begin("placing planes",
                     std::size_t{kPlacingMeansCount} * static_cast<std::size_t>(settings.trials));
   std::vector<PlacingRow> rows;
+  std::vector<double> alone;  // [s] of each trial by the first means
   for (int m = 0; m < kPlacingMeansCount; ++m) {
     PlacingRow row{.means = static_cast<PlacingMeans>(m), .trials = settings.trials};
-    std::vector<double> seconds, off, sideways;
+    std::vector<double> seconds, off, sideways, gains;
     for (int trial = 0; trial < settings.trials; ++trial) {
       if (progress != nullptr) {
         progress->check();
         progress->advance();
       }
       const PlacingTrial one = place_plane(row.means, settings, trial);
+      const double taken = one.placed ? one.seconds : kLongest;
+      if (row.means == PlacingMeans::kHandAlone) alone.push_back(taken);
+      gains.push_back(alone[static_cast<std::size_t>(trial)] - taken);
       if (!one.placed) continue;
       ++row.placed;
       seconds.push_back(one.seconds);
       off.push_back(one.off);
       sideways.push_back(one.sideways);
     }
-    constexpr double kMiddle = 0.5, kMost = 0.9;
-    row.seconds_median = at_part(seconds, kMiddle);
+    constexpr double kMost = 0.9;
+    if (!gains.empty()) row.gain = median_interval(std::move(gains));
+    if (!seconds.empty()) row.seconds = median_interval(seconds);
     row.seconds_p90 = at_part(seconds, kMost);
-    row.off_median = at_part(off, kMiddle);
+    if (!off.empty()) row.off = median_interval(off);
     row.off_p90 = at_part(off, kMost);
     row.sideways_p90 = at_part(sideways, kMost);
     rows.push_back(row);
@@ -185,21 +220,32 @@ std::vector<PlacingRow> run_plane_placing(const PlacingSettings& settings, Progr
 ReportSection plane_placing_section(const std::vector<PlacingRow>& rows, const PlacingSettings& settings) {
   ReportSection section;
   section.title = "Placing a cutting plane by hand";
-  section.columns = {"means",           "placed",        "median [s]",        "90 % [s]",
-                     "median off [mm]", "90 % off [mm]", "90 % sideways [mm]"};
+  section.columns = {"means",    "placed",          "sooner than alone [s]", "median [s]",
+                     "90 % [s]", "median off [mm]", "90 % off [mm]",         "90 % sideways [mm]"};
   for (const PlacingRow& row : rows) {
     const std::string name = name_of(row.means);
     section.table.push_back({name, std::to_string(row.placed) + " of " + std::to_string(row.trials),
-                             short_number(row.seconds_median), short_number(row.seconds_p90),
-                             millimetres(row.off_median), millimetres(row.off_p90),
+                             row.means == PlacingMeans::kHandAlone ? "" : interval_text(row.gain),
+                             row.placed > 0 ? interval_text(row.seconds) : "", short_number(row.seconds_p90),
+                             row.placed > 0 ? interval_text(row.off, 1e3) : "", millimetres(row.off_p90),
                              millimetres(row.sideways_p90)});
     const std::string tremor = "tremor=" + millimetres(settings.tremor) + " mm";
     section.measurements.push_back({"placing a plane", name, tremor, "placed [part]",
                                     static_cast<double>(row.placed) / std::max(row.trials, 1)});
+    if (row.means != PlacingMeans::kHandAlone) {
+      section.measurements.push_back(
+          {"placing a plane", name, tremor, "median gain over the hand alone [s]", row.gain.median});
+      if (std::isfinite(row.gain.low)) {
+        section.measurements.push_back(
+            {"placing a plane", name, tremor, "gain, lower end of 95 % [s]", row.gain.low});
+        section.measurements.push_back(
+            {"placing a plane", name, tremor, "gain, upper end of 95 % [s]", row.gain.high});
+      }
+    }
     if (row.placed == 0) continue;
-    section.measurements.push_back({"placing a plane", name, tremor, "median time [s]", row.seconds_median});
+    section.measurements.push_back({"placing a plane", name, tremor, "median time [s]", row.seconds.median});
     section.measurements.push_back(
-        {"placing a plane", name, tremor, "median distance off [mm]", 1e3 * row.off_median});
+        {"placing a plane", name, tremor, "median distance off [mm]", 1e3 * row.off.median});
     section.measurements.push_back(
         {"placing a plane", name, tremor, "90 % distance sideways [mm]", 1e3 * row.sideways_p90});
   }
@@ -211,7 +257,11 @@ ReportSection plane_placing_section(const std::vector<PlacingRow>& rows, const P
           millimetres(0.5 * settings.voxel) + " mm) for 0.3 s; 10 s at most. " +
           "'Off' is the distance along the normal then, 'sideways' that of the plane's centre across it. "
           "Times and "
-          "distances are of those that were placed; the same targets and tremor for every means.",
+          "distances are of those that were placed; the same targets and tremor for every means. 'Sooner "
+          "than "
+          "alone' pairs each with the hand alone at the same target; one that was never placed counts as 10 "
+          "s. In "
+          "brackets: the interval that holds the true median with 95 % probability, by order statistics.",
       "It is a model of a hand, and no person: it aims steadily, never looks away, and knows the target to "
       "rounding."};
   return section;

@@ -47,12 +47,26 @@ struct PlacingTrial {
 };
 [[nodiscard]] PlacingTrial place_plane(PlacingMeans means, const PlacingSettings& settings, int trial);
 
+/// A median and the interval that covers the true one with 95 % probability whatever the distribution: from
+/// one order statistic to another, the narrowest that are evenly far from the ends (binomial, p = 1/2). Minus
+/// and plus infinity below six values.
+struct MedianInterval {
+  double median = 0.0, low = 0.0, high = 0.0;
+};
+/// @pre values is not empty.
+[[nodiscard]] MedianInterval median_interval(std::vector<double> values);
+
 struct PlacingRow {
   PlacingMeans means = PlacingMeans::kHandAlone;
   int trials = 0, placed = 0;
-  double seconds_median = 0.0, seconds_p90 = 0.0;  ///< of those that were placed
-  double off_median = 0.0, off_p90 = 0.0;          ///< [m]
-  double sideways_p90 = 0.0;                       ///< [m]
+  /// [s] by which the hand alone takes longer to the same target, with the same tremor. What was never placed
+  /// counts as the 10 s that it was given, on either side.
+  MedianInterval gain;
+  MedianInterval seconds;     ///< of those that were placed
+  double seconds_p90 = 0.0;   ///< likewise
+  MedianInterval off;         ///< [m]
+  double off_p90 = 0.0;       ///< [m]
+  double sideways_p90 = 0.0;  ///< [m]
 };
 
 /// One row for each means. @throws Cancelled.
