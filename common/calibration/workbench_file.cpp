@@ -105,14 +105,15 @@ class Section {
     for (const toml::node& node : array(key)) out.push_back(vector(node, may_be_nan));
     return out;
   }
-  [[nodiscard]] Rigid motion() const {
+  [[nodiscard]] Quat rotation() const {
     const auto q = numbers(at("rotation"), 4);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     constexpr double kSlack = 1e-3;
     if (std::abs(length - 1.0) > kSlack)
       refuse(path_, line_of(at("rotation")), "a quaternion of length " + short_number(length), "1");
-    return {Quat{q[0], q[1], q[2], q[3]} / length, vector("translation")};
+    return Quat{q[0], q[1], q[2], q[3]} / length;
   }
+  [[nodiscard]] Rigid motion() const { return {rotation(), vector("translation")}; }
   [[noreturn]] void refuse_at(const char* key, const std::string& found, const std::string& expected) const {
     refuse(path_, line_of(at(key)), found, expected);
   }
@@ -122,6 +123,21 @@ class Section {
   std::string name_;
   const std::filesystem::path& path_;
 };
+
+InteractionGeometry interaction_of(const Section& s) {
+  InteractionGeometry out;
+  if (s.has("technique")) {
+    const std::string technique = s.at("technique").value<std::string>().value_or("");
+    out.immersive = technique == "immersive";
+    if (!out.immersive && technique != "desktop")
+      s.refuse_at("technique", "'" + technique + "'", "\"desktop\" or \"immersive\"");
+  }
+  if (out.immersive || s.has("middle")) out.middle = s.vector("middle");
+  if (s.has("rotation")) out.rotation = s.rotation();
+  if (s.has("gain")) out.gain = s.number("gain");
+  if (!(out.gain > 0.0)) s.refuse_at("gain", short_number(out.gain), "a number above zero");
+  return out;
+}
 
 TrackerCorrection tracker_of(const Section& s) {
   TrackerCorrection out;
@@ -276,6 +292,8 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
   section("screen", {"lower_left", "lower_right", "upper_left"}, [&](const Section& s) {
     out.screen = {s.vector("lower_left"), s.vector("lower_right"), s.vector("upper_left")};
   });
+  section("interaction", {"technique", "middle", "rotation", "gain"},
+          [&](const Section& s) { out.interaction = interaction_of(s); });
   return out;
 }
 

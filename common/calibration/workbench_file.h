@@ -17,6 +17,12 @@
 ///   may be missing [screen]           # lower_left, lower_right, upper_left = [x, y, z] in the tracker's
 ///   frame
 ///
+///   [interaction]      # how hands work with the data; written by hand, no calibration makes it
+///   technique = "immersive"        # tracked hands; "desktop", the default: a mouse
+///   middle = [x, y, z]             # immersive: where the middle of the data is, in the tracker's frame
+///   rotation = [w, x, y, z]        # optional: turns the tracker's axes into those of the data
+///   gain = 2.0                     # optional: metres of the workspace for a metre of the hand, > 0
+///
 /// Other sections belong to others and are left alone.
 #pragma once
 
@@ -45,6 +51,15 @@ struct ScreenGeometry {
   Vec3 lower_left{0.0}, lower_right{0.0}, upper_left{0.0};
 };
 
+/// How hands work with the data: with x of the tracker, the probe is at m + gain R (x - middle) in the
+/// workspace, m the middle of the data.
+struct InteractionGeometry {
+  bool immersive = false;
+  Vec3 middle{0.0};                   ///< [m] in the tracker's frame
+  Quat rotation{1.0, 0.0, 0.0, 0.0};  ///< R
+  double gain = 1.0;
+};
+
 struct WorkbenchGeometry {
   std::optional<TrackerCorrection> tracker;
   std::optional<ApparatusGeometry> apparatus;
@@ -53,6 +68,7 @@ struct WorkbenchGeometry {
   std::optional<Vec3> stylus;
   std::optional<EyesGeometry> eyes;
   std::optional<ScreenGeometry> screen;
+  InteractionGeometry interaction;
 };
 
 /// @throws Error (bad input) naming the line of what is not TOML, unknown, missing, or of a wrong kind or

@@ -44,7 +44,8 @@ DriverModule& open_new(const std::string& name) {
       throw work_error("the driver '" + name + "' was left out of this build; it needs libusb-1.0-0-dev");
     }
     throw usage_error("unknown device '" + name +
-                      "'; known are mouse, replay:FILE.csv, simulated and the drivers " + known);
+                      "'; known are mouse, replay:FILE.csv, hands:FILE.csv, simulated and the drivers " +
+                      known);
   }
   // Its names stay its own, and what it lacks is said now rather than in the servo.
   void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -99,6 +99,17 @@ double value_below_which(const ValueHistogram& histogram, double part, double fr
   return histogram.upper;
 }
 
+double part_below(const ValueHistogram& histogram, double value) noexcept {
+  if (histogram.total == 0 || !(value > histogram.lower)) return 0.0;
+  if (value > histogram.upper) return 1.0;
+  const auto bins = static_cast<double>(histogram.counts.size());
+  const double place = (value - histogram.lower) / (histogram.upper - histogram.lower) * bins;
+  const auto whole = static_cast<std::size_t>(std::min(place, bins - 1.0));
+  double below = (place - static_cast<double>(whole)) * static_cast<double>(histogram.counts[whole]);
+  for (std::size_t bin = 0; bin < whole; ++bin) below += static_cast<double>(histogram.counts[bin]);
+  return below / static_cast<double>(histogram.total);
+}
+
 ValueWindow default_window(const ValueHistogram& histogram) noexcept {
   constexpr double kBrightest = 0.995;
   double white = value_below_which(histogram, kBrightest, histogram.lower);

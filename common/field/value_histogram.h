@@ -44,6 +44,10 @@ struct ValueHistogram {
 /// `upper` where there are none.
 [[nodiscard]] double value_below_which(const ValueHistogram& histogram, double part, double from) noexcept;
 
+/// The part in [0, 1] of all values that are lower than `value`, those of its own bin taken as evenly spread:
+/// its place in the histogram. 0 where there are none, or the value is NaN.
+[[nodiscard]] double part_below(const ValueHistogram& histogram, double value) noexcept;
+
 /// Which values a grey picture shows: black at `level` - `width` / 2, white at `level` + `width` / 2.
 struct ValueWindow {
   double width = 1.0;  ///< > 0

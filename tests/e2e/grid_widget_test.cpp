@@ -1,5 +1,6 @@
 // Haptic grid and cutting planes by hand, as `grid probe` does them on a recorded path.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -115,6 +116,41 @@ TEST_F(GridWidget, LeadsAlongOneAxisWithTheOthersUntouched) {
   EXPECT_EQ(std::set<std::string>(y.begin(), y.end()).size(), 1U) << "to the last bit";
   EXPECT_EQ(std::set<std::string>(z.begin(), z.end()).size(), 1U);
   EXPECT_GT(std::set<std::string>(x.begin(), x.end()).size(), 100U);
+}
+
+/// Two domains at once: the value at the proxy, and its place among all values.
+TEST_F(GridWidget, LogsTheValueAndItsPlaceInTheHistogram) {
+  Hand hand({-0.99, 0.0, 0.0});
+  hand.lead({0.0, 0.0, 0.0}, false);
+  hand.lead({3.0, 0.0, 0.0}, false);
+  folder_.write("path.csv", hand.table());
+  (void)json({"probe", "--example", "shells", "--path", "path.csv", "--mode", "density", "--out", "log.csv"});
+  std::istringstream log(read_file(folder_.path("log.csv")));
+  std::string header;
+  std::getline(log, header);
+  ASSERT_TRUE(header.ends_with(",value,below")) << header;
+  const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ','));
+  const auto x = column("log.csv", 1), values = column("log.csv", columns - 1),
+             below = column("log.csv", columns);
+  ASSERT_EQ(values.size(), x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double r = std::abs(std::stod(x[i]));
+    if (r > 1.0) {
+      EXPECT_EQ(values[i], "nan") << "outside";
+      EXPECT_EQ(below[i], "nan");
+      continue;
+    }
+    // The innermost of the shells about the middle is 255, and few voxels have as much; the gaps between
+    // shells are less than most voxels.
+    const double value = std::stod(values[i]), part = std::stod(below[i]);
+    ASSERT_TRUE(part >= 0.0 && part <= 1.0) << part;
+    if (value > 240.0) {
+      EXPECT_GT(part, 0.98);
+    }
+    if (value < 1.0) {
+      EXPECT_LT(part, 0.6);
+    }
+  }
 }
 
 TEST_F(GridWidget, FindsLandmarksWhereValuesPileUp) {

@@ -160,6 +160,43 @@ TEST_F(LinearModeOfGrid, HoldsAgainstTheGradient) {
   EXPECT_GT(largest, 0.5);
 }
 
+/// Drag along the gradient whose stiffness grows with the gradient: borders are felt as shells, stiff where
+/// they are steep, and what lies between them is soft.
+TEST_F(LinearModeOfGrid, FeelsSteepBordersAsStiffShells) {
+  // The built-in volume: A exp(-((r - R) / w)^2) for each shell, on 255 steps.
+  constexpr double kShells[4][2] = {{0.2, 1.0}, {0.42, 0.75}, {0.64, 0.5}, {0.86, 0.25}}, kWidth = 0.05;
+  const auto value = [&](double r) {
+    double sum = 0.0;
+    for (const auto& [radius, height] : kShells) {
+      const double away = (r - radius) / kWidth;
+      sum += height * std::exp(-away * away);
+    }
+    return 255.0 * sum;
+  };
+  constexpr double kSteep = 2500.0, kSoft = 0.05;
+  const Vec3 along = glm::normalize(Vec3(1.0, 0.3, 0.2));
+  const auto log =
+      feel("shells", stroke(along, 0.1 * along, 4000),
+           {"--axes", "drag,free,free", "--tau", "2", "--measure", "gradient", "--kappa", "0:0.05,2500:1"});
+  const double scale = Workspace::default_scale(std::sqrt(12.0));
+  double softest = 1.0, stiffest = 0.0;
+  for (std::size_t i = 200; i < log.rows.size(); ++i) {
+    const LogRow& row = log.rows[i];
+    const double r = glm::length(row.proxy), stretch = scale * glm::distance(row.proxy, row.probe);
+    // Differences over a voxel to either side, as the measure takes them.
+    constexpr double kVoxel = 2.0 / 95.0;
+    const double gradient = std::abs(value(r + kVoxel) - value(r - kVoxel)) / (2.0 * kVoxel);
+    if (stretch < 1.5e-3) continue;  // where the gradient turns over, the drag has to set in again
+    const double kappa = glm::length(row.force) / (kStiffness * stretch);
+    const double expected = kSoft + (1.0 - kSoft) * std::min(1.0, gradient / kSteep);
+    ASSERT_NEAR(kappa, expected, 0.12) << "at r = " << r;
+    softest = std::min(softest, kappa);
+    stiffest = std::max(stiffest, kappa);
+  }
+  EXPECT_LT(softest, 0.1);
+  EXPECT_GT(stiffest, 0.9);
+}
+
 TEST_F(LinearModeOfGrid, OffersNoFlow) {
   expect_refused("blob", {"--reference", "flow"});
   expect_refused("blob", {"--measure", "speed"});

@@ -215,6 +215,16 @@ class VerbParser {
     app_.add_option("--path", options_.path, "table of the probe's path, header t,x,y,z[,b0]: one step a row")
         ->type_name("FILE.csv")
         ->group("Touch");
+    add_workbench();
+  }
+
+  void add_workbench() {
+    app_.add_option("--workbench", options_.workbench,
+                    "calibrations of a workbench, and how hands work there: [interaction] technique = "
+                    "\"immersive\" takes tracked hands, with the header t,x,y,z,qw,qx,qy,qz[,b0,b1,hx,hy,hz,"
+                    "hqw,hqx,hqy,hqz,h0], in place of a mouse or a path")
+        ->type_name("W.toml")
+        ->group("Touch");
   }
 
   void add_tract() {
@@ -245,11 +255,13 @@ class VerbParser {
     app_.add_option(
             "--device", options_.device,
             "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, "
+            "hands:FILE.csv, tracked hands at an immersive --workbench, "
             "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
             "wander, or a real device by its driver: falcon[:firmware=FILE], spacemouse")
         ->type_name("D")
         ->group("Touch");
     add_rate();
+    add_workbench();
     app_.add_option("--record", options_.record, "write all input and every servo step to this file")
         ->type_name("FILE")
         ->group("Touch");

@@ -178,9 +178,11 @@ struct Options {
   HeartOptions heart;
   SeriesOptions series;
   TouchOptions touch;
-  std::filesystem::path path;    ///< probe: the recorded path
-  std::filesystem::path record;  ///< open: where the run is recorded
-  /// open: mouse, replay:FILE.csv or simulated…; probe: mouse, which stands for the path, or simulated…
+  std::filesystem::path path;       ///< probe: the recorded path
+  std::filesystem::path workbench;  ///< open, probe: calibration/workbench_file.h; empty: a desktop
+  std::filesystem::path record;     ///< open: where the run is recorded
+  /// open: mouse, replay:FILE.csv, hands:FILE.csv or simulated…; probe: mouse, which stands for the path, or
+  /// simulated…
   std::string device = "mouse";
   double rate = 1000.0;          ///< of the servo [Hz]
   std::filesystem::path tract;   ///< probe: where the way of the proxy is saved as a line

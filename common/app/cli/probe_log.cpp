@@ -1,12 +1,15 @@
 #include "common/app/cli/probe_log.h"
 
+#include <cmath>
+
 #include "common/base/text.h"
+#include "common/field/scalar_threshold.h"
 #include "common/field/tensor/measures_at.h"
 
 namespace palpate {
 
-ProbeLog::ProbeLog(OutputFile& file, const Workspace& workspace, int links, const TensorField* tensors)
-    : file_(file), workspace_(workspace), links_(links), tensors_(tensors) {
+ProbeLog::ProbeLog(OutputFile& file, const Workspace& workspace, int links, const Measured& measured)
+    : file_(file), workspace_(workspace), links_(links), measured_(measured) {
   std::string header = "t,x,y,z,px,py,pz,fx,fy,fz,state,residual,us";
   for (int i = 1; i <= links; ++i) {
     for (const char* axis : {"x", "y", "z"}) {
@@ -14,7 +17,12 @@ ProbeLog::ProbeLog(OutputFile& file, const Workspace& workspace, int links, cons
       header += std::to_string(i) + axis;
     }
   }
-  if (tensors != nullptr) header += ",force,cl,cp,cs,fa";
+  if (measured.tensors != nullptr) header += ",force,cl,cp,cs,fa";
+  if (measured.scalar != nullptr) {
+    header += ",value,below";
+    if (measured.scalar->lowest() <= measured.scalar->highest())
+      histogram_ = value_histogram(*measured.scalar);
+  }
   file_.write(header + "\n");
 }
 
@@ -33,11 +41,18 @@ void ProbeLog::add(const PathRow& row, const HandStep& step, double microseconds
     add_vector(
         in_data(there ? step.chain.proxies[static_cast<std::size_t>(i)] : step.probe, row, step, workspace_));
   }
-  if (tensors_ != nullptr) {
-    const TensorMeasures measures = measures_at(*tensors_, proxy, hint_);
+  if (measured_.tensors != nullptr) {
+    const TensorMeasures measures = measures_at(*measured_.tensors, proxy, hint_);
     for (const double value : {glm::length(step.force), measures.parts.linear, measures.parts.planar,
                                measures.parts.spherical, measures.fractional_anisotropy})
       (line_ += ',') += exact_number(value);
+  }
+  if (measured_.scalar != nullptr) {
+    const ScalarSample sample = measured_.scalar->sample(proxy, hint_);
+    const bool there = sample.status == SampleStatus::kOk;
+    const double local = sample.value * measured_.scalar->value_scale();
+    (line_ += ',') += exact_number(there ? sample.value : NAN);
+    (line_ += ',') += exact_number(there ? part_below(histogram_, local) : NAN);
   }
   line_ += '\n';
   file_.write(line_);

@@ -5,7 +5,9 @@
 
 #include "common/base/output_file.h"
 #include "common/device/probe_path.h"
+#include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
+#include "common/field/value_histogram.h"
 #include "common/haptics/workspace.h"
 #include "common/servo/hand_step.h"
 
@@ -13,8 +15,12 @@ namespace palpate {
 
 class ProbeLog {
  public:
-  /// @param tensors null, or what is measured at the proxy: columns force, cl, cp, cs and fa at the end.
-  ProbeLog(OutputFile& file, const Workspace& workspace, int links, const TensorField* tensors);
+  /// What is measured at the proxy, in columns at the end; null: nothing of that kind.
+  struct Measured {
+    const TensorField* tensors = nullptr;  ///< force, cl, cp, cs and fa
+    const ScalarField* scalar = nullptr;   ///< value, and below: the part of all values that are lower
+  };
+  ProbeLog(OutputFile& file, const Workspace& workspace, int links, const Measured& measured);
 
   /// @param row where the probe was, data coordinates. @param microseconds the step took.
   void add(const PathRow& row, const HandStep& step, double microseconds);
@@ -29,7 +35,8 @@ class ProbeLog {
   OutputFile& file_;
   const Workspace& workspace_;
   int links_;
-  const TensorField* tensors_;
+  Measured measured_;
+  ValueHistogram histogram_;  ///< of the scalar, local values
   CellHint hint_;
   std::string line_;
 };

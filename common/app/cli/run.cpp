@@ -28,13 +28,14 @@ std::string joined(const std::string& program, const std::vector<std::string>& a
 void check_outputs(const Options& options) {
   std::vector<std::filesystem::path> inputs = options.input.files;
   if (options.input.solution) inputs.push_back(*options.input.solution);
-  constexpr std::string_view kReplay = "replay:";
-  const std::string device =
-      options.device.starts_with(kReplay) ? options.device.substr(kReplay.size()) : std::string();
+  std::string device;
+  for (const std::string_view word : {"replay:", "hands:"}) {
+    if (options.device.starts_with(word)) device = options.device.substr(word.size());
+  }
   for (const std::filesystem::path& input :
        {options.input.tensor.bval, options.input.tensor.bvec,
-        std::filesystem::path(options.input.tensor.mask), options.path, options.replay, options.session,
-        std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
+        std::filesystem::path(options.input.tensor.mask), options.path, options.workbench, options.replay,
+        options.session, std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
     inputs.push_back(input);
   }
   const std::array<std::filesystem::path, 3> outputs{options.out, options.record, options.tract};

@@ -15,6 +15,7 @@
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
+#include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
@@ -116,9 +117,8 @@ class ProbeRun {
   ProbeRun(ProbeSummary& summary, const Workspace& workspace, const VerbContext& context)
       : summary_(summary), workspace_(workspace), context_(context) {}
 
-  /// @param tensors as ProbeLog's.
-  void log_to(OutputFile& file, int links, const TensorField* tensors) {
-    log_.emplace(file, workspace_, links, tensors);
+  void log_to(OutputFile& file, int links, const ProbeLog::Measured& measured) {
+    log_.emplace(file, workspace_, links, measured);
   }
   void draw_on(TractPen& pen) { pen_ = &pen; }
 
@@ -185,6 +185,30 @@ void follow_path(const std::vector<PathRow>& path, HandStepper& stepper, const W
   }
 }
 
+/// One step a row of tracked hands; the other hand carries a cutting plane. Rows that do not see the stylus
+/// are steps at its last place.
+void follow_hands(const std::vector<TrackedHands>& rows, ImmersiveTechnique& technique,
+                  ChainSettings settings, WidgetNewsBuffer* planes, HandStepper& stepper,
+                  const Workspace& workspace, ProbeRun& run, Progress& progress) {
+  progress.begin("probing", rows.size());
+  CarriedPlanes carried;
+  std::optional<WidgetNews> told;
+  for (const TrackedHands& hands : rows) {
+    (void)technique.take(hands, {});
+    const HandsIntent& intent = technique.intent();
+    if (WidgetNews news; planes != nullptr && planes->read(news)) told = news;
+    if (const auto poses = carried.follow(intent, told)) {
+      settings.plane_widget.poses = *poses;
+      ++settings.plane_widget.edit;
+      stepper.apply(settings);
+    }
+    const PathRow row{hands.time, intent.probe, intent.acts ? 1U : 0U};
+    HandInput hand{.time = row.time, .present = true};
+    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
+    run.take(row, [&] { return stepper.step(hand); });
+  }
+}
+
 /// A simulated hand that wants to be on the path: steps at the servo's rate, in simulated time, until the
 /// path ends.
 void follow_operator(const std::vector<PathRow>& path, const SimulatedDeviceOptions& simulated, double rate,
@@ -235,6 +259,7 @@ struct FeltInput {
   std::shared_ptr<const ScalarField> scalar;
   std::shared_ptr<const TensorField> tensor;
   std::string name;
+  Vec3 middle{0.0};
   double diagonal = 0.0;
   const TetMesh* mesh = nullptr;
   std::vector<std::string> notes;
@@ -244,6 +269,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   FeltInput felt;
   const auto describe = [&felt](const auto& field) {
     felt.name = field.name();
+    felt.middle = field.bounds().center();
     felt.diagonal = field.diagonal();
     felt.mesh = field.tet_mesh();
     felt.notes = field.notes().lines;
@@ -251,6 +277,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   if (context.explorer.kind == FieldKind::kTensor) {
     felt.tensor = input.load_tensor(options.common.threads, &context.progress);
     felt.name = felt.tensor->name();
+    felt.middle = felt.tensor->bounds().center();
     felt.diagonal = felt.tensor->bounds().diagonal();
     felt.mesh = felt.tensor->grid()->tets.get();
     felt.notes = felt.tensor->notes().lines;
@@ -259,6 +286,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
     felt.tensor = heart.fibres;
     felt.scalar = heart.layer;
     felt.name = heart.fibres->name();
+    felt.middle = heart.layer->bounds().center();
     felt.diagonal = heart.layer->diagonal();
     felt.mesh = heart.layer->tet_mesh();
     felt.notes = std::move(heart.notes);
@@ -324,8 +352,16 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   }
   (void)touch_settings(options.touch);
   std::vector<PathRow> path;
+  std::vector<TrackedHands> hands;
+  WorkbenchGeometry bench;
+  if (!options.workbench.empty()) bench = read_workbench(options.workbench);
+  const bool immersive = bench.interaction.immersive && options.replay.empty();
+  if (immersive && simulated)
+    throw usage_error("tracked hands hold no simulated arm: leave --device out, or take a desktop");
   std::optional<Recording> recording;
-  if (options.replay.empty()) {
+  if (immersive) {
+    hands = read_hands(options.path.string());
+  } else if (options.replay.empty()) {
     path = read_probe_path(options.path.string());
   } else {
     recording = read_recording(options.replay.string());
@@ -348,7 +384,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
   // Of a heart the tensors are its fibres, which no column tells of.
-  const TensorField* const logged = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr;
+  const ProbeLog::Measured logged{
+      .tensors = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr,
+      .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr};
   if (context.explorer.kind == FieldKind::kFibre && !recording) {
     IsosurfaceSettings& layers = summary.settings.isosurface;
     if (layers.isovalues.count == 0) layers.isovalues = default_layers(*felt.scalar);
@@ -405,7 +443,11 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     planes = haptics.planes;
     summary.landmarks = haptics.landmarks;
     HandStepper stepper(std::move(haptics.chain), summary.limits);
-    if (simulated) {
+    if (immersive) {
+      ImmersiveTechnique technique(bench, felt.middle, workspace.scale());
+      follow_hands(hands, technique, summary.settings, planes.get(), stepper, workspace, run,
+                   context.progress);
+    } else if (simulated) {
       const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),
                                                  summary.settings.stiffness, summary.settings.damping);
       if (!note.empty()) console.note(note);
@@ -416,7 +458,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   }
   run.finish();
   if (WidgetNews news; planes && planes->read(news)) summary.planes = news.poses;
-  if (path.empty() && options.replay.empty()) console.note(options.path.string() + ": the path has no rows");
+  if (path.empty() && hands.empty() && options.replay.empty())
+    console.note(options.path.string() + ": the path has no rows");
   if (run.first_fault() > 0) {
     console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +
                  " without a force, the first is step " + std::to_string(run.first_fault()) + ": " +

@@ -20,6 +20,8 @@
 namespace palpate {
 namespace {
 
+constexpr std::string_view kHands = "hands:";
+
 /// The path of `--device replay:FILE`; none for others.
 /// @throws Error (usage); (bad input).
 std::vector<PathRow> device_path(const std::string& device) {
@@ -41,6 +43,25 @@ DeviceLimits linked_limits(const DriverLink& link, const DeviceLimits& asked) {
   limits.reach_lower = Vec3{-HUGE_VAL};
   limits.reach_upper = Vec3{HUGE_VAL};
   return limits;
+}
+
+/// Tracked hands and the workbench that they are at, where the workbench file asks for such.
+/// @throws Error (usage) where one of both is missing; (bad input).
+void take_workbench(const Options& options, ProbeSessionOptions& touch) {
+  const std::string_view device = options.device;
+  const bool hands = device.starts_with(kHands);
+  if (!options.workbench.empty()) touch.workbench = read_workbench(options.workbench);
+  if (hands != touch.workbench.interaction.immersive) {
+    throw usage_error(hands ? "--device " + options.device +
+                                  " needs a workbench whose [interaction] has technique = \"immersive\": try "
+                                  "--workbench workbench.toml"
+                            : options.workbench.string() +
+                                  " has technique = \"immersive\", which needs tracked hands: try --device "
+                                  "hands:FILE.csv");
+  }
+  if (!hands) return;
+  touch.hands = read_hands(std::string(device.substr(kHands.size())));
+  if (touch.hands.empty()) throw usage_error("--device " + options.device + ": there are no rows");
 }
 
 /// What is said when the window is closed: how the servo did, in a row a line.
@@ -73,6 +94,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   touch.notes = annotations_of(options.touch.annotations, "--annotation");
   check_replay_options(options);
   touch.path = device_path(options.device);
+  take_workbench(options, touch);
   touch.simulated = simulated_option(options.device);
   if (touch.simulated) {
     touch.limits = simulated_limits(*touch.simulated, touch.limits);
@@ -81,7 +103,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
-  } else if (options.device != "mouse" && touch.path.empty()) {
+  } else if (options.device != "mouse" && touch.path.empty() && touch.hands.empty()) {
     touch.link = open_link(options.device);
     touch.limits = linked_limits(*touch.link, touch.limits);
   }

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "common/app/haptic/chain_description.h"
-#include "common/app/haptic/grid_mode.h"
+#include "common/app/haptic/desktop_technique.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
-#include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
@@ -28,6 +27,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
     : options_(std::move(options)),
       wake_(std::move(wake)),
       choice_(options_.choice),
+      technique_(std::make_unique<DesktopTechnique>()),
       notes_(options_.notes),
       mouse_(std::make_unique<MouseDevice>(options_.limits)) {
   if (!available()) return;
@@ -71,6 +71,11 @@ bool ProbeSession::set_field(NamedField open) {
   if (same) return false;
   let_go();
   open_ = std::move(open);
+  if (!options_.hands.empty()) {
+    technique_ = std::make_unique<ImmersiveTechnique>(options_.workbench, open_.bounds().center(),
+                                                      workspace().scale());
+    if (!hands_) hands_ = std::make_unique<ReplayHands>(options_.hands);
+  }
   // A heart's layer is in the picture with its fibres: all that are felt would lie over it.
   const bool heart = open_.tensor && open_.scalar && !open_.field;
   if (heart && !servo_) choice_.show_surface = false;
@@ -164,12 +169,36 @@ void ProbeSession::follow_chain(const HapticChain& made) {
 }
 
 void ProbeSession::grab(double time, const Vec3& position) {
-  if (!servo_ || replay_ || path_device_ || linked_) return;
-  target_ = position;
+  if (by_mouse()) hold(time, position);
+}
+
+void ProbeSession::hold(double time, const Vec3& position) {
+  if (!servo_) return;
+  technique_->put(position);
   noted_.reset();
   if (drawing_) drawing_->forget_note();
   pressed_ = false;
   mouse_->grab(time, workspace().workspace_from_data(position), buttons());
+}
+
+void ProbeSession::lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept {
+  const bool held = readout_.held && readout_.state == HoldState::kHeld;
+  (void)technique_->take(event, {camera, size, held ? std::optional(readout_.proxy) : std::nullopt});
+}
+
+/// The hands of the immersive technique have hold of the probe while they are there.
+void ProbeSession::follow_hands(double time) {
+  TrackedHands hands;
+  if (!hands_->read(time, hands)) {
+    let_go();
+    return;
+  }
+  (void)technique_->take(hands, {});
+  if (!mouse_->grabbed()) hold(time, intent().probe);
+  pressed_ = intent().acts;
+  const std::optional<PlanePoses> poses = carried_.follow(intent(), planes());
+  if (carried_.began()) planes_.remember();
+  if (poses) set_planes(*poses);
 }
 
 /// Modes that take hold of something wait for the button; in all others the hand itself is the button.
@@ -228,55 +257,6 @@ void ProbeSession::choose(const TouchChoice& choice) {
   }
 }
 
-std::string ProbeSession::stiffness_note() const {
-  if (!options_.simulated) return {};
-  return stiffness_warning(wall_loop(options_.simulated->profile, options_.servo_rate),
-                           choice_.settings.stiffness, choice_.settings.damping);
-}
-
-std::string ProbeSession::passive_limit() const {
-  if (!options_.simulated) return {};
-  const StiffnessBound bound =
-      stiffness_bound(wall_loop(options_.simulated->profile, options_.servo_rate), choice_.settings.damping);
-  return "passive up to " + short_number(bound.stiffness) + " N/m (" + std::string(name_of(bound.limit)) +
-         ")";
-}
-
-std::pair<double, double> ProbeSession::measure_range() const {
-  constexpr double kSteepPart = 0.125;  // of the diagonal
-  std::pair<double, double> values{0.0, open_.field ? open_.field->max_speed() : 0.0};
-  const LinearMeasure measure = choice_.settings.linear.measure;
-  if (measure != LinearMeasure::kSpeed && open_.scalar) {
-    values = {open_.scalar->lowest(), open_.scalar->highest()};
-  }
-  if (measure == LinearMeasure::kGradient && !open_.empty()) {
-    values = {0.0, (values.second - values.first) / (kSteepPart * open_.diagonal())};
-  }
-  if (!(values.first < values.second)) return {values.first, values.first + 1.0};  // one value everywhere
-  return values;
-}
-
-std::vector<std::pair<std::string, std::string>> ProbeSession::options() const {
-  if (!available()) return {};
-  auto options = touch_options_of(choice_, options_.modes[choice_.mode].name, has_tensors());
-  const auto has = [this](const char* mode) {
-    return std::any_of(options_.modes.begin(), options_.modes.end(),
-                       [&](const HapticMode& each) { return each.name == mode; });
-  };
-  if (has(kGridMode)) {
-    for (auto& option : grid_options(choice_.settings.grid_axis)) options.push_back(std::move(option));
-  }
-  if (has(kPlaneWidgetMode)) {
-    PlaneWidgetSettings planes = choice_.settings.plane_widget;
-    if (this->planes()) planes.poses = this->planes()->poses;
-    for (auto& option : plane_options(planes)) options.push_back(std::move(option));
-  }
-  if (!notes_.entries().empty()) options.emplace_back("annotation", text_of(notes_.entries()));
-  if (options_.workspace_scale > 0.0)
-    options.emplace_back("workspace-scale", exact_number(options_.workspace_scale));
-  return options;
-}
-
 void ProbeSession::clear_path() {
   if (drawing_) {
     drawing_->clear();
@@ -288,7 +268,10 @@ void ProbeSession::clear_path() {
 
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
   if (!servo_) return;
-  if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(target_), buttons());
+  // Before planes are carried on: of that edit nothing can have been told yet.
+  planes_.read(choice_.settings.plane_widget.edit);
+  if (hands_ && !replay_) follow_hands(time);
+  if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(intent().probe), buttons());
   if (placed_) placed_->place(placement(camera));
   if (linked_) readout_.device = linked_->advice();
   servo_->collect_retired();
@@ -296,7 +279,6 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);
   HandStep step;
   while (servo_->pop_step(step)) take(step);
-  planes_.read(choice_.settings.plane_widget.edit);
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
     curve_->update(choice_.show_balls ? ball_interval(*open_.field, workspace()) : 0.0, color_by);
@@ -415,7 +397,8 @@ std::optional<ValueRange> ProbeSession::tension_range() const {
 }
 
 bool ProbeSession::lively() const noexcept {
-  return mouse_->grabbed() || growing_ || ((path_device_ || simulated_ || linked_) && readout_.held) ||
+  return mouse_->grabbed() || growing_ ||
+         ((path_device_ || hands_ || simulated_ || linked_) && readout_.held) ||
          (replay_ && !readout_.servo.replay_done);
 }
 

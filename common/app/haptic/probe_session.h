@@ -21,6 +21,7 @@
 #include "common/app/haptic/followed_curve.h"
 #include "common/app/haptic/hand_planes.h"
 #include "common/app/haptic/haptic_mode.h"
+#include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/kept_lines.h"
 #include "common/app/haptic/local_lines.h"
 #include "common/app/haptic/probe_readout.h"
@@ -48,6 +49,9 @@ struct ProbeSessionOptions {
   int threads = 0;
   /// Moves the probe in place of the mouse, from the moment when a field is there; none: the mouse.
   std::vector<PathRow> path;
+  /// Tracked hands in place of the mouse, by the workbench that they are at; none: the mouse.
+  std::vector<TrackedHands> hands;
+  WorkbenchGeometry workbench;
   /// A simulated arm and hand that follow mouse or path, and wander about the field while neither leads;
   /// none: the probe is where mouse or path are. Its limits and path are not looked at.
   std::optional<SimulatedDeviceOptions> simulated;
@@ -84,8 +88,10 @@ class ProbeSession {
   [[nodiscard]] bool grabbed() const noexcept { return mouse_->grabbed(); }
   /// @param time [s] of a steady clock.
   void grab(double time, const Vec3& position);
-  void move(const Vec3& position) noexcept { target_ = position; }
-  [[nodiscard]] const Vec3& target() const noexcept { return target_; }
+  void move(const Vec3& position) noexcept { technique_->put(position); }
+  /// What a device of the interaction technique says; what is not its own changes nothing.
+  void lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept;
+  [[nodiscard]] const HandsIntent& intent() const noexcept { return technique_->intent(); }
   void let_go() noexcept;
   /// The button of the mouse, while it has the probe: takes hold of planes.
   void press(bool down) noexcept { pressed_ = down; }
@@ -150,9 +156,9 @@ class ProbeSession {
   /// Notes the line that is followed now, or how far the tract is drawn, while the hand rests: on its way to
   /// a panel it may slip to others.
   void note_line();
-  /// Whether mouse and keys move the probe: not in a replay, nor with a path or a real device.
+  /// Whether mouse and keys move the probe: not in a replay, nor with a path, tracked hands or a real device.
   [[nodiscard]] bool by_mouse() const noexcept {
-    return options_.path.empty() && !options_.link && !replaying();
+    return options_.path.empty() && options_.hands.empty() && !options_.link && !replaying();
   }
   [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
   /// Takes out the kept line at `index`. @pre index < kept().entries().size().
@@ -188,6 +194,8 @@ class ProbeSession {
   /// Where a real device lies: its middle at the focal point of the view, its axes those of the view.
   [[nodiscard]] Placement placement(const Camera& camera) const;
   void take(const HandStep& step);
+  void hold(double time, const Vec3& position);
+  void follow_hands(double time);
   void follow_replayed_chain(std::uint64_t step);
   void ask_local(const Camera& camera);
   void describe(ProbeView& view) const;
@@ -199,7 +207,9 @@ class ProbeSession {
   std::function<void()> wake_;
   TouchChoice choice_;
   NamedField open_;
-  Vec3 target_{0.0};
+  std::unique_ptr<InteractionTechnique> technique_;
+  std::unique_ptr<HandSource> hands_;  ///< of the immersive technique
+  CarriedPlanes carried_;
 
   std::optional<FollowedCurve> curve_;
   std::shared_ptr<ProbePath> path_;

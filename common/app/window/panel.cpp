@@ -229,13 +229,20 @@ ColorTransfer focus_of(const VolumeView& volume, const SceneState& scene) {
   return scene.lens.transfer.value_or(ColorTransfer());
 }
 
+/// Of the volume that is shown, which is what grid's hand feels.
+std::optional<double> value_at_probe(const PanelState& state) {
+  if (state.touch == nullptr || !state.touch->readout().held) return std::nullopt;
+  return state.touch->readout().scalar;
+}
+
 void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions) {
   section("VOLUME");
   choose("field", state.settings.field, scene.info->fields);
   draw_time(state, scene.info->times);
   const ValueHistogram* const histogram = state.histogram.of(volume.image);
-  actions.save_transfer |= choose_transfer("colours", "from the histogram", state.settings.transfer,
-                                           volume.transfer, *volume.image, histogram, state.transfer_file);
+  actions.save_transfer |=
+      choose_transfer("colours", "from the histogram", state.settings.transfer, volume.transfer,
+                      *volume.image, histogram, state.transfer_file, value_at_probe(state));
   draw_rays(volume);
   const bool of_hand = state.touch != nullptr && state.touch->planes();
   if (!of_hand && !volume.cuts.empty()) {

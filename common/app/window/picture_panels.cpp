@@ -144,7 +144,7 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
   constexpr float kTitle = 6.0F;  // heights of the text
   float top = static_cast<float>(layout.picture.top) + kTitle * em;
   if (state.touch != nullptr) {
-    const float height = draw_probe_readout(*state.touch, left, top);
+    const float height = draw_probe_readout(*state.touch, state.histogram.last(), left, top);
     if (height > 0.0F) top += height + 0.5F * em;
   }
   if (state.tensor) top += draw_tensor_readout(*state.tensor, left, top) + 0.5F * em;

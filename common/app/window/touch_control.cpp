@@ -58,7 +58,7 @@ void TouchControl::grab(const PictureArea& area, const SceneView& view, double t
 void TouchControl::grab_at(const Vec3& place, double time) {
   grabbed_ = true;
   waiting_ = false;
-  axis_.reset();
+  lock(std::nullopt);
   session_.grab(time, place);
   moved_ = time;
 }
@@ -142,9 +142,11 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
 
 void TouchControl::let_go() noexcept {
   grabbed_ = by_shift_ = by_button_ = waiting_ = on_plane_ = plane_grab_ = false;
-  axis_.reset();
+  lock(std::nullopt);
   session_.let_go();
 }
+
+void TouchControl::lock(std::optional<int> axis) noexcept { session_.lead(AxisLock{axis}, {}, {}); }
 
 bool TouchControl::handle(const InputEvent& event, const PictureArea& area, const SceneView& view,
                           double time, bool over_panel) {
@@ -161,12 +163,12 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       // A mouse that rested means the line that it rested on: on to the panel it may be led over others.
       if (time - moved_ > kRest) session_.note_line();
       moved_ = time;
-      session_.move(dragged(view.camera, size_of(area), start_of_move(view.camera), dx, dy, axis_));
+      session_.lead(MouseDrag{dx, dy}, view.camera, size_of(area));
       return true;
     }
     case InputKind::kWheel:
       if (!grabbed_ || over_panel || !area.contains(x_, y_)) return false;
-      session_.move(pushed(view.camera, session_.target(), event.y, axis_));
+      session_.lead(WheelTurn{event.y}, view.camera, size_of(area));
       return true;
     case InputKind::kPress:
       ++buttons_;
@@ -212,14 +214,6 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
   }
 }
 
-/// Where the probe is moved from: at the depth of the proxy while a line holds it, so that a line can be
-/// followed away from the viewer, too. Its place in the picture is the same.
-Vec3 TouchControl::start_of_move(const Camera& camera) const {
-  const ProbeReadout& readout = session_.readout();
-  if (axis_ || !readout.held || readout.state != HoldState::kHeld) return session_.target();
-  return at_depth_of(camera, session_.target(), readout.proxy);
-}
-
 std::string TouchControl::choose_mode(std::size_t mode) {
   if (mode >= session_.modes().size()) return "there is no mode " + std::to_string(mode + 1);
   TouchChoice choice = session_.choice();
@@ -231,10 +225,10 @@ std::string TouchControl::choose_mode(std::size_t mode) {
 std::optional<std::string> TouchControl::run(Command command, const PictureArea& area, const SceneView& view,
                                              double time) {
   if (!session_.available()) return std::nullopt;
-  const auto lock = [this](int axis) -> std::string {
+  const auto lock_or_free = [this](int axis) -> std::string {
     if (!grabbed_) return "grab the probe first (G)";
-    axis_ = axis_ == axis ? std::nullopt : std::optional(axis);
-    if (!axis_) return "the probe moves freely";
+    lock(locked_axis() == axis ? std::nullopt : std::optional(axis));
+    if (!locked_axis()) return "the probe moves freely";
     return std::string("the probe moves along ") + "xyz"[axis] + " only";
   };
   switch (command) {
@@ -262,11 +256,11 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       session_.force_off();
       return "force off; switch it on again in the panel";
     case Command::kLockX:
-      return lock(0);
+      return lock_or_free(0);
     case Command::kLockY:
-      return lock(1);
+      return lock_or_free(1);
     case Command::kLockZ:
-      return lock(2);
+      return lock_or_free(2);
     case Command::kKeepLine: {
       // From the panel's button: the line on which the hand rested before it went there.
       const bool here = area.contains(x_, y_);

@@ -37,7 +37,7 @@ class TouchControl {
   void mark(bool marking) noexcept { marking_ = marking; }
   /// The place of the volume under the mouse, which a click would mark; nothing while none would.
   [[nodiscard]] std::optional<Vec3> next_mark(const PictureArea& area, const SceneView& view);
-  [[nodiscard]] std::optional<int> locked_axis() const noexcept { return axis_; }
+  [[nodiscard]] std::optional<int> locked_axis() const noexcept { return session_.intent().axis; }
   void let_go() noexcept;
 
  private:
@@ -48,7 +48,7 @@ class TouchControl {
   [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
   [[nodiscard]] std::optional<Vec3> end_of_tract(const PictureSize& size, const PicturePoint& mouse,
                                                  const Camera& camera) const;
-  [[nodiscard]] Vec3 start_of_move(const Camera& camera) const;
+  void lock(std::optional<int> axis) noexcept;
   std::string choose_mode(std::size_t mode);
 
   ProbeSession& session_;
@@ -64,9 +64,8 @@ class TouchControl {
   bool dragged_ = false;                       ///< and has moved it
   double pressed_x_ = 0.0, pressed_y_ = 0.0;   ///< where it was [pixels]
   int buttons_ = 0;                            ///< that are down: the camera's then
-  std::optional<int> axis_;
-  double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
-  double moved_ = 0.0;        ///< when it last moved the probe [s]
+  double x_ = 0.0, y_ = 0.0;                   ///< of the mouse [pixels]
+  double moved_ = 0.0;                         ///< when it last moved the probe [s]
 };
 
 /// Where the probe starts when it is grabbed: on the line under the mouse, that of several which is in front;

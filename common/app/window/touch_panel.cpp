@@ -194,7 +194,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   return actions;
 }
 
-float draw_probe_readout(const ProbeSession& session, float left, float top) {
+float draw_probe_readout(const ProbeSession& session, const ValueHistogram* histogram, float left,
+                         float top) {
   const ProbeReadout& readout = session.readout();
   if (!readout.held) return 0.0F;
   ImGui::SetNextWindowPos({left, top});
@@ -229,6 +230,9 @@ float draw_probe_readout(const ProbeSession& session, float left, float top) {
   }
   if (readout.scalar) {
     rows.add(readout.scalar_name.c_str(), "%.5g", *readout.scalar);
+    constexpr double kPercent = 100.0;
+    if (histogram != nullptr)
+      rows.add("values below", "%.1f %%", kPercent * part_below(*histogram, *readout.scalar));
   } else if (!readout.scalar_name.empty()) {
     rows.add(readout.scalar_name.c_str(), "none here");
   }

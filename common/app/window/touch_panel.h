@@ -28,8 +28,9 @@ struct TouchActions {
                                             SceneView& view, bool marking);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
+/// @param histogram of the scalar that is felt, to tell the place of its value in it; may be null.
 /// @return its height; 0 where there is none.
-float draw_probe_readout(const ProbeSession& session, float left, float top);
+float draw_probe_readout(const ProbeSession& session, const ValueHistogram* histogram, float left, float top);
 
 /// The servo's rows of the rates.
 void add_servo_rates(const ProbeSession& session, ReadoutRows& rows);

@@ -99,6 +99,17 @@ void draw(const Canvas& canvas, const ValueSpan& span, const ValueHistogram* his
   }
 }
 
+/// Where a value lies in the other domain, that of the values.
+void draw_mark(const Canvas& canvas, const ValueSpan& span, double value) {
+  if (!(value >= span.low && value <= span.high)) return;
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_PlotLinesHovered);
+  const ImVec2 top = canvas.pixel(value, 1.0), foot = canvas.pixel(value, 0.0);
+  constexpr float kHead = 4.0F;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddLine(top, foot, ink, 1.5F);
+  list.AddTriangleFilled({top.x - kHead, top.y}, {top.x + kHead, top.y}, {top.x, top.y + 1.5F * kHead}, ink);
+}
+
 /// What the mouse does to the points under it. @return whether the function changed.
 bool edit(const Canvas& canvas, const ValueSpan& span, ColorTransfer& transfer, int& dragged, int& chosen) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -159,7 +170,8 @@ const ValueHistogram* KeptHistogram::of(const std::shared_ptr<const VolumeImage>
 }
 
 bool choose_transfer(const char* label, const char* automatic, std::string& words, ColorTransfer& transfer,
-                     const VolumeImage& image, const ValueHistogram* histogram, std::string& file) {
+                     const VolumeImage& image, const ValueHistogram* histogram, std::string& file,
+                     std::optional<double> felt) {
   constexpr const char* kOwn = "own points";
   const bool own = words.starts_with("points:");
   const std::string now = words.empty() ? automatic : own ? kOwn : words;
@@ -172,7 +184,7 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
     }
     ImGui::EndCombo();
   }
-  if (draw_transfer_editor("points", {image.lowest, image.highest}, histogram, transfer))
+  if (draw_transfer_editor("points", {image.lowest, image.highest}, histogram, transfer, felt))
     words = transfer_words(transfer);
   ImGui::InputText("##file", &file);
   ImGui::SameLine();
@@ -185,7 +197,7 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
 }
 
 bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,
-                          ColorTransfer& transfer) {
+                          ColorTransfer& transfer, std::optional<double> felt) {
   if (!(values.low < values.high)) return false;
   ImGui::PushID(id);
   int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), kNone);
@@ -198,6 +210,7 @@ bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHi
   bool changed = edit(canvas, span, transfer, dragged, chosen);
   const bool hovered = ImGui::IsItemHovered();
   draw(canvas, span, histogram, transfer, chosen);
+  if (felt) draw_mark(canvas, span, *felt);
   if (hovered) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     ImGui::SetTooltip("%s: opacity %.2f\ndrag a point; a double click adds one, a right click takes one out",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/app/window/transfer_edit.h"
@@ -16,6 +17,8 @@ class KeptHistogram {
  public:
   /// @pre not null. @return null where no value is finite.
   [[nodiscard]] const ValueHistogram* of(const std::shared_ptr<const VolumeImage>& image);
+  /// What of() returned last; null before.
+  [[nodiscard]] const ValueHistogram* last() const noexcept { return image_ ? &histogram_ : nullptr; }
 
  private:
   std::shared_ptr<const VolumeImage> image_;
@@ -25,16 +28,18 @@ class KeptHistogram {
 /// Chooses between what `words` may be (those of --transfer-function; empty: `automatic`) and lets the points
 /// be edited; what is edited goes into `words` and `transfer` alike.
 /// @param file name for the text field below, from which a function is loaded and to which it is saved.
+/// @param felt value at the probe, marked over the histogram; none: no hand is there.
 /// @return whether it is to be saved now.
 [[nodiscard]] bool choose_transfer(const char* label, const char* automatic, std::string& words,
                                    ColorTransfer& transfer, const VolumeImage& image,
-                                   const ValueHistogram* histogram, std::string& file);
+                                   const ValueHistogram* histogram, std::string& file,
+                                   std::optional<double> felt = std::nullopt);
 
 /// Points are dragged; a double click adds one, a right click takes one out; the one that was touched last
 /// has its colour below.
-/// @param id apart from other editors of the panel. @param histogram may be null.
+/// @param id apart from other editors of the panel. @param histogram may be null. @param felt as above.
 /// @return whether `transfer` changed.
 bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,
-                          ColorTransfer& transfer);
+                          ColorTransfer& transfer, std::optional<double> felt = std::nullopt);
 
 }  // namespace palpate

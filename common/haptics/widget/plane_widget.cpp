@@ -22,9 +22,9 @@ constexpr double kDetentReach = 3.0 * kDegrees;
 constexpr double kCore = 0.25;          // part of the radius within which the sphere lets go
 constexpr double kLeastPart = 0x1p-20;  // of the radius, below which there is no direction
 constexpr unsigned kSphereBit = 8;
-/// Of a blend, at its steepest [N a step]: 200 N/s, the slew limit of the devices here, at 10 kHz.
+/// By which a force that is off goes on to what it shall be, a step [N]: 200 N/s, the slew limit of the
+/// devices here, at 10 kHz.
 constexpr double kMostBlend = 0.02;
-constexpr int kShortestBlend = 50;  // [steps]
 
 Quaternion quaternion(const PlanePose& pose) noexcept {
   return {pose.turn.w, pose.turn.x, pose.turn.y, pose.turn.z};
@@ -310,18 +310,12 @@ void PlaneWidget::blend(const Vec3& x) noexcept {
   const std::uint64_t signature = static_cast<std::uint64_t>(state_) | std::uint64_t{holding_} << 8U |
                                   static_cast<std::uint64_t>(current_) << 16U |
                                   static_cast<std::uint64_t>(static_cast<std::uint32_t>(detent_)) << 32U;
-  if (signature != signature_) {
-    signature_ = signature;
-    offset_ = total_ - force;
-    since_ = 0;
-    constexpr double kSteepest = 1.5;  // of fade()
-    const double least = std::ceil(kSteepest * glm::length(offset_) / kMostBlend);
-    blend_steps_ = least > kShortestBlend ? static_cast<int>(std::min(least, 1e6)) : kShortestBlend;
-  }
-  const Vec3 extra = offset_ * (1.0 - fade(static_cast<double>(since_) / blend_steps_));
-  since_ = std::min(since_ + 1, blend_steps_);
-  links_[0].extra_force = extra;
-  total_ = force + extra;
+  if (signature != signature_) offset_ = total_ - force;
+  signature_ = signature;
+  const double left = glm::length(offset_);
+  offset_ *= left > kMostBlend ? 1.0 - kMostBlend / left : 0.0;
+  links_[0].extra_force = offset_;
+  total_ = force + offset_;
 }
 
 void PlaneWidget::tell() noexcept {

@@ -16,8 +16,7 @@
 /// and kappa along the sphere a notch of that width.
 ///
 /// Where constraints, settings or planes change, or a hand comes back, the force goes on from what it was
-/// and comes to what it shall be along fade(), in 50 steps or as many more as it takes to change by no more
-/// than 0.02 N a step.
+/// and comes to what it shall be by 0.02 N a step: so it follows planes, too, that another hand carries.
 #pragma once
 
 #include <array>
@@ -112,7 +111,6 @@ class PlaneWidget {
   std::uint64_t signature_ = kChanged;                          ///< of the constraints of the last step
   Vec3 total_{0.0};                                             ///< force of the last step [N]
   Vec3 offset_{0.0};                                            ///< by which it is off since the last change
-  int since_ = 0, blend_steps_ = 1;                             ///< steps since then, and until it is gone
 };
 
 }  // namespace palpate

@@ -99,6 +99,32 @@ TEST_F(WorkbenchFileTest, WritesNothingRatherThanLoseSomething) {
   }
 }
 
+TEST_F(WorkbenchFileTest, SaysHowHandsWork) {
+  write("[stylus]\ntip = [0, 0, 0]\n");
+  EXPECT_FALSE(read_workbench(path_).interaction.immersive) << "the default is a desktop";
+  write("[interaction]\ntechnique = 'desktop'\n");
+  EXPECT_FALSE(read_workbench(path_).interaction.immersive);
+  write(
+      "[interaction]\ntechnique = \"immersive\"\nmiddle = [0.1, 0.2, 0.3]\nrotation = [0.6, 0.8, 0, 0]\ngain "
+      "= "
+      "2\n");
+  const InteractionGeometry hands = read_workbench(path_).interaction;
+  EXPECT_TRUE(hands.immersive);
+  EXPECT_EQ(hands.middle, Vec3(0.1, 0.2, 0.3));
+  EXPECT_NEAR(hands.rotation.x, 0.8, 1e-16);
+  EXPECT_EQ(hands.gain, 2.0);
+  const auto names = [this](const std::string& content, const char* line, const char* word) {
+    const std::string text = refusal(content);
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  };
+  names("[interaction]\ntechnique = 'gloves'\n", "line 2", "gloves");
+  names("\n[interaction]\ntechnique = 'immersive'\n", "line 2", "middle");
+  names("[interaction]\ngain = 0\n", "line 2", "above zero");
+  names("[interaction]\nspeed = 1\n", "line 2", "gain");
+  names("[interaction]\nrotation = [2, 0, 0, 0]\n", "line 2", "length 2");
+}
+
 TEST_F(WorkbenchFileTest, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(refusal("[stylus]\ntip = [1, 2\n").find("line"), std::string::npos);
   const std::string unknown = refusal("a = 1\n[stylus]\ntop = [1, 2, 3]\n");

@@ -64,5 +64,20 @@ TEST(ValueBelowWhich, CountsFromTheGivenValueOn) {
   EXPECT_EQ(value_below_which(h, 0.5, 200.0), 100.0);
 }
 
+TEST(ValueHistogram, TellsThePlaceOfAValue) {
+  // Half of all below 1, none between 1 and 3, the rest evenly up to 4.
+  const ValueHistogram h{0.0, 4.0, {50, 0, 0, 50}, 100};
+  EXPECT_EQ(part_below(h, -1.0), 0.0);
+  EXPECT_EQ(part_below(h, 0.0), 0.0);
+  EXPECT_EQ(part_below(h, 0.5), 0.25);
+  EXPECT_EQ(part_below(h, 2.2), 0.5);
+  EXPECT_EQ(part_below(h, 3.5), 0.75);
+  EXPECT_EQ(part_below(h, 4.0), 1.0);
+  EXPECT_EQ(part_below(h, 9.0), 1.0);
+  EXPECT_EQ(part_below(h, NAN), 0.0);
+  EXPECT_EQ(part_below({2.0, 2.0, {7}, 7}, 2.0), 0.0) << "one value alone";
+  EXPECT_EQ(part_below({2.0, 2.0, {7}, 7}, 2.1), 1.0);
+}
+
 }  // namespace
 }  // namespace palpate

@@ -56,7 +56,7 @@ class Hand {
   void grab(const Vec3& at) { session.grab(seconds(), at); }
   /// Moves as a hand does, a little each frame.
   void move_to(const Vec3& to) {
-    const Vec3 from = session.target();
+    const Vec3 from = session.intent().probe;
     constexpr int kFrames = 40;
     for (int i = 1; i <= kFrames; ++i) {
       session.move(from + (to - from) * (static_cast<double>(i) / kFrames));

@@ -1,0 +1,57 @@
+/// Tracked hands: the tip of a stylus is the probe, and the other hand carries the cutting plane that the
+/// stylus acts on (Ikits 2006, sec. 3.2: two hands where that helps, one where it must do).
+///
+/// Symbols. q place of a tip or sensor in the tracker's frame [m], after the correction of its distortion;
+/// q_m, R, g, middle, rotation and gain of the workbench file; m middle of the data and s metres of the
+/// workspace per data unit.
+///
+///   x = m + o + (g / s) R (q - q_m)                                                                  (1)
+///
+/// o is zero until the clutch is used: while it is held x stays and o takes up what the hand moves. What the
+/// other hand holds moves rigidly with its sensor, places by (1) and turns by R, from where it took hold.
+#pragma once
+
+#include "common/app/haptic/interaction_technique.h"
+#include "common/calibration/workbench_file.h"
+#include "common/haptics/widget/plane_widget.h"
+
+namespace palpate {
+
+class ImmersiveTechnique final : public InteractionTechnique {
+ public:
+  /// @param bench its correction of the tracker and tip of the stylus are used, where it has such.
+  /// @param middle of the data  @param scale s.
+  ImmersiveTechnique(WorkbenchGeometry bench, const Vec3& middle, double scale);
+
+  void put(const Vec3& probe) noexcept override;
+  bool take(const HandEvent& event, const HandsView& view) noexcept override;
+
+ private:
+  [[nodiscard]] TrackerPose corrected(const TrackerPose& reported) const noexcept;
+  [[nodiscard]] Vec3 place(const Vec3& q) const noexcept;
+
+  WorkbenchGeometry bench_;
+  Vec3 middle_;
+  double units_;               ///< g / s
+  Vec3 offset_{0.0};           ///< o
+  Vec3 tip_{0.0};              ///< (1) without o, of the stylus that was seen last
+  std::optional<Rigid> grip_;  ///< of the other hand, when it took hold
+};
+
+/// The cutting plane that the other hand carries: the one that the stylus was at when it took hold.
+class CarriedPlanes {
+ public:
+  /// Where the planes are to be put now; none while none is carried, or where they are there.
+  /// @param planes as the widget told last; none where there are none.
+  [[nodiscard]] std::optional<PlanePoses> follow(const HandsIntent& intent,
+                                                 const std::optional<WidgetNews>& planes);
+  /// Whether the last follow() took hold.
+  [[nodiscard]] bool began() const noexcept { return began_; }
+
+ private:
+  std::optional<WidgetNews> from_;  ///< when it took hold
+  PlanePoses last_;
+  bool began_ = false;
+};
+
+}  // namespace palpate
