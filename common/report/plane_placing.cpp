@@ -116,14 +116,13 @@ MedianInterval median_interval(std::vector<double> values) {
   const double median = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
   // P(at most k of n values lie below the median) = sum_(i <= k) binomial(n, i) / 2^n, by logarithms.
   constexpr double kEitherTail = 0.025;
-  double tail = 0.0;
+  double term = -static_cast<double>(n) * std::numbers::ln2, tail = 0.0;
   std::size_t rank = 0;  // of values from either end that are left out
   for (std::size_t i = 0; i < n / 2; ++i) {
-    const auto all = static_cast<double>(n), part = static_cast<double>(i);
-    tail += std::exp(std::lgamma(all + 1.0) - std::lgamma(part + 1.0) - std::lgamma(all - part + 1.0) -
-                     all * std::numbers::ln2);
+    tail += std::exp(term);
     if (tail > kEitherTail) break;
     rank = i + 1;
+    term += std::log(static_cast<double>(n - i) / static_cast<double>(i + 1));
   }
   if (rank == 0) return {median, -HUGE_VAL, HUGE_VAL};
   return {median, values[rank - 1], values[n - rank]};
