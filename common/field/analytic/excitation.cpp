@@ -21,7 +21,9 @@ constexpr double kActive = 0.5;
 constexpr double kSecondOrder = 1.5;
 
 using Sparse = Eigen::SparseMatrix<double>;
-using Solver = Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper>;
+/// In the order of the points, as wall_layer.cpp has it.
+using Factor = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+using Solver = Eigen::ConjugateGradient<Sparse, Eigen::Lower | Eigen::Upper, Factor>;
 
 /// (3); without a fibre the same in every direction.
 Mat3 diffusivity(const ExcitableTissue& tissue, const Vec3& fibre) {
