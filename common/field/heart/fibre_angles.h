@@ -20,12 +20,14 @@
 ///
 /// (2) is the matrix printed by Bayer et al., Ann Biomed Eng 40 (2012) 2243, which Piersanti et al., Comput
 /// Methods Appl Mech Eng 374 (2021) 113559 take over; (3) is the right-handed rotation of Doste et al., Int J
-/// Numer Meth Biomed Eng 35 (2019) e3185. Those methods take the apicobasal direction from Laplace's equation
-/// between apex and base; here it is the straight long axis for all.
+/// Numer Meth Biomed Eng 35 (2019) e3185, as an open implementation restates it: e_t made orthogonal to e_l,
+/// e_c = e_l x e_t, alpha about e_t, then beta about e_l' (SV-fibergen, "Cardiac Fiber Generation
+/// Documentation", sections 3.2 and 5.1, whose first column of Q R_alpha R_beta is (3)). Those methods take
+/// the apicobasal direction from Laplace's equation between apex and base; here it is the straight long axis
+/// for all.
 ///
 /// Directions have no sign: f is taken with f . e_c >= 0 and n_s with n_s . e_t >= 0, so that all angles lie
-/// in
-/// [-90, 90] degrees. A helix angle above zero is a right-handed screw.
+/// in [-90, 90] degrees. A helix angle above zero is a right-handed screw.
 #pragma once
 
 #include <array>
