@@ -12,7 +12,8 @@ packages_drivers="libusb-1.0-0-dev"
 # The mesher of cardiac.
 packages_mesher="libcgal-dev libtet1.5-dev"
 # The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.
-packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev"
+packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev
+  libumockdev-dev umockdev"
 
 say() { printf '==> %s\n' "$*" >&2; }
 fail() { printf '==> %s\n' "$*" >&2; exit 1; }

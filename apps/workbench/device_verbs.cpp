@@ -61,7 +61,7 @@ Survey survey(const std::string& device) {
   return seen;
 }
 
-std::string padded(std::string text, std::size_t width) {
+std::string left_column(std::string text, std::size_t width) {
   text.resize(std::max(text.size() + 2, width), ' ');
   return text;
 }
@@ -69,8 +69,8 @@ std::string padded(std::string text, std::size_t width) {
 std::string devices_text(const Survey& seen) {
   std::string text;
   for (const FoundDevice& each : seen.devices) {
-    text += padded(each.name, 34) + padded(each.id, 11) + padded(each.place, 12);
-    text += each.access == "ok" ? padded("", 10) : padded(each.access, 10);
+    text += left_column(each.name, 34) + left_column(each.id, 11) + left_column(each.place, 12);
+    text += each.access == "ok" ? left_column("", 10) : left_column(each.access, 10);
     text += each.driver.empty() ? each.note : "--device " + each.driver;
     text += "\n";
   }
@@ -105,7 +105,7 @@ std::string milliseconds(std::uint64_t ns) {
 std::string check_text(const LinkCheck& check) {
   std::string text;
   for (const LinkCheck::Step& step : check.steps) {
-    text += "  " + padded(short_number(std::round(1e3 * step.time)) + " ms", 12) +
+    text += "  " + left_column(short_number(std::round(1e3 * step.time)) + " ms", 12) +
             std::string(name_of(step.phase)) + "\n";
   }
   if (check.status.uploads > 0) text += "  firmware    " + counted(check.status.uploads, "try") + "\n";

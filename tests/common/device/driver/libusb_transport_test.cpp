@@ -1,0 +1,305 @@
+// The real transport: unmodified libusb on a USB device that umockdev shows to it, behind whose descriptors
+// and ioctls the emulated Falcon stands. The test must run with umockdev's preload library (CMakeLists.txt).
+
+#include "common/device/driver/libusb_transport.h"
+
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <linux/usbdevice_fs.h>
+#include <sys/ioctl.h>
+#include <umockdev.h>
+#include <unistd.h>
+
+#include "common/device/driver/falcon_link.h"
+#include "common/servo/real_time.h"
+#include "tests/common/device/driver/falcon_emulator.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr const char* kNode = "/dev/bus/usb/001/002";
+
+double now() { return 1e-9 * static_cast<double>(monotonic_ns()); }
+
+// Device, configuration, one interface, two bulk endpoints of 64 bytes: as an FTDI bridge describes itself.
+constexpr const char* kDescriptors =
+    "1201000200000040030448cb000601020301"
+    "0902200001010080320904000002ffffff020705810240000007050202400000";
+
+/// Answers the ioctls of usbfs for one device, on umockdev's thread.
+class UsbfsDevice {
+ public:
+  explicit UsbfsDevice(FakeDevice& device) : device_(device) {
+    testbed_ = umockdev_testbed_new();
+    handler_ = umockdev_ioctl_base_new();
+    g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&UsbfsDevice::answer), this);
+    GError* error = nullptr;
+    umockdev_testbed_attach_ioctl(testbed_, kNode, handler_, &error);
+    EXPECT_EQ(error, nullptr);
+    const std::string described =
+        std::string("P: /devices/pci0000:00/usb1/1-2\nN: bus/usb/001/002\n") +
+        "E: BUSNUM=001\nE: DEVNUM=002\nE: DEVNAME=" + kNode +
+        "\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=1\nE: SUBSYSTEM=usb\n"
+        "A: busnum=1\\n\nA: devnum=2\\n\nA: bConfigurationValue=1\\n\nA: speed=12\\n\n"
+        "A: idVendor=0403\\n\nA: idProduct=cb48\\n\nH: descriptors=" +
+        kDescriptors + "\n";
+    umockdev_testbed_add_from_string(testbed_, described.c_str(), &error);
+    EXPECT_EQ(error, nullptr) << (error != nullptr ? error->message : "");
+  }
+  ~UsbfsDevice() {
+    umockdev_testbed_detach_ioctl(testbed_, kNode, nullptr);
+    g_object_unref(handler_);
+    g_object_unref(testbed_);
+  }
+
+  void unplug() {
+    {
+      const std::lock_guard lock(mutex_);
+      gone_ = true;
+    }
+    umockdev_testbed_uevent(testbed_, "/sys/devices/pci0000:00/usb1/1-2", "remove");
+    umockdev_testbed_remove_device(testbed_, "/sys/devices/pci0000:00/usb1/1-2");
+  }
+  void stall(bool on) {
+    const std::lock_guard lock(mutex_);
+    stalls_ = on;
+  }
+  [[nodiscard]] int claims() const {
+    const std::lock_guard lock(mutex_);
+    return claims_;
+  }
+
+ private:
+  /// Time of the emulated device begins with this.
+  [[nodiscard]] double local() const { return now() - start_; }
+
+  struct Urb {
+    UMockdevIoctlData* data = nullptr;
+    UMockdevIoctlData* buffer = nullptr;
+    std::uintptr_t address = 0;  ///< in the program that submitted it
+  };
+
+  static gboolean answer(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer self) {
+    return static_cast<UsbfsDevice*>(self)->take(client) ? TRUE : FALSE;
+  }
+
+  bool take(UMockdevIoctlClient* client) {
+    const std::lock_guard lock(mutex_);
+    const gulong request = umockdev_ioctl_client_get_request(client);
+    UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
+    const auto done = [&](int result, int error) { umockdev_ioctl_client_complete(client, result, error); };
+    if (gone_) {
+      done(-1, ENODEV);
+      return true;
+    }
+    switch (request) {
+      case USBDEVFS_GET_CAPABILITIES: {
+        std::uint32_t none = 0;
+        UMockdevIoctlData* const data = umockdev_ioctl_data_resolve(argument, 0, sizeof(none), nullptr);
+        umockdev_ioctl_data_update(data, 0, reinterpret_cast<guint8*>(&none), sizeof(none));
+        g_object_unref(data);
+        done(0, 0);
+        return true;
+      }
+      case USBDEVFS_GETDRIVER:
+        done(-1, ENODATA);
+        return true;
+      case USBDEVFS_CLAIMINTERFACE:
+      case USBDEVFS_DISCONNECT_CLAIM:
+        ++claims_;
+        done(0, 0);
+        return true;
+      case USBDEVFS_RELEASEINTERFACE:
+        --claims_;
+        done(0, 0);
+        return true;
+      case USBDEVFS_CLEAR_HALT:
+      case USBDEVFS_IOCTL:
+        done(0, 0);
+        return true;
+      case USBDEVFS_SUBMITURB:
+        submit(argument);
+        done(0, 0);
+        return true;
+      case USBDEVFS_DISCARDURB: {
+        std::uintptr_t address = 0;
+        std::memcpy(&address, argument->data, sizeof(address));
+        for (auto urb = waiting_.begin(); urb != waiting_.end(); ++urb) {
+          if (urb->address != address) continue;
+          finish(*urb, -ENOENT, 0);
+          waiting_.erase(urb);
+          done(0, 0);
+          return true;
+        }
+        done(-1, EINVAL);
+        return true;
+      }
+      case USBDEVFS_REAPURB:
+      case USBDEVFS_REAPURBNDELAY:
+        reap(argument, done);
+        return true;
+      default:
+        done(-1, ENOTTY);
+        return true;
+    }
+  }
+
+  void submit(UMockdevIoctlData* argument) {
+    Urb urb;
+    std::memcpy(&urb.address, argument->data, sizeof(urb.address));
+    urb.data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
+    const usbdevfs_urb& asked = *reinterpret_cast<usbdevfs_urb*>(urb.data->data);
+    if (asked.buffer_length > 0) {
+      urb.buffer = umockdev_ioctl_data_resolve(urb.data, offsetof(usbdevfs_urb, buffer),
+                                               static_cast<gsize>(asked.buffer_length), nullptr);
+    }
+    const auto length = static_cast<std::size_t>(asked.buffer_length);
+    if (stalls_) return finish(urb, -EPIPE, 0);
+    if (asked.type == USBDEVFS_URB_TYPE_CONTROL) {
+      const guint8* const setup = urb.buffer->data;
+      const auto word = [&](int at) { return static_cast<std::uint16_t>(setup[at] | (setup[at + 1] << 8)); };
+      const UsbStatus status = device_.control(
+          local(), {.request_type = setup[0], .request = setup[1], .value = word(2), .index = word(4)},
+          std::span<const std::uint8_t>(setup + 8, length - 8));
+      return finish(urb, status == UsbStatus::kOk ? 0 : -EPIPE, static_cast<int>(length - 8));
+    }
+    if ((asked.endpoint & 0x80U) == 0) {
+      device_.write(local(), asked.endpoint, {urb.buffer->data, length});
+      return finish(urb, 0, asked.buffer_length);
+    }
+    waiting_.push_back(urb);
+  }
+
+  /// Reads end when the device has something to say.
+  void serve_reads() {
+    while (!waiting_.empty()) {
+      const usbdevfs_urb& asked = *reinterpret_cast<usbdevfs_urb*>(waiting_.front().data->data);
+      std::vector<std::uint8_t> said(static_cast<std::size_t>(asked.buffer_length));
+      const std::size_t bytes = device_.read(local(), asked.endpoint, said);
+      if (bytes == 0) return;
+      umockdev_ioctl_data_update(waiting_.front().buffer, 0, said.data(), static_cast<gint>(bytes));
+      finish(waiting_.front(), 0, static_cast<int>(bytes));
+      waiting_.pop_front();
+    }
+  }
+
+  void finish(const Urb& urb, int status, int bytes) {
+    const auto set = [&](std::size_t offset, int value) {
+      umockdev_ioctl_data_update(urb.data, offset, reinterpret_cast<guint8*>(&value), sizeof(value));
+    };
+    set(offsetof(usbdevfs_urb, status), status);
+    set(offsetof(usbdevfs_urb, actual_length), bytes);
+    finished_.push_back(urb);
+  }
+
+  template <class Done>
+  void reap(UMockdevIoctlData* argument, const Done& done) {
+    serve_reads();
+    if (finished_.empty()) return done(-1, EAGAIN);
+    const Urb urb = finished_.front();
+    finished_.pop_front();
+    UMockdevIoctlData* const pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
+    umockdev_ioctl_data_set_ptr(pointer, 0, urb.data);
+    done(0, 0);
+    g_object_unref(pointer);
+    if (urb.buffer != nullptr) g_object_unref(urb.buffer);
+    g_object_unref(urb.data);
+  }
+
+  FakeDevice& device_;
+  const double start_ = now();
+  UMockdevTestbed* testbed_ = nullptr;
+  UMockdevIoctlBase* handler_ = nullptr;
+  mutable std::mutex mutex_;
+  std::deque<Urb> waiting_, finished_;
+  bool gone_ = false, stalls_ = false;
+  int claims_ = 0;
+};
+
+class LibusbTransport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    usbfs_ = std::make_unique<UsbfsDevice>(falcon_);
+    ASSERT_EQ(::access("/sys/devices/pci0000:00/usb1/1-2", F_OK), 0)
+        << "run with LD_PRELOAD=libumockdev-preload.so.0";
+    std::string error;
+    bus_ = make_libusb_transport(error);
+    ASSERT_TRUE(bus_) << error;
+  }
+
+  FalconEmulator falcon_{{.loaded = true, .homed = true}};
+  std::unique_ptr<UsbfsDevice> usbfs_;
+  std::unique_ptr<UsbTransport> bus_;
+};
+
+TEST_F(LibusbTransport, FindsTheDeviceWithItsEndpoints) {
+  const auto devices = bus_->devices();
+  ASSERT_EQ(devices.size(), 1U);
+  EXPECT_EQ(devices[0].id, kFalconId);
+  EXPECT_EQ(devices[0].path, "1-2");
+  ASSERT_EQ(devices[0].endpoints.size(), 2U);
+  EXPECT_EQ(devices[0].endpoints[0].address, 0x81);
+  EXPECT_TRUE(devices[0].endpoints[0].in());
+  EXPECT_EQ(devices[0].endpoints[1].packet, 64);
+  EXPECT_FALSE(devices[0].endpoints[1].interrupt);
+  EXPECT_EQ(bus_->access("1-2"), UsbStatus::kOk);
+  EXPECT_EQ(bus_->access("9-9"), UsbStatus::kGone);
+  EXPECT_EQ(bus_->open("9-9", 0).status, UsbStatus::kGone);
+}
+
+TEST_F(LibusbTransport, MovesDataBothWaysAndSaysWhatWentWrong) {
+  constexpr UsbEndpoint kOut{.address = 0x02, .packet = 64}, kIn{.address = 0x81, .packet = 64};
+  UsbOpened opened = bus_->open("1-2", 0);
+  ASSERT_EQ(opened.status, UsbStatus::kOk);
+  EXPECT_EQ(usbfs_->claims(), 1);
+  UsbConnection& falcon = *opened.connection;
+  EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x09, .value = 1}, {}, 1.0).ok());
+  EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x03, .value = 2}, {}, 1.0).ok());
+  EXPECT_EQ(falcon.control({.request_type = 0x40, .request = 0x77}, {}, 1.0).status, UsbStatus::kStall);
+  const FalconPacket packet = encode({});
+  const UsbResult sent = falcon.write(kOut, packet, 1.0);
+  EXPECT_TRUE(sent.ok());
+  EXPECT_EQ(sent.bytes, packet.size());
+  std::array<std::uint8_t, 64> data{};
+  std::size_t bytes = 0;
+  for (int n = 0; n < 100 && bytes <= 2; ++n) {
+    const UsbResult got = falcon.read(kIn, data, 1.0);
+    ASSERT_TRUE(got.ok());
+    bytes = got.bytes;
+  }
+  EXPECT_EQ(bytes, 18U);  // status and an answer
+  EXPECT_EQ(data[2], '<');
+
+  // Nothing comes at the longest latency within a millisecond.
+  EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x09, .value = 255}, {}, 1.0).ok());
+  EXPECT_EQ(falcon.read(kIn, data, 0.001).status, UsbStatus::kTimeout);
+  usbfs_->stall(true);
+  EXPECT_EQ(falcon.write(kOut, packet, 1.0).status, UsbStatus::kStall);
+  usbfs_->stall(false);
+  EXPECT_TRUE(falcon.write(kOut, packet, 1.0).ok());
+  opened.connection.reset();
+  EXPECT_EQ(usbfs_->claims(), 0);
+}
+
+TEST_F(LibusbTransport, CarriesTheFalconFromOpeningToForcesAndUnplugging) {
+  FalconLink link(*bus_, {});
+  for (const double until = now() + 20.0; now() < until && link.status().phase != LinkPhase::kReady;) {
+    (void)link.round(Vec3{0.0});
+  }
+  ASSERT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
+  for (int n = 0; n < 100; ++n) (void)link.round({0.0, 0.0, 1.0});
+  EXPECT_GT(falcon_.largest_motor(), 0);
+  usbfs_->unplug();
+  for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n) (void)link.round({0.0, 0.0, 1.0});
+  EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
+}
+
+}  // namespace
+}  // namespace palpate::test
