@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "common/haptics/frame_along.h"
+
 namespace palpate {
 namespace {
 
@@ -77,6 +79,31 @@ double prominence(const Profile& profile, std::size_t i) {
 }
 
 }  // namespace
+
+Mat3 grid_axes(const GridFrame& frame, const LocalFrame& local) {
+  switch (frame.kind) {
+    case GridFrame::Kind::kData:
+      return local.rotated ? local.rotation : Mat3{1.0};
+    case GridFrame::Kind::kWorld:
+      break;
+    case GridFrame::Kind::kPlane: {
+      const Mat3 along = frame_along(glm::normalize(frame.first));
+      return {along[1], along[2], along[0]};
+    }
+    case GridFrame::Kind::kAxes: {
+      const Vec3 first = glm::normalize(frame.first), third = glm::normalize(glm::cross(first, frame.second));
+      return {first, glm::cross(third, first), third};
+    }
+  }
+  return Mat3{1.0};
+}
+
+std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local, const Vec3& x) {
+  const Vec3 along = x * grid_axes(frame, local);  // row vector times axes: the coordinates along them
+  std::array<GridMark, 3> marks;
+  for (int a = 0; a < 3; ++a) marks[static_cast<std::size_t>(a)] = {.axis = a, .at = along[a]};
+  return marks;
+}
 
 std::vector<double> value_peaks(const ScalarField& field, const Mat3& axes, int axis, int count) {
   constexpr double kLeast = 0.02;

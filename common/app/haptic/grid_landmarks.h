@@ -1,12 +1,20 @@
-/// Where the values of a volume pile up along an axis: landmarks for a haptic grid.
+/// Landmarks for a haptic grid: at a place, and where the values of a volume pile up along an axis.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/field/scalar_field.h"
+#include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/math/vec.h"
 
 namespace palpate {
+
+/// The axes of a grid, columns, orthonormal, data frame. @pre frame.valid().
+[[nodiscard]] Mat3 grid_axes(const GridFrame& frame, const LocalFrame& local);
+/// Landmarks across all three of them at the place `x`, data coordinates.
+[[nodiscard]] std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local,
+                                               const Vec3& x);
 
 /// Positions along `axes[axis]` (e . x, data units, from the origin of the coordinates) of the most prominent
 /// peaks of

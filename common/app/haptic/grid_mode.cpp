@@ -10,7 +10,6 @@
 #include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/haptics/constraint/grid_axis.h"
-#include "common/haptics/frame_along.h"
 #include "common/haptics/widget/plane_widget_link.h"
 #include "common/haptics/widget/widget_text.h"
 
@@ -58,26 +57,12 @@ Lattice lattice_of(const HapticScene& scene) {
   Lattice lattice = lattice_of_data(scene);
   const Vec3 middle = workspace.workspace_from_data(scene.scalar->bounds().center());
   const GridFrame& frame = settings.frame;
-  switch (frame.kind) {
-    case GridFrame::Kind::kData:
-      break;
-    case GridFrame::Kind::kWorld:
-      lattice.axes = Mat3{1.0};
-      break;
-    case GridFrame::Kind::kPlane: {
-      const double size = glm::length(frame.first);
-      const Mat3 along = frame_along(frame.first / size);
-      lattice.axes = {along[1], along[2], along[0]};
-      lattice.origin =
-          middle + (workspace.scale() * frame.offset / size - glm::dot(along[0], middle)) * along[0];
-      break;
-    }
-    case GridFrame::Kind::kAxes: {
-      const Vec3 first = glm::normalize(frame.first), third = glm::normalize(glm::cross(first, frame.second));
-      lattice.axes = {first, glm::cross(third, first), third};
-      lattice.origin = middle;
-      break;
-    }
+  lattice.axes = grid_axes(frame, scene.scalar->frame());
+  if (frame.kind == GridFrame::Kind::kAxes) lattice.origin = middle;
+  if (frame.kind == GridFrame::Kind::kPlane) {
+    const Vec3& normal = lattice.axes[2];
+    const double offset = workspace.scale() * frame.offset / glm::length(frame.first);
+    lattice.origin = middle + (offset - glm::dot(normal, middle)) * normal;
   }
   for (int a = 0; a < 3; ++a) {
     if (settings.spacing[a] > 0.0) lattice.spacing[a] = workspace.scale() * settings.spacing[a];

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "common/app/haptic/grid_landmarks.h"
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/window/panel_parts.h"
 #include "common/haptics/widget/widget_text.h"
@@ -152,8 +153,9 @@ void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {
   if (ImGui::SmallButton("Save .vtp")) actions.save_notes = ".vtp";
 }
 
-void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
-  if (mode != kGridMode) return;
+void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session,
+               std::vector<CuttingPlane>* cuts) {
+  if (mode != kGridMode || !session.scalar()) return;
   GridAxisSettings& grid = choice.settings.grid_axis;
   double pull = kMillimetres * grid.threshold, notch = kMillimetres * grid.notch;
   constexpr double kNearest = 0.5, kFarthest = 30.0, kNone = 0.0, kFull = 1.0;
@@ -170,11 +172,33 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   bool marks_alone = grid.switch_at == GridSwitch::kMarks;
   if (ImGui::Checkbox("turn at landmarks alone", &marks_alone))
     grid.switch_at = marks_alone ? GridSwitch::kMarks : GridSwitch::kNodes;
-  const bool room = grid.marks.count + 3 <= GridMarks::kMax;
-  if (session.readout().held && room && ImGui::SmallButton("landmarks here")) {
-    for (int a = 0; a < 3; ++a)
-      grid.marks.mark[static_cast<std::size_t>(grid.marks.count++)] = {.axis = a,
-                                                                       .at = session.readout().proxy[a]};
+  const auto room_for = [&grid](std::size_t marks) {
+    return static_cast<std::size_t>(grid.marks.count) + marks <= std::size_t{GridMarks::kMax};
+  };
+  const auto add = [&grid](const GridMark& mark) {
+    grid.marks.mark[static_cast<std::size_t>(grid.marks.count++)] = mark;
+  };
+  const LocalFrame& local = session.scalar()->frame();
+  const Vec3 at = session.readout().proxy;
+  if (session.readout().held && room_for(3) && ImGui::SmallButton("landmarks here")) {
+    for (const GridMark& mark : marks_at(grid.frame, local, at)) add(mark);
+  }
+  if (cuts != nullptr && !cuts->empty() && room_for(cuts->size()) &&
+      ImGui::SmallButton("landmarks at cuts")) {
+    for (const CuttingPlane& cut : *cuts) add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
+  }
+  if (cuts != nullptr && session.readout().held && cuts->size() < kMostCuts) {
+    const Mat3 axes = grid_axes(grid.frame, local);
+    ImGui::TextUnformatted("cut across");
+    for (int a = 0; a < 3; ++a) {
+      ImGui::SameLine();
+      ImGui::PushID(a);
+      constexpr std::array<const char*, 3> kNames{"1st", "2nd", "3rd"};
+      if (ImGui::SmallButton(kNames[static_cast<std::size_t>(a)]))
+        cuts->push_back({.kept = {axes[a], glm::dot(axes[a], at)}});
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("axis of the grid, at the proxy");
+      ImGui::PopID();
+    }
   }
   if (grid.marks.count > 0) {
     ImGui::TextWrapped("%s", text_of(grid.marks).c_str());

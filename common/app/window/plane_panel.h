@@ -19,7 +19,9 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
 void edit_cuts(std::vector<CuttingPlane>& cuts);
 /// Annotations: what the next clicks mark, and a row for each that is there.
 void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions);
-/// The numbers of the haptic grid, and landmarks at the proxy; draws nothing in other modes.
-void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session);
+/// The numbers of the haptic grid, landmarks at the proxy and at planes that cut, and such planes across its
+/// axes at the proxy; draws nothing in other modes. @param cuts of the volume that is shown; may be null.
+void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session,
+               std::vector<CuttingPlane>* cuts);
 
 }  // namespace palpate

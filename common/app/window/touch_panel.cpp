@@ -162,7 +162,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
                    session.has_flow());
-  edit_grid(choice, session.modes()[choice.mode].name, session);
+  edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
   session.choose(choice);
