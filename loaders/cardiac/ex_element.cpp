@@ -113,37 +113,46 @@ ElementShape::Component ElementShape::gather(const Model& model, const Element& 
     throw input_error({file, "element " + std::to_string(element.name), found, expected});
   };
   Component gathered{component.basis, {}};
-  for (const Corner& corner : component.corners) {
-    if (corner.node >= static_cast<int>(element.nodes.size()))
-      refuse("names its node " + std::to_string(corner.node + 1),
+  for (const Parameter& parameter : component.parameters) {
+    if (parameter.node < 0) {
+      gathered.parameters.push_back(0.0);
+      continue;
+    }
+    if (parameter.node >= static_cast<int>(element.nodes.size()))
+      refuse("names its node " + std::to_string(parameter.node + 1),
              "one of " + std::to_string(element.nodes.size()));
-    const std::int64_t name = element.nodes[static_cast<std::size_t>(corner.node)];
+    const std::int64_t name = element.nodes[static_cast<std::size_t>(parameter.node)];
     const auto node = model.nodes.find(name);
     if (node == model.nodes.end()) refuse("names node " + std::to_string(name), "a node of the .exnode file");
     const NodeComponent* at = find(model.node_headers[node->second.header], field, component.name);
     if (at == nullptr)
       refuse("needs " + field + "." + component.name + " at node " + std::to_string(name), "that component");
-    const int stored = (at->derivatives + 1) * at->versions;
-    for (std::size_t k = 0; k < corner.values.size(); ++k) {
-      const int value = corner.values[k];
-      if (value >= stored)
-        refuse("asks for value " + std::to_string(value + 1) + " of " + component.name + " at node " +
-                   std::to_string(name),
-               "at most " + std::to_string(stored));
-      double factor = 1.0;
-      if (const int scale = corner.scales[k]; scale >= 0) {
-        if (scale >= static_cast<int>(element.scales.size()))
-          refuse("asks for scale factor " + std::to_string(scale + 1),
-                 "at most " + std::to_string(element.scales.size()));
-        factor = element.scales[static_cast<std::size_t>(scale)];
-      }
-      gathered.parameters.push_back(
-          factor *
-          node->second.values[static_cast<std::size_t>(at->first) + static_cast<std::size_t>(value)]);
+    int value = parameter.value;
+    if (parameter.label) {
+      const auto labelled = std::find(at->labels.begin(), at->labels.end(), *parameter.label);
+      if (labelled == at->labels.end())
+        refuse("asks for version " + std::to_string(parameter.label->version + 1) +
+                   " of a value or derivative of " + component.name + " that node " + std::to_string(name) +
+                   " does not have",
+               "one of its " + std::to_string(at->labels.size()) + " labels");
+      value = static_cast<int>(labelled - at->labels.begin());
     }
+    if (value >= at->count)
+      refuse("asks for value " + std::to_string(value + 1) + " of " + component.name + " at node " +
+                 std::to_string(name),
+             "at most " + std::to_string(at->count));
+    double factor = 1.0;
+    if (parameter.scale >= 0) {
+      if (parameter.scale >= static_cast<int>(element.scales.size()))
+        refuse("asks for scale factor " + std::to_string(parameter.scale + 1),
+               "at most " + std::to_string(element.scales.size()));
+      factor = element.scales[static_cast<std::size_t>(parameter.scale)];
+    }
+    gathered.parameters.push_back(
+        factor * node->second.values[static_cast<std::size_t>(at->first) + static_cast<std::size_t>(value)]);
   }
   if (component.winding != Winding::kNone) {
-    if (component.basis[0] != Basis::kLinear || gathered.parameters.size() != component.corners.size())
+    if (component.basis[0] != Basis::kLinear || component.of_corner() != 1)
       refuse("winds " + component.name + " about the axis with a basis that is not linear",
              "linear Lagrange polynomials");
     unwind(component.winding, gathered.parameters);

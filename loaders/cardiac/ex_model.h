@@ -1,10 +1,11 @@
-/// A finite element model of EX files (CMISS, OpenCMISS-Zinc; formats before version 2): parameters at nodes
-/// and how each component of a field is interpolated in an element.
+/// A finite element model of EX files (CMISS, OpenCMISS-Zinc): parameters at nodes and how each component of
+/// a field is interpolated in an element.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,19 @@ enum class Winding : std::uint8_t { kNone, kIncreasing, kDecreasing, kNonIncreas
 
 enum class System : std::uint8_t { kCartesian, kCylindrical, kProlate };
 
+/// What a number of a node is: "value", "d/ds1" and so on to "d3/ds1ds2ds3", and of which version, from 0.
+struct ValueLabel {
+  int kind = 0;
+  int version = 0;
+  bool operator==(const ValueLabel&) const = default;
+};
+
 /// A component of a field as a node's header describes it.
 struct NodeComponent {
   std::string name;
-  int first = 0;        ///< its first number among those of the node
-  int derivatives = 0;  ///< numbers that follow the value, for each version
-  int versions = 1;
+  int first = 0;                   ///< its first number among those of the node
+  int count = 1;                   ///< its numbers; before version 2 all of a version, then those of the next
+  std::vector<ValueLabel> labels;  ///< of its numbers; from version 2 of the format on
 };
 
 struct NodeField {
@@ -41,18 +49,25 @@ struct Node {
   std::vector<double> values;
 };
 
-/// The parameters that one corner of an element contributes to a component.
-struct Corner {
-  int node = 0;             ///< of the element's own list
-  std::vector<int> values;  ///< of the component at that node, from 0: versions one after the other
-  std::vector<int> scales;  ///< of the element's scale factors, from 0; -1 for a factor of one
+/// What multiplies one function of a component's basis.
+struct Parameter {
+  int node = 0;                     ///< of the element's own list, from 0; -1: the parameter is zero
+  int value = 0;                    ///< of the component at that node, from 0; where there is no label
+  std::optional<ValueLabel> label;  ///< from version 2 of the format on
+  int scale = -1;                   ///< of the element's scale factors, from 0; -1 for a factor of one
 };
 
 struct ElementComponent {
   std::string name;
   std::array<Basis, 3> basis{};
-  Winding winding = Winding::kNone;  ///< along the first axis
-  std::vector<Corner> corners;       ///< first axis fastest
+  Winding winding = Winding::kNone;   ///< along the first axis
+  std::vector<Parameter> parameters;  ///< corner after corner, first axis fastest
+  /// Parameters of each corner.
+  [[nodiscard]] std::size_t of_corner() const noexcept {
+    std::size_t each = 1;
+    for (const Basis b : basis) each *= static_cast<std::size_t>(parameter_count(b));
+    return each;
+  }
 };
 
 struct ElementField {

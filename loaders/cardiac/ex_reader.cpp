@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,9 @@ constexpr std::int64_t kMostVersions = 10'000;
 constexpr std::int64_t kMostDerivatives = 7;
 constexpr std::int64_t kMostNumber = 2'000'000'000;
 constexpr std::int64_t kMostScales = 100'000;
+constexpr int kNewestVersion = 3;
+constexpr int kLabels = 2;       // from which on parameters have labels in place of indices
+constexpr int kLocalScales = 3;  // from which on scale factors are counted in their own set
 
 /// The number behind `key` in a line: "#Versions= 3".
 std::optional<double> number_behind(std::string_view line, std::string_view key) {
@@ -40,18 +44,29 @@ class Reader {
   void read() {
     while (lines_.next()) {
       const std::string_view line = lines_.line();
+      if (line.starts_with("!#")) {
+        // Points of data share the numbers of nodes.
+        if (line.starts_with("!#nodeset")) data_points_ = line.find("datapoints") != std::string_view::npos;
+        continue;
+      }
       if (line.empty() || line.starts_with('!')) continue;
       if (line.starts_with("EX Version")) {
-        lines_.refuse("is EX format version 2 or later", "a format before it",
-                      "write it with Zinc's FIELDML or as VTK, or with an older cmgui");
+        version_ = static_cast<int>(claim("EX Version:", 1, kNewestVersion));
+        continue;
       }
       if (line.starts_with("Group name") || line.starts_with("Region")) continue;
-      if (line.starts_with("Shape.")) {
+      if (line.starts_with("Node group") || line.starts_with("Element group")) {
+        skip_numbers();
+      } else if (line.starts_with("Define ")) {
+        defined_ = name_behind_colon();
+      } else if (line.starts_with("Node template") || line.starts_with("Element template")) {
+        use_template();
+      } else if (line.starts_with("Shape.")) {
         shape();
       } else if (line.starts_with("#Scale factor sets")) {
         scale_sets();
       } else if (line.starts_with("#Nodes")) {
-        nodes_of_element_ = static_cast<int>(claim("#Nodes", 0, kMostComponents));
+        current_.nodes = static_cast<int>(claim("#Nodes", 0, kMostComponents));
       } else if (line.starts_with("#Fields")) {
         fields();
       } else if (line.starts_with("Node:")) {
@@ -88,7 +103,7 @@ class Reader {
 
   void shape() {
     dimension_ = static_cast<int>(claim("Dimension", 0, 3));
-    in_elements_ = true;
+    in_elements_ = dimension_ > 0;
     const std::string_view line = lines_.line();
     for (const char* other : {"simplex", "polygon"}) {
       if (dimension_ == 3 && line.find(other) != std::string_view::npos)
@@ -96,14 +111,32 @@ class Reader {
     }
   }
 
+  std::string name_behind_colon() const {
+    const std::size_t colon = lines_.line().find(':');
+    return colon == std::string_view::npos ? std::string()
+                                           : std::string(trimmed(lines_.line().substr(colon + 1)));
+  }
+
+  /// Version 3 of the format names its headers, and goes back to them.
+  void use_template() {
+    const auto found = templates_.find(name_behind_colon());
+    if (found == templates_.end())
+      lines_.refuse("names a template that is not defined", "one defined before");
+    current_ = found->second;
+    in_elements_ = current_.in_elements;
+    dimension_ = current_.dimension;
+  }
+
   void scale_sets() {
     in_elements_ = true;
+    scale_set_first_.clear();
     const std::int64_t sets = claim("#Scale factor sets", 0, kMostFields);
-    scales_of_element_ = 0;
+    current_.scales = 0;
     for (std::int64_t s = 0; s < sets; ++s) {
-      next_line("a set of scale factors");
-      scales_of_element_ += claim("#Scale factors", 0, kMostScales);
-      if (scales_of_element_ > kMostScales) lines_.refuse("claims too many scale factors", "100000 at most");
+      const std::string_view line = next_line("a set of scale factors");
+      scale_set_first_[std::string(trimmed(line.substr(0, line.find(','))))] = current_.scales;
+      current_.scales += claim("#Scale factors", 0, kMostScales);
+      if (current_.scales > kMostScales) lines_.refuse("claims too many scale factors", "100000 at most");
     }
   }
 
@@ -112,13 +145,18 @@ class Reader {
     if (in_elements_) {
       std::vector<ElementField> header;
       for (std::int64_t f = 0; f < count; ++f) header.push_back(element_field());
+      current_.header = static_cast<std::uint32_t>(model_.element_headers.size());
       model_.element_headers.push_back(std::move(header));
     } else {
-      values_of_node_ = 0;
+      current_.values = 0;
       std::vector<NodeField> header;
       for (std::int64_t f = 0; f < count; ++f) header.push_back(node_field());
+      current_.header = static_cast<std::uint32_t>(model_.node_headers.size());
       model_.node_headers.push_back(std::move(header));
     }
+    current_.in_elements = in_elements_;
+    current_.dimension = dimension_;
+    if (!defined_.empty()) templates_[std::exchange(defined_, {})] = current_;
   }
 
   /// " 1) coordinates, coordinate, prolate spheroidal, focus= 0.3525E+02, #Components=3"
@@ -154,17 +192,53 @@ class Reader {
       const std::string_view line = next_line("a component");
       NodeComponent component;
       component.name = line.substr(0, line.find('.'));
-      component.first = static_cast<int>(claim("Value index", 1, kMostNumber)) - 1;
-      component.derivatives = static_cast<int>(claim("#Derivatives", 0, kMostDerivatives));
-      if (line.find("#Versions") != std::string_view::npos)
-        component.versions = static_cast<int>(claim("#Versions", 1, kMostVersions));
-      if (component.first != values_of_node_)
-        lines_.refuse("puts its first value at " + std::to_string(component.first + 1),
-                      std::to_string(values_of_node_ + 1) + ", behind the component before");
-      values_of_node_ += (component.derivatives + 1) * component.versions;
+      if (line.find("#Values") != std::string_view::npos) {
+        component.first = current_.values;
+        labels(component);
+      } else {
+        component.first = static_cast<int>(claim("Value index", 1, kMostNumber)) - 1;
+        component.count = 1 + static_cast<int>(claim("#Derivatives", 0, kMostDerivatives));
+        if (line.find("#Versions") != std::string_view::npos)
+          component.count *= static_cast<int>(claim("#Versions", 1, kMostVersions));
+        if (component.first != current_.values)
+          lines_.refuse("puts its first value at " + std::to_string(component.first + 1),
+                        std::to_string(current_.values + 1) + ", behind the component before");
+      }
+      current_.values += component.count;
       field.components.push_back(std::move(component));
     }
     return field;
+  }
+
+  /// "value", "d/ds1", "d2/ds1ds2(2)": with a number in brackets, which is 1 where there is none.
+  std::pair<int, int> label_and_number(std::string_view word) {
+    static constexpr std::array<std::string_view, 8> kKinds{
+        "value", "d/ds1", "d/ds2", "d2/ds1ds2", "d/ds3", "d2/ds1ds3", "d2/ds2ds3", "d3/ds1ds2ds3"};
+    const std::size_t bracket = word.find('(');
+    const auto* const kind = std::find(kKinds.begin(), kKinds.end(), word.substr(0, bracket));
+    double count = 1.0;
+    if (bracket != std::string_view::npos)
+      count = number(word.substr(bracket + 1, word.find(')', bracket) - bracket - 1)).value_or(0.0);
+    if (kind == kKinds.end() || !(count >= 1.0 && count <= static_cast<double>(kMostVersions)) ||
+        count != static_cast<double>(static_cast<int>(count)))
+      lines_.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "value, d/ds1, … or d3/ds1ds2ds3");
+    return {static_cast<int>(kind - kKinds.begin()), static_cast<int>(count)};
+  }
+
+  /// " x. #Values=5 (value(2),d/ds1(2),d/ds2)": of each label all versions, one after the other.
+  void labels(NodeComponent& component) {
+    const std::int64_t count = claim("#Values", 1, kMostVersions);
+    const std::string_view line = lines_.line();
+    const std::size_t open = line.find('(', line.find("#Values"));
+    const std::size_t close = line.rfind(')');
+    if (open == std::string_view::npos || close < open) lines_.refuse("lists no values", "\"(value,d/ds1)\"");
+    for (const std::string_view word : split(line.substr(open + 1, close - open - 1), ',')) {
+      const auto [kind, versions] = label_and_number(trimmed(word));
+      for (int v = 0; v < versions; ++v) component.labels.push_back({kind, v});
+    }
+    if (static_cast<std::int64_t>(component.labels.size()) != count)
+      lines_.refuse("lists " + std::to_string(component.labels.size()) + " values", std::to_string(count));
+    component.count = static_cast<int>(count);
   }
 
   void node() {
@@ -172,9 +246,10 @@ class Reader {
     (void)lines_.word_here();  // "Node:"
     const std::int64_t name = lines_.integer("the number of a node", 0, kMostNumber);
     Node node;
-    node.header = static_cast<std::uint32_t>(model_.node_headers.size() - 1);
+    node.header = current_.header;
     const std::size_t line = lines_.line_number();
-    for (int v = 0; v < values_of_node_; ++v) node.values.push_back(lines_.number("a value of the node"));
+    for (int v = 0; v < current_.values; ++v) node.values.push_back(lines_.number("a value of the node"));
+    if (data_points_) return;
     if (!model_.nodes.emplace(name, std::move(node)).second)
       lines_.refuse(
           "ends node " + std::to_string(name) + " (line " + std::to_string(line) + ") for a second time",
@@ -235,33 +310,96 @@ class Reader {
     const std::string_view map = trimmed(parts[2]);
     if (!map.starts_with("standard node based") && !map.starts_with("general node based"))
       lines_.refuse("is " + std::string(map.substr(0, 40)), "standard or general node based");
+    std::int64_t first_scale = 0;
+    const std::string set = scale_set(map);
+    if (!set.empty() && version_ >= kLocalScales) first_scale = scale_set_first_[set];
     next_line("#Nodes");
-    if (claim("#Nodes", 1, kMostComponents) != static_cast<std::int64_t>(corners))
-      lines_.refuse("has another number of nodes than the basis", std::to_string(corners));
-    for (std::size_t k = 0; k < corners; ++k) component.corners.push_back(corner(each));
+    const std::int64_t nodes = claim("#Nodes", 0, kMostComponents);
+    if (version_ < kLabels) {
+      if (nodes != static_cast<std::int64_t>(corners))
+        lines_.refuse("has another number of nodes than the basis", std::to_string(corners));
+      for (std::size_t k = 0; k < corners; ++k) corner(each, component.parameters);
+    } else {
+      while (component.parameters.size() < corners * each)
+        labelled(corners * each, !set.empty(), first_scale, component.parameters);
+    }
     return component;
   }
 
-  Corner corner(std::size_t each) {
-    Corner corner;
-    const std::string_view line = next_line("a node of the component");
-    const auto node = number(line.substr(0, line.find('.')));
-    if (!node || !(*node >= 1.0 && *node <= static_cast<double>(kMostComponents)))
+  /// Of "standard node based. scale factor set=NAME"; empty where factors are one.
+  std::string scale_set(std::string_view map) {
+    constexpr std::string_view kKey = "scale factor set=";
+    const std::size_t at = map.find(kKey);
+    if (at == std::string_view::npos) return {};
+    std::string name(trimmed(map.substr(at + kKey.size())));
+    if (!scale_set_first_.contains(name))
+      lines_.refuse("names the scale factor set " + name, "one declared above");
+    return name;
+  }
+
+  /// The local node before ". #Values=": -1 for 0, where functions have no parameter.
+  int local_node(int least) {
+    const std::string_view word = lines_.line().substr(0, lines_.line().find('.'));
+    if (word.find('+') != std::string_view::npos)
+      lines_.refuse("sums parameters of several nodes", "one node for each parameter");
+    const auto node = number(trimmed(word));
+    if (!node || !(*node >= least && *node <= static_cast<double>(kMostComponents)) ||
+        *node != static_cast<double>(static_cast<int>(*node)))
       lines_.refuse("names no node of the element", "\"1. #Values=…\"");
-    corner.node = static_cast<int>(*node) - 1;
+    return static_cast<int>(*node) - 1;
+  }
+
+  /// Goes behind the colon of a line that begins with `keyword`.
+  void begin_list(const char* keyword) {
+    if (!next_line(keyword).starts_with(keyword)) lines_.refuse("is out of place", keyword);
+    while (lines_.word_here().find(':') == std::string_view::npos) {
+      if (lines_.line().find(':') == std::string_view::npos) lines_.refuse("lacks a colon", keyword);
+    }
+  }
+
+  void corner(std::size_t each, std::vector<Parameter>& parameters) {
+    next_line("a node of the component");
+    const int node = local_node(1);
     if (claim("#Values", 1, kMostComponents) != static_cast<std::int64_t>(each))
       lines_.refuse("has another number of values than the basis", std::to_string(each));
-    const auto indices = [&](const char* keyword, std::int64_t least, std::vector<int>& out) {
-      if (!next_line(keyword).starts_with(keyword)) lines_.refuse("is out of place", keyword);
-      while (lines_.word_here().find(':') == std::string_view::npos) {
-        if (lines_.line().find(':') == std::string_view::npos) lines_.refuse("lacks a colon", keyword);
-      }
-      for (std::size_t v = 0; v < each; ++v)
-        out.push_back(static_cast<int>(lines_.integer("an index", least, kMostNumber)) - 1);
+    const std::size_t first = parameters.size();
+    parameters.resize(first + each, {.node = node});
+    const auto index = [this](std::int64_t least) {
+      return static_cast<int>(lines_.integer("an index", least, kMostNumber)) - 1;
     };
-    indices("Value indices", 1, corner.values);
-    indices("Scale factor indices", 0, corner.scales);
-    return corner;
+    begin_list("Value indices");
+    for (std::size_t v = 0; v < each; ++v) parameters[first + v].value = index(1);
+    begin_list("Scale factor indices");
+    for (std::size_t v = 0; v < each; ++v) parameters[first + v].scale = index(0);
+  }
+
+  /// "1. #Values=3" and its labels: parameters of the next functions, from one node or from none.
+  void labelled(std::size_t most, bool scaled, std::int64_t first_scale, std::vector<Parameter>& parameters) {
+    next_line("a node of the component");
+    const int node = local_node(0);
+    const auto count = static_cast<std::size_t>(claim("#Values", 1, kMostComponents));
+    const std::size_t first = parameters.size();
+    if (first + count > most)
+      lines_.refuse("has more values than the basis", std::to_string(most) + " in all");
+    parameters.resize(first + count, {.node = node});
+    begin_list("Value labels");
+    for (std::size_t v = 0; v < count; ++v) {
+      const std::string_view word = lines_.word();
+      if (node < 0) {
+        if (word != "zero") lines_.refuse("has a parameter without a node", "zero");
+        continue;
+      }
+      if (word.find('+') != std::string_view::npos)
+        lines_.refuse("sums parameters", "one label for each function");
+      const auto [kind, version] = label_and_number(word);
+      parameters[first + v].label = ValueLabel{kind, version - 1};
+    }
+    if (!scaled) return;
+    begin_list("Scale factor indices");
+    for (std::size_t v = 0; v < count; ++v) {
+      const int scale = static_cast<int>(lines_.integer("an index of one scale factor", 0, kMostNumber)) - 1;
+      if (scale >= 0) parameters[first + v].scale = static_cast<int>(first_scale) + scale;
+    }
   }
 
   void element() {
@@ -278,12 +416,12 @@ class Reader {
         skip_numbers();
       } else if (line.starts_with("Nodes:")) {
         (void)lines_.word_here();
-        for (int n = 0; n < nodes_of_element_; ++n)
+        for (int n = 0; n < current_.nodes; ++n)
           element.nodes.push_back(lines_.integer("a node of the element", 0, kMostNumber));
       } else if (line.starts_with("Scale factors:")) {
         (void)lines_.word_here();
         (void)lines_.word_here();
-        for (std::int64_t s = 0; s < scales_of_element_; ++s)
+        for (std::int64_t s = 0; s < current_.scales; ++s)
           element.scales.push_back(lines_.number("a scale factor"));
       } else if (!line.empty()) {
         lines_.give_back();
@@ -292,10 +430,10 @@ class Reader {
     }
     if (!volume) return;
     if (model_.element_headers.empty()) lines_.refuse("comes before the fields", "#Fields first");
-    element.header = static_cast<std::uint32_t>(model_.element_headers.size() - 1);
-    if (static_cast<int>(element.nodes.size()) != nodes_of_element_)
+    element.header = current_.header;
+    if (static_cast<int>(element.nodes.size()) != current_.nodes)
       lines_.refuse("ends element " + std::to_string(name) + " without its nodes",
-                    std::to_string(nodes_of_element_) + " nodes");
+                    std::to_string(current_.nodes) + " nodes");
     model_.elements.push_back(std::move(element));
   }
 
@@ -311,13 +449,25 @@ class Reader {
     }
   }
 
+  /// What the nodes or elements that follow are like.
+  struct Template {
+    std::uint32_t header = 0;
+    int nodes = 0;            ///< of an element
+    int values = 0;           ///< of a node
+    std::int64_t scales = 0;  ///< of an element
+    bool in_elements = false;
+    int dimension = 3;
+  };
+
   TextLines lines_;
   Model& model_;
-  bool in_elements_ = false;
+  int version_ = 1;
+  bool in_elements_ = false, data_points_ = false;
   int dimension_ = 3;
-  int nodes_of_element_ = 0;
-  int values_of_node_ = 0;
-  std::int64_t scales_of_element_ = 0;
+  Template current_;
+  std::string defined_;  ///< the template whose definition is being read
+  std::map<std::string, Template> templates_;
+  std::map<std::string, std::int64_t> scale_set_first_;
 };
 
 }  // namespace

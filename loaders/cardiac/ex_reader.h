@@ -1,4 +1,7 @@
-/// Reading EX node and element files (formats before version 2).
+/// Reading EX node and element files: the format before version 2 (values by index), version 2 (values by
+/// label) and version 3 (which names its templates). Sources: "The cmgui EX format guide" and
+/// OpenCMISS-Zinc's writer. Of the later ones, parameters that are sums or that have products of scale
+/// factors are refused.
 #pragma once
 
 #include <string>
@@ -9,7 +12,7 @@ namespace palpate::ex {
 
 /// Adds the nodes and the elements of three dimensions of a file to `model`. Faces and lines are passed over.
 /// @throws Error (bad input) naming file and line: a keyword or basis that is not known, numbers that are
-/// missing, a node or element that is named twice; for version 2 of the format.
+/// missing, a node or element that is named twice; sums of parameters.
 void read_ex_file(const std::string& file, Model& model);
 
 }  // namespace palpate::ex
