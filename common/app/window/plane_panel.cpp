@@ -180,15 +180,19 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   };
   const LocalFrame& local = session.scalar()->frame();
   const Vec3 at = session.readout().proxy;
-  if (session.readout().held && room_for(3) && ImGui::SmallButton("landmarks here")) {
+  // They stay in their places without a hand, so that nothing below moves when it comes.
+  ImGui::BeginDisabled(!session.readout().held || !room_for(3));
+  if (ImGui::SmallButton("landmarks here")) {
     for (const GridMark& mark : marks_at(grid.frame, local, at)) add(mark);
   }
+  ImGui::EndDisabled();
   if (cuts != nullptr && !cuts->empty() && room_for(cuts->size()) &&
       ImGui::SmallButton("landmarks at cuts")) {
     for (const CuttingPlane& cut : *cuts) add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
   }
-  if (cuts != nullptr && session.readout().held && cuts->size() < kMostCuts) {
+  if (cuts != nullptr) {
     const Mat3 axes = grid_axes(grid.frame, local);
+    ImGui::BeginDisabled(!session.readout().held || cuts->size() >= kMostCuts);
     ImGui::TextUnformatted("cut across");
     for (int a = 0; a < 3; ++a) {
       ImGui::SameLine();
@@ -199,6 +203,7 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("axis of the grid, at the proxy");
       ImGui::PopID();
     }
+    ImGui::EndDisabled();
   }
   if (grid.marks.count > 0) {
     ImGui::TextWrapped("%s", text_of(grid.marks).c_str());

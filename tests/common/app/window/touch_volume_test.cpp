@@ -46,6 +46,9 @@ class BlobModel final : public WindowModel {
 /// Controls of isosurfaces [pixels].
 constexpr double kIsovalueY = 213.0, kSliderRight = 160.0, kAddX = 50.0, kAddY = 237.0;
 
+/// Cuts across the axes of the grid [pixels].
+constexpr double kCutX = 95.0, kCutY = 322.0;
+
 class TouchVolume : public TouchWindowTest {
  protected:
   void SetUp() override {
@@ -169,6 +172,19 @@ TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
   const WindowResult undone = run();
   EXPECT_LT(glm::distance(undone.view.volume->cuts[0].kept.outward, cut.kept.outward), 1e-12);
   EXPECT_EQ(undone.message, "undone");
+}
+
+TEST_F(TouchVolume, AButtonCutsAcrossAnAxisOfTheGridAtTheProxy) {
+  options_.touch.choice.mode = mode_of(kGridMode);
+  grab();
+  click(next(), kCutX, kCutY);
+  last_ += kPause;
+  const WindowResult result = run();
+  ASSERT_TRUE(result.view.volume);
+  ASSERT_EQ(result.view.volume->cuts.size(), 1U);
+  const ConvexShape::HalfSpace& kept = result.view.volume->cuts[0].kept;
+  EXPECT_EQ(kept.outward, Vec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(kept.offset, result.probe.proxy.x) << "to the bit";
 }
 
 TEST_F(TouchVolume, TheSessionHoldsThePlanes) {
