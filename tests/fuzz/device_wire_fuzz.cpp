@@ -1,0 +1,66 @@
+// What devices send: the first byte chooses whose parser gets the rest, the second how it is cut into
+// transfers. Whatever came before, a good packet after it is understood.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/device/driver/falcon_packet.h"
+#include "common/device/driver/spacemouse_report.h"
+
+using namespace palpate;
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) __builtin_trap();
+}
+
+void falcon(std::span<const std::uint8_t> bytes, std::size_t transfer) {
+  FalconReplyParser parser;
+  std::size_t replies = 0, passed = 0;
+  for (std::size_t at = 0; at < bytes.size(); at += transfer) {
+    const auto part = bytes.subspan(at, std::min(transfer, bytes.size() - at));
+    std::vector<std::uint8_t> copy(part.begin(), part.end());
+    const FtdiRead read = strip_ftdi_status(copy);
+    require(read.bytes <= copy.size());
+    passed += read.bytes;
+    for (std::size_t i = 0; i < read.bytes; ++i) {
+      const auto reply = parser.push(copy[i]);
+      if (!reply) continue;
+      ++replies;
+      require(reply->buttons < 16 && reply->homed < 8);
+    }
+  }
+  require(parser.dropped() + kFalconPacketBytes * replies <= passed);
+  // A command without lights and homing has the form of an answer.
+  const FalconCounts counts{-1234, 0, 32767};
+  std::optional<FalconReply> last;
+  for (const std::uint8_t byte : encode({.motors = counts, .homing = false})) last = parser.push(byte);
+  require(last && last->encoders == counts);
+}
+
+void spacemouse(std::span<const std::uint8_t> bytes, std::size_t transfer) {
+  SpaceMouseState state;
+  for (std::size_t at = 0; at < bytes.size(); at += transfer) {
+    (void)take_report(bytes.subspan(at, std::min(transfer, bytes.size() - at)), state);
+    for (const double value : valuators_of(state, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0})) {
+      require(std::abs(value) <= 1.0);
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 2) return 0;
+  const std::span<const std::uint8_t> rest(data + 2, size - 2);
+  const std::size_t transfer = 1 + data[1];
+  if (data[0] % 2 == 0) {
+    falcon(rest, transfer);
+  } else {
+    spacemouse(rest, transfer);
+  }
+  return 0;
+}
