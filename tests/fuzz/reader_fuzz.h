@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 
 #include "common/base/error.h"
@@ -15,15 +16,14 @@ namespace palpate::test {
 /// @param make makes the loader; @param mine says whether it is the one for a format.
 /// @param diffusion whether tensors are asked for.
 template <typename Make, typename Mine>
-int read_everything(const std::uint8_t* data, std::size_t size, const Make& make, const Mine& mine,
-                    const std::optional<DiffusionRequest>& diffusion = {}) {
-  const MemoryPath input(data, size);
+int read_files(const std::filesystem::path& file, const Make& make, const Mine& mine,
+               const std::optional<DiffusionRequest>& diffusion = {}) {
   try {
-    const Format format = find_format(input.path());
+    const Format format = find_format(file);
     if (!mine(format)) return 0;
     const auto loader = make();
     LoadRequest request;
-    request.files = {input.path()};
+    request.files = {file};
     request.diffusion = diffusion;
     const FileInfo info = loader->open(request, format);
     std::vector<std::string> names;
@@ -42,6 +42,14 @@ int read_everything(const std::uint8_t* data, std::size_t size, const Make& make
   } catch (const Error&) {
   }
   return 0;
+}
+
+/// The same for an input that is one file, in memory.
+template <typename Make, typename Mine>
+int read_everything(const std::uint8_t* data, std::size_t size, const Make& make, const Mine& mine,
+                    const std::optional<DiffusionRequest>& diffusion = {}) {
+  const MemoryPath input(data, size);
+  return read_files(input.path(), make, mine, diffusion);
 }
 
 }  // namespace palpate::test
