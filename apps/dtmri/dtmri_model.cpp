@@ -181,9 +181,7 @@ void DtmriModel::describe_session(Session& session, const InputSpec& spec, const
                                    [](const Lens& one) { return one.transfer && !one.cut; });
     add_option(session, "focus-tf",
                lens == volume.lenses.end() ? options.volume.focus : transfer_words(*lens->transfer));
-    add_option(session, "lens", lenses_text(volume));
-    add_option(session, "samples", exact_number(volume.samples_per_voxel));
-    add_option(session, "shading", volume.shading ? "on" : "off");
+    describe_rays(session, volume);
   }
   describe_camera(session, view);
 }

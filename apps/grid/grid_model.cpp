@@ -53,11 +53,7 @@ void GridModel::describe_session(Session& session, const InputSpec& spec, const 
   add_option(session, "raw-skip", spec.raw.skip);
   add_option(session, "transfer-function", settings.transfer);
   add_option(session, "focus-tf", settings.focus);
-  if (view.volume) {
-    add_option(session, "lens", lenses_text(*view.volume));
-    add_option(session, "samples", exact_number(view.volume->samples_per_voxel));
-    add_option(session, "shading", view.volume->shading ? "on" : "off");
-  }
+  if (view.volume) describe_rays(session, *view.volume);
   describe_camera(session, view);
 }
 

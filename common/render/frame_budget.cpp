@@ -19,7 +19,8 @@ constexpr int kPatience = 4, kLonger = 20;  // frames
 double cost_of(const FrameQuality& quality, bool lenses) {
   constexpr double kFixed = 0.1;
   const double focus = lenses ? 0.5 : 0.0;
-  const double samples = (1.0 - focus) * quality.context + focus * quality.focus;
+  const double context = quality.context * quality.viewport * quality.viewport;
+  const double samples = (1.0 - focus) * context + focus * quality.focus;
   return quality.resolution * quality.resolution * (kFixed + (1.0 - kFixed) * samples);
 }
 
@@ -34,6 +35,7 @@ std::vector<FrameQuality> quality_levels(bool volume, bool lenses) {
     }
   };
   if (volume) down(&FrameQuality::context, {0.5, 0.25});
+  if (volume && lenses) down(&FrameQuality::viewport, {0.5});
   down(&FrameQuality::resolution, {0.85, 0.7, 0.5, 0.35});
   if (volume && lenses) down(&FrameQuality::focus, {0.5});
   down(&FrameQuality::resolution, {0.25});
@@ -43,6 +45,7 @@ std::vector<FrameQuality> quality_levels(bool volume, bool lenses) {
 SceneView with_quality(SceneView view, const FrameQuality& quality) {
   if (!view.volume) return view;
   view.volume->samples_per_voxel *= quality.context;
+  view.volume->context.viewport *= quality.viewport;
   for (Lens& lens : view.volume->lenses) lens.samples_per_voxel *= quality.focus;
   return view;
 }

@@ -1,6 +1,6 @@
 /// Keeps frames within a time while something moves, by giving up quality in a fixed order: samples along
-/// rays outside lenses first, then pixels, inside lenses last (Ikits 2006, sec. 5.7.3). Plain arithmetic, no
-/// clock.
+/// rays outside lenses first, then pixels there, then pixels, inside lenses last (Ikits 2006, sec. 5.7.3).
+/// Plain arithmetic, no clock.
 ///
 /// Symbols. T budget; t time of a frame at level l; c_i cost that level i is expected to have, relative to
 /// the others.
@@ -24,6 +24,7 @@ namespace palpate {
 struct FrameQuality {
   double context = 1.0;     ///< of the samples along rays, outside lenses
   double focus = 1.0;       ///< likewise, inside lenses
+  double viewport = 1.0;    ///< of the pixels along either edge, outside lenses where there are some
   double resolution = 1.0;  ///< of the pixels along either edge
 
   bool operator==(const FrameQuality&) const = default;

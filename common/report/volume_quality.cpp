@@ -107,6 +107,7 @@ std::vector<FocusRate> focus_rates(VolumeView view, const Camera& camera, Volume
     view.lenses.clear();
     view.shading = row.axis == 1.0;  // the first row is drawn without a lens, as in the reference
     view.samples_per_voxel = view.shading ? kFocusSamples : kContextSamples;
+    view.context = {.viewport = 0.5, .level = 1, .table_entries = view.table_entries / 2};
     if (!view.shading) {
       Lens lens;
       lens.shape = nearest_corner(view, camera, row.axis);
@@ -131,7 +132,7 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   const OffscreenContext context;
   quality.renderer = gl_description();
   VolumePicture picture(pixels, pixels, VolumePicture::Context::kCurrent);
-  if (progress) progress->begin("drawing the volume", 16);
+  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 18 : 23);
 
   VolumeView best = given;
   best.samples_per_voxel = 32.0;
@@ -169,6 +170,19 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     const FloatImage image = enlarged(smaller.draw(given, camera), pixels);
     quality.rows.push_back({"resolution", scale, rms_difference(image, converged),
                             worst_difference(image, converged), frame_time(smaller, repeats)});
+  }
+  // Of what lies outside lenses, where the picture has some.
+  for (const double share : {0.25, 0.5, 0.7}) {
+    if (given.lenses.empty()) break;
+    VolumeView view = given;
+    view.context.viewport = share;
+    measure("resolution around lenses", share, view);
+  }
+  for (const int level : {1, 2}) {
+    if (given.lenses.empty()) break;
+    VolumeView view = given;
+    view.context.level = level;
+    measure("halvings of voxels around lenses", level, view);
   }
   VolumeView all = given;
   all.skip_empty = false;

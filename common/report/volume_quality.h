@@ -33,8 +33,9 @@ struct TableTime {
   double milliseconds = 0.0;
 };
 
-/// A row of table 5.3, as far as its parameters (table 5.2) are known here: focus shaded at 4 samples a
-/// voxel, context neither, at 1, both without leaving out what is empty or hidden.
+/// A row of table 5.3 with the parameters of table 5.2, but for the size and number of its scalars: focus
+/// shaded at 4 samples a voxel; context not shaded, at 1 sample a voxel of twice the size, with a table of
+/// half the entries and half the pixels along either edge; both without leaving out what is empty or hidden.
 struct FocusRate {
   double axis = 1.0;         ///< share of the volume's sides that the focus has
   double printed_512 = 0.0;  ///< [frames a second]

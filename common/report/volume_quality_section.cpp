@@ -46,14 +46,14 @@ ReportSection volume_quality_section(const VolumeQuality& quality) {
   section.paragraphs.push_back(tables);
   std::string focus =
       "A shaded focus at 4 samples a voxel, in the corner next to the viewer, in a context that is not "
-      "shaded, at 1, "
-      "nothing left out: frames a second by the share of the volume's sides that the focus has, and the "
-      "speed "
-      "relative to all of it being focus, beside that printed in table 5.3 for 512 x 512 pixels. Here both "
-      "have the "
-      "same volume, tables and pixels; there the context had a coarser volume, smaller tables and half the "
-      "pixels "
-      "along either edge, too.";
+      "shaded, "
+      "at 1 sample a voxel of twice the size, with half the entries of tables and half the pixels along "
+      "either "
+      "edge, nothing left out (the parameters of table 5.2 of Ikits 2006): frames a second by the share of "
+      "the "
+      "volume's sides that the focus has, and the speed relative to all of it being focus, beside that "
+      "printed "
+      "in table 5.3 for 512 x 512 pixels.";
   for (const FocusRate& row : quality.focus) {
     const double gain = row.rate / quality.focus.front().rate;
     focus += " " + short_number(100.0 * row.axis) + " %: " + three_digits(row.rate) + "/s, " +

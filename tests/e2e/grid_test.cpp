@@ -151,10 +151,14 @@ TEST_F(Grid, GivesUpQualityForABudgetAndSaysHowMuch) {
                  "--frame-budget", budget, "--out", name});
   };
   const Json hasty = render("1", "hasty.png"), patient = render("60000", "patient.png");
-  EXPECT_EQ(hasty["quality"],
-            Json({{"context_samples", 0.25}, {"focus_samples", 0.5}, {"resolution", 0.25}}));
-  EXPECT_EQ(patient["quality"],
-            Json({{"context_samples", 1.0}, {"focus_samples", 1.0}, {"resolution", 1.0}}));
+  EXPECT_EQ(hasty["quality"], Json({{"context_samples", 0.25},
+                                    {"focus_samples", 0.5},
+                                    {"context_resolution", 0.5},
+                                    {"resolution", 0.25}}));
+  EXPECT_EQ(patient["quality"], Json({{"context_samples", 1.0},
+                                      {"focus_samples", 1.0},
+                                      {"context_resolution", 1.0},
+                                      {"resolution", 1.0}}));
   EXPECT_GT(hasty["image_error"].get<double>(), 2.0 * patient["image_error"].get<double>());
   EXPECT_EQ(run({"render", "--example", "shells", "--frame-budget", "0", "--out", "c.png"}).exit_code, 2);
 }

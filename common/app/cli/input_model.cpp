@@ -1,5 +1,6 @@
 #include "common/app/cli/input_model.h"
 
+#include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 
 namespace palpate {
@@ -30,6 +31,15 @@ void describe_camera(Session& session, const SceneView& view) {
   const bool parallel = view.camera.projection == Projection::kOrthographic;
   add_option(session, "projection", parallel ? "orthographic" : "perspective");
   add_option(session, "camera", camera_text(view.camera, view.bounds, kSessionAspect));
+}
+
+void describe_rays(Session& session, const VolumeView& volume) {
+  add_option(session, "lens", lenses_text(volume));
+  add_option(session, "samples", exact_number(volume.samples_per_voxel));
+  if (volume.context.viewport < 1.0)
+    add_option(session, "context-viewport", exact_number(volume.context.viewport));
+  if (volume.context.level > 0) add_option(session, "context-level", std::to_string(volume.context.level));
+  add_option(session, "shading", volume.shading ? "on" : "off");
 }
 
 void add_option(Session& session, const char* name, const std::string& value) {

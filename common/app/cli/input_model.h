@@ -27,6 +27,8 @@ namespace palpate {
 
 /// Camera and projection as a session's options.
 void describe_camera(Session& session, const SceneView& view);
+/// The lenses of a volume, and how its rays are cast.
+void describe_rays(Session& session, const VolumeView& volume);
 
 /// Appends an option to a session; an empty value is left out.
 void add_option(Session& session, const char* name, const std::string& value);

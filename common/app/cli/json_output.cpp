@@ -310,6 +310,7 @@ std::string render_json(const RenderSummary& summary) {
             {"quality",
              {{"context_samples", summary.quality.context},
               {"focus_samples", summary.quality.focus},
+              {"context_resolution", summary.quality.viewport},
               {"resolution", summary.quality.resolution}}},
             {"image_error", summary.image_error},
             {"image_error_kind", summary.image_error_kind},

@@ -82,6 +82,8 @@ struct VolumeOptions {
   std::vector<std::string> lenses;  ///< grammar of parse_lens()
   std::vector<std::string> clips;   ///< nx,ny,nz,d: what lies where n.x > d is cut away
   double samples = 4.0;             ///< per voxel along a ray
+  double context_viewport = 1.0;    ///< ContextQuality::viewport
+  int context_level = 0;            ///< ContextQuality::level
   bool shading = true;              ///< Phong
   std::string projection = "perspective";
 };

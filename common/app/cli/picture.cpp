@@ -75,6 +75,7 @@ void measure_error(const SceneView& view, const Image& image, RenderSummary& sum
     constexpr double kFiner = 4.0;
     SceneView finer = view;
     finer.volume->samples_per_voxel *= kFiner;
+    finer.volume->context = {};
     for (Lens& lens : finer.volume->lenses) lens.samples_per_voxel *= kFiner;
     finer.volume->skip_empty = false;
     finer.volume->stop_where_opaque = false;

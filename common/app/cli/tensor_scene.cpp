@@ -83,6 +83,8 @@ VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const 
                     : volume.colored       ? anisotropy_body()
                                            : anisotropy_veil();
   volume.samples_per_voxel = with.samples;
+  volume.context.viewport = with.context_viewport;
+  volume.context.level = with.context_level;
   volume.shading = with.shading;
   const Lens model = direction_lens(with, *volume.image);
   VolumeParts parts = make_parts(with, model.transfer);

@@ -21,6 +21,12 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
       "or "
       "'off' are its own; may be repeated, the first one wins",
       "SHAPE", kGroup);
+  options.add(
+      "--context-viewport", volume.context_viewport,
+      "pixels along either edge of the picture of what lies outside lenses, as a share of all; default 1",
+      "SHARE", kGroup);
+  options.add("--context-level", volume.context_level,
+              "what lies outside lenses from voxels that are means of 2^K an axis; default 0", "K", kGroup);
   options.add("--focus-tf", volume.focus, focus, "NAME|FILE", kGroup);
   options.add_several("--clip,--plane", volume.clips,
                       "cut away what lies where n.x > d, in lenses too; may be repeated", "nx,ny,nz,d",

@@ -101,6 +101,12 @@ void check_volume_options(const VolumeOptions& options) {
   constexpr double kMostSamples = 64.0;
   if (!(options.samples > 0.0 && options.samples <= kMostSamples))
     throw usage_error("--samples: a number above 0 and at most 64 is expected");
+  constexpr double kSmallest = 0.05;
+  if (!(options.context_viewport >= kSmallest && options.context_viewport <= 1.0))
+    throw usage_error("--context-viewport: a number from 0.05 to 1 is expected");
+  if (options.context_level < 0 || options.context_level > kCoarsestLevel)
+    throw usage_error("--context-level: a whole number from 0 to " + std::to_string(kCoarsestLevel) +
+                      " is expected");
   check_transfer(options.transfer);
   check_transfer(options.focus);
   (void)make_parts(options, std::nullopt);
@@ -152,6 +158,8 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
   VolumeView volume;
   volume.transfer = color_transfer_of(options.volume.transfer, *image, options.common.threads);
   volume.samples_per_voxel = options.volume.samples;
+  volume.context.viewport = options.volume.context_viewport;
+  volume.context.level = options.volume.context_level;
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
     VolumeParts parts =

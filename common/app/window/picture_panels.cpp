@@ -63,6 +63,7 @@ std::string frame_text(const PanelState& state) {
     text += part.data();
   };
   give_up(quality.context, "samples");
+  give_up(quality.viewport, "resolution around lenses");
   give_up(quality.resolution, "resolution");
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";

@@ -105,10 +105,9 @@ void own_numbers(VolumeImage& image, std::vector<float> values) {
 }  // namespace
 
 std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int level) {
-  PALPATE_CHECK(level >= 0);
+  PALPATE_CHECK(level > 0);
   auto coarse = std::make_shared<VolumeImage>(image);
   coarse->colors.reset();
-  if (level == 0) return coarse;
   Numbers numbers;
   numbers.points = {static_cast<std::size_t>(image.points.x), static_cast<std::size_t>(image.points.y),
                     static_cast<std::size_t>(image.points.z)};

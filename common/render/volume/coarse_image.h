@@ -12,7 +12,7 @@ namespace palpate {
 /// stay. With s the ratio of the spacings, the number at a coarse point is the mean of the finite ones less
 /// than s points away, weighted by 1 - distance / s, axis by axis; it is NaN where the nearest one is.
 /// Numbers keep their type, and the image its range. Colours are left out.
-/// @pre level >= 0.
+/// @pre level > 0.
 [[nodiscard]] std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int level);
 
 }  // namespace palpate

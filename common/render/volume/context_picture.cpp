@@ -41,12 +41,12 @@ VolumeView context_of(const VolumeView& view) {
 
 }  // namespace
 
-void ContextPicture::update(const VolumeView& view, const SceneFrame& frame) {
+void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole) {
   PALPATE_CHECK(draws_context_alone(view));
   PALPATE_CHECK(view.context.viewport > 0.0 && view.context.viewport <= 1.0);
-  const auto coarse = fine_ == view.image && level_ == view.context.level
-                          ? view_.image
-                          : coarse_image(*view.image, view.context.level);
+  const auto coarse = fine_ == view.image && level_ == view.context.level ? view_.image
+                      : view.context.level == 0                           ? view.image
+                                                : coarse_image(*view.image, view.context.level);
   fine_ = view.image;
   level_ = view.context.level;
   view_ = context_of(view);
@@ -54,7 +54,7 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame) {
   frame_ = frame;
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);
-  textures_.update(view_);
+  textures_.update(view_, &whole);
   volume_block_ = make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
   lens_block_ = make_block_buffer(make_lens_block(view_, frame));
 }

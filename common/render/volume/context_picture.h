@@ -24,8 +24,9 @@ namespace palpate {
 
 class ContextPicture {
  public:
+  /// @param whole what was made for the whole of `view`.
   /// @pre draws_context_alone(view), and as for VolumePass::update().
-  void update(const VolumeView& view, const SceneFrame& frame);
+  void update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole);
 
   /// Draws F and B, and tells tiles apart. Keeps framebuffer, viewport and the frame's uniform block.
   /// @param opaque_depth, block of the whole picture, as for VolumePass::draw(). @pre update().

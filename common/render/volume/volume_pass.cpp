@@ -178,7 +178,7 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
     s.context.reset();
   } else {
     if (!s.context) s.context = std::make_unique<ContextPicture>();
-    s.context->update(view, frame);
+    s.context->update(view, frame, s.textures);
   }
 }
 

@@ -99,29 +99,30 @@ bool VolumeTextures::TableKey::operator==(const TableKey& other) const {
          lengths == other.lengths;
 }
 
-void VolumeTextures::update(const VolumeView& view) {
+void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other) {
   PALPATE_CHECK(view.image != nullptr);
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
-  update_image(view);
+  update_image(view, other);
   update_colors(view);
   update_tables(view);
 }
 
 void VolumeTextures::bind(bool colors) const {
-  glBindTextureUnit(kVoxels, voxels_.name());
+  glBindTextureUnit(kVoxels, voxels_->name());
   glBindTextureUnit(kTables, tables_.name());
   glBindTextureUnit(kEmptyBricks, empty_bricks_.name());
   if (colors) glBindTextureUnit(kColors, colors_.name());
 }
 
-void VolumeTextures::update_image(const VolumeView& view) {
+void VolumeTextures::update_image(const VolumeView& view, const VolumeTextures* other) {
   if (image_ == view.image) return;
-  voxels_ = upload_voxels(*view.image);
-  ranges_ = brick_ranges(*view.image);
+  const bool shared = other != nullptr && other->image_ == view.image;
+  voxels_ = shared ? other->voxels_ : std::make_shared<const GlTexture>(upload_voxels(*view.image));
+  ranges_ = shared ? other->ranges_ : brick_ranges(*view.image);
   image_ = view.image;
   colors_ = GlTexture();
   key_ = {};
-  cost_.voxel_bytes = image_->bytes.size();
+  cost_.voxel_bytes = shared ? 0 : image_->bytes.size();
 }
 
 void VolumeTextures::update_colors(const VolumeView& view) {

@@ -20,7 +20,8 @@ class VolumeTextures {
   /// @pre view.image is not null; samples a voxel are positive and finite; at least two table entries, and
   /// lengths a multiple of kLengthGroup.
   /// @throws Error (usage) where the volume is larger than the driver's textures.
-  void update(const VolumeView& view);
+  /// @param other whose voxels on the GPU are these, too, where it has the same image; null: none.
+  void update(const VolumeView& view, const VolumeTextures* other = nullptr);
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
@@ -47,11 +48,12 @@ class VolumeTextures {
 
     bool operator==(const TableKey& other) const;
   };
-  void update_image(const VolumeView& view);
+  void update_image(const VolumeView& view, const VolumeTextures* other);
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
 
-  GlTexture voxels_, colors_, tables_, empty_bricks_;
+  std::shared_ptr<const GlTexture> voxels_;
+  GlTexture colors_, tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;
   BrickRanges ranges_;
   TilePass tiles_;

@@ -18,7 +18,8 @@ struct Machine {
   double fixed = 2.0, context = 100.0, focus = 0.0;  // [ms] at full quality
 
   [[nodiscard]] double frame(const FrameQuality& q) const {
-    return fixed + q.resolution * q.resolution * (context * q.context + focus * q.focus);
+    const double around = context * q.context * q.viewport * q.viewport;
+    return fixed + q.resolution * q.resolution * (around + focus * q.focus);
   }
 };
 
@@ -42,18 +43,21 @@ TEST(FrameBudget, GivesUpSamplesOutsideLensesFirstThenPixelsAndInsideLast) {
       EXPECT_EQ(levels.front(), FrameQuality{});
       for (std::size_t i = 1; i < levels.size(); ++i) {
         const FrameQuality &a = levels[i - 1], &b = levels[i];
-        EXPECT_TRUE(b.context <= a.context && b.focus <= a.focus && b.resolution <= a.resolution);
+        EXPECT_TRUE(b.context <= a.context && b.focus <= a.focus && b.resolution <= a.resolution &&
+                    b.viewport <= a.viewport);
         EXPECT_NE(a, b);
         if (b.focus < 1.0) {
           EXPECT_TRUE(b.context <= 0.25 && b.resolution <= 0.35) << i;
         }
         if (b.resolution < 1.0 && volume) {
           EXPECT_LE(b.context, 0.25) << i;
+          EXPECT_LE(b.viewport, lenses ? 0.5 : 1.0) << i;
         }
         if (!volume) {
           EXPECT_EQ(b.context, 1.0);
         }
         if (!volume || !lenses) {
+          EXPECT_EQ(b.viewport, 1.0);
           EXPECT_EQ(b.focus, 1.0);
         }
       }
@@ -151,9 +155,11 @@ TEST(FrameBudget, SharesOutWhatEachPartLoses) {
   view.volume->samples_per_voxel = 4.0;
   view.volume->lenses.resize(1);
   view.volume->lenses[0].samples_per_voxel = 8.0;
-  const SceneView drawn = with_quality(view, {.context = 0.25, .focus = 0.5, .resolution = 0.5});
+  const SceneView drawn =
+      with_quality(view, {.context = 0.25, .focus = 0.5, .viewport = 0.5, .resolution = 0.5});
   EXPECT_EQ(drawn.volume->samples_per_voxel, 1.0);
   EXPECT_EQ(drawn.volume->lenses[0].samples_per_voxel, 4.0);
+  EXPECT_EQ(drawn.volume->context.viewport, 0.5);
   EXPECT_TRUE(same_picture(with_quality(view, {}), view));
 }
 

@@ -56,6 +56,18 @@ TEST_F(VolumeQualityOfBlobs, FullResolutionIsThePictureItself) {
   EXPECT_EQ(scales.back().worst, plain->worst);
 }
 
+TEST(VolumeQuality, MeasuresWhatIsSavedAroundLenses) {
+  VolumeView view = sampled_view(blobs, ScalarType::kFloat32, 25);
+  view.lenses = {Lens{make_sphere({0.1, 0.0, 0.2}, 0.4)}};
+  const VolumeQuality quality = run_volume_quality(view, "blobs", Effort::kQuick, nullptr);
+  const auto shares = rows_of(quality, "resolution around lenses");
+  ASSERT_EQ(shares.size(), 3U);
+  EXPECT_LT(shares.back().rms, 0.5 * shares.front().rms);
+  const auto levels = rows_of(quality, "halvings of voxels around lenses");
+  ASSERT_EQ(levels.size(), 2U);
+  EXPECT_GT(levels.back().rms, 1.5 * levels.front().rms);
+}
+
 TEST_F(VolumeQualityOfBlobs, SectionHoldsEveryRowAndBothTablesOfTheReference) {
   const ReportSection section = volume_quality_section(quality_);
   EXPECT_EQ(section.table.size(), quality_.rows.size());
