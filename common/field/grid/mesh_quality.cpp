@@ -60,8 +60,10 @@ void count_border(const TetMesh& mesh, MeshQuality& quality) {
   }
 }
 
-/// Faces whose two cells, turned the same way round, see them alike.
-void count_folds(const TetMesh& mesh, MeshQuality& quality) {
+}  // namespace
+
+std::size_t folded_faces(const TetMesh& mesh) {
+  std::size_t folded = 0;
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     if (mesh.zero_volume(static_cast<CellIndex>(c))) continue;
     for (std::size_t f = 0; f < 4; ++f) {
@@ -75,12 +77,11 @@ void count_folds(const TetMesh& mesh, MeshQuality& quality) {
       // Seen from outside, the face of the one runs round against that of the other.
       const std::uint32_t a = mesh.cells()[c][kFaces[f][0]], b = mesh.cells()[c][kFaces[f][1]];
       for (std::size_t i = 0; i < 3; ++i)
-        if (other[kFaces[g][i]] == a && other[kFaces[g][(i + 1) % 3]] == b) ++quality.folded_faces;
+        if (other[kFaces[g][i]] == a && other[kFaces[g][(i + 1) % 3]] == b) ++folded;
     }
   }
+  return folded;
 }
-
-}  // namespace
 
 std::array<double, 6> dihedral_angles(const std::array<Vec3, 4>& corners) noexcept {
   std::array<Vec3, 4> normal;
@@ -133,7 +134,7 @@ MeshQuality mesh_quality(const TetMesh& mesh) {
   quality.points = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
   count_components(mesh, quality);
   count_border(mesh, quality);
-  count_folds(mesh, quality);
+  quality.folded_faces = folded_faces(mesh);
   return quality;
 }
 

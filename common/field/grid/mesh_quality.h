@@ -33,6 +33,10 @@ struct MeshQuality {
 
 [[nodiscard]] MeshQuality mesh_quality(const TetMesh& mesh);
 
+/// Faces that both their cells, turned the same way round, see alike: these lie on one side of it and
+/// overlap.
+[[nodiscard]] std::size_t folded_faces(const TetMesh& mesh);
+
 /// The six dihedral angles of a tetrahedron [degrees], in no particular order; NaN where a face has no area.
 [[nodiscard]] std::array<double, 6> dihedral_angles(const std::array<Vec3, 4>& corners) noexcept;
 

@@ -10,6 +10,7 @@
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/grid/mesh_quality.h"
 #include "common/field/heart/same_points.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
@@ -112,6 +113,10 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   Heart heart;
   heart.fibres = directions(choice.fibre);
   heart.notes = heart.fibres->notes().lines;
+  if (const std::size_t folded = folded_faces(*grid->tets); folded > 0)
+    heart.notes.push_back(
+        counted(folded, "face") +
+        " with both tetrahedra on one side: these overlap, and a place in both belongs to either");
   if (joined > 0) heart.notes.push_back(counted(joined, "point") + " at the place of another one: joined");
   if (choice.fibre.association == Association::kCell) {
     heart.notes.emplace_back(

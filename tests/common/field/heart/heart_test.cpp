@@ -231,6 +231,21 @@ TEST(DegenerateHeart, InvertedAndFlatTetrahedraChangeNothing) {
   expect_slab(heart);
 }
 
+// The tetrahedron behind a face is put before it, where another one is.
+TEST(DegenerateHeart, TetrahedraThatOverlapAreSaid) {
+  const auto said = [](const Heart& heart) {
+    return std::any_of(heart.notes.begin(), heart.notes.end(), [](const std::string& note) {
+      return note.find("1 face with both tetrahedra on one side") != std::string::npos;
+    });
+  };
+  Slab slab;
+  slab.corners = {0, 1, 4, 16, 1, 4, 16, 21};
+  EXPECT_FALSE(said(heart_of(slab.mesh())));
+  slab.x[3 * 21] = slab.x[3 * 21 + 1] = 0.1;
+  slab.x[3 * 21 + 2] = 0.2;
+  EXPECT_TRUE(said(heart_of(slab.mesh())));
+}
+
 TEST(DegenerateHeart, OneWithoutAnyVolumeIsRefused) {
   Slab slab;
   slab.corners = {0, 1, 2, 3, 0, 1, 5, 4};
