@@ -197,7 +197,6 @@ TEST_F(FalconWindow, IsMovedByTheDeviceAndRepeatsToTheBit) {
   EXPECT_NE(maps.find("palpate_driver_falcon_emulated.so"), std::string::npos);
   EXPECT_EQ(maps.find("libusb"), std::string::npos) << "only the module of a real bus needs it";
   const Recording recording = read_recording(folder_.path("run.txt").string());
-  EXPECT_TRUE(recording.ended);
   const auto present = std::count_if(recording.steps.begin(), recording.steps.end(),
                                      [](const RecordedStep& step) { return step.input.present; });
   EXPECT_GT(present, 500);
