@@ -75,7 +75,7 @@ class DriverLink {
   /// Bus and place, "usb 1-2.3", or empty while there is none.
   [[nodiscard]] virtual std::string place() const = 0;
 
-  static constexpr double kLongestRound = 2.0;  ///< [s]
+  static constexpr double kLongestRound = 0.8;  ///< [s] a program that is told to end waits for it
 };
 
 /// What a driver is told: `falcon:firmware=FILE,gain=3500` as names and values.

@@ -23,14 +23,15 @@ constexpr std::uint16_t kBaud9600 = 0x4138, kBaudLoader = 0x0015, kBaudRun = 0x0
 constexpr std::uint16_t kEightBits = 0x0008, kNoFlow = 0;
 constexpr std::uint16_t kLatencyLoader = 16, kLatencyRun = 1;  // [ms]
 
-constexpr double kControlTime = 1.0;        // [s]
+constexpr double kControlTime = 0.1;        // [s]
 constexpr double kWriteTime = 0.020;        // [s]
 constexpr double kSearchPause = 0.1;        // [s] between two looks at the bus
-constexpr double kRefusedPause = 0.5;       // [s] between two tries to open what cannot be opened
-constexpr double kFirmwarePause = 1.0;      // [s] between two series of tries without firmware
+constexpr double kRefusedPause = 0.25;      // [s] between two tries to open what cannot be opened
+constexpr double kFirmwarePause = 0.25;     // [s] after a series of tries without firmware
 constexpr double kEchoTime = 0.1;           // [s] a chunk takes 5 ms at the loader's speed
 constexpr int kProbes = 10;                 // commands that a running firmware would answer
 constexpr std::size_t kChunk = 62;          // [bytes] of the image at a time
+constexpr int kChunksARound = 8;            // each is echoed within the loader's latency of 16 ms
 constexpr std::size_t kTransferBytes = 64;  // other sizes are known to misbehave on some stacks
 
 // What the encoders can do between two answers. At 3 m/s, far above the velocity gate, the fastest of them
@@ -82,6 +83,9 @@ bool FalconLink::round(const Vec3& force) noexcept {
       return false;
     case Stage::kLoad:
       load();
+      return false;
+    case Stage::kUpload:
+      upload();
       return false;
     case Stage::kRun:
       return exchange(force);
@@ -169,7 +173,9 @@ void FalconLink::load() noexcept {
   ++status_.uploads;
   ++uploads_in_a_row_;
   // That a try fails is usual: the next one may not.
-  if (greet_loader() && upload()) stage_ = Stage::kProbe;
+  if (!greet_loader()) return;
+  uploaded_ = 0;
+  stage_ = Stage::kUpload;
 }
 
 bool FalconLink::control(std::uint8_t request, std::uint16_t value) noexcept {
@@ -209,15 +215,23 @@ bool FalconLink::greet_loader() noexcept {
   return connection_->write(kOut, kReadyFor, kEchoTime).ok() && expect(kReadyFor, kEchoTime);
 }
 
-bool FalconLink::upload() noexcept {
-  const std::span<const std::uint8_t> image(settings_.firmware);
-  for (std::size_t at = 0; at < image.size(); at += kChunk) {
-    const auto chunk = image.subspan(at, std::min(kChunk, image.size() - at));
+/// A part of the image, so that a round stays short.
+void FalconLink::upload() noexcept {
+  for (int n = 0; n < kChunksARound; ++n) {
+    const auto left = std::span<const std::uint8_t>(settings_.firmware).subspan(uploaded_);
+    const auto chunk = left.first(std::min(kChunk, left.size()));
     const UsbResult sent = connection_->write(kOut, chunk, kEchoTime);
-    if (sent.status == UsbStatus::kGone) give_up();
-    if (!sent.ok() || sent.bytes != chunk.size() || !expect(chunk, kEchoTime)) return false;
+    if (sent.status == UsbStatus::kGone) return give_up();
+    if (!sent.ok() || sent.bytes != chunk.size() || !expect(chunk, kEchoTime)) {
+      if (connection_) stage_ = Stage::kLoad;
+      return;
+    }
+    uploaded_ += chunk.size();
+    if (uploaded_ == settings_.firmware.size()) {
+      stage_ = Stage::kProbe;
+      return;
+    }
   }
-  return true;
 }
 
 /// Whether `wanted` comes in time; what comes before its first byte does not count.

@@ -62,16 +62,16 @@ class FalconLink final : public DriverLink {
   [[nodiscard]] std::string place() const override;
 
  private:
-  enum class Stage : std::uint8_t { kSearch, kProbe, kLoad, kRun };
+  enum class Stage : std::uint8_t { kSearch, kProbe, kLoad, kUpload, kRun };
 
   void search() noexcept;
   void probe() noexcept;
   void load() noexcept;
+  void upload() noexcept;
   bool exchange(const Vec3& force) noexcept;
 
   bool set_running_speed() noexcept;
   bool greet_loader() noexcept;
-  bool upload() noexcept;
   bool control(std::uint8_t request, std::uint16_t value) noexcept;
   bool expect(std::span<const std::uint8_t> wanted, double seconds) noexcept;
 
@@ -100,6 +100,7 @@ class FalconLink final : public DriverLink {
   UsbStatus refused_ = UsbStatus::kOk;  ///< why it could not be opened
   Stage stage_ = Stage::kSearch;
   int uploads_in_a_row_ = 0;
+  std::size_t uploaded_ = 0;  ///< [bytes] of the image, echoed
 
   FalconReplyParser parser_;
   std::uint64_t dropped_before_ = 0;

@@ -50,7 +50,9 @@ class FalconLinkTest : public ::testing::Test {
   }
   bool run_until(LinkPhase phase, double seconds) {
     for (const double until = bus_.now() + seconds; bus_.now() < until;) {
+      const double began = bus_.now();
       (void)link_->round(Vec3{0.0});
+      EXPECT_LT(bus_.now() - began, DriverLink::kLongestRound);
       if (link_->status().phase == phase) return true;
     }
     return false;
