@@ -48,6 +48,20 @@ TEST_F(CardiacMesh, ItsMeshIsAHeartAgain) {
   EXPECT_EQ(run({"mesh", "heart.vtu"}).exit_code, 2);
 }
 
+// Slivers of the Delaunay mesh must not throw the layers out of the wall: from -2.8 to 7.9 they went once
+// with --refine 8, up to 3.7 with 4.
+TEST_F(CardiacMesh, LayersOfTheDogsMeshKeepBetweenItsSurfaces) {
+  PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
+  (void)json({"mesh", elements.string(), "--refine", "4", "--out", "heart.vtu"});
+  const Json map = json({"map", "heart.vtu", "--angle", "helix", "--axis=-1,0,0"});
+  const Json& bands = map["bands"];
+  EXPECT_EQ(bands.front()["depth"], 0.0);
+  EXPECT_EQ(bands.back()["depth"], 1.0);
+  // As the measured angles at the model's nodes: +77 on the inner, -58 degrees on the outer surface.
+  EXPECT_NEAR(bands.front()["mean"].get<double>(), 77.0, 5.0) << map;
+  EXPECT_NEAR(bands.back()["mean"].get<double>(), -58.0, 5.0);
+}
+
 TEST_F(CardiacMesh, SurfacesThatTouchAreRefusedByTetgenAndNotByDelaunay) {
   PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
   const ProgramResult refused =

@@ -1,5 +1,8 @@
 #include "common/field/layer/wall_layer.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,12 +21,50 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTolerance = 1e-12;
 constexpr int kMostIterations = 20'000;
+/// Volume over the cube of the longest edge below which a cell has no say: 0.118 for a regular one. Such a
+/// sliver ties its corners to one plane of values, however thin it is, which throws values far out of range;
+/// without it its neighbours still meet at all four corners.
+constexpr double kThin = 1e-3;
 
 using Matrix = Eigen::SparseMatrix<double>;
 /// In the order of the points: one that saves fill in a full factor spoils an incomplete one (four times the
 /// iterations on a million tetrahedra).
 using Factor = Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 using Solver = Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, Factor>;
+
+/// With its orientation's sign.
+double volume_of(const TetMesh& mesh, const TetMesh::Tet& tet) {
+  const Vec3 x0 = mesh.points()[tet[0]];
+  return glm::determinant(
+             Mat3{mesh.points()[tet[1]] - x0, mesh.points()[tet[2]] - x0, mesh.points()[tet[3]] - x0}) /
+         6.0;
+}
+
+bool is_thin(const TetMesh& mesh, CellIndex cell) {
+  if (mesh.zero_volume(cell)) return true;
+  const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(cell)];
+  double longest = 0.0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      longest = std::max(longest, glm::distance(mesh.points()[tet[i]], mesh.points()[tet[j]]));
+  return std::abs(volume_of(mesh, tet)) < kThin * longest * longest * longest;
+}
+
+/// Cells that have a say: all but thin ones, and those too where a point has no other.
+std::vector<bool> cells_of_system(const TetMesh& mesh) {
+  std::vector<bool> takes_part(mesh.cells().size()), held(mesh.points().size());
+  for (std::size_t c = 0; c < takes_part.size(); ++c) {
+    if (is_thin(mesh, static_cast<CellIndex>(c))) continue;
+    takes_part[c] = true;
+    for (const std::uint32_t p : mesh.cells()[c]) held[p] = true;
+  }
+  for (std::size_t c = 0; c < takes_part.size(); ++c) {
+    const TetMesh::Tet& tet = mesh.cells()[c];
+    if (takes_part[c] || mesh.zero_volume(static_cast<CellIndex>(c))) continue;
+    takes_part[c] = std::any_of(tet.begin(), tet.end(), [&](std::uint32_t p) { return !held[p]; });
+  }
+  return takes_part;
+}
 
 /// Which points cells with a volume join to one whose value is given.
 std::vector<bool> reached_points(const TetMesh& mesh, const std::vector<WallSurface>& surface) {
@@ -67,17 +108,15 @@ System assemble(const TetMesh& mesh, const std::vector<WallSurface>& surface,
   system.right = Eigen::VectorXd::Zero(count);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(16 * mesh.cells().size());
+  const std::vector<bool> takes_part = cells_of_system(mesh);
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     const auto cell = static_cast<CellIndex>(c);
-    if (mesh.zero_volume(cell)) continue;
+    if (!takes_part[c]) continue;
     const TetMesh::Tet& tet = mesh.cells()[c];
     if (!reached[tet[0]]) continue;
     const Mat3 g = mesh.barycentric_gradients(cell);
     const std::array<Vec3, 4> gradient{-g[0] - g[1] - g[2], g[0], g[1], g[2]};
-    const Vec3 x0 = mesh.points()[tet[0]];
-    const double volume = glm::determinant(Mat3{mesh.points()[tet[1]] - x0, mesh.points()[tet[2]] - x0,
-                                                mesh.points()[tet[3]] - x0}) /
-                          6.0;
+    const double volume = volume_of(mesh, tet);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::int32_t row = system.unknown[tet[i]];
       if (row < 0) continue;
@@ -133,7 +172,8 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
       continue;
     }
     const std::int32_t unknown = system.unknown[p];
-    values[input] = unknown >= 0                                  ? solution[unknown]
+    // Laplace's solution keeps to its border's range; what obtuse cells add to that is error.
+    values[input] = unknown >= 0                                  ? std::clamp(solution[unknown], 0.0, 1.0)
                     : surfaces.of_point[p] == WallSurface::kOuter ? 1.0
                                                                   : 0.0;
   }
