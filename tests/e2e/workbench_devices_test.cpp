@@ -60,7 +60,8 @@ TEST_F(WorkbenchDevices, TheMonitorReadsPositionsOut) {
   ASSERT_GT(seen["samples"].size(), 3U);
   for (const Json& sample : seen["samples"]) {
     ASSERT_EQ(sample["position_m"].size(), 3U);
-    for (const Json& x : sample["position_m"]) ASSERT_LT(std::abs(x.get<double>()), 0.06);
+    for (const Json& x : sample["position_m"])
+      ASSERT_LT(std::abs(x.get<double>()), 0.1);  // the arm reaches no farther
   }
   EXPECT_EQ(run({"monitor"}).exit_code, 2);
   const ProgramResult text = run({"monitor", "--device", "falcon_emulated", "--seconds", "2"});
