@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/app/cli/lens_text.h"
+#include "common/app/cli/plane_image_text.h"
 
 namespace palpate {
 
@@ -53,7 +54,16 @@ void GridModel::describe_session(Session& session, const InputSpec& spec, const 
   add_option(session, "raw-skip", spec.raw.skip);
   add_option(session, "transfer-function", settings.transfer);
   add_option(session, "focus-tf", settings.focus);
-  if (view.volume) describe_rays(session, *view.volume);
+  if (view.volume) {
+    describe_rays(session, *view.volume);
+    const PlaneImages& planes = view.volume->planes;
+    if (planes.shown) add_option(session, "plane-image", "on");
+    if (planes.window) {
+      add_option(session, "window", exact_number(planes.window->width));
+      add_option(session, "level", exact_number(planes.window->level));
+    }
+    add_option(session, "contours", contours_text(planes.contours));
+  }
   describe_camera(session, view);
 }
 

@@ -257,6 +257,10 @@ struct SceneRenderer::State {
       tensors->draw(view, frame, transform, unit);
     }
     if (!is_transparent(view)) draw_lines(view, base, unit);
+    if (view.volume && shows_planes(*view.volume)) {
+      update_volume(view);
+      volume->draw_planes(block);
+    }
     if (view.surfaces.empty() && !surfaces) return;
     if (!surfaces) surfaces = std::make_unique<SurfacePass>();
     surfaces->update(view.surfaces, frame);
@@ -292,10 +296,14 @@ struct SceneRenderer::State {
     tract_ms = 1e3 * watch.seconds();
   }
 
-  // Behind and between opaque things, by their depths, into the framebuffer that is bound.
-  void draw_volume(const SceneView& view) {
+  void update_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
     volume->update(*view.volume, frame);
+  }
+
+  // Behind and between opaque things, by their depths, into the framebuffer that is bound.
+  void draw_volume(const SceneView& view) {
+    update_volume(view);
     volume->draw(target.copy_depth(), block);
   }
 

@@ -1,28 +1,8 @@
-// Matter seen enlarged through a lens. With c the middle of the lens, m its magnification and u(x) the factor by
-// which the lens would have to be scaled about c for x to lie on its border, the place x shows the matter of
-//   y(x) = c + (x - c) f(u) / u,   f(u) = u / m + (1 - 1/m) max(0, (u - a) / (1 - a))^2            (1)
-// f grows and f(1) = 1: the lens is mapped on to itself, point for point, its border stays, and matter up to u = a is
-// m times as large. The ray is bent: it gathers along y(x(t)), whose own length counts, so that matter enlarged is as
-// opaque as it is. (Ikits 2006, sec. 5.7.1, displaces samples across the view alone: borders toward the eye jump.)
+// Marches through lenses that enlarge. The ray is bent: it gathers along y(x(t)) of volume/place_seen.glsl, whose own
+// length counts, so that matter enlarged is as opaque as it is. (Ikits 2006, sec. 5.7.1, displaces samples across the
+// view alone: borders toward the eye jump.)
 // Needs volume/volume_block.glsl, volume/ray.glsl, volume/march.glsl and volume/lens_segments.glsl.
-const float kCore = 0.5;  // a
-
-bool magnifies(int i) { return lenses.centers[i].w > 1.0; }
-
-// (1), in N.
-vec3 place_seen(int i, vec3 x) {
-  vec3 c = lenses.centers[i].xyz, away = x - c;
-  float u = 1e-6;
-  mat4 unit = lenses.unit_from_scene[i];
-  if (unit[3][3] > 0.5) u = max(u, length(mat3(unit) * away));
-  ivec2 range = lenses.faces[i].xy;
-  for (int k = range.x; k < range.x + range.y; ++k) {
-    vec4 plane = lenses.planes[k];
-    u = max(u, dot(plane.xyz, away) / (plane.w - dot(plane.xyz, c)));
-  }
-  float shrunk = 1.0 / lenses.centers[i].w, outer = clamp((u - kCore) / (1.0 - kCore), 0.0, 1.0);
-  return c + away * (shrunk + (1.0 - shrunk) * outer * outer / u);
-}
+#include "volume/place_seen.glsl"
 
 // Adds what lens `i` shows between `from` and `to`, on samples at t = n d. Near its border matter is squeezed by up to
 // f'(1) < 2 / (1 - a), and bent stretches are so much longer than straight ones.

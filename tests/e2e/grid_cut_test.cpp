@@ -1,9 +1,11 @@
 // Lenses, slices and parts of volumes, as a user of `grid` asks for them.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include <stb_image.h>
 
@@ -116,6 +118,26 @@ TEST_F(GridCut, TakesTransferFunctionsAsPointsAndRefusesNonsenseInOneLine) {
   refused({"--focus-tf", "points:0,1,1,1,7"}, 2, "opacity");
 }
 
+TEST_F(GridCut, PlanesShowTheDataInTheirGreyValues) {
+  const Json info = json({"info", "--example", "shells"});
+  const auto& bounds = info["blocks"][0]["bounds"];
+  const double middle = 0.5 * (bounds["lower"][1].get<double>() + bounds["upper"][1].get<double>());
+  const std::string plane = "0,-1,0," + std::to_string(-middle);  // the half before it is cut away
+  const Picture cut = render("cut.png", {"--clip", plane});
+  const Picture shown = render("shown.png", {"--clip", plane, "--plane-image", "on"});
+  EXPECT_GT(difference(cut, shown), 0.3);
+  // All values above a window that ends far below them are white.
+  const Picture white =
+      render("white.png", {"--clip", plane, "--plane-image", "on", "--window", "1", "--level", "-1e6"});
+  EXPECT_EQ(white.at(48, 48)[0], 255);
+  const Picture lined = render("lined.png", {"--clip", plane, "--plane-image", "on", "--window", "1",
+                                             "--level", "-1e6", "--contours", "0.5"});
+  EXPECT_GT(difference(white, lined), 0.01);
+  EXPECT_LT(difference(white, lined), 0.5);
+  EXPECT_EQ(run({"render", "--example", "shells", "--window", "0", "--out", "x.png"}).exit_code, 2);
+  EXPECT_EQ(run({"render", "--example", "shells", "--contours", "a", "--out", "x.png"}).exit_code, 2);
+}
+
 TEST_F(GridCut, SlicesShowVoxelsInTheirPlaces) {
   // Voxels 0 to 23 of 2 x 3 x 4, steps 1, 2, 3.
   std::string voxels;
@@ -151,6 +173,24 @@ TEST_F(GridCut, SlicesShowVoxelsInTheirPlaces) {
   EXPECT_EQ(picture.at(2, 0)[0],
             std::lround(255.0 * (21.0 - 5.0) / 18.0));  // y = 4, z = 8: between 17 and 23
 
+  // Of values 6 + x + y the line of 8.5 is x + y = 2.5.
+  EXPECT_EQ(slice({"--plane", "axial:3", "--contours", "8.5,7", "--out", "lines.csv"})["lines"], 2);
+  std::istringstream rows(read_file(folder_.path("lines.csv")));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_NE(row.find(",value"), std::string::npos) << row;
+  int points = 0;
+  while (std::getline(rows, row)) {
+    std::array<double, 6> v{};
+    std::istringstream fields(row);
+    std::string field;
+    for (double& number : v) number = std::getline(fields, field, ',') ? std::stod(field) : NAN;
+    EXPECT_NEAR(v[3] + v[4], v[1] == 0.0 ? 2.5 : 1.0, 1e-6) << row;
+    EXPECT_EQ(v[5], 3.0) << row;
+    ++points;
+  }
+  EXPECT_GE(points, 4);
+
   const auto refused = [&](const std::vector<std::string>& more, int exit_code, const std::string& word) {
     std::vector<std::string> arguments{"slice", "--example", "voxel"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -164,6 +204,9 @@ TEST_F(GridCut, SlicesShowVoxelsInTheirPlaces) {
   refused({"--spacing", "1e-9", "--out", "x.png"}, 2, "--spacing");
   refused({"--window", "0", "--out", "x.png"}, 2, "--window");
   refused({"--out", "x.gif"}, 2, ".nii.gz");
+  refused({"--contours", "1,two", "--out", "x.vtp"}, 2, "two");
+  refused({"--contours", "1", "--out", "x.png"}, 2, ".vtp");
+  refused({"--contours", "1e9", "--out", "x.vtp"}, 1, "reach");
   refused({}, 2, "--out");
 }
 

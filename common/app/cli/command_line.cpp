@@ -323,6 +323,10 @@ class VerbParser {
         ->type_name("W")
         ->group(group);
     app_.add_option("--level", slice.level, "value in the middle of them")->type_name("L")->group(group);
+    app_.add_option("--contours", slice.contours,
+                    "lines of equal value on the slice, written to a .vtp, .tck, .trk or .csv")
+        ->type_name("V,V,...")
+        ->group(group);
   }
 
   void add_part() {

@@ -289,6 +289,7 @@ std::string lattice_json(const LatticeSummary& summary) {
                   {"range", {summary.lowest, summary.highest}},
                   {"window", summary.window},
                   {"level", summary.level},
+                  {"lines", summary.lines},
                   {"seconds_load", summary.seconds_load},
                   {"seconds_made", summary.seconds_made},
                   {"version", version()}};

@@ -79,12 +79,15 @@ struct ViewOptions {
 struct VolumeOptions {
   std::string transfer;  ///< color_transfer_of(); empty: from the histogram of the values
   std::string focus;     ///< likewise inside lenses; empty: the denser half of what the context shows
-  std::vector<std::string> lenses;  ///< grammar of parse_lens()
-  std::vector<std::string> clips;   ///< nx,ny,nz,d: what lies where n.x > d is cut away
-  double samples = 4.0;             ///< per voxel along a ray
-  double context_viewport = 1.0;    ///< ContextQuality::viewport
-  int context_level = 0;            ///< ContextQuality::level
-  bool shading = true;              ///< Phong
+  std::vector<std::string> lenses;      ///< grammar of parse_lens()
+  std::vector<std::string> clips;       ///< nx,ny,nz,d: what lies where n.x > d is cut away
+  bool plane_image = false;             ///< the values are drawn on these planes
+  std::optional<double> window, level;  ///< of them; absent: default_window()
+  std::string contours;                 ///< v,v,...: lines of equal value on these planes
+  double samples = 4.0;                 ///< per voxel along a ray
+  double context_viewport = 1.0;        ///< ContextQuality::viewport
+  int context_level = 0;                ///< ContextQuality::level
+  bool shading = true;                  ///< Phong
   std::string projection = "perspective";
 };
 
@@ -93,7 +96,8 @@ struct SliceOptions {
   std::string plane = "axial";  ///< grammar of parse_plane()
   double spacing = 0.0;         ///< of its pixels [data units]; 0: that of the voxels
   std::optional<double> window, level;
-  std::string box;  ///< x,y,z,x,y,z: the part of a volume that is kept; empty: all of it
+  std::string contours;  ///< v,v,...: lines of equal value, to be written in place of an image
+  std::string box;       ///< x,y,z,x,y,z: the part of a volume that is kept; empty: all of it
 };
 
 /// How diffusion tensors are drawn.

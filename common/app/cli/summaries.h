@@ -173,6 +173,7 @@ struct LatticeSummary {
   std::size_t outside = 0;
   double lowest = 0.0, highest = 0.0;  ///< of the data
   double window = 0.0, level = 0.0;    ///< of a picture
+  std::size_t lines = 0;               ///< of equal value, written in place of an image
   double seconds_load = 0.0;
   double seconds_made = 0.0;
 };

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <variant>
 
 #include "common/app/cli/json_output.h"
+#include "common/app/cli/plane_image_text.h"
 #include "common/app/cli/slice_plane.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
@@ -14,8 +17,10 @@
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
+#include "common/field/grid/image_contours.h"
 #include "common/field/value_histogram.h"
 #include "common/load/write_image.h"
+#include "common/load/write_lines.h"
 #include "common/render/png.h"
 
 namespace palpate {
@@ -29,7 +34,9 @@ bool is_picture(const std::filesystem::path& out) {
 
 void check_request(const Options& options) {
   if (options.out.empty()) throw usage_error("slice needs an output: try --out slice.png");
-  if (is_picture(options.out)) {
+  if (!parse_contours(options.slice.contours).empty()) {
+    check_line_output(options.out, options.common.force);
+  } else if (is_picture(options.out)) {
     check_output(options.out, options.common.force);
   } else {
     check_image_output(options.out, options.common.force);
@@ -116,6 +123,31 @@ UniformTopology lattice_of(const UniformTopology& grid, const Options& options, 
   return *lattice;
 }
 
+/// Lines of equal value with their values: one column of all points.
+struct Contours {
+  std::vector<Line> lines;
+  PointColumn values{.name = "value", .values = {}};
+};
+
+Contours contours_of(const UniformTopology& lattice, const std::vector<float>& slice,
+                     const std::vector<double>& values) {
+  Contours contours;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const ContourLine& contour : contour_lines(lattice, slice, values[i])) {
+      const Vec3 &first = contour.front().position, &last = contour.back().position;
+      Line line{.end = first == last ? End::kLoop : End::kLeftDomain, .seed = static_cast<std::uint32_t>(i)};
+      double arc = 0.0;
+      for (const ContourPoint& point : contour) {
+        if (!line.points.empty()) arc += glm::distance(line.points.back().position, point.position);
+        line.points.push_back({.position = point.position, .arc = arc, .error = point.error});
+      }
+      contours.values.values.insert(contours.values.values.end(), line.points.size(), values[i]);
+      contours.lines.push_back(std::move(line));
+    }
+  }
+  return contours;
+}
+
 Box bounds_of(const UniformTopology& grid) {
   Box box;
   for (unsigned i = 0; i < 8; ++i) {
@@ -138,15 +170,26 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
   LatticeSummary summary;
   summary.lattice = lattice_of(grid, options, bounds_of(grid));
   const Greys greys = greys_of(values, options.slice, options.common.threads);
-  const ResampledImage slice =
-      resample(grid, values, 0, summary.lattice, static_cast<float>(greys.lowest), options.common.threads);
+  const std::vector<double> contour_values = parse_contours(options.slice.contours);
+  const bool as_lines = !contour_values.empty();
+  const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
+  const ResampledImage slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
   context.progress.begin("writing " + options.out.filename().string(), 0);
   context.progress.check();
   const FileInfo* file = input.file();
   const bool anatomical = file != nullptr && file->anatomical;
   summary.right = direction_words(glm::normalize(summary.lattice.axes[0]), anatomical);
   summary.up = direction_words(glm::normalize(summary.lattice.axes[1]), anatomical);
-  if (is_picture(options.out)) {
+  if (as_lines) {
+    const Contours contours = contours_of(summary.lattice, slice.values, contour_values);
+    if (contours.lines.empty()) {
+      throw work_error("no value of the slice is one of --contours " + options.slice.contours +
+                       "; the data reach from " + short_number(greys.lowest) + " to " +
+                       short_number(greys.highest));
+    }
+    summary.lines = contours.lines.size();
+    write_lines(options.out, contours.lines, options.common.force, std::span(&contours.values, 1));
+  } else if (is_picture(options.out)) {
     summary.window = greys.window;
     summary.level = greys.level;
     write_png(options.out, grey_image(summary.lattice, slice.values, greys),
@@ -167,15 +210,17 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   summary.seconds_made = watch.seconds();
   const Index3& n = summary.lattice.points;
-  context.console.print(
-      summary.input + ": slice -> " + summary.output + " (" + std::to_string(n.x) + " x " +
-      std::to_string(n.y) +
-      (is_picture(options.out)
-           ? ", window " + short_number(greys.window) + ", level " + short_number(greys.level)
-           : std::string()) +
-      "), " + summary.right + " on the right, " + summary.up + " at the top" +
-      (slice.outside > 0 ? "; " + counted(slice.outside, "point") + " outside, at the lowest value" : "") +
-      "\n");
+  context.console.print(summary.input + ": slice -> " + summary.output + " (" + std::to_string(n.x) + " x " +
+                        std::to_string(n.y) +
+                        (as_lines                  ? ", " + counted(summary.lines, "line")
+                         : is_picture(options.out) ? ", window " + short_number(greys.window) + ", level " +
+                                                         short_number(greys.level)
+                                                   : std::string()) +
+                        "), " + summary.right + " on the right, " + summary.up + " at the top" +
+                        (slice.outside > 0 && !as_lines
+                             ? "; " + counted(slice.outside, "point") + " outside, at the lowest value"
+                             : "") +
+                        "\n");
   context.console.print_json(lattice_json(summary));
   return ExitCode::kDone;
 }

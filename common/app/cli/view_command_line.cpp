@@ -33,6 +33,19 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
                       kGroup);
 }
 
+void add_plane_images(SceneOptions& options, VolumeOptions& volume) {
+  options.add(
+      "--plane-image", volume.plane_image,
+      "the data on the planes of --clip, in grey and where a lens is in its colours: on or off (default)",
+      "on|off", kGroup);
+  options.add("--window", volume.window,
+              "values from black to white on planes; default: up to all but the brightest two hundredth", "W",
+              kGroup);
+  options.add("--level", volume.level, "value in the middle of them", "L", kGroup);
+  options.add("--contours", volume.contours, "lines of equal value on the planes of --clip", "V,V,...",
+              kGroup);
+}
+
 void add_projection(SceneOptions& options, VolumeOptions& volume) {
   options.add("--projection", volume.projection, "perspective (default) or orthographic", "NAME", kGroup)
       ->check(CLI::IsMember({"perspective", "orthographic"}));
@@ -125,6 +138,7 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
   switch (kind) {
     case FieldKind::kScalar:
       add_volume(options, bound.volume);
+      add_plane_images(options, bound.volume);
       add_projection(options, bound.volume);
       return;
     case FieldKind::kTensor:

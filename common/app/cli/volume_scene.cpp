@@ -10,6 +10,7 @@
 #include "common/app/cli/domain_outline.h"
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/plane_image_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/color_transfer_file.h"
@@ -110,6 +111,7 @@ void check_volume_options(const VolumeOptions& options) {
   check_transfer(options.transfer);
   check_transfer(options.focus);
   (void)make_parts(options, std::nullopt);
+  (void)plane_images_of(options);
 }
 
 std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
@@ -167,6 +169,11 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
     volume.lenses = std::move(parts.lenses);
     volume.cuts = std::move(parts.cuts);
   }
+  volume.planes = plane_images_of(options.volume);
+  const bool asked = volume.planes.shown || options.volume.window || options.volume.level;
+  if (asked && !volume.planes.window && image->lowest <= image->highest)
+    complete_window(volume.planes, options.volume,
+                    histogram_of(*image, image->lowest, options.common.threads));
   volume.image = std::move(image);
   view.volume = std::move(volume);
   return view;

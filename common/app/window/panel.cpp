@@ -249,6 +249,10 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
     section("CUTS");
     edit_cuts(volume.cuts);
   }
+  if (!volume.cuts.empty()) {
+    section("ON PLANES");
+    edit_plane_images(volume, histogram);
+  }
   section("LENSES");
   draw_lens_panel(volume, scene.lens, scene.info->bounds);
   if (volume.lenses.empty()) return;

@@ -121,6 +121,7 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     row("right drag, wheel", "zoom");
     row("drop files", "open them");
     row("wheel", "while a lens follows the mouse: its size; with Ctrl along the view");
+    row("Ctrl and drag on a plane", "its image: right widens the window, up raises the level");
     row("click", "put the crosshair of slices there; drag it with Ctrl");
     row("wheel on a slice", "move it; Ctrl and the wheel zoom");
     row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");

@@ -1,13 +1,13 @@
 #include "common/app/window/plane_control.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "common/app/window/pick_volume.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/widget/widget_text.h"
+#include "common/render/lens/plane_section.h"
 
 namespace palpate {
 namespace {
@@ -22,34 +22,6 @@ std::vector<Vec3> circle(const Vec3& center, const Vec3& u, const Vec3& v, doubl
   return points;
 }
 
-/// The polygon in which a plane meets a box, closed; empty where it misses it.
-std::vector<Vec3> section_of(const Box& box, const Vec3& center, const Mat3& axes) {
-  std::vector<Vec3> points;
-  for (int along = 0; along < 3; ++along) {
-    for (unsigned side = 0; side < 4; ++side) {
-      Vec3 a = box.lower;
-      for (int other = 1; other < 3; ++other) {
-        const int axis = (along + other) % 3;
-        if ((side >> static_cast<unsigned>(other - 1) & 1U) != 0) a[axis] = box.upper[axis];
-      }
-      const double slope = axes[2][along] * (box.upper[along] - box.lower[along]);
-      const double t = slope != 0.0 ? glm::dot(axes[2], center - a) / slope : -1.0;
-      if (!(t >= 0.0 && t <= 1.0)) continue;
-      a[along] += t * (box.upper[along] - box.lower[along]);
-      points.push_back(a);
-    }
-  }
-  if (points.size() < 3) return {};
-  Vec3 middle{0.0};
-  for (const Vec3& each : points) middle += each / static_cast<double>(points.size());
-  const auto angle = [&](const Vec3& x) {
-    return std::atan2(glm::dot(x - middle, axes[1]), glm::dot(x - middle, axes[0]));
-  };
-  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) { return angle(a) < angle(b); });
-  points.push_back(points.front());
-  return points;
-}
-
 }  // namespace
 
 std::vector<std::vector<Vec3>> lines_of_planes(const PlanePoses& poses, const Box& bounds, double radius) {
@@ -57,8 +29,11 @@ std::vector<std::vector<Vec3>> lines_of_planes(const PlanePoses& poses, const Bo
   for (int i = 0; i < poses.count; ++i) {
     const PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
     const Mat3 axes = axes_of(pose);
-    if (auto section = section_of(bounds, pose.center, axes); !section.empty())
+    auto section = plane_section({axes[2], glm::dot(axes[2], pose.center)}, bounds);
+    if (!section.empty()) {
+      section.push_back(section.front());
       lines.push_back(std::move(section));
+    }
     for (int a = 0; a < 3; ++a)
       lines.push_back(circle(pose.center, axes[(a + 1) % 3], axes[(a + 2) % 3], radius));
     lines.push_back(circle(pose.center, axes[0], axes[1], kPlaneRing * radius));

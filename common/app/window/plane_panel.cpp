@@ -112,6 +112,38 @@ void edit_cuts(std::vector<CuttingPlane>& cuts) {
   if (gone) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(*gone));
 }
 
+void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram) {
+  PlaneImages& planes = volume.planes;
+  if (ImGui::Checkbox("image", &planes.shown) && planes.shown && !planes.window && histogram != nullptr)
+    planes.window = default_window(*histogram);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "the values on each plane; Ctrl and a drag on it: right widens the window, up raises "
+        "the level");
+  const double lower = volume.image->lowest, upper = volume.image->highest, range = upper - lower;
+  if (planes.shown && range > 0.0) {
+    constexpr double kNarrowest = 1e-4;
+    const double least = kNarrowest * range, most = 2.0 * range;
+    ValueWindow window = window_of(volume);
+    bool edited = ImGui::SliderScalar("window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
+    edited |= ImGui::SliderScalar("level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
+    if (edited && window.width > 0.0) planes.window = window;
+  }
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < planes.contours.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::SliderScalar("##contour", ImGuiDataType_Double, &planes.contours[i], &lower, &upper, "%.5g");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x")) gone = i;
+    ImGui::SameLine();
+    ImGui::TextUnformatted("line");
+    ImGui::PopID();
+  }
+  if (gone) planes.contours.erase(planes.contours.begin() + static_cast<std::ptrdiff_t>(*gone));
+  if (planes.contours.size() < kMostContours && ImGui::SmallButton("+ line of equal value"))
+    planes.contours.push_back(window_of(volume).level);
+}
+
 void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {
   ImGui::Separator();
   const std::string now(name_of(notes.kind()));

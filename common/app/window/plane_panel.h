@@ -17,6 +17,9 @@ namespace palpate {
 void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingPlane> cuts);
 /// Planes that cut while no hand moves them.
 void edit_cuts(std::vector<CuttingPlane>& cuts);
+/// What is drawn on planes: the values, their grey levels and lines of equal value.
+/// @param histogram of the values, for a window to begin with; may be null.
+void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram);
 /// Annotations: what the next clicks mark, and a row for each that is there.
 void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions);
 /// The numbers of the haptic grid, landmarks at the proxy and at planes that cut, and such planes across its

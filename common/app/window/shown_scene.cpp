@@ -20,6 +20,7 @@ void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   view.volume->shown = before->shown;
   view.volume->lenses = before->lenses;
   view.volume->cuts = before->cuts;
+  view.volume->planes = before->planes;
   if (scene.tensors) {  // edited in the view alone
     view.volume->transfer = before->transfer;
     view.volume->colored = before->colored;

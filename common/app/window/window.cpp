@@ -24,6 +24,7 @@
 #include "common/app/window/live_picture.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
+#include "common/app/window/plane_image_control.h"
 #include "common/app/window/saved_files.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
@@ -401,7 +402,8 @@ class Window {
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
       // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
       const bool of_lens = event.kind == InputKind::kPress && lens_control_.followed();
-      if (!of_panel && !(of_lens && handle_lens(event, parts.picture)) &&
+      if (!of_panel && !handle_plane_image(event, parts.picture) &&
+          !(of_lens && handle_lens(event, parts.picture)) &&
           !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
           !handle_lens(event, parts.picture) &&
           !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
@@ -421,6 +423,13 @@ class Window {
     if (!view_.volume) return false;
     if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
+  }
+
+  bool handle_plane_image(const InputEvent& event, const PictureArea& area) {
+    if (!view_.volume) return false;
+    const bool taken = plane_image_control_.handle(event, area, view_.camera, *view_.volume);
+    if (plane_image_control_.dragging()) live_->lens_moved(glfwGetTime());
+    return taken;
   }
 
   void run_command(Command command) {
@@ -444,6 +453,7 @@ class Window {
         control_.let_go();
         slice_control_.let_go();
         lens_control_.let_go();
+        plane_image_control_.let_go();
         touch_control_->let_go();
         touch_control_->mark(false);
         state_.show_help = state_.playing = false;
@@ -591,6 +601,7 @@ class Window {
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
+  PlaneImageControl plane_image_control_;
   PlanePoses cut_planes_;  // those of the hand for which the first cuts stand
   std::optional<InputFiles> to_open_;
   UnsavedQuestion question_;

@@ -10,11 +10,6 @@
 namespace palpate {
 namespace {
 
-// What the texture unit makes of a number of 1: normalised integers reach one at their largest.
-double largest_number(ScalarType type) {
-  return type == ScalarType::kUint8 ? 255.0 : type == ScalarType::kUint16 ? 65535.0 : 1.0;
-}
-
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
 
@@ -32,6 +27,10 @@ glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& fram
 Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
 
 }  // namespace
+
+double largest_number(ScalarType type) noexcept {
+  return type == ScalarType::kUint8 ? 255.0 : type == ScalarType::kUint16 ? 65535.0 : 1.0;
+}
 
 StepLengths step_lengths(const VolumeView& view) noexcept {
   const Mat3& axes = view.image->axes;

@@ -13,6 +13,9 @@
 
 namespace palpate {
 
+/// The number that a texture of this type gives as 1: normalised integers reach it at their largest.
+[[nodiscard]] double largest_number(ScalarType type) noexcept;
+
 /// How long samples of a view may be apart.
 struct StepLengths {
   double longest = 1.0;  ///< that of the table [data units]

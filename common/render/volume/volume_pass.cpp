@@ -18,6 +18,7 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/volume/context_picture.h"
+#include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/slab_cache.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_textures.h"
@@ -74,6 +75,7 @@ struct VolumePass::State {
   Cost cost;
   std::unique_ptr<ContextPicture> context;  // where the context is drawn by itself
 
+  PlaneImagePass planes;
   Variant variant = Variant::kPlain;
   SceneFrame frame;
   bool asks_tiles = true;
@@ -113,11 +115,16 @@ struct VolumePass::State {
     return true;
   }
 
+  // What all programs of the volume know.
+  void bind_volume(const GlBuffer& block) {
+    glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, block.name());
+    if (lens_block) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, lens_block.name());
+    textures.bind(colored());
+  }
+
   void bind(const GlProgram& program, const GlBuffer& block, std::uint32_t opaque_depth) {
     glUseProgram(program.name());
-    glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, block.name());
-    if (knows_lenses(variant)) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, lens_block.name());
-    textures.bind(colored());
+    bind_volume(block);
     glBindTextureUnit(kOpaqueDepth, opaque_depth);
     glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
     glDisable(GL_DEPTH_TEST);
@@ -172,7 +179,8 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
   s.volume_block = make_block_buffer(make_volume_block(view, frame, s.textures.bricks()));
-  if (knows_lenses(s.variant)) s.lens_block = make_block_buffer(make_lens_block(view, frame));
+  if (knows_lenses(s.variant) || shows_planes(view))
+    s.lens_block = make_block_buffer(make_lens_block(view, frame));
   s.shown = view;
   if (!draws_context_alone(view)) {
     s.context.reset();
@@ -209,6 +217,14 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   glDisable(GL_BLEND);
   s.drawn_view = s.shown;
   s.drawn_block = block;
+}
+
+void VolumePass::draw_planes(const FrameBlock& block) {
+  State& s = *state_;
+  PALPATE_CHECK(s.textures.image() != nullptr);
+  if (!shows_planes(s.shown)) return;
+  s.bind_volume(s.volume_block);
+  s.planes.draw(s.shown, s.frame, block);
 }
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }

@@ -45,6 +45,12 @@ class VolumePass {
   /// @param block the frame's.
   void draw(std::uint32_t opaque_depth, const FrameBlock& block);
 
+  /// Draws the values on the planes of the view, opaque and with depth, where shows_planes(): before draw(),
+  /// so that they end its rays. Needs the frame's uniform block bound to 0.
+  /// @pre update().
+  /// @param block the frame's.
+  void draw_planes(const FrameBlock& block);
+
   /// Whether the last draw() made pictures of slabs, which takes longer than the pictures that follow.
   [[nodiscard]] bool made_slabs() const noexcept;
   /// Gives back what is kept of a plane that moved: it rests.

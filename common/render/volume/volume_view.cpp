@@ -1,13 +1,17 @@
 #include "common/render/volume/volume_view.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "common/math/power_of_two.h"
+#include "common/render/lens/plane_section.h"
 
 namespace palpate {
 
 bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.opacity_length == b.opacity_length &&
          a.samples_per_voxel == b.samples_per_voxel && a.shading == b.shading && a.lenses == b.lenses &&
-         a.cuts == b.cuts && a.colored == b.colored && a.shown == b.shown &&
+         a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
          a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
          a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
          a.keep_slabs == b.keep_slabs && a.context == b.context;
@@ -21,6 +25,36 @@ bool has_colored_parts(const VolumeView& view) noexcept {
 
 bool is_cut(const VolumeView& view) {
   return std::any_of(view.cuts.begin(), view.cuts.end(), [](const CuttingPlane& cut) { return cut.on; });
+}
+
+bool shows_planes(const VolumeView& view) {
+  return view.image != nullptr && !view.cuts.empty() && (view.planes.shown || !view.planes.contours.empty());
+}
+
+ValueWindow window_of(const VolumeView& view) {
+  if (view.planes.window) return *view.planes.window;
+  const double lower = view.image->lowest, upper = view.image->highest;
+  return lower < upper ? ValueWindow{upper - lower, 0.5 * lower + 0.5 * upper} : ValueWindow{1.0, lower};
+}
+
+std::vector<Vec3> shown_section(const VolumeView& view, std::size_t cut) {
+  const VolumeImage& image = *view.image;
+  const Box bounds = image.bounds();
+  // The six faces g_a = lower_a and g_a = upper_a; a power of two keeps tiny steps from vanishing.
+  const double unit = power_of_two(binary_exponent(bounds.diagonal()));
+  const Mat3 rows = glm::transpose(glm::inverse(image.axes / unit));
+  std::vector<ConvexShape::HalfSpace> within;
+  for (int a = 0; a < 3; ++a) {
+    const double size = glm::length(rows[a]);
+    const Vec3 n = rows[a] / size;
+    const double from = glm::dot(n, image.origin);
+    within.push_back({n, from + image.upper()[a] * unit / size});
+    within.push_back({-n, -from - image.lower()[a] * unit / size});
+  }
+  for (std::size_t i = 0; i < view.cuts.size(); ++i) {
+    if (i != cut && view.cuts[i].on) within.push_back(view.cuts[i].kept);
+  }
+  return plane_section(view.cuts[cut].kept, within, bounds.center(), bounds.diagonal());
 }
 
 bool has_magnified_parts(const VolumeView& view) {

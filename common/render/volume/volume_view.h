@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/field/color_transfer.h"
+#include "common/field/value_histogram.h"
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_image.h"
 
@@ -31,6 +33,18 @@ struct ContextQuality {
 };
 inline constexpr int kCoarsestLevel = 4;
 
+/// What is drawn of the values on the planes of a view, whether these cut or not
+/// (shaders/volume/plane_image.frag). Inside lenses it is what these show: their colours over the grey,
+/// matter enlarged, nothing where they cut.
+struct PlaneImages {
+  bool shown = false;                 ///< the values in grey
+  std::optional<ValueWindow> window;  ///< absent: from the lowest value to the highest one
+  std::vector<double> contours;       ///< values of lines of equal value; at most kMostContours
+
+  bool operator==(const PlaneImages&) const = default;
+};
+inline constexpr std::size_t kMostContours = 16;  ///< of one picture
+
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
   ColorTransfer transfer;
@@ -43,6 +57,7 @@ struct VolumeView {
   bool shown = true;
   std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
   std::vector<CuttingPlane> cuts;  ///< at most kMostCuts
+  PlaneImages planes;
 
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;
@@ -62,6 +77,13 @@ struct VolumeView {
 
 /// Whether some plane cuts.
 [[nodiscard]] bool is_cut(const VolumeView& view);
+/// Whether something is drawn on its planes.
+[[nodiscard]] bool shows_planes(const VolumeView& view);
+/// The grey values of its planes.
+[[nodiscard]] ValueWindow window_of(const VolumeView& view);
+/// Where plane `cut` meets the volume and is not cut away by the others, in data coordinates: corners in
+/// order; empty where it is not seen. @pre view.image is not null.
+[[nodiscard]] std::vector<Vec3> shown_section(const VolumeView& view, std::size_t cut);
 /// Whether some lens enlarges.
 [[nodiscard]] bool has_magnified_parts(const VolumeView& view);
 /// Whether what lies outside lenses is a picture of its own: where there are some, quality is saved on it,

@@ -1,0 +1,65 @@
+#version 450 core
+// The values where a plane lies. With v the number there, trilinear, b that of black and w of the window,
+//   grey = clamp((v - b) / w, 0, 1)                                                                  (1)
+// and lines where v is a given number c: the nearest place of the line is |v - c| / |grad v| away, the gradient taken
+// between neighbouring pixels. Inside lenses matter is enlarged where it is so in the volume, and the lens's colours lie
+// over the grey as opaque as its transfer function says: the table has the opacity A of its longest stretch, l of the
+// length for which transfer functions state theirs, hence that of the whole length is 1 - (1 - A)^(1/l).
+#include "include/frame.glsl"
+#include "volume/volume_block.glsl"
+#include "volume/ray.glsl"
+#include "volume/lens_segments.glsl"
+#include "volume/place_seen.glsl"
+
+const int kMostContours = 16;
+
+layout(location = 1) uniform vec2 grey;             // x: number of black; y: 1 / numbers from black to white
+layout(location = 2) uniform bool shown;            // the values, not lines alone
+layout(location = 3) uniform float longest_parts;   // 1 / l
+layout(location = 4) uniform float line_width;      // [pixels]
+layout(location = 5) uniform int contour_count;
+layout(location = 6) uniform float contours[kMostContours];  // numbers
+
+in vec3 place;  // N
+
+layout(location = 0) out vec4 color;
+
+bool inside_lens(int i, vec3 x) {
+  mat4 unit = lenses.unit_from_scene[i];
+  if (unit[3][3] > 0.5 && length((unit * vec4(x, 1.0)).xyz) > 1.0) return false;
+  ivec2 range = lenses.faces[i].xy;
+  for (int k = range.x; k < range.x + range.y; ++k) {
+    if (dot(lenses.planes[k].xyz, x) > lenses.planes[k].w) return false;
+  }
+  return true;
+}
+
+void main() {
+  int lens = 0;
+  while (lens < volume.counts.x && !inside_lens(lens, place)) ++lens;
+  bool in_lens = lens < volume.counts.x;
+  vec4 part = in_lens ? volume.parts[lens + 1] : volume.parts[0];
+  vec3 x = in_lens && magnifies(lens) ? place_seen(lens, place) : place;
+  vec3 g = (volume.grid_from_scene * vec4(x, 1.0)).xyz;
+  float number = texture(voxels, (g + 0.5) / volume.points.xyz).x;
+  float slope = length(vec2(dFdx(number), dFdy(number)));
+  bool cut_away = in_lens && part.w > 0.5 && part.w < 1.5;
+  if (cut_away || isnan(number)) discard;
+
+  color = vec4(vec3(clamp((number - grey.x) * grey.y, 0.0, 1.0)), 1.0);  // (1)
+  if (in_lens && part.x > 0.5) {
+    float entry = (number - volume.lower.w) * volume.upper.w + volume.points.w;
+    vec4 seen = texture(tables, vec3(entry, entry, part.x * volume.lengths.y + volume.lengths.y - 1.0));
+    if (seen.a > 0.0)
+      color.rgb = mix(color.rgb, seen.rgb / seen.a, 1.0 - pow(1.0 - min(seen.a, 1.0), longest_parts));
+  }
+  // Lines, with a dark rim that shows them on white, too.
+  const vec3 kLine = vec3(0.25, 0.85, 1.0), kRim = vec3(0.03, 0.08, 0.12);
+  float nearest = 1e30;
+  for (int i = 0; i < contour_count; ++i) nearest = min(nearest, abs(number - contours[i]));
+  float away = slope > 0.0 ? nearest / slope : 1e30;
+  float line = clamp(0.5 * line_width + 0.5 - away, 0.0, 1.0);
+  float rim = 0.6 * clamp(0.5 * line_width + 1.5 - away, 0.0, 1.0);
+  if (!shown && rim + line <= 0.5) discard;
+  if (contour_count > 0) color.rgb = mix(mix(color.rgb, kRim, rim), kLine, line);
+}
