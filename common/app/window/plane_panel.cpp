@@ -50,6 +50,29 @@ std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& se
   return wanted;
 }
 
+/// A button that puts a plane through the first three points of what is marked: into the hand where it moves
+/// planes, else as a cut.
+void offer_plane(const Annotation& marked, ProbeSession& session, std::vector<CuttingPlane>& cuts) {
+  if (marked.points.size() < 3) return;
+  const bool in_hand = session.planes().has_value();
+  const bool room = in_hand ? session.planes()->poses.count < PlanePoses::kMax : cuts.size() < kMostCuts;
+  const auto pose = pose_through({marked.points[0], marked.points[1], marked.points[2]});
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!room || !pose);
+  const bool wanted = ImGui::SmallButton("+ plane");
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("through its first three points");
+  if (!wanted) return;
+  if (in_hand) {
+    PlanePoses poses = session.planes()->poses;
+    poses.pose[static_cast<std::size_t>(poses.count++)] = *pose;
+    session.put_planes(poses);
+  } else {
+    const Vec4 plane = plane_of_pose(*pose);
+    cuts.push_back({.kept = {Vec3{plane}, plane.w}, .on = true});
+  }
+}
+
 }  // namespace
 
 void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingPlane> cuts) {
@@ -144,7 +167,8 @@ void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram) {
     planes.contours.push_back(window_of(volume).level);
 }
 
-void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {
+void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchActions& actions) {
+  AnnotationList& notes = session.notes();
   ImGui::Separator();
   const std::string now(name_of(notes.kind()));
   if (ImGui::BeginCombo("annotation", now.c_str())) {
@@ -174,6 +198,7 @@ void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions) {
       ImGui::Text("%s %.5g%s %s", word.c_str(), measure_of(each),
                   each.kind == AnnotationKind::kAngle ? " deg" : "", each.label.c_str());
     }
+    offer_plane(each, session, volume.cuts);
     ImGui::SameLine();
     if (ImGui::SmallButton("x")) gone = i;
     ImGui::PopID();

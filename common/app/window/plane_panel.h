@@ -20,8 +20,9 @@ void edit_cuts(std::vector<CuttingPlane>& cuts);
 /// What is drawn on planes: the values, their grey levels and lines of equal value.
 /// @param histogram of the values, for a window to begin with; may be null.
 void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram);
-/// Annotations: what the next clicks mark, and a row for each that is there.
-void edit_notes(AnnotationList& notes, bool marking, TouchActions& actions);
+/// Annotations: what the next clicks mark, and a row for each that is there, from three points on with a
+/// button for a plane through them.
+void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchActions& actions);
 /// The numbers of the haptic grid, landmarks at the proxy and at planes that cut, and such planes across its
 /// axes at the proxy; draws nothing in other modes. @param cuts of the volume that is shown; may be null.
 void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session,

@@ -176,7 +176,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
   if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
-  if (session.scalar() && !session.has_flow()) edit_notes(session.notes(), marking, actions);
+  if (session.scalar() && !session.has_flow() && view.volume)
+    edit_notes(session, *view.volume, marking, actions);
   if (!session.has_flow() && !tensors) return actions;
   ImGui::BeginDisabled(session.kept().entries().empty() && session.drawn().empty());
   if (tensors) {
