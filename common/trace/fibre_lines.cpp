@@ -18,7 +18,8 @@ namespace {
 constexpr double kDefaultDiagonals = 10.0;
 constexpr int kSearchWork = 4096;  // cells; a step passes a few
 constexpr int kHalvings = 30;      // of a step, at the border
-constexpr double kMissed = 0.25;   // steps: farther from its target a point was held back by the rim
+constexpr double kMissed = 0.25;   // steps: farther from its target a point was held back by the rim,
+constexpr double kHeld = 0.02;     // or so far along the layer; less may be the layer's edges between cells
 constexpr int kMostWays = 64;      // straight pieces from a seed to its layer
 /// Of the largest coordinate: a line is never more exact.
 constexpr double kRounding = 0x1p-44;
@@ -28,6 +29,7 @@ constexpr double kLoopErrors = 4.0;
 struct Point {
   Vec3 x{0.0};
   std::int64_t cell = -1;
+  double held = 0.0;  ///< how far the last move to it was held back, along the layer
 };
 
 /// Follows one line after another. One for each thread.
@@ -108,11 +110,11 @@ class Tracer {
       if (stop) {
         line.end = *stop;
         arc += finish(at, 2.0 * h, along, half);
-        if (half.cell >= 0) push(line, half.x, arc, error);
+        if (half.cell >= 0) push(line, half.x, arc, error + half.held + rounding_);
         break;
       }
       constexpr double kRichardson = 15.0;
-      error += glm::distance(twice.x, once.x) / kRichardson + rounding_;
+      error += glm::distance(twice.x, once.x) / kRichardson + half.held + twice.held + rounding_;
       arc += 2.0 * h;
       at = twice;
       along = end_along;
@@ -168,7 +170,7 @@ class Tracer {
 
   /// `at` moved by `way`, brought back to the layer.
   [[nodiscard]] std::optional<End> move(const Point& at, const Vec3& way, Point& out) const {
-    out = {at.x + way, at.cell};
+    out = {.x = at.x + way, .cell = at.cell};
     if (!on_layer_) {
       TetPoint found;
       if (!heart_.heart().layer->tet_mesh()->locate(out.x, static_cast<CellIndex>(at.cell), found))
@@ -180,8 +182,13 @@ class Tracer {
     SurfacePoint on{at.x, level_, at.cell};
     const SurfaceFit fit = search_.settle(out.x, on, work);
     if (fit.end == SurfaceEnd::kBadData) return End::kBadData;
-    if (glm::distance(on.position, out.x) > kMissed * glm::length(way)) return End::kLeftDomain;
-    out = {on.position, on.cell};
+    const Vec3 miss = on.position - out.x;
+    const double steepness = glm::dot(fit.gradient, fit.gradient);
+    const Vec3 along =
+        steepness > 0.0 ? miss - fit.gradient * (glm::dot(miss, fit.gradient) / steepness) : miss;
+    const double held = glm::length(along), step = glm::length(way);
+    if (glm::length(miss) > kMissed * step || held > kHeld * step) return End::kLeftDomain;
+    out = {on.position, on.cell, held};
     return std::nullopt;
   }
 

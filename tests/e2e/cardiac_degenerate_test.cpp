@@ -136,9 +136,9 @@ TEST_F(CardiacDegenerate, OneElementIsAHeartToEveryVerb) {
     least = std::min(least, std::stod(cell));
     most = std::max(most, std::stod(cell));
   }
-  // To the step, a thousandth of the diagonal: the last point may lie beside the line on the rim.
-  EXPECT_NEAR(least, 0.0, 2e-3);
-  EXPECT_NEAR(most, 0.5, 2e-3);
+  // To a fiftieth of the step, which is a thousandth of the diagonal.
+  EXPECT_NEAR(least, 0.0, 5e-5);
+  EXPECT_NEAR(most, 0.5, 5e-5);
 }
 
 // Without layers and without surfaces one tetrahedron has no wall: said, by every verb that needs one.
