@@ -72,4 +72,9 @@ std::optional<Command> command_of(const InputEvent& event) noexcept {
   return exact ? exact : find(modifiers & ~kModifierShift);
 }
 
+bool is_control_key(int key) noexcept {
+  constexpr int kLeft = 341, kRight = 345;  // GLFW's numbers
+  return key == kLeft || key == kRight;
+}
+
 }  // namespace palpate

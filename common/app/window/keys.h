@@ -68,4 +68,7 @@ struct KeyBinding {
 /// What a key press asks for.
 [[nodiscard]] std::optional<Command> command_of(const InputEvent& event) noexcept;
 
+/// Either Ctrl key. @param key of an input event.
+[[nodiscard]] bool is_control_key(int key) noexcept;
+
 }  // namespace palpate

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "common/app/haptic/probe_mouse.h"
+#include "common/app/window/keys.h"
 
 namespace palpate {
 namespace {
 
-constexpr int kLeftControlKey = 341, kRightControlKey = 345;  // GLFW's numbers
-constexpr double kGrowthPerNotch = 0.12;                      // logarithm of the size
+constexpr double kGrowthPerNotch = 0.12;  // logarithm of the size
 // Reach of a lens from its middle in diagonals of the scene: beyond them there is nothing to see.
 constexpr double kSmallest = 1e-3, kLargest = 2.0;
 
@@ -77,8 +77,7 @@ bool LensControl::handle(const InputEvent& event, const PictureArea& area, const
       return true;
     case InputKind::kKeyDown:
     case InputKind::kKeyUp:
-      if (event.key == kLeftControlKey || event.key == kRightControlKey)
-        control_ = event.kind == InputKind::kKeyDown;
+      if (is_control_key(event.key)) control_ = event.kind == InputKind::kKeyDown;
       return false;
     default:
       return false;

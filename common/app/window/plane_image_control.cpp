@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "common/app/window/keys.h"
 #include "common/app/window/pick_volume.h"
 
 namespace palpate {
 namespace {
 
-constexpr int kLeftControlKey = 341, kRightControlKey = 345;  // GLFW's numbers
-constexpr double kNarrowest = 1e-4;                           // of the range of the data
+constexpr double kNarrowest = 1e-4;  // of the range of the data
 
 /// Whether `x`, in the plane of a convex polygon with its corners about `normal`, lies in it.
 bool holds(const std::vector<Vec3>& polygon, const Vec3& normal, const Vec3& x) {
@@ -70,8 +70,7 @@ bool PlaneImageControl::handle(const InputEvent& event, const PictureArea& area,
       return true;
     case InputKind::kKeyDown:
     case InputKind::kKeyUp:
-      if (event.key == kLeftControlKey || event.key == kRightControlKey)
-        control_ = event.kind == InputKind::kKeyDown;
+      if (is_control_key(event.key)) control_ = event.kind == InputKind::kKeyDown;
       return false;
     default:
       return false;

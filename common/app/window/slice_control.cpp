@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "common/app/window/keys.h"
+
 namespace palpate {
 namespace {
-
-constexpr int kLeftControlKey = 341, kRightControlKey = 345;  // GLFW's numbers
 
 /// Moves the slice across axis 0, 1 or 2 of the data by one voxel, toward larger coordinates for `steps` > 0.
 void step_along(TensorView& view, std::size_t axis, int steps) {
@@ -62,8 +62,7 @@ bool SliceControl::handle(const InputEvent& event, const PictureArea& area, cons
     }
     case InputKind::kKeyDown:
     case InputKind::kKeyUp:
-      if (event.key == kLeftControlKey || event.key == kRightControlKey)
-        control_ = event.kind == InputKind::kKeyDown;
+      if (is_control_key(event.key)) control_ = event.kind == InputKind::kKeyDown;
       return false;
     default:
       return false;

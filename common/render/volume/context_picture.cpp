@@ -11,21 +11,13 @@
 #include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
 #include "common/render/volume/coarse_image.h"
+#include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate {
 namespace {
 
-// Bindings and locations of shaders/volume/context.glsl and enlarge.glsl.
-enum Block : GLuint { kFrameBlock = 0, kVolumeBlock = 1, kLensBlock = 2 };
-enum Unit : GLuint { kOpaqueDepth = 3, kTiles = 4, kFront = 6, kBack = 7, kKind = 8, kTileKinds = 9 };
-enum Uniform : GLint { kHasOpaqueDepth = 0, kDepthPixel = 3, kContextPixel = 4, kWanted = 5, kFarthest = 6 };
-constexpr std::uint64_t kPixelBytes = 8 + 8 + 8;
-
-template <typename BlockType>
-GlBuffer make_block_buffer(const BlockType& block) {
-  return make_buffer(std::span<const BlockType>(&block, 1));
-}
+constexpr std::uint64_t kContextPixelBytes = 8 + 8 + 8;
 
 VolumeView context_of(const VolumeView& view) {
   VolumeView context = view;
@@ -55,8 +47,8 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);
   textures_.update(view_, &whole);
-  volume_block_ = make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
-  lens_block_ = make_block_buffer(make_lens_block(view_, frame));
+  volume_block_ = volume_shader::make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
+  lens_block_ = volume_shader::make_block_buffer(make_lens_block(view_, frame));
 }
 
 void ContextPicture::resize(int width, int height) {
@@ -81,7 +73,7 @@ void ContextPicture::resize(int width, int height) {
 
 void ContextPicture::draw_context(const FrameBlock& smaller) {
   const bool asks = asks_tiles(view_);
-  if (asks) glBindTextureUnit(kTiles, textures_.tiles().draw(*view_.image, frame_, smaller));
+  if (asks) glBindTextureUnit(volume_shader::kTiles, textures_.tiles().draw(*view_.image, frame_, smaller));
   use_blocks();
   constexpr std::array<float, 4> kNothing{};
   constexpr std::array<float, 4> kAnyKind{2.0F, 0.0F, 0.0F, 0.0F};
@@ -95,8 +87,8 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
     program = compile_program("volume/volume.vert",
                               view_.shading ? "volume/context_shaded.frag" : "volume/context.frag");
   glUseProgram(program.name());
-  glUniform1i(kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
-  glUniform3f(kDepthPixel, 1.0F / scale_, -left_ / scale_, -bottom_ / scale_);
+  glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
+  glUniform3f(volume_shader::kDepthPixel, 1.0F / scale_, -left_ / scale_, -bottom_ / scale_);
   if (asks) return draw_tiles(textures_.tiles().grid());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -105,15 +97,9 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
 float ContextPicture::farthest(const Vec3& eye) const {
   // What is enlarged may be seen beyond the volume: tiles are not told apart.
   if (magnifies_) return 1e30F;
-  const VolumeImage& image = *view_.image;
   double far = 0.0;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    Vec3 g = image.lower();
-    for (int a = 0; a < 3; ++a) {
-      if ((corner >> static_cast<unsigned>(a) & 1U) != 0) g[a] = image.upper()[a];
-    }
-    far = std::max(far, glm::distance(frame_.scene_from_data(image.origin + image.axes * g), eye));
-  }
+  for (const Vec3& corner : corners_in_scene(*view_.image, frame_))
+    far = std::max(far, glm::distance(corner, eye));
   return static_cast<float>(far);
 }
 
@@ -130,15 +116,15 @@ void ContextPicture::draw_kinds(const FrameBlock& block) {
   glViewport(0, 0, grid.columns, grid.rows);
   if (!tiles_) tiles_ = compile_program("background/background.vert", "volume/context_tiles.frag");
   glUseProgram(tiles_.name());
-  glUniform1i(kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
-  glUniform3f(kContextPixel, scale_, left_, bottom_);
-  glUniform1f(kFarthest, farthest(Vec3(block.eye)));
+  glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
+  glUniform3f(volume_shader::kContextPixel, scale_, left_, bottom_);
+  glUniform1f(volume_shader::kFarthestLens, farthest(Vec3(block.eye)));
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void ContextPicture::use_blocks() const {
-  glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, volume_block_.name());
-  glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, lens_block_.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, volume_block_.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kLensBlock, lens_block_.name());
   textures_.bind(false);
   glBindVertexArray(no_vertices_.name());
   glDisable(GL_DEPTH_TEST);
@@ -162,23 +148,23 @@ void ContextPicture::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
 
   const FramebufferGuard before;
   GLint frame_buffer = 0;
-  glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, kFrameBlock, &frame_buffer);
+  glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, volume_shader::kFrameBlock, &frame_buffer);
   if (!no_vertices_) no_vertices_ = make_vertex_array();
-  glBindTextureUnit(kOpaqueDepth, opaque_depth);
+  glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
   draw_kinds(block);
-  const GlBuffer smaller_buffer = make_block_buffer(smaller);
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, smaller_buffer.name());
+  const GlBuffer smaller_buffer = volume_shader::make_block_buffer(smaller);
+  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kFrameBlock, smaller_buffer.name());
   draw_context(smaller);
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, static_cast<GLuint>(frame_buffer));
+  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kFrameBlock, static_cast<GLuint>(frame_buffer));
 }
 
 void ContextPicture::bind_pictures(std::uint32_t wanted) const {
-  glBindTextureUnit(kFront, front_.name());
-  glBindTextureUnit(kBack, back_.name());
-  glBindTextureUnit(kKind, kind_.name());
-  glBindTextureUnit(kTileKinds, tile_kinds_.name());
-  glUniform3f(kContextPixel, scale_, left_, bottom_);
-  glUniform1ui(kWanted, wanted);
+  glBindTextureUnit(volume_shader::kContextFront, front_.name());
+  glBindTextureUnit(volume_shader::kContextBack, back_.name());
+  glBindTextureUnit(volume_shader::kContextKind, kind_.name());
+  glBindTextureUnit(volume_shader::kTileKinds, tile_kinds_.name());
+  glUniform3f(volume_shader::kContextPixel, scale_, left_, bottom_);
+  glUniform1ui(volume_shader::kWantedKind, wanted);
 }
 
 void ContextPicture::bind() const { bind_pictures(1); }
@@ -200,7 +186,7 @@ ContextPicture::Cost ContextPicture::cost() const noexcept {
   for (const GlProgram* program : {&unlit_, &shaded_, &tiles_, &enlarged_}) cost.programs += *program ? 1 : 0;
   cost.programs += textures_.tiles().compiled() ? 1 : 0;
   cost.bytes = textures.voxel_bytes + textures.table_bytes + textures.brick_bytes +
-               kPixelBytes * static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) +
+               kContextPixelBytes * static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) +
                static_cast<std::uint64_t>(grid_.columns) * static_cast<std::uint64_t>(grid_.rows);
   return cost;
 }

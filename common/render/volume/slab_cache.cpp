@@ -57,15 +57,10 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   const int slabs =
       std::clamp(static_cast<int>(kMostBytes / std::max<std::uint64_t>(each, 1)), kFewestSlabs, kMostSlabs);
 
-  const VolumeImage& image = *view.image;
   const Vec3 n = view.cuts[cut].kept.outward;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    Vec3 g = image.lower();
-    for (int a = 0; a < 3; ++a) {
-      if ((corner >> static_cast<unsigned>(a) & 1U) != 0) g[a] = image.upper()[a];
-    }
-    const double s = glm::dot(n, frame.scene_from_data(image.origin + image.axes * g));
+  for (const Vec3& corner : corners_in_scene(*view.image, frame)) {
+    const double s = glm::dot(n, corner);
     lowest = std::min(lowest, s);
     highest = std::max(highest, s);
   }

@@ -16,7 +16,7 @@ namespace palpate {
 namespace {
 
 // Locations and bindings of shaders/volume/tiles.vert.
-enum Uniform : GLint { kSceneFromGrid = 1, kRadius = 2, kTileCount = 3 };
+enum TileUniform : GLint { kSceneFromGrid = 1, kRadius = 2, kTileCount = 3 };
 constexpr GLuint kBricks = 0;
 // The farthest corner of a brick from its middle; along an axis of one voxel a brick begins half a step
 // earlier.

@@ -32,6 +32,18 @@ double largest_number(ScalarType type) noexcept {
   return type == ScalarType::kUint8 ? 255.0 : type == ScalarType::kUint16 ? 65535.0 : 1.0;
 }
 
+std::array<Vec3, 8> corners_in_scene(const VolumeImage& image, const SceneFrame& frame) {
+  std::array<Vec3, 8> corners{};
+  for (unsigned i = 0; i < corners.size(); ++i) {
+    Vec3 g = image.lower();
+    for (int a = 0; a < 3; ++a) {
+      if ((i >> static_cast<unsigned>(a) & 1U) != 0) g[a] = image.upper()[a];
+    }
+    corners[i] = frame.scene_from_data(image.origin + image.axes * g);
+  }
+  return corners;
+}
+
 StepLengths step_lengths(const VolumeView& view) noexcept {
   const Mat3& axes = view.image->axes;
   double longest = 0.0, shortest = HUGE_VAL;

@@ -16,6 +16,9 @@ namespace palpate {
 /// The number that a texture of this type gives as 1: normalised integers reach it at their largest.
 [[nodiscard]] double largest_number(ScalarType type) noexcept;
 
+/// Where the corners of what is shown of `image` lie in the scene frame.
+[[nodiscard]] std::array<Vec3, 8> corners_in_scene(const VolumeImage& image, const SceneFrame& frame);
+
 /// How long samples of a view may be apart.
 struct StepLengths {
   double longest = 1.0;  ///< that of the table [data units]

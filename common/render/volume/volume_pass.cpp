@@ -20,16 +20,12 @@
 #include "common/render/volume/context_picture.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/slab_cache.h"
+#include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_textures.h"
 
 namespace palpate {
 namespace {
-
-// Bindings and locations of shaders/volume/, beside those of VolumeTextures.
-enum Unit : GLuint { kOpaqueDepth = 3, kTiles = 4, kKeptPicture = 6, kKeptDepth = 7 };
-enum Block : GLuint { kVolumeBlock = 1, kLensBlock = 2 };
-constexpr GLint kHasOpaqueDepth = 0, kSlabNormal = 1, kSlabBorders = 2;
 
 enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored, kMagnified, kMagnifiedColored };
 
@@ -58,11 +54,6 @@ Variant variant_of(const VolumeView& view) {
   if (has_colored_parts(view)) return Variant::kColored;
   if (!view.lenses.empty()) return Variant::kLenses;
   return view.shading ? Variant::kShaded : Variant::kPlain;
-}
-
-template <typename BlockType>
-GlBuffer make_block_buffer(const BlockType& block) {
-  return make_buffer(std::span<const BlockType>(&block, 1));
 }
 
 }  // namespace
@@ -117,16 +108,16 @@ struct VolumePass::State {
 
   // What all programs of the volume know.
   void bind_volume(const GlBuffer& block) {
-    glBindBufferBase(GL_UNIFORM_BUFFER, kVolumeBlock, block.name());
-    if (lens_block) glBindBufferBase(GL_UNIFORM_BUFFER, kLensBlock, lens_block.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, block.name());
+    if (lens_block) glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kLensBlock, lens_block.name());
     textures.bind(colored());
   }
 
   void bind(const GlProgram& program, const GlBuffer& block, std::uint32_t opaque_depth) {
     glUseProgram(program.name());
     bind_volume(block);
-    glBindTextureUnit(kOpaqueDepth, opaque_depth);
-    glUniform1i(kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
+    glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
+    glUniform1i(volume_shader::kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(no_vertices.name());
   }
@@ -137,16 +128,17 @@ struct VolumePass::State {
   }
 
   static void set_slab(const SlabCache::Slab& slab) {
-    glUniform3f(kSlabNormal, slab.normal.x, slab.normal.y, slab.normal.z);
-    glUniform2f(kSlabBorders, slab.lower, slab.upper);
-    glBindTextureUnit(kKeptPicture, slab.kept);
-    glBindTextureUnit(kKeptDepth, slab.depth);
+    glUniform3f(volume_shader::kSlabNormal, slab.normal.x, slab.normal.y, slab.normal.z);
+    glUniform2f(volume_shader::kSlabBorders, slab.lower, slab.upper);
+    glBindTextureUnit(volume_shader::kKeptPicture, slab.kept);
+    glBindTextureUnit(volume_shader::kKeptDepth, slab.depth);
   }
 
   // Makes what lacks below the slab of the cut, and leaves the shader ready for the rest.
   void begin_slab(std::uint32_t opaque_depth) {
     const GlProgram& program = program_of(Reach::kSlab);
-    const GlBuffer uncut = make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks()));
+    const GlBuffer uncut =
+        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks()));
     const int before = slabs->drawn();
     const SlabCache::Slab slab = slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth,
                                                    [&](const SlabCache::Slab& below) {
@@ -178,9 +170,9 @@ void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
-  s.volume_block = make_block_buffer(make_volume_block(view, frame, s.textures.bricks()));
+  s.volume_block = volume_shader::make_block_buffer(make_volume_block(view, frame, s.textures.bricks()));
   if (knows_lenses(s.variant) || shows_planes(view))
-    s.lens_block = make_block_buffer(make_lens_block(view, frame));
+    s.lens_block = volume_shader::make_block_buffer(make_lens_block(view, frame));
   s.shown = view;
   if (!draws_context_alone(view)) {
     s.context.reset();
@@ -200,7 +192,8 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
     s.context->draw(opaque_depth, block);
     s.context->show();
   }
-  if (s.asks_tiles) glBindTextureUnit(kTiles, s.textures.tiles().draw(*s.shown.image, s.frame, block));
+  if (s.asks_tiles)
+    glBindTextureUnit(volume_shader::kTiles, s.textures.tiles().draw(*s.shown.image, s.frame, block));
   if (slabs) {
     s.begin_slab(opaque_depth);
   } else {

@@ -11,12 +11,10 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/volume_bindings.h"
 
 namespace palpate {
 namespace {
-
-// Bindings of shaders/volume/volume_block.glsl.
-enum Unit : GLuint { kVoxels = 0, kTables = 1, kEmptyBricks = 2, kColors = 5 };
 
 GlTexture make_texture(GLenum target) {
   GLuint name = 0;
@@ -108,10 +106,10 @@ void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other)
 }
 
 void VolumeTextures::bind(bool colors) const {
-  glBindTextureUnit(kVoxels, voxels_->name());
-  glBindTextureUnit(kTables, tables_.name());
-  glBindTextureUnit(kEmptyBricks, empty_bricks_.name());
-  if (colors) glBindTextureUnit(kColors, colors_.name());
+  glBindTextureUnit(volume_shader::kVoxels, voxels_->name());
+  glBindTextureUnit(volume_shader::kTables, tables_.name());
+  glBindTextureUnit(volume_shader::kEmptyBricks, empty_bricks_.name());
+  if (colors) glBindTextureUnit(volume_shader::kColors, colors_.name());
 }
 
 void VolumeTextures::update_image(const VolumeView& view, const VolumeTextures* other) {

@@ -1,0 +1,32 @@
+/// Where the shaders of shaders/volume/ expect what they are told: bindings and locations, as they state
+/// them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/render/gl/object.h"
+
+namespace palpate::volume_shader {
+
+// Uniform blocks.
+inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kLensBlock = 2;
+
+// Textures. Those of slabs and of the context are never in one program.
+inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4,
+                               kColors = 5;
+inline constexpr std::uint32_t kKeptPicture = 6, kKeptDepth = 7;
+inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9;
+
+// Uniforms.
+inline constexpr std::int32_t kHasOpaqueDepth = 0;
+inline constexpr std::int32_t kSlabNormal = 1, kSlabBorders = 2;
+inline constexpr std::int32_t kDepthPixel = 3, kContextPixel = 4, kWantedKind = 5, kFarthestLens = 6;
+
+/// A uniform block's buffer.
+template <typename Block>
+[[nodiscard]] GlBuffer make_block_buffer(const Block& block) {
+  return make_buffer(std::span<const Block>(&block, 1));
+}
+
+}  // namespace palpate::volume_shader
