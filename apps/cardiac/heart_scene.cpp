@@ -149,13 +149,14 @@ LayerScene make_layer_scene(const Input& input, const std::shared_ptr<const Laye
   const double length = options.tracing.max_length;
   const auto places =
       make_seeds(parse_seeds(seeds), *layer.tet_mesh(), heart->frame(), layer.bounds(), options.common.seed);
-  scene.fibres = trace_fibres(*heart, places,
-                              {.layer = scene.depth,
-                               .step = options.tracing.step,
-                               .max_length = length > 0.0 ? length : kViewFibreLength * diagonal,
-                               .least_gap = options.heart.least_gap,
-                               .threads = options.common.threads},
-                              progress);
+  scene.fibres =
+      trace_fibres(*heart, places,
+                   {.layer = scene.depth,
+                    .step = options.tracing.step > 0.0 ? options.tracing.step : kViewFibreStep * diagonal,
+                    .max_length = length > 0.0 ? length : kViewFibreLength * diagonal,
+                    .least_gap = options.heart.least_gap,
+                    .threads = options.common.threads},
+                   progress);
   if (plane) cut_lines(*plane, scene.fibres.lines);
   const auto lines = std::make_shared<const std::vector<Line>>(scene.fibres.lines);
 

@@ -23,6 +23,9 @@ inline constexpr double kViewLayer = 0.5;
 /// Seeds and length [diagonals] of the fibres that are drawn on it: short ones, close together.
 inline constexpr const char* kViewFibres = "random:2500";
 inline constexpr double kViewFibreLength = 0.12;
+/// Their step [diagonals]: every second one is a corner, some eight pixels apart in a picture of a thousand,
+/// where a fibre that turns as tightly as the wall bends by some hundredths of a pixel.
+inline constexpr double kViewFibreStep = 4e-3;
 
 /// With the scalar that `--angle` names, where it is none of cardiac's own words.
 /// @throws Error, Cancelled.

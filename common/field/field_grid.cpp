@@ -352,7 +352,7 @@ class CellsAroundPoints {
     }
   }
 
-  /// Each once, by rising number.
+  /// Each once, by rising number. Calls for different points may run at the same time.
   std::span<const std::uint32_t> around(std::size_t point) {
     const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point]);
     const auto last = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point + 1]);
@@ -371,9 +371,9 @@ class CellsAroundPoints {
 };
 
 void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
-                 const TupleReader& read, const Store& store) {
-  std::vector<double> value(static_cast<std::size_t>(store.components));
+                 const TupleReader& read, const Store& store, int threads) {
   if (association == Association::kPoint) {
+    std::vector<double> value(static_cast<std::size_t>(store.components));
     std::vector<std::uint8_t> done(grid.tets->points().size(), 0);
     std::size_t input = 0;
     for (const DataSet& block : blocks) {
@@ -393,23 +393,26 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Associa
   std::vector<std::size_t> first_cell{0};
   for (const DataSet& block : blocks) first_cell.push_back(first_cell.back() + block.cell_count());
   CellsAroundPoints cells(grid);
-  std::vector<double> sum(value.size());
-  for (std::size_t point = 0; point < grid.tets->points().size(); ++point) {
-    const auto around = cells.around(point);
-    double total = 0.0;
-    for (const std::uint32_t cell : around) total += cells.volume(cell);
-    std::ranges::fill(sum, 0.0);
-    for (const std::uint32_t cell : around) {
-      const auto above = std::upper_bound(first_cell.begin(), first_cell.end(), cell);
-      const auto block = static_cast<std::size_t>(above - first_cell.begin()) - 1;
-      read(blocks[block], cell - first_cell[block], value.data());
-      // Where no cell has a volume they all count the same.
-      const double weight =
-          total > 0.0 ? cells.volume(cell) / total : 1.0 / static_cast<double>(around.size());
-      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
+  parallel_for(grid.tets->points().size(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<double> value(static_cast<std::size_t>(store.components));
+    std::vector<double> sum(value.size());
+    for (std::size_t point = first; point < last; ++point) {
+      const auto around = cells.around(point);
+      double total = 0.0;
+      for (const std::uint32_t cell : around) total += cells.volume(cell);
+      std::ranges::fill(sum, 0.0);
+      for (const std::uint32_t cell : around) {
+        const auto above = std::upper_bound(first_cell.begin(), first_cell.end(), cell);
+        const auto block = static_cast<std::size_t>(above - first_cell.begin()) - 1;
+        read(blocks[block], cell - first_cell[block], value.data());
+        // Where no cell has a volume they all count the same.
+        const double weight =
+            total > 0.0 ? cells.volume(cell) / total : 1.0 / static_cast<double>(around.size());
+        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
+      }
+      store.put(point, sum.data());
     }
-    store.put(point, sum.data());
-  }
+  });
 }
 
 }  // namespace
@@ -450,7 +453,7 @@ GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blo
   if (grid.box) {
     gather_box(grid, blocks.front(), association, read, store, threads);
   } else {
-    gather_tets(grid, blocks, association, read, store);
+    gather_tets(grid, blocks, association, read, store, threads);
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -68,21 +69,20 @@ void order_second_face(const std::vector<double>& positions, std::size_t corners
   if (squared_edges(positions, turned, half) < squared_edges(positions, cell, half)) cell = turned;
 }
 
-UnstructuredTopology read_elements(const std::string& file, const std::vector<double>& positions,
+/// @param lines behind the count.
+UnstructuredTopology read_elements(TextLines& lines, std::size_t count, const std::vector<double>& positions,
                                    std::vector<double>& regions) {
-  constexpr std::size_t kLeastBytes = 7;  // "Ln 0 1\n"
-  TextLines lines(file, '#');
-  const std::size_t count = believed_count(lines, "the number of elements", kLeastBytes);
   const auto last = static_cast<std::int64_t>(positions.size() / 3) - 1;
   UnstructuredTopology topology;
   topology.offsets.push_back(0);
   for (std::size_t e = 0; e < count; ++e) {
-    const std::string word(lines.word());
+    const std::string_view word = lines.word();
     const auto* const kind =
         std::find_if(kKinds.begin(), kKinds.end(), [&](const CellKind& k) { return k.word == word; });
     if (kind == kKinds.end()) {
       if (word.empty()) lines.refuse("ends after " + std::to_string(e) + " elements", std::to_string(count));
-      lines.refuse("has an element of type \"" + word.substr(0, 20) + "\"", "Tt, Hx, Pr, Py, Qd, Tr or Ln");
+      lines.refuse("has an element of type \"" + std::string(word.substr(0, 20)) + "\"",
+                   "Tt, Hx, Pr, Py, Qd, Tr or Ln");
     }
     std::array<std::int64_t, 8> cell{};
     for (std::size_t n = 0; n < kind->corners; ++n)
@@ -100,6 +100,15 @@ UnstructuredTopology read_elements(const std::string& file, const std::vector<do
     topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   }
   return topology;
+}
+
+Directions read_fibres(const std::string& file, std::size_t elements) {
+  TextLines lines(file, '#');
+  const std::int64_t vectors = lines.integer("1 or 2 directions an element,", 1, 2);
+  Directions directions = read_directions(lines, elements, {.numbers = vectors == 2 ? 6 : 3});
+  if (!lines.word().empty())
+    lines.refuse("goes on after " + std::to_string(elements) + " directions", "one an element");
+  return directions;
 }
 
 }  // namespace
@@ -134,19 +143,20 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
 }
 
 DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
+  constexpr std::size_t kLeastBytes = 7;  // "Ln 0 1\n"
+  TextLines lines(files.elem, '#');
+  const std::size_t elements = believed_count(lines, "the number of elements", kLeastBytes);
+  // The longest of the files is read beside the others.
+  std::future<Directions> fibres;
+  if (!files.lon.empty()) fibres = std::async(std::launch::async, read_fibres, files.lon, elements);
   const std::vector<double> positions = read_points(files.pts);
   std::vector<double> regions;
-  UnstructuredTopology topology = read_elements(files.elem, positions, regions);
-  const std::size_t elements = topology.types.size();
+  UnstructuredTopology topology = read_elements(lines, elements, positions, regions);
   topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(positions));
   DataSet mesh;
   mesh.topology = std::move(topology);
   if (!files.lon.empty()) {
-    TextLines lines(files.lon, '#');
-    const std::int64_t vectors = lines.integer("1 or 2 directions an element,", 1, 2);
-    const Directions directions = read_directions(lines, elements, {.numbers = vectors == 2 ? 6 : 3});
-    if (!lines.word().empty())
-      lines.refuse("goes on after " + std::to_string(elements) + " directions", "one an element");
+    const Directions directions = fibres.get();
     add_directions(directions, mesh);
     if (directions.missing > 0)
       notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");

@@ -11,9 +11,22 @@
 
 namespace palpate {
 
+namespace {
+
+constexpr std::size_t kBuffer = 4 * TextLines::kLongestLine;  // [bytes]
+
+/// Where words end.
+constexpr bool between_words(char c) noexcept {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
+}
+
+}  // namespace
+
 struct TextLines::Unpacker {
   gzFile file = nullptr;  ///< reads files that are not packed as they are
-  explicit Unpacker(const std::string& path) : file(gzopen(path.c_str(), "rb")) {}
+  explicit Unpacker(const std::string& path) : file(gzopen(path.c_str(), "rb")) {
+    if (file != nullptr) (void)gzbuffer(file, kBuffer);
+  }
   ~Unpacker() {
     if (file != nullptr) gzclose(file);
   }
@@ -25,10 +38,44 @@ TextLines::TextLines(std::string file, char comment)
     : file_(std::move(file)),
       comment_(comment),
       unpacker_(std::make_unique<Unpacker>(file_)),
-      buffer_(std::make_unique<char[]>(kLongestLine + 2)) {
+      buffer_(std::make_unique<char[]>(kBuffer)) {
   if (unpacker_->file == nullptr) throw input_error({file_, "", "cannot be opened"});
 }
 TextLines::~TextLines() = default;
+
+bool TextLines::take_line(std::string_view& line) {
+  std::size_t searched = begin_;
+  for (;;) {
+    const char* const text = buffer_.get();
+    const void* const newline = std::memchr(text + searched, '\n', end_ - searched);
+    if (newline != nullptr) {
+      const auto length = static_cast<std::size_t>(static_cast<const char*>(newline) - text) - begin_;
+      line = {text + begin_, length};
+      begin_ += length + 1;
+      return true;
+    }
+    if (end_ - begin_ > kLongestLine) {
+      ++number_;
+      refuse("is longer than 65536 bytes", "a line of text");
+    }
+    std::memmove(buffer_.get(), text + begin_, end_ - begin_);
+    end_ -= begin_;
+    begin_ = 0;
+    searched = end_;
+    const int got = gzread(unpacker_->file, buffer_.get() + end_, static_cast<unsigned>(kBuffer - end_));
+    if (got > 0) {
+      end_ += static_cast<std::size_t>(got);
+      continue;
+    }
+    int status = Z_OK;
+    (void)gzerror(unpacker_->file, &status);
+    if (status != Z_OK && status != Z_STREAM_END)
+      refuse("holds gzip data that are damaged or cut off", "a whole file");
+    line = {buffer_.get(), end_};
+    begin_ = end_;
+    return !line.empty();
+  }
+}
 
 bool TextLines::next() {
   if (given_back_) {
@@ -37,41 +84,25 @@ bool TextLines::next() {
     return true;
   }
   line_ = rest_ = {};
-  // A mark behind the text tells how far a line reaches even where it holds zero bytes.
-  char* const text = buffer_.get();
-  std::memset(text, '\n', kLongestLine + 2);
-  if (gzgets(unpacker_->file, text, static_cast<int>(kLongestLine + 1)) == nullptr) {
-    int status = Z_OK;
-    (void)gzerror(unpacker_->file, &status);
-    if (status != Z_OK && status != Z_STREAM_END)
-      refuse("holds gzip data that are damaged or cut off", "a whole file");
-    return false;
-  }
+  std::string_view line;
+  if (!take_line(line)) return false;
   ++number_;
-  const std::size_t length = std::strlen(text);
-  // gzgets() ends what it read with a zero behind the newline: another zero before it is part of the text.
-  const bool ended = length > 0 && text[length - 1] == '\n';
-  if (!ended && !gzeof(unpacker_->file)) {
-    refuse(length >= kLongestLine ? "is longer than 65536 bytes" : "holds zero bytes", "a line of text");
-  }
-  line_ = {text, length};
-  if (comment_ != '\0') line_ = line_.substr(0, line_.find(comment_));
-  line_ = trimmed(line_);
+  if (line.size() > kLongestLine) refuse("is longer than 65536 bytes", "a line of text");
+  if (line.find('\0') != std::string_view::npos) refuse("holds zero bytes", "a line of text");
+  if (comment_ != '\0') line = line.substr(0, line.find(comment_));
+  line_ = trimmed(line);
   rest_ = line_;
   return true;
 }
 
 std::string_view TextLines::word_here() noexcept {
-  constexpr const char* kBetween = " \t\r\n,";
-  const std::size_t first = rest_.find_first_not_of(kBetween);
-  if (first == std::string_view::npos) {
-    rest_ = {};
-    return {};
-  }
-  rest_.remove_prefix(first);
-  const std::string_view word = rest_.substr(0, rest_.find_first_of(kBetween));
-  rest_.remove_prefix(word.size());
-  return word;
+  const char* first = rest_.data();
+  const char* const end = first + rest_.size();
+  while (first != end && between_words(*first)) ++first;
+  const char* last = first;
+  while (last != end && !between_words(*last)) ++last;
+  rest_ = {last, static_cast<std::size_t>(end - last)};
+  return {first, static_cast<std::size_t>(last - first)};
 }
 
 std::string_view TextLines::word() {

@@ -49,10 +49,14 @@ class TextLines {
 
  private:
   struct Unpacker;
+  /// The next line as it stands in the file, without its end; false at the end of the file.
+  bool take_line(std::string_view& line);
+
   std::string file_;
   char comment_;
   std::unique_ptr<Unpacker> unpacker_;
   std::unique_ptr<char[]> buffer_;
+  std::size_t begin_ = 0, end_ = 0;  ///< what is in the buffer and not taken yet
   std::string_view line_;
   std::string_view rest_;  ///< what word() has not taken of line_
   std::size_t number_ = 0;

@@ -127,7 +127,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
   } else {
-    WallLayer layer = make_wall_layer(*grid, mesh, file);
+    WallLayer layer = make_wall_layer(*grid, mesh, file, threads);
     DataSet with = mesh;
     with.arrays = {std::move(layer.array)};
     heart.layer = make_scalar_field(grid, with, {.array = kLayerArray}, file, threads);

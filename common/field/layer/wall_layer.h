@@ -28,6 +28,7 @@ struct WallLayer {
 [[nodiscard]] WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads = 0);
 
 /// The same on the grid that was made of `mesh`.
-[[nodiscard]] WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file);
+[[nodiscard]] WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file,
+                                        int threads = 0);
 
 }  // namespace palpate

@@ -201,8 +201,8 @@ class TensorFieldBuilder {
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
     const bool use_double =
         logarithms || array.type != ScalarType::kFloat32 || choice.order == TensorOrder::kAxis;
-    const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const Six d = read_tensor(*block.find(choice.array, choice.association), tuple, choice.order);
+    const TupleReader read = [&](const DataSet& /*block*/, std::size_t tuple, double* out) {
+      const Six d = read_tensor(array, tuple, choice.order);
       std::copy(d.begin(), d.end(), out);
     };
     GatheredValues gathered =
