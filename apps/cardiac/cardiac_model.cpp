@@ -5,6 +5,7 @@
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/scalar_choice.h"
 
 namespace palpate {
 
@@ -46,6 +47,11 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& heart, cons
   // A scalar of the file is read with the heart: the one that was named.
   const HeartOptions& named = options.heart;
   if (heart->heart().value) info->color_arrays.push_back(named.angle);
+  if (info->times.size() > 1) {
+    for (const ScalarChoice& choice : scalar_choices(input.arrays()))
+      info->plotted.push_back(label_of(choice, input.arrays()));
+    info->input = input.spec();
+  }
   info->bounds = layer.view.bounds;
   info->units = layer.view.units;
   SceneState state = begin_state(input, settings);

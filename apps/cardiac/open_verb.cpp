@@ -18,6 +18,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
        .groups = {.fibres = true,
                   .layer = true,
                   .angle = true,
+                  .plot = true,
                   .view = true,
                   .touch = true,
                   .record = true,

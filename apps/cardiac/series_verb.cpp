@@ -1,33 +1,49 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
-#include <variant>
 
 #include "apps/cardiac/heart_verbs.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
+#include "common/base/csv_reader.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
-#include "common/field/field_on_grid.h"
 #include "common/scene/seeds.h"
+#include "common/scene/time_series.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<Vec3> places_of(const SeriesOptions& series) {
+/// Places of a table, its proxies where it has such: a log of the verb probe.
+/// @throws Error (bad input).
+std::vector<Vec3> places_along(const std::string& file) {
+  constexpr std::array<std::string_view, 3> kPlace{"x", "y", "z"}, kProxy{"px", "py", "pz"};
+  CsvReader table(file, kPlace, kProxy, "a table of places, with the header x,y,z, or a log of probe");
   std::vector<Vec3> places;
-  for (const std::string& text : series.places) {
+  for (std::array<double, 6> row{}; table.next(row);) {
+    const Vec3 place{row[0], row[1], row[2]}, proxy{row[3], row[4], row[5]};
+    places.push_back(is_finite(proxy) ? proxy : place);
+  }
+  if (places.empty()) throw input_error({file, "", "has no rows", "a place a row", ""});
+  return places;
+}
+
+std::vector<Vec3> places_of(const Options& options) {
+  std::vector<Vec3> places;
+  for (const std::string& text : options.series.places) {
     const auto v = parse_numbers(text, 3, "--at takes a place: x,y,z");
     places.emplace_back(v[0], v[1], v[2]);
   }
-  if (places.empty()) throw usage_error("series needs a place: try --at x,y,z");
+  if (!options.series.path.empty()) {
+    const auto along = places_along(options.series.path.string());
+    places.insert(places.end(), along.begin(), along.end());
+  }
+  if (places.empty()) throw usage_error("series needs a place: try --at x,y,z, or --along FILE.csv");
   return places;
 }
 
@@ -51,7 +67,8 @@ std::string summary_text(const SeriesSummary& summary) {
   std::string text = summary.input + ": " + summary.value + " at " + counted(summary.places.size(), "place") +
                      ", " + counted(summary.times.size(), "time") +
                      (summary.output.empty() ? "\n" : " -> " + summary.output + "\n");
-  for (std::size_t p = 0; p < summary.places.size(); ++p) {
+  constexpr std::size_t kMostTold = 20;
+  for (std::size_t p = 0; p < std::min(summary.places.size(), kMostTold); ++p) {
     std::size_t least = summary.times.size(), most = least, known = 0;
     const auto value = [&](std::size_t t) { return summary.values[t * summary.places.size() + p]; };
     for (std::size_t t = 0; t < summary.times.size(); ++t) {
@@ -66,15 +83,9 @@ std::string summary_text(const SeriesSummary& summary) {
                 : "from " + short_number(value(least)) + " at " + short_number(summary.times[least]) +
                       " to " + short_number(value(most)) + " at " + short_number(summary.times[most]) + "\n";
   }
+  if (summary.places.size() > kMostTold)
+    text += "  and " + counted(summary.places.size() - kMostTold, "other place") + '\n';
   return text;
-}
-
-/// Whether both have the same cells at the same points, to the last bit.
-bool same_cells(const DataSet& a, const DataSet& b) {
-  const auto* x = std::get_if<UnstructuredTopology>(&a.topology);
-  const auto* y = std::get_if<UnstructuredTopology>(&b.topology);
-  return x != nullptr && y != nullptr && x->connectivity == y->connectivity && x->types == y->types &&
-         std::ranges::equal(x->positions.bytes, y->positions.bytes);
 }
 
 ExitCode run_series(const Options& options, const VerbContext& context) {
@@ -84,40 +95,25 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
   if (!options.out.empty() && options.out.extension() != ".csv")
     throw usage_error(options.out.string() + ": a time series is written as .csv");
   SeriesSummary summary;
-  summary.places = places_of(options.series);
+  summary.places = places_of(options);
   if (!options.out.empty()) check_output(options.out, options.common.force);
   Input input = open_input(options, context);
   const Stopwatch watch;
-  const ScalarChoice choice = choose_scalar(input.arrays(), options.series.value, input.title());
-  summary.input = input.title();
+  TimeSeries series(std::move(input), options.series.value, options.common.threads);
+  summary.input = series.input().title();
   summary.output = options.out.string();
-  summary.value = label_of(choice, input.arrays());
-
-  const std::vector<double>& times = input.times();
-  const std::vector<std::size_t> steps = steps_in_order(times);
-  for (std::size_t t = 0; t < steps.size(); ++t) summary.unordered += steps[t] == t ? 0 : 1;
+  summary.value = series.name();
+  summary.times = series.times();
+  summary.unordered = series.unordered();
   if (summary.unordered > 0)
     context.console.note(counted(summary.unordered, "time step") + " not in the order of time: sorted");
-  std::shared_ptr<const FieldGrid> grid;
-  DataSet before;
-  context.progress.begin("reading time steps", steps.size());
-  for (const std::size_t step : steps) {
+  std::vector<CellHint> hints(summary.places.size());
+  context.progress.begin("reading time steps", summary.times.size());
+  for (std::size_t t = 0; t < summary.times.size(); ++t) {
     context.progress.check();
-    input.set_time_step(step);
-    const std::vector<DataSet> blocks = input.read({choice.array});
-    if (blocks.size() != 1)
-      throw input_error({input.title(), "", "has " + counted(blocks.size(), "block"), "one mesh"});
-    // A wall that moves has another grid at every time; one that does not has been seen before.
-    if (!grid || !same_cells(blocks.front(), before))
-      grid = make_field_grid(blocks, input.title(), options.common.threads);
-    before = blocks.front();
-    const auto field = make_scalar_field(grid, blocks.front(), choice, input.title(), options.common.threads);
-    summary.times.push_back(times.empty() ? 0.0 : times[step]);
-    for (const Vec3& x : summary.places) {
-      CellHint hint;
-      const ScalarSample sample = field->sample(x, hint);
-      summary.values.push_back(sample.status == SampleStatus::kOk ? sample.value : kNoValue);
-    }
+    const auto field = series.read(t);
+    for (std::size_t p = 0; p < summary.places.size(); ++p)
+      summary.values.push_back(value_or_nan(*field, summary.places[p], hints[p]));
     context.progress.advance(1);
   }
   summary.seconds = watch.seconds();

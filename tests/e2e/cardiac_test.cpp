@@ -153,6 +153,20 @@ TEST_F(Cardiac, ShowsAPotentialOverTimeAndOnTheWall) {
   const std::string table = read_file(folder_.path("vm.csv"));
   EXPECT_EQ(table.substr(0, table.find('\n')), "time,place,x,y,z,vm");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
+  // Along a path, and along the proxies of a log: vm is 4 x / mm + 10 t there.
+  (void)folder_.write("path.csv", "t,x,y,z\n0,0.25,0.25,0.25\n1,0.5,0.125,0.125\n");
+  (void)folder_.write("log.csv", "t,x,y,z,px,py,pz,state\n0,9,9,9,0.125,0.25,0.25,held\n");
+  for (const auto& [file, places] :
+       {std::pair{"path.csv", std::vector{0.25, 0.5}}, std::pair{"log.csv", std::vector{0.125}}}) {
+    const Json along = json({"series", "m.pts", "vm.igb", "--value", "vm", "--along", file});
+    ASSERT_EQ(along["places"].size(), places.size()) << file;
+    for (std::size_t p = 0; p < places.size(); ++p)
+      for (std::size_t t = 0; t < 3; ++t)
+        EXPECT_NEAR(along["places"][p]["values"][t].get<double>(),
+                    4.0 * places[p] + 10.0 * static_cast<double>(t), 1e-6);
+  }
+  (void)folder_.write("empty.csv", "t,x,y,z\n");
+  EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--along", "empty.csv", "--json"}).exit_code, 3);
   EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--json"}).exit_code, 2);
   EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--value", "no", "--at", "0,0,0", "--json"}).exit_code, 2);
   EXPECT_EQ(run({"series", "m.pts", "vm.igb", "--value", "vm", "--at", "9,9,9", "--json"}).exit_code, 1);

@@ -92,6 +92,7 @@ class VerbParser {
     if (verb.groups.layer) add_layer_option(scene_options_, options_.heart);
     if (verb.groups.angle) add_angle_options(scene_options_, options_.heart);
     if (verb.groups.series) add_series_options(scene_options_, options_.series);
+    if (verb.groups.plot) add_plot_option(scene_options_, options_.series);
     if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);
     if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
@@ -262,6 +263,9 @@ class VerbParser {
         ->group("Touch");
     add_rate();
     add_workbench();
+    scene("--play-rate", options_.view.play_rate, "time steps a second while they play; default 5", "N",
+          "View")
+        ->check(CLI::Range(0.2, 60.0));
     app_.add_option("--record", options_.record, "write all input and every servo step to this file")
         ->type_name("FILE")
         ->group("Touch");

@@ -40,7 +40,8 @@ struct VerbGroups {
   bool fibres = false;  ///< seeds and limits of lines along fibres
   bool layer = false;   ///< --layer of a heart
   bool angle = false;   ///< --angle, --convention, --axis
-  bool series = false;  ///< --value, --at
+  bool series = false;  ///< --value, --at, --along
+  bool plot = false;    ///< --plot
   bool mesher = false;  ///< --mesher, --largest-volume
   bool view = false;
   bool touch = false;

@@ -71,6 +71,15 @@ void add_series_options(SceneOptions& options, SeriesOptions& series) {
   options.add("--value", series.value, "the scalar whose time series it is; without it the likeliest one",
               "NAME", group);
   options.add_several("--at", series.places, "a place; may be repeated", "x,y,z", group);
+  options.add("--along", series.path,
+              "the places of a table with the header x,y,z; those of the proxy in a log of probe", "FILE.csv",
+              group);
+}
+
+void add_plot_option(SceneOptions& options, SeriesOptions& series) {
+  options.add("--plot", series.plot,
+              "plot this scalar over time at the probe; 'series --along' writes it for a log of 'probe'",
+              "NAME", "View");
 }
 
 }  // namespace palpate

@@ -23,5 +23,7 @@ void add_refine_option(SceneOptions& options, InputOptions& input);
 
 /// Which scalar over time, and where. Binds the options to `series`, which outlives `options`.
 void add_series_options(SceneOptions& options, SeriesOptions& series);
+/// Which scalar is plotted over time at the probe. Binds as above.
+void add_plot_option(SceneOptions& options, SeriesOptions& series);
 
 }  // namespace palpate

@@ -79,7 +79,7 @@ class InputModel : public WindowModel {
   }
 
   std::string save_session(const SceneSettings& settings, const SceneView& view,
-                           const std::vector<std::pair<std::string, std::string>>& touch) final {
+                           const std::vector<std::pair<std::string, std::string>>& set) final {
     const InputSpec& spec = scene_->input.spec();
     Session session = begin_session(spec, program_);
     add_option(session, "example", spec.example);
@@ -90,7 +90,7 @@ class InputModel : public WindowModel {
     describe_session(session, spec, options_, settings, view);
     if (options_.view.frame_budget > 0.0)
       add_option(session, "frame-budget", exact_number(options_.view.frame_budget));
-    for (const auto& [option, value] : touch) add_option(session, option.c_str(), value);
+    for (const auto& [option, value] : set) add_option(session, option.c_str(), value);
     return store_session(session, spec);
   }
 

@@ -73,6 +73,7 @@ struct ViewOptions {
   std::string camera;         ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
   std::string color;          ///< array that colours the lines; empty: speed
   double frame_budget = 0.0;  ///< [ms] that a picture may take while something moves; 0: the default
+  double play_rate = 5.0;     ///< time steps a second
 };
 
 /// How a volume is drawn.
@@ -135,6 +136,8 @@ struct HeartOptions {
 struct SeriesOptions {
   std::string value;                ///< a scalar; empty: the likeliest one
   std::vector<std::string> places;  ///< x,y,z
+  std::filesystem::path path;       ///< table of more places; empty: none
+  std::string plot;                 ///< open: the scalar that is plotted at the probe; empty: none
 };
 
 /// What the hand feels, and how the workspace lies over the data.

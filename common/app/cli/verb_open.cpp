@@ -41,6 +41,9 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .command_line = context.command_line,
       .version = version_text(context.explorer.name),
       .touch = std::move(touch),
+      .plotted = options.series.plot,
+      .play_rate = options.view.play_rate,
+      .threads = options.common.threads,
       .stop_requested = [] { return InterruptGuard::interrupted(); }};
   verb.style(options, window.view);
   const WindowResult result = run_user_window(*model, std::move(window),

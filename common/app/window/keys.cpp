@@ -36,6 +36,8 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {kF6, 0, Command::kLookAlongY, "", ""},
       {kF7, 0, Command::kLookAlongZ, "", ""},
       {' ', 0, Command::kPlay, "Space", "play the time steps; with the probe grabbed, keep the line"},
+      {',', 0, Command::kStepBack, ",  .", "one time step back, or on"},
+      {'.', 0, Command::kStepOn, "", ""},
       {kEscape, 0, Command::kLetGo, "Esc", "let go, cancel the job, close this list"},
       {'B', 0, Command::kColorBar, "B", "colour bar"},
       {'A', 0, Command::kAxes, "A", "axes"},

@@ -17,6 +17,8 @@ enum class Command : std::uint8_t {
   kLookAlongY,
   kLookAlongZ,
   kPlay,
+  kStepBack,  ///< in time
+  kStepOn,
   kLetGo,
   kQuit,
   kColorBar,

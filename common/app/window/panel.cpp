@@ -11,6 +11,7 @@
 #include <imgui_stdlib.h>
 
 #include "common/app/window/lens_panel.h"
+#include "common/app/window/panel_parts.h"
 #include "common/app/window/picture_panels.h"
 #include "common/app/window/plane_panel.h"
 #include "common/app/window/tensor_panel.h"
@@ -89,7 +90,28 @@ void draw_time(PanelState& state, const std::vector<double>& times) {
   if (ImGui::SliderInt("time step", &step, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
     state.settings.time_step = static_cast<std::size_t>(step);
   }
-  if (ImGui::SmallButton(state.playing ? "Stop" : "Play")) state.playing = !state.playing;
+  if (ImGui::SmallButton(state.playing ? "Stop###play" : "Play###play")) state.playing = !state.playing;
+  ImGui::SameLine();
+  constexpr double kSlowest = 0.2, kFastest = 60.0;
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
+                          ImGui::GetStyle().WindowPadding.x);
+  (void)slider("steps a second", state.play_rate, kSlowest, kFastest, "%.1f", ImGuiSliderFlags_Logarithmic);
+}
+
+/// Which scalar is plotted over time at the probe.
+void choose_plotted(PanelState& state, const SceneInfo& info) {
+  if (info.plotted.empty()) return;
+  const char* kNothing = "nothing";
+  if (ImGui::BeginCombo("plot at the probe", state.plotted.empty() ? kNothing : state.plotted.c_str())) {
+    if (ImGui::Selectable(kNothing, state.plotted.empty())) state.plotted.clear();
+    for (const std::string& name : info.plotted)
+      if (ImGui::Selectable(name.c_str(), name == state.plotted)) state.plotted = name;
+    ImGui::EndCombo();
+  }
+  if (state.plotted.empty()) return;
+  ImGui::Checkbox("keep all steps in memory", &state.keep_steps);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("read once, then the curve follows the hand at once; else step by step");
 }
 
 void draw_seeds(PanelState& state) {
@@ -158,9 +180,9 @@ void draw_layer(PanelState& state, const SceneState& scene) {
   const SceneInfo& info = *scene.info;
   choose("field", settings.field, info.fields);
   draw_time(state, info.times);
-  ImGui::SliderScalar("depth", ImGuiDataType_Double, &settings.layer, &info.layers->lower,
-                      &info.layers->upper, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+  (void)slider("depth", settings.layer, info.layers->lower, info.layers->upper, "%.2f");
   draw_seeds(state);
+  choose_plotted(state, info);
 }
 
 void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
@@ -414,6 +436,10 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
   ImGui::TextDisabled("H  keys and mouse");
   ImGui::PopItemWidth();
   ImGui::End();
+  if (state.series && state.scene != nullptr) {
+    actions.time = draw_series_plot(*state.series, series_plot_area(layout.picture, ImGui::GetFontSize()),
+                                    state.scene->info->units);
+  }
   draw_picture_panels(state, layout);
   return actions;
 }

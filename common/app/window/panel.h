@@ -6,6 +6,7 @@
 
 #include "common/app/window/live_picture.h"
 #include "common/app/window/seed_choice.h"
+#include "common/app/window/series_panel.h"
 #include "common/app/window/touch_panel.h"
 #include "common/app/window/tract_panel.h"
 #include "common/app/window/transfer_panel.h"
@@ -28,7 +29,11 @@ struct PanelState {
   bool show_help = false;
   bool show_rates = false;
   bool playing = false;
-  ProbeSession* touch = nullptr;  ///< null or not available(): no such part
+  double play_rate = 0.0;            ///< time steps a second
+  std::string plotted;               ///< edited; empty: nothing
+  bool keep_steps = false;           ///< edited: those that were read for the plot stay in memory
+  std::optional<SeriesPlot> series;  ///< none where nothing is plotted
+  ProbeSession* touch = nullptr;     ///< null or not available(): no such part
   bool grabbed = false;
   bool marking = false;                     ///< clicks mark places
   TractSeedChoice tract_seeds;              ///< edited; goes into the settings when tracts are traced
@@ -50,6 +55,7 @@ struct PanelActions {
   std::optional<InputFiles> open;  ///< one of the recent inputs
   bool save_transfer = false;      ///< that of the context to PanelState::transfer_file
   bool save_focus = false;         ///< that of new lenses to PanelState::focus_file
+  std::optional<double> time;      ///< of the step nearest to it
   TouchActions touch;
 };
 

@@ -66,6 +66,8 @@ class Window {
     touch_control_ = std::make_unique<TouchControl>(*touch_);
     state_.touch = touch_.get();
     state_.recent = options_.recent;
+    state_.plotted = options_.plotted;
+    state_.play_rate = options_.play_rate;
     job_ = std::make_unique<BackgroundJob>([] { glfwPostEmptyEvent(); });
     start_job(JobKind::kStart, [this](Progress& progress) { return model_.start(progress); });
   }
@@ -96,7 +98,8 @@ class Window {
                         .message = state_.message,
                         .probe = touch_->readout(),
                         .tensor = state_.tensor,
-                        .replay = touch_->replay_verdict()};
+                        .replay = touch_->replay_verdict(),
+                        .series = series_ ? series_->curve() : SeriesCurve{}};
     std::tie(result.width, result.height) = glfw_.size();
     result.median_frame_ms = live_->median_milliseconds();
     return result;
@@ -228,6 +231,7 @@ class Window {
     }
     show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
+      plotted_.clear();  // of another input
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;
       needs_camera_ = true;
@@ -310,11 +314,13 @@ class Window {
         view_.tensors && !control_.dragging() && !touch_->readout().held && !ImGui::GetIO().WantCaptureMouse;
     state_.tensor =
         looking ? slice_control_.under_mouse(picture_, view_.camera, *view_.tensors) : std::nullopt;
+    plot_at_probe();
     const SceneSettings settings_before = state_.settings;
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
     if (actions.look) run_command(*actions.look);
+    if (actions.time) show_time(*actions.time);
     if (actions.open) open(*actions.open);
     answer_question();
     if (actions.save_picture) run_command(Command::kSavePicture);
@@ -449,6 +455,11 @@ class Window {
         } else if (scene_ && scene_->info->times.size() > 1)
           state_.playing = !state_.playing;
         break;
+      case Command::kStepBack:
+      case Command::kStepOn:
+        state_.playing = false;
+        step_in_time(command == Command::kStepOn);
+        break;
       case Command::kLetGo:
         control_.let_go();
         slice_control_.let_go();
@@ -484,8 +495,7 @@ class Window {
         attempt([this] { return files_.save_picture(live_->read(), picture_texts()); });
         break;
       case Command::kSaveSession:
-        if (scene_)
-          attempt([this] { return model_.save_session(scene_->settings, view_, touch_->options()); });
+        if (scene_) attempt([this] { return model_.save_session(scene_->settings, view_, set_options()); });
         break;
       case Command::kSaveLines:
         attempt([this] { return save_lines(); });
@@ -529,8 +539,55 @@ class Window {
 
   void play() {
     if (!state_.playing || !scene_ || job_->running()) return;
-    const std::size_t count = scene_->info->times.size();
-    if (count > 1) state_.settings.time_step = (state_.settings.time_step + 1) % count;
+    if (since_step_.seconds() * state_.play_rate < 1.0) return;
+    since_step_.restart();
+    step_in_time(true);
+  }
+
+  /// To the step whose time comes next, and round from the last to the first.
+  void step_in_time(bool on) {
+    if (!scene_ || scene_->info->times.size() < 2) return;
+    const std::vector<std::size_t> order = steps_in_order(scene_->info->times);
+    const auto now = std::find(order.begin(), order.end(), state_.settings.time_step) - order.begin();
+    const auto count = static_cast<std::ptrdiff_t>(order.size());
+    state_.settings.time_step = order[static_cast<std::size_t>((now + (on ? 1 : count - 1)) % count)];
+  }
+
+  void show_time(double time) {
+    if (!scene_ || scene_->info->times.size() < 2) return;
+    const std::vector<double>& times = scene_->info->times;
+    const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
+      return std::abs(a - time) < std::abs(b - time);
+    });
+    state_.settings.time_step = static_cast<std::size_t>(nearest - times.begin());
+  }
+
+  /// The curve at the place where the hand is, or was last.
+  void plot_at_probe() {
+    state_.series.reset();
+    if (!scene_) return;
+    const SceneInfo& info = *scene_->info;
+    const bool known = std::ranges::find(info.plotted, state_.plotted) != info.plotted.end();
+    const std::string wanted = known ? state_.plotted : std::string();
+    if (wanted != plotted_) {
+      if (!series_) series_ = std::make_unique<ProbeSeries>([] { glfwPostEmptyEvent(); });
+      series_->choose(info.input, wanted, options_.threads);
+      plotted_ = wanted;
+    }
+    if (wanted.empty()) return;
+    series_->keep_steps(state_.keep_steps);
+    if (touch_->readout().held) series_->request(touch_->readout().proxy);
+    state_.series = SeriesPlot{.curve = series_->curve(),
+                               .reading = series_->reading(),
+                               .now = info.times.empty() ? 0.0 : info.times[scene_->settings.time_step]};
+  }
+
+  /// What a session holds beside the scene and its view.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> set_options() const {
+    auto set = touch_->options();
+    if (!state_.plotted.empty()) set.emplace_back("plot", state_.plotted);
+    if (state_.play_rate != kPlayRate) set.emplace_back("play-rate", exact_number(state_.play_rate));
+    return set;
   }
 
   /// A heart shows the layer that the hand is on, with its fibres.
@@ -607,6 +664,9 @@ class Window {
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;
+  Stopwatch since_step_;                 // in time
+  std::string plotted_;                  // by series_
+  std::unique_ptr<ProbeSeries> series_;  // made when something is first plotted
   std::string told_fault_, told_device_;
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;

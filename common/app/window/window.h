@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/haptic/probe_series.h"
 #include "common/app/haptic/probe_session.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
@@ -16,6 +17,7 @@
 namespace palpate {
 
 inline constexpr double kFrameBudget = 60.0;  ///< [ms], where no other is asked for
+inline constexpr double kPlayRate = 5.0;      ///< [1/s], likewise
 
 struct WindowOptions {
   std::string program = "palpate";  ///< in the title bar
@@ -30,6 +32,9 @@ struct WindowOptions {
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   ProbeSessionOptions touch;                   ///< without modes: the window knows no touch
+  std::string plotted;                         ///< one of SceneInfo::plotted, or empty
+  double play_rate = kPlayRate;                ///< time steps a second
+  int threads = 0;                             ///< of what is read beside the picture; 0: all cores
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 
@@ -57,6 +62,7 @@ struct WindowResult {
   ProbeReadout probe;                ///< at the end
   std::optional<TensorPick> tensor;  ///< that is read out under the mouse at the end
   std::string replay;                ///< verdict on a replay that came to its end
+  SeriesCurve series;                ///< that was plotted at the end
 };
 
 /// Whether a window can be opened at all (a display is there).

@@ -21,6 +21,7 @@
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
+#include "common/scene/input.h"
 
 namespace palpate {
 
@@ -65,6 +66,8 @@ struct SceneInfo {
   std::vector<std::string> color_arrays;  ///< arrays of the data and measures that can colour the lines
   std::vector<double> times;              ///< empty for a single state
   std::optional<ValueRange> layers;       ///< depths that a heart's wall has
+  std::vector<std::string> plotted;       ///< scalars that can be plotted over time at the probe
+  InputSpec input;                        ///< to read them from; meaningless where there are none
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
@@ -117,12 +120,12 @@ class WindowModel {
   /// @throws Error, Cancelled; what was open before then stays open.
   virtual SceneState update(const SceneSettings& settings, Progress& progress) = 0;
 
-  /// Saves scene, view and touch beside the input.
-  /// @param touch options of the command line and their values.
+  /// Saves scene, view and what the window has set beside the input.
+  /// @param set options of the command line and their values: of touch, of playing and of what is plotted.
   /// @return what was written, for the message line.
   /// @throws Error.
   virtual std::string save_session(const SceneSettings& settings, const SceneView& view,
-                                   const std::vector<std::pair<std::string, std::string>>& touch) = 0;
+                                   const std::vector<std::pair<std::string, std::string>>& set) = 0;
 
   /// A line on what the scene shown last took, for `--explain`; empty where nothing was or it is not known.
   [[nodiscard]] virtual std::string measured() const { return {}; }
