@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/render/frame_budget.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -15,6 +16,7 @@ struct RenderedImage {
   std::vector<double> frame_ms;  ///< of the repeated frames, by the clock
   FrameQuality quality;          ///< that the budget left
   std::string renderer;          ///< the OpenGL driver
+  std::vector<GpuObject> gpu;    ///< what was compiled and allocated
 };
 
 /// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does

@@ -120,8 +120,12 @@ TEST_F(Grid, RendersWhatTheTransferFunctionShows) {
 
 TEST_F(Grid, RenderStatesItsErrorAndRefusesNonsense) {
   const Json summary = json({"render", "--example", "marschner-lobb", "--size", "64x48", "--out", "a.png",
-                             "--projection", "orthographic"});
+                             "--projection", "orthographic", "--explain"});
   EXPECT_EQ(summary["voxels"], 41 * 41 * 41);
+  std::uint64_t voxel_bytes = 0;
+  for (const Json& object : summary["gpu"])
+    voxel_bytes += object["what"] == "voxels" ? object["bytes"].get<std::uint64_t>() : 0U;
+  EXPECT_EQ(voxel_bytes, 4U * 41U * 41U * 41U);
   EXPECT_GE(summary["image_error"].get<double>(), 0.0);
   EXPECT_LT(summary["image_error"].get<double>(), 0.02);
   EXPECT_GT(summary["frame_ms"].get<double>(), 0.0);

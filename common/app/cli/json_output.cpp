@@ -41,6 +41,13 @@ Json measured_json(const std::vector<MeasuredCost>& measured) {
   return costs;
 }
 
+Json gpu_json(const std::vector<GpuObject>& objects) {
+  Json list = Json::array();
+  for (const GpuObject& object : objects)
+    list.push_back({{"kind", name_of(object.kind)}, {"what", object.what}, {"bytes", object.bytes}});
+  return list;
+}
+
 /// The plan with its estimates, and what the work took in the end.
 void add_plan(Json& json, const Needs& plan, const std::vector<MeasuredCost>& measured) {
   if (plan.empty()) return;
@@ -319,6 +326,7 @@ std::string render_json(const RenderSummary& summary) {
             {"seconds_trace", summary.seconds_trace},
             {"renderer", summary.renderer},
             {"version", version()}};
+  if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
   add_plan(json, summary.plan, summary.measured);
   return text_of(json);
 }

@@ -134,13 +134,14 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   context.interrupt.keep(options.out);
   if (console.json()) measure_error(drawn.view, rendered.image, summary);
   if (options.common.explain) {
+    summary.gpu = rendered.gpu;
     summary.measured = drawn.measured;
     summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
   }
   console.print(summary.input + ": " + drawn.what + " -> " + summary.output + " (" +
                 std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
-  if (options.common.explain) console.print(measured_text(summary.measured));
+  if (options.common.explain) console.print(gpu_text(summary.gpu) + measured_text(summary.measured));
   console.print_json(render_json(summary));
   return ExitCode::kDone;
 }

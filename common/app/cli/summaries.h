@@ -14,6 +14,7 @@
 #include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
 #include "common/render/frame_budget.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
@@ -268,6 +269,7 @@ struct RenderSummary {
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
   std::string renderer;
+  std::vector<GpuObject> gpu;  ///< with --explain
   Needs plan;
   std::vector<MeasuredCost> measured;
 };

@@ -2,12 +2,15 @@
 
 #include <epoxy/gl.h>
 
+#include "common/render/gl/gpu_objects.h"
+
 namespace palpate {
 
-GlTexture make_picture_texture(std::uint32_t format, int width, int height) {
+GlTexture make_picture_texture(std::uint32_t format, int width, int height, std::string_view what) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   GlTexture texture(name);
+  label_object(GpuObject::Kind::kTexture, name, what);
   glTextureStorage2D(name, 1, format, width, height);
   glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

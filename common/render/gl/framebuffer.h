@@ -3,13 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "common/render/gl/object.h"
 
 namespace palpate {
 
 /// A texture of one level that is looked up texel by texel. @param format an internal format of OpenGL.
-[[nodiscard]] GlTexture make_picture_texture(std::uint32_t format, int width, int height);
+/// @param what its label (gpu_objects.h).
+[[nodiscard]] GlTexture make_picture_texture(std::uint32_t format, int width, int height,
+                                             std::string_view what);
 
 [[nodiscard]] GlFramebuffer make_framebuffer();
 

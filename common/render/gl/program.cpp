@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/error.h"
+#include "common/render/gl/gpu_objects.h"
 
 namespace palpate {
 namespace {
@@ -107,6 +108,7 @@ GlProgram compile_program(std::string_view vertex, std::string_view fragment,
     throw work_error("shaders " + std::string(vertex) + " and " + std::string(fragment) +
                      " do not link: " + log.substr(0, log.find('\n')));
   }
+  label_object(GpuObject::Kind::kProgram, program.name(), fragment);
   return program;
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/render/gl/gpu_objects.h"
 
 namespace palpate {
 namespace {
@@ -15,10 +17,11 @@ namespace {
 // What every driver of OpenGL 4.5 offers at least, and software rasterisers at most.
 constexpr int kSamples = 4;
 
-GlRenderbuffer make_storage(GLenum format, int samples, int width, int height) {
+GlRenderbuffer make_storage(GLenum format, int samples, int width, int height, std::string_view what) {
   GLuint name = 0;
   glCreateRenderbuffers(1, &name);
   GlRenderbuffer buffer(name);
+  label_object(GpuObject::Kind::kRenderbuffer, name, what);
   if (samples > 1) {
     glNamedRenderbufferStorageMultisample(name, samples, format, width, height);
   } else {
@@ -53,10 +56,11 @@ bool RenderTarget::resize(int width, int height, double resolution) {
     throw usage_error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                       " pixels cannot be drawn; each side is 1 to " + std::to_string(largest));
   }
-  scene_color_ = make_storage(GL_RGBA8, kSamples, scene_width, scene_height);
-  scene_depth_ = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width, scene_height);
-  averaged_color_ = make_storage(GL_RGBA8, 1, scene_width, scene_height);
-  resolved_color_ = make_storage(GL_RGBA8, 1, width, height);
+  scene_color_ = make_storage(GL_RGBA8, kSamples, scene_width, scene_height, "scene");
+  scene_depth_ =
+      make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width, scene_height, "depths of the scene");
+  averaged_color_ = make_storage(GL_RGBA8, 1, scene_width, scene_height, "scene, one sample a pixel");
+  resolved_color_ = make_storage(GL_RGBA8, 1, width, height, "picture");
   scene_ = make_framebuffer(scene_color_, scene_depth_);
   averaged_ = make_framebuffer(averaged_color_, {});
   resolved_ = make_framebuffer(resolved_color_, {});
@@ -79,8 +83,9 @@ void RenderTarget::bind_scene() {
 
 void RenderTarget::bind_layer(Layer& layer) {
   if (!layer.framebuffer) {
-    layer.color = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_);
-    layer.depth = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_);
+    layer.color = make_storage(GL_RGBA8, kSamples, scene_width_, scene_height_, "what stands still");
+    layer.depth = make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width_, scene_height_,
+                               "depths of what stands still");
     layer.framebuffer = make_framebuffer(layer.color, layer.depth);
   }
   drawn_ = layer.framebuffer.name();
@@ -112,6 +117,7 @@ std::uint32_t RenderTarget::copy_depth() {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     depth_copy_ = GlTexture(name);
+    label_object(GpuObject::Kind::kTexture, name, "depths for rays");
     glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, scene_width_, scene_height_);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

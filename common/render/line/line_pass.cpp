@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -27,6 +28,7 @@ GlTexture make_table_texture(ColorMap map) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   GlTexture texture(name);
+  label_object(GpuObject::Kind::kTexture, name, "colours of lines");
   const auto& table = color_table(map);
   glTextureStorage2D(name, 1, GL_RGB32F, kColorTableSize, 1);
   glTextureSubImage2D(name, 0, 0, 0, kColorTableSize, 1, GL_RGB, GL_FLOAT, table.data());

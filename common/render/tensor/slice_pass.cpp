@@ -12,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/field/grid/grid_from_data.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -56,6 +57,7 @@ GlTexture make_voxel_texture(GLenum format, const Index3& n) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &name);
   GlTexture texture(name);
+  label_object(GpuObject::Kind::kTexture, name, "tensor image");
   glTextureStorage3D(name, 1, format, n.x, n.y, n.z);
   for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
     glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);

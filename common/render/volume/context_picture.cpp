@@ -55,9 +55,9 @@ void ContextPicture::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width;
   height_ = height;
-  front_ = make_picture_texture(GL_RGBA16, width, height);
-  back_ = make_picture_texture(GL_RGBA16, width, height);
-  kind_ = make_picture_texture(GL_RG32F, width, height);
+  front_ = make_picture_texture(GL_RGBA16, width, height, "context before lenses");
+  back_ = make_picture_texture(GL_RGBA16, width, height, "context behind lenses");
+  kind_ = make_picture_texture(GL_RG32F, width, height, "kinds of context pixels");
   glTextureParameteri(front_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(front_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(front_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
@@ -107,7 +107,7 @@ void ContextPicture::draw_kinds(const FrameBlock& block) {
   const TileGrid grid = TileGrid::of(block);
   if (!(grid == grid_)) {
     grid_ = grid;
-    tile_kinds_ = make_picture_texture(GL_R8UI, grid.columns, grid.rows);
+    tile_kinds_ = make_picture_texture(GL_R8UI, grid.columns, grid.rows, "kinds of tiles");
     tile_framebuffer_ = make_framebuffer();
     glNamedFramebufferTexture(tile_framebuffer_.name(), GL_COLOR_ATTACHMENT0, tile_kinds_.name(), 0);
   }
@@ -184,7 +184,6 @@ ContextPicture::Cost ContextPicture::cost() const noexcept {
   const VolumeTextures::Cost& textures = textures_.cost();
   Cost cost;
   for (const GlProgram* program : {&unlit_, &shaded_, &tiles_, &enlarged_}) cost.programs += *program ? 1 : 0;
-  cost.programs += textures_.tiles().compiled() ? 1 : 0;
   cost.bytes = textures.voxel_bytes + textures.table_bytes + textures.brick_bytes +
                kContextPixelBytes * static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) +
                static_cast<std::uint64_t>(grid_.columns) * static_cast<std::uint64_t>(grid_.rows);

@@ -40,7 +40,7 @@ class ContextPicture {
   [[nodiscard]] const TileGrid& grid() const noexcept { return grid_; }  ///< of the whole picture
 
   struct Cost {
-    int programs = 0;         ///< compiled so far
+    int programs = 0;         ///< compiled so far, but for that of tiles, which the whole has, too
     std::uint64_t bytes = 0;  ///< on the GPU
   };
   [[nodiscard]] Cost cost() const noexcept;

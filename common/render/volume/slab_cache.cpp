@@ -67,7 +67,7 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   margin_ = step_lengths(view).longest * power_of_two(-frame.exponent);
   for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
   kept_.resize(borders_.size());
-  kept_.front() = make_picture_texture(GL_RGBA16, width_, height_);
+  kept_.front() = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
   framebuffer_ = make_framebuffer();
   glClearTexImage(kept_.front().name(), 0, GL_RGBA, GL_FLOAT, nullptr);
 }
@@ -81,14 +81,14 @@ bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaqu
 }
 
 void SlabCache::copy_depth(std::uint32_t opaque_depth) {
-  depth_ = make_picture_texture(GL_DEPTH_COMPONENT32F, width_, height_);
+  depth_ = make_picture_texture(GL_DEPTH_COMPONENT32F, width_, height_, "depths of kept slabs");
   glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
                      width_, height_, 1);
 }
 
 // P_to from P_from.
 void SlabCache::make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw) {
-  GlTexture made = make_picture_texture(GL_RGBA16, width_, height_);
+  GlTexture made = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, made.name(), 0);
   constexpr std::array<float, 4> kNothing{};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());

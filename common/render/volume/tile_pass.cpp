@@ -87,12 +87,10 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   drawn_ = block;
   const FramebufferGuard before;
   const TileGrid grid = TileGrid::of(block);
-  if (!program_) {
-    program_ = compile_program("volume/tiles.vert", "volume/tiles.frag");
-    no_vertices_ = make_vertex_array();
-  }
+  if (!*program_) *program_ = compile_program("volume/tiles.vert", "volume/tiles.frag");
+  if (!no_vertices_) no_vertices_ = make_vertex_array();
   if (!(grid == grid_)) {
-    tiles_ = make_picture_texture(GL_RG32F, grid.columns, grid.rows);
+    tiles_ = make_picture_texture(GL_RG32F, grid.columns, grid.rows, "tiles that rays are cast in");
     framebuffer_ = make_framebuffer();
     glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, tiles_.name(), 0);
     grid_ = grid;
@@ -107,7 +105,7 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, grid.columns, grid.rows);
-  glUseProgram(program_.name());
+  glUseProgram(program_->name());
   glUniformMatrix4fv(kSceneFromGrid, 1, GL_FALSE, glm::value_ptr(scene_from_grid));
   glUniform1f(kRadius, static_cast<float>(brick_radius(axes)));
   glUniform2f(kTileCount, static_cast<float>(grid.columns), static_cast<float>(grid.rows));

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,10 +53,13 @@ class TilePass {
   [[nodiscard]] std::uint32_t draw(const VolumeImage& image, const SceneFrame& frame,
                                    const FrameBlock& block);
   [[nodiscard]] const TileGrid& grid() const noexcept { return grid_; }  ///< of the last picture
-  [[nodiscard]] bool compiled() const noexcept { return static_cast<bool>(program_); }
+  /// Whether its program, or one that it shares, is compiled.
+  [[nodiscard]] bool compiled() const noexcept { return static_cast<bool>(*program_); }
+  /// From now on both have one program, compiled when either first draws.
+  void share_program(const TilePass& other) { program_ = other.program_; }
 
  private:
-  GlProgram program_;
+  std::shared_ptr<GlProgram> program_ = std::make_shared<GlProgram>();
   GlVertexArray no_vertices_;
   GlBuffer bricks_;
   std::size_t brick_count_ = 0;

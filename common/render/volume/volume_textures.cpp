@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -10,15 +11,17 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/volume/preintegration.h"
 #include "common/render/volume/volume_bindings.h"
 
 namespace palpate {
 namespace {
 
-GlTexture make_texture(GLenum target) {
+GlTexture make_texture(GLenum target, std::string_view what) {
   GLuint name = 0;
   glCreateTextures(target, 1, &name);
+  label_object(GpuObject::Kind::kTexture, name, what);
   return GlTexture(name);
 }
 
@@ -60,7 +63,7 @@ GlTexture upload_voxels(const VolumeImage& image) {
                       std::to_string(n.z) + " voxels does not fit the driver's textures; each side is 1 to " +
                       std::to_string(largest));
   }
-  GlTexture texture = make_texture(GL_TEXTURE_3D);
+  GlTexture texture = make_texture(GL_TEXTURE_3D, "voxels");
   const VoxelFormat format = format_of(image.type);
   glTextureStorage3D(texture.name(), 1, format.internal, n.x, n.y, n.z);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -72,7 +75,7 @@ GlTexture upload_voxels(const VolumeImage& image) {
 
 GlTexture upload_colors(const VolumeImage& image) {
   const Index3 n = image.points;
-  GlTexture texture = make_texture(GL_TEXTURE_3D);
+  GlTexture texture = make_texture(GL_TEXTURE_3D, "colours of voxels");
   glTextureStorage3D(texture.name(), 1, GL_RGBA8, n.x, n.y, n.z);
   glTextureSubImage3D(texture.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_UNSIGNED_BYTE,
                       image.colors->data());
@@ -100,6 +103,7 @@ bool VolumeTextures::TableKey::operator==(const TableKey& other) const {
 void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other) {
   PALPATE_CHECK(view.image != nullptr);
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
+  if (other != nullptr) tiles_.share_program(other->tiles_);
   update_image(view, other);
   update_colors(view);
   update_tables(view);
@@ -144,11 +148,11 @@ void VolumeTextures::update_tables(const VolumeView& view) {
   const auto entries = static_cast<std::size_t>(wanted.entries);
   const auto lengths = static_cast<std::size_t>(wanted.lengths);
   const int layers = wanted.lengths * static_cast<int>(transfers.size());
-  tables_ = make_texture(GL_TEXTURE_2D_ARRAY);
+  tables_ = make_texture(GL_TEXTURE_2D_ARRAY, "preintegrated tables");
   glTextureStorage3D(tables_.name(), 1, GL_RGBA16, wanted.entries, wanted.entries, layers);
   set_sampling(tables_, GL_LINEAR);
   const Index3 b = ranges_.bricks;
-  empty_bricks_ = make_texture(GL_TEXTURE_3D);
+  empty_bricks_ = make_texture(GL_TEXTURE_3D, "empty bricks");
   glTextureStorage3D(empty_bricks_.name(), 1, GL_R8UI, b.x, b.y, b.z * static_cast<int>(transfers.size()));
   set_sampling(empty_bricks_, GL_NEAREST);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

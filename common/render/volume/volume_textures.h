@@ -20,7 +20,8 @@ class VolumeTextures {
   /// @pre view.image is not null; samples a voxel are positive and finite; at least two table entries, and
   /// lengths a multiple of kLengthGroup.
   /// @throws Error (usage) where the volume is larger than the driver's textures.
-  /// @param other whose voxels on the GPU are these, too, where it has the same image; null: none.
+  /// @param other whose voxels on the GPU are these, too, where it has the same image, and whose program for
+  /// tiles is; null: none.
   void update(const VolumeView& view, const VolumeTextures* other = nullptr);
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.

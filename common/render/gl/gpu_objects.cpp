@@ -1,0 +1,133 @@
+#include "common/render/gl/gpu_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <initializer_list>
+
+#include <epoxy/gl.h>
+
+#include "common/base/text.h"
+#include "common/render/gl/program.h"
+
+namespace palpate {
+namespace {
+
+using Kind = GpuObject::Kind;
+
+/// The largest name that was given a label, in any context: as far as it is worth looking.
+std::atomic<GLuint> largest_name{0};
+
+GLenum identifier_of(Kind kind) {
+  return kind == Kind::kProgram ? GL_PROGRAM : kind == Kind::kTexture ? GL_TEXTURE : GL_RENDERBUFFER;
+}
+
+bool exists(Kind kind, GLuint name) {
+  if (kind == Kind::kProgram) return glIsProgram(name) == GL_TRUE;
+  return (kind == Kind::kTexture ? glIsTexture(name) : glIsRenderbuffer(name)) == GL_TRUE;
+}
+
+std::string label_of(Kind kind, GLuint name) {
+  std::array<char, 256> text{};
+  GLsizei length = 0;
+  glGetObjectLabel(identifier_of(kind), name, static_cast<GLsizei>(text.size()), &length, text.data());
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+template <typename Get>
+std::uint64_t sum_of(const Get& get, std::initializer_list<GLenum> what) {
+  std::uint64_t sum = 0;
+  for (const GLenum one : what) {
+    GLint value = 0;
+    get(one, &value);
+    sum += static_cast<std::uint64_t>(value);
+  }
+  return sum;
+}
+
+std::uint64_t bytes_of_texture(GLuint name) {
+  GLint levels = 1;
+  glGetTextureParameteriv(name, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+  std::uint64_t bits = 0;
+  for (GLint level = 0; level == 0 || level < levels; ++level) {
+    const auto get = [&](GLenum what, GLint* value) {
+      glGetTextureLevelParameteriv(name, level, what, value);
+    };
+    const std::uint64_t texel = sum_of(get, {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE,
+                                             GL_TEXTURE_ALPHA_SIZE, GL_TEXTURE_DEPTH_SIZE});
+    bits += texel * sum_of(get, {GL_TEXTURE_WIDTH}) * sum_of(get, {GL_TEXTURE_HEIGHT}) *
+            sum_of(get, {GL_TEXTURE_DEPTH});
+  }
+  return bits / 8;
+}
+
+std::uint64_t bytes_of_renderbuffer(GLuint name) {
+  const auto get = [&](GLenum what, GLint* value) { glGetNamedRenderbufferParameteriv(name, what, value); };
+  const std::uint64_t texel =
+      sum_of(get, {GL_RENDERBUFFER_RED_SIZE, GL_RENDERBUFFER_GREEN_SIZE, GL_RENDERBUFFER_BLUE_SIZE,
+                   GL_RENDERBUFFER_ALPHA_SIZE, GL_RENDERBUFFER_DEPTH_SIZE});
+  const std::uint64_t samples = sum_of(get, {GL_RENDERBUFFER_SAMPLES});
+  return texel * sum_of(get, {GL_RENDERBUFFER_WIDTH}) * sum_of(get, {GL_RENDERBUFFER_HEIGHT}) *
+         (samples > 0 ? samples : 1) / 8;
+}
+
+std::uint64_t bytes_of(Kind kind, GLuint name) {
+  return kind == Kind::kProgram   ? 0
+         : kind == Kind::kTexture ? bytes_of_texture(name)
+                                  : bytes_of_renderbuffer(name);
+}
+
+}  // namespace
+
+void label_object(Kind kind, std::uint32_t name, std::string_view what) {
+  glObjectLabel(identifier_of(kind), name, static_cast<GLsizei>(what.size()), what.data());
+  GLuint largest = largest_name.load();
+  while (largest < name && !largest_name.compare_exchange_weak(largest, name)) {
+  }
+}
+
+std::vector<GpuObject> gpu_objects() {
+  std::vector<GpuObject> objects;
+  for (const Kind kind : {Kind::kProgram, Kind::kTexture, Kind::kRenderbuffer}) {
+    for (GLuint name = 1; name <= largest_name.load(); ++name) {
+      if (exists(kind, name))
+        objects.push_back({.kind = kind, .what = label_of(kind, name), .bytes = bytes_of(kind, name)});
+    }
+  }
+  return objects;
+}
+
+std::string_view name_of(Kind kind) noexcept {
+  return kind == Kind::kProgram ? "program" : kind == Kind::kTexture ? "texture" : "renderbuffer";
+}
+
+std::string gpu_text(const std::vector<GpuObject>& objects) {
+  std::string shaders, memory;
+  std::uint64_t sum = 0;
+  for (const GpuObject& object : objects) {
+    const std::string what = object.what.empty() ? "of the labels" : object.what;
+    if (object.kind == Kind::kProgram) {
+      shaders += (shaders.empty() ? "" : ", ") + what;
+      continue;
+    }
+    std::array<char, 16> bytes{};
+    std::snprintf(bytes.data(), bytes.size(), "%10s", bytes_text(object.bytes).c_str());
+    memory +=
+        "  " + std::string(bytes.data()) + "  " + std::string(name_of(object.kind)) + ": " + what + "\n";
+    sum += object.bytes;
+  }
+  const auto is_compiled = [&](std::string_view path) {
+    return std::any_of(objects.begin(), objects.end(), [&](const GpuObject& object) {
+      return object.kind == Kind::kProgram && object.what == path;
+    });
+  };
+  const auto files = shader_files();
+  const auto left_out = std::count_if(files.begin(), files.end(), [&](const ShaderFile& file) {
+    return file.path.ends_with(".frag") && !is_compiled(file.path);
+  });
+  return "shaders compiled: " + shaders + "; " + std::to_string(left_out) + " left out\n" +
+         "textures and framebuffers, " + bytes_text(sum) + ":\n" + memory;
+}
+
+}  // namespace palpate

@@ -1,0 +1,35 @@
+/// What an OpenGL context holds, as it tells itself: `--explain` prints it.
+///
+/// Programs and textures bear labels (glObjectLabel), which debuggers of graphics show, too. Whatever is
+/// there is listed, with or without a label, so nothing can be compiled or allocated unseen.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+struct GpuObject {
+  enum class Kind : std::uint8_t { kProgram, kTexture, kRenderbuffer };
+  Kind kind = Kind::kProgram;
+  std::string what;  ///< its label; of a program its fragment shader, below shaders/; empty: it has none
+  std::uint64_t bytes = 0;  ///< texels, all levels and samples; 0 of a program
+
+  bool operator==(const GpuObject&) const = default;
+};
+
+/// Gives the object `name` of the context that is current a label. @pre it has been created or bound.
+void label_object(GpuObject::Kind kind, std::uint32_t name, std::string_view what);
+
+/// Programs, then textures, then renderbuffers of the context that is current, each in the order of names.
+/// Objects that another library made after the last one with a label may be missing.
+[[nodiscard]] std::vector<GpuObject> gpu_objects();
+
+/// "program", "texture", "renderbuffer".
+[[nodiscard]] std::string_view name_of(GpuObject::Kind kind) noexcept;
+/// Lines of text: the programs and how many are left out, then what takes memory.
+[[nodiscard]] std::string gpu_text(const std::vector<GpuObject>& objects);
+
+}  // namespace palpate

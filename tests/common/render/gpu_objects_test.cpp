@@ -1,0 +1,161 @@
+// What pictures of volumes compile and allocate: no more than their scene needs.
+
+#include "common/render/gl/gpu_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/render/render_image.h"
+#include "tests/common/render/lens/sample_lenses.h"
+
+namespace palpate::test {
+namespace {
+
+using Kind = GpuObject::Kind;
+using Names = std::set<std::string>;
+
+constexpr int kWidth = 72, kHeight = 48, kPoints = 29;
+
+// Background, lines of the outline, the table of their colours; labels add objects without a label.
+const Names kAnyScene{"background/background.frag", "line/line.frag"};
+
+struct Made {
+  Names shaders;
+  std::map<std::string, std::uint64_t> textures;  ///< bytes, of all with one label
+};
+
+Made made_for(const VolumeView& volume) {
+  SceneView view;
+  view.bounds = volume.image->bounds();
+  view.camera = camera_of(volume);
+  view.volume = volume;
+  Made made;
+  for (const GpuObject& object : render_image(view, kWidth, kHeight).gpu) {
+    if (object.what.empty()) continue;
+    if (object.kind == Kind::kProgram) {
+      EXPECT_TRUE(made.shaders.insert(object.what).second) << object.what << " is compiled twice";
+    }
+    if (object.kind == Kind::kTexture) made.textures[object.what] += object.bytes;
+  }
+  return made;
+}
+
+Names with(Names names, const Names& more) {
+  names.insert(more.begin(), more.end());
+  return names;
+}
+
+Names names_of(const Made& made) {
+  Names names;
+  for (const auto& [name, bytes] : made.textures) names.insert(name);
+  return names;
+}
+
+VolumeView byte_view() {
+  VolumeView view = sampled_view(blobs, ScalarType::kUint8, kPoints);
+  view.table_entries = 64;
+  view.table_lengths = 16;
+  return view;
+}
+
+TEST(GpuObjects, OfAVolumeAreOneShaderForItsRaysAndOneForTiles) {
+  VolumeView view = byte_view();
+  Made made = made_for(view);
+  EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag", "volume/tiles.frag"}));
+  EXPECT_EQ(names_of(made), (Names{"colours of lines", "voxels", "preintegrated tables", "empty bricks",
+                                   "tiles that rays are cast in", "depths for rays"}));
+  EXPECT_EQ(made.textures["voxels"], std::uint64_t{kPoints} * kPoints * kPoints);
+  EXPECT_EQ(made.textures["preintegrated tables"], 64U * 64U * 16U * 8U);
+  EXPECT_EQ(made.textures["empty bricks"], 4U * 4U * 4U) << "of 8 x 8 x 8 cells";
+  EXPECT_EQ(made.textures["tiles that rays are cast in"], 9U * 6U * 8U) << "of 8 x 8 pixels";
+  EXPECT_EQ(made.textures["depths for rays"], 4U * kWidth * kHeight);
+
+  view.skip_empty = false;
+  made = made_for(view);
+  EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag"}));
+  EXPECT_EQ(made.textures.count("tiles that rays are cast in"), 0U);
+}
+
+TEST(GpuObjects, OfAVolumeThatIsHiddenAreNone) {
+  VolumeView view = byte_view();
+  view.shown = false;
+  const Made made = made_for(view);
+  EXPECT_EQ(made.shaders, kAnyScene);
+  EXPECT_EQ(names_of(made), Names{"colours of lines"});
+}
+
+// Each feature adds what it needs, and takes away what it takes the place of.
+TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
+  VolumeView view = byte_view();
+  const Names tiles = with(kAnyScene, {"volume/tiles.frag"});
+  const Names textures = names_of(made_for(view));
+  const auto expect = [&](const char* what, const Names& shaders, const Names& more_textures) {
+    const Made made = made_for(view);
+    EXPECT_EQ(made.shaders, shaders) << what;
+    EXPECT_EQ(names_of(made), with(textures, more_textures)) << what;
+    return made;
+  };
+  view.shading = true;
+  (void)expect("light", with(tiles, {"volume/shaded.frag"}), {});
+
+  view.lenses = {lenses()[0].lens};
+  Made made = expect("a lens", with(tiles, {"volume/lenses.frag"}), {});
+  EXPECT_EQ(made.textures["preintegrated tables"], 2U * 64U * 64U * 16U * 8U) << "one a transfer function";
+  EXPECT_EQ(made.textures["empty bricks"], 2U * 64U);
+
+  view.lenses[0].transfer.reset();
+  made = expect("a lens in the colours of the context", with(tiles, {"volume/lenses.frag"}), {});
+  EXPECT_EQ(made.textures["preintegrated tables"], 64U * 64U * 16U * 8U);
+
+  view.cuts = {{.kept = {{0.0, 0.0, 1.0}, 0.3}}};
+  (void)expect("a cut", with(tiles, {"volume/lenses.frag"}), {});
+  view.planes.shown = true;
+  (void)expect("the data on it", with(tiles, {"volume/lenses.frag", "volume/plane_image.frag"}), {});
+  view.planes.shown = false;
+  view.cuts.clear();
+
+  view.context.level = 1;
+  const Names context{"context before lenses", "context behind lenses", "kinds of context pixels",
+                      "kinds of tiles"};
+  made = expect("a coarser context",
+                with(tiles, {"volume/focus.frag", "volume/context_shaded.frag", "volume/context_tiles.frag",
+                             "volume/enlarged.frag"}),
+                context);
+  EXPECT_EQ(made.textures["voxels"], 29U * 29U * 29U + 15U * 15U * 15U);
+  EXPECT_EQ(made.textures["context before lenses"], 8U * kWidth * kHeight);
+
+  view.lenses[0].magnification = 2.0;
+  auto image = std::make_shared<VolumeImage>(*view.image);
+  image->colors = std::make_shared<const std::vector<std::array<std::uint8_t, 4>>>(image->point_count());
+  view.image = image;
+  (void)expect("voxels with colours, which no part shows",
+               with(tiles, {"volume/focus_magnified.frag", "volume/context_shaded.frag",
+                            "volume/context_tiles.frag", "volume/enlarged.frag"}),
+               context);
+  view.lenses[0].colored = true;
+  made = expect("a lens that enlarges and shows them",
+                with(tiles, {"volume/focus_magnified_colored.frag", "volume/context_shaded.frag",
+                             "volume/context_tiles.frag", "volume/enlarged.frag"}),
+                with(context, {"colours of voxels"}));
+  EXPECT_EQ(made.textures["colours of voxels"], 4U * 29U * 29U * 29U);
+}
+
+TEST(GpuObjects, AreNamedWithWhatTheyTake) {
+  const std::string text = gpu_text({{.kind = Kind::kProgram, .what = "volume/volume.frag"},
+                                     {.kind = Kind::kTexture, .what = "voxels", .bytes = 1000000},
+                                     {.kind = Kind::kTexture, .what = "", .bytes = 500000}});
+  EXPECT_NE(text.find("shaders compiled: volume/volume.frag; "), std::string::npos) << text;
+  EXPECT_NE(text.find("texture: voxels"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.5 MB"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace palpate::test
