@@ -21,6 +21,10 @@ endif()
 
 find_program(PALPATE_CCACHE ccache)
 if(PALPATE_CCACHE)
+  # What it takes to cache sources that use precompiled headers.
+  if(NOT DEFINED ENV{CCACHE_SLOPPINESS})
+    list(PREPEND PALPATE_CCACHE ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros)
+  endif()
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${PALPATE_CCACHE})
 endif()
