@@ -14,7 +14,7 @@ float value_at(vec3 g) {
 // Where the ray leaves the empty bricks around its point at t; no more than t where none is empty.
 float end_of_empty(Ray ray, float t, float map) {
   const float kBrickCells = 8.0;
-  vec3 brick = clamp(floor((ray.start + t * ray.speed) / kBrickCells), vec3(0.0), volume.bricks.xyz - 1.0);
+  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), volume.bricks.xyz - 1.0);
   float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map * volume.bricks.z)), 0).x);
   // The nearest brick that is not empty begins `far` bricks away: up to there all are empty.
   vec3 wall = kBrickCells * (brick + mix(vec3(1.0 - far), vec3(far), greaterThan(ray.speed, vec3(0.0))));
@@ -64,7 +64,7 @@ struct Walk {
 // Goes to the next sample, over samples up to `inside` in one step; at the last one it stays.
 vec4 walk_on(inout Walk walk, Ray ray, float inside) {
   float next = min(max(walk.n + 1.0, inside), walk.last);
-  float back = value_at(ray.start + next * walk.d * ray.speed);
+  float back = value_at(point_at(ray, next * walk.d));
   bool blank = inside > walk.n || next == walk.n || isnan(walk.front + back);
   vec4 seen = texture(tables, vec3(walk.front, back, walk.layer)) * (blank ? 0.0 : 1.0);
   walk.n = next;
@@ -84,9 +84,9 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
   bool leaps = volume.bricks.w > 0.5;
 
   float t = min(walk.n * walk.d, to);
-  walk.front = value_at(ray.start + t * ray.speed);
-  gather(short_stretch(value_at(ray.start + from * ray.speed), walk.front, first_layer, t - from),
-         ray.direction, part, ray.start + 0.5 * (from + t) * ray.speed, gathered);
+  walk.front = value_at(point_at(ray, t));
+  gather(short_stretch(value_at(point_at(ray, from)), walk.front, first_layer, t - from),
+         ray.direction, part, point_at(ray, 0.5 * (from + t)), gathered);
 
   while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
     // The last sample that is still in empty bricks.
@@ -97,7 +97,7 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
       seen = walk_on(walk, ray, inside);
       if (seen.a > 0.0) break;
     }
-    gather(seen, ray.direction, part, ray.start + (walk.n - 0.5) * walk.d * ray.speed, gathered);
+    gather(seen, ray.direction, part, point_at(ray, (walk.n - 0.5) * walk.d), gathered);
 #else
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
@@ -106,8 +106,8 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
 
   if (walk.n == walk.last && gathered.a <= volume.lengths.z) {
     t = walk.n * walk.d;
-    gather(short_stretch(walk.front, value_at(ray.start + to * ray.speed), first_layer, to - t),
-           ray.direction, part, ray.start + 0.5 * (t + to) * ray.speed, gathered);
+    gather(short_stretch(walk.front, value_at(point_at(ray, to)), first_layer, to - t),
+           ray.direction, part, point_at(ray, 0.5 * (t + to)), gathered);
   }
 }
 #endif

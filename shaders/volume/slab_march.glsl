@@ -6,7 +6,7 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
   float d = layer_for(part.y, ray) * volume.lengths.x;
   stay_in_slab(d, from, to);
   bool leaps = volume.bricks.w > 0.5;
-  float t = from, front = value_at(ray.start + t * ray.speed);
+  float t = from, front = value_at(point_at(ray, t));
   while (t < to && gathered.a <= volume.lengths.z) {
     vec4 seen = vec4(0.0);
     float middle = t;
@@ -15,13 +15,14 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
       // The last sample that is still in empty bricks.
       float inside = leaps ? floor(end_of_empty(ray, t, part.x) / d) : n;
       float next = min(max(n + 1.0, inside) * d, to);
-      float back = value_at(ray.start + next * ray.speed);
+      float back = value_at(point_at(ray, next));
       if (!(inside > n)) seen = short_stretch(front, back, first_layer, next - t);
-      middle = 0.5 * (t + next);
+      // As march() has it, to the last bit.
+      middle = t == n * d && next == (n + 1.0) * d ? (n + 0.5) * d : 0.5 * (t + next);
       t = next;
       front = back;
       if (seen.a > 0.0 || !(t < to)) break;
     }
-    gather(seen, ray.direction, part, ray.start + middle * ray.speed, gathered);
+    gather(seen, ray.direction, part, point_at(ray, middle), gathered);
   }
 }

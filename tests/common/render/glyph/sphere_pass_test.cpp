@@ -1,5 +1,6 @@
 #include "common/render/glyph/sphere_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -17,6 +18,13 @@ namespace {
 constexpr int kWidth = 160, kHeight = 120;
 // Single precision: of the depth buffer's value, whose slope at grazing rays is what limits it.
 constexpr double kDepthTolerance = 2e-5;
+// Corners of triangles may be moved to the nearest place of a grid this many times finer than pixels, and
+// with them all rays (GL_SUBPIXEL_BITS).
+double subpixels() {
+  GLint bits = 0;
+  glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+  return std::exp2(bits);
+}
 // Rays that miss or hit the silhouette by less than this share of the radius are not judged.
 constexpr double kGrazing = 2e-3;
 
@@ -63,14 +71,22 @@ struct Ray {
   Vec3 origin, direction;
 };
 
-Ray ray_of(const Camera& camera, int column, int row) {
+Ray ray_of(const Camera& camera, double x, double y) {
   const double pixel = camera.view_height / kHeight;
-  const Vec3 aside = (column + 0.5 - 0.5 * kWidth) * pixel * camera.axes[0] +
-                     (row + 0.5 - 0.5 * kHeight) * pixel * camera.axes[1];
+  const Vec3 aside =
+      (x - 0.5 * kWidth) * pixel * camera.axes[0] + (y - 0.5 * kHeight) * pixel * camera.axes[1];
   const Vec3 through = camera.focal_point + aside;
   if (camera.projection == Projection::kPerspective)
     return {eye(camera), glm::normalize(through - eye(camera))};
   return {through + distance(camera) * camera.axes[2], -camera.axes[2]};
+}
+
+// The point of the sphere that a ray meets first; it must not miss.
+Vec3 hit_by(const Ray& ray, const Vec3& center, double radius) {
+  const Vec3 to_center = center - ray.origin;
+  const double along = glm::dot(to_center, ray.direction);
+  const double apart = glm::length(to_center - along * ray.direction);
+  return ray.origin + (along - std::sqrt(radius * radius - apart * apart)) * ray.direction;
 }
 
 void expect_exact(const Camera& camera, const Vec3& center, double radius) {
@@ -81,13 +97,17 @@ void expect_exact(const Camera& camera, const Vec3& center, double radius) {
       make_frame_block(camera, transform, palette_of(Background::kDark), true, kWidth, kHeight);
   Canvas canvas;
   const auto depths = canvas.depths(block, {.center = Vec3f(center), .radius = static_cast<float>(radius)});
+  const auto depth_of = [&](const Vec3& hit) {
+    const Vec4 clip = transform.clip_from_scene * Vec4(hit, 1.0);
+    return 0.5 + 0.5 * clip.z / clip.w;
+  };
+  const double subpixel = 1.0 / subpixels();
   int hits = 0, misses = 0;
   for (int row = 0; row < kHeight; ++row) {
     for (int column = 0; column < kWidth; ++column) {
-      const Ray ray = ray_of(camera, column, row);
+      const Ray ray = ray_of(camera, column + 0.5, row + 0.5);
       const Vec3 to_center = center - ray.origin;
-      const double along = glm::dot(to_center, ray.direction);
-      const double apart = glm::length(to_center - along * ray.direction);
+      const double apart = glm::length(to_center - glm::dot(to_center, ray.direction) * ray.direction);
       const double found = depths[static_cast<std::size_t>(row * kWidth + column)];
       if (std::abs(apart - radius) < kGrazing * radius) continue;
       if (apart > radius) {
@@ -96,10 +116,15 @@ void expect_exact(const Camera& camera, const Vec3& center, double radius) {
         continue;
       }
       ++hits;
-      const double part = std::sqrt(radius * radius - apart * apart);
-      const Vec3 hit = ray.origin + (along - part) * ray.direction;
-      const Vec4 clip = transform.clip_from_scene * Vec4(hit, 1.0);
-      ASSERT_NEAR(found, 0.5 + 0.5 * clip.z / clip.w, kDepthTolerance) << column << " " << row;
+      const double wanted = depth_of(hit_by(ray, center, radius));
+      double moved = 0.0;
+      for (const double side : {-subpixel, subpixel}) {
+        const double beside =
+            depth_of(hit_by(ray_of(camera, column + 0.5 + side, row + 0.5), center, radius));
+        const double above = depth_of(hit_by(ray_of(camera, column + 0.5, row + 0.5 + side), center, radius));
+        moved = std::max({moved, std::abs(beside - wanted), std::abs(above - wanted)});
+      }
+      ASSERT_NEAR(found, wanted, kDepthTolerance + moved) << column << " " << row;
     }
   }
   EXPECT_GT(hits, 10);
