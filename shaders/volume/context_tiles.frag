@@ -18,11 +18,11 @@ layout(location = 0) out uint kind;
 void main() {
   int border = int(ceil(1.0 / context_pixel.x)) + 1;
   Ray ray = pixel_ray();
-  float slack = (0.5 * kTilePixels + float(border)) * sqrt(2.0) * frame.size.z;
+  float pixels = (0.5 * kTilePixels + float(border)) * sqrt(2.0), slack = pixels * frame.size.z;
   if (frame.eye.w > 0.5) slack *= farthest / frame.size.w;
   kind = 0u;
   for (int i = 0; i < volume.counts.x; ++i) {
-    vec2 inside = lens_interval(i, ray, slack);
+    vec2 inside = lens_interval(i, ray, slack, pixels);
     if (inside.x < inside.y && (inside.y > 0.0 || frame.eye.w < 0.5)) kind = 1u;
   }
   if (!has_opaque_depth) return;

@@ -9,8 +9,11 @@
 #include "volume/slab.glsl"
 #endif
 #include "volume/surface.glsl"
-#include "volume/march.glsl"
 #include "volume/lens_segments.glsl"
+#ifdef BLENDED
+#include "volume/blend.glsl"
+#endif
+#include "volume/march.glsl"
 #ifdef MAGNIFIED
 #include "volume/magnify.glsl"
 #endif
@@ -66,6 +69,9 @@ void main() {
       }
     }
     bool seen = volume.parts[owner].w != 1.0;
+#ifdef BLENDED
+    begin_blending(owner - 1);
+#endif
 #ifdef MAGNIFIED
     if (seen && owner > 0 && magnifies(owner - 1)) {
       march_magnified(ray, owner - 1, volume.parts[owner], t, stop, color);

@@ -4,11 +4,16 @@
 // Software rasterisers compute both branches of an `if`: a step reads one voxel and one entry of a table whichever way
 // it goes, bricks are asked every other step, light is computed once a stretch that is seen, and stretches cut short by
 // borders come before and after the loop.
-// Needs volume/volume_block.glsl and volume/ray.glsl, and shaded() where rays are shaded.
+// Needs volume/volume_block.glsl and volume/ray.glsl, shaded() where rays are shaded and volume/blend.glsl where values
+// are blended.
 
 // Table coordinate of the value at g; NaN where there is none.
 float value_at(vec3 g) {
-  return (texture(voxels, (g + 0.5) / volume.points.xyz).x - volume.lower.w) * volume.upper.w + volume.points.w;
+  float number = texture(voxels, (g + 0.5) / volume.points.xyz).x;
+#ifdef BLENDED
+  number = blended_number(number, g);
+#endif
+  return (number - volume.lower.w) * volume.upper.w + volume.points.w;
 }
 
 // Where the ray leaves the empty bricks around its point at t; no more than t where none is empty.
@@ -82,6 +87,9 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
   walk.n = floor(from / walk.d) + 1.0;
   walk.last = ceil(to / walk.d) - 1.0;
   bool leaps = volume.bricks.w > 0.5;
+#ifdef BLENDED
+  leaps = leaps && blended < 0;  // coarser voxels reach into bricks that are empty
+#endif
 
   float t = min(walk.n * walk.d, to);
   walk.front = value_at(point_at(ray, t));

@@ -11,14 +11,7 @@ bool magnifies(int i) { return lenses.centers[i].w > 1.0; }
 // (1), in N.
 vec3 place_seen(int i, vec3 x) {
   vec3 c = lenses.centers[i].xyz, away = x - c;
-  float u = 1e-6;
-  mat4 unit = lenses.unit_from_scene[i];
-  if (unit[3][3] > 0.5) u = max(u, length(mat3(unit) * away));
-  ivec2 range = lenses.faces[i].xy;
-  for (int k = range.x; k < range.x + range.y; ++k) {
-    vec4 plane = lenses.planes[k];
-    u = max(u, dot(plane.xyz, away) / (plane.w - dot(plane.xyz, c)));
-  }
+  float u = border_place(i, x);
   float shrunk = 1.0 / lenses.centers[i].w, outer = clamp((u - kCore) / (1.0 - kCore), 0.0, 1.0);
   return c + away * (shrunk + (1.0 - shrunk) * outer * outer / u);
 }

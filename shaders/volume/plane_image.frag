@@ -25,6 +25,7 @@ in vec3 place;  // N
 layout(location = 0) out vec4 color;
 
 bool inside_lens(int i, vec3 x) {
+  if (circle_place(i, 0.0) > 1.0) return false;
   mat4 unit = lenses.unit_from_scene[i];
   if (unit[3][3] > 0.5 && length((unit * vec4(x, 1.0)).xyz) > 1.0) return false;
   ivec2 range = lenses.faces[i].xy;

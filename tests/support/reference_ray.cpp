@@ -6,6 +6,7 @@
 
 #include "common/base/parallel.h"
 #include "common/math/power_of_two.h"
+#include "common/render/volume/coarse_image.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate::test {
@@ -34,14 +35,35 @@ ReferenceRay::ReferenceRay(const VolumeView& view, const Camera& camera, int wid
   const VolumeImage& image = *view.image;
   numbers_.resize(image.point_count());
   for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = image.number(i);
+  if (draws_context_alone(view) && view.context.level > 0) {
+    coarse_ = coarse_image(image, view.context.level);
+    coarse_numbers_.resize(coarse_->point_count());
+    for (std::size_t i = 0; i < coarse_numbers_.size(); ++i) coarse_numbers_[i] = coarse_->number(i);
+  }
   const double unit = power_of_two(binary_exponent(image.bounds().diagonal()));
   grid_from_data_ = glm::inverse(image.axes / unit) / unit;
   const NumberRange range = table_range(view);
   place_scale_ = (view.table_entries - 1.0) / view.table_entries / (range.upper - range.lower);
 }
 
-double ReferenceRay::number_at(const Vec3& g) const {
-  const Index3 n = view_.image->points;
+double ReferenceRay::coarse_at(const Vec3& g) const {
+  const Vec3 fine = glm::max(Vec3(view_.image->points - 1), Vec3(1.0));
+  return number_at(g * Vec3(coarse_->points - 1) / fine, *coarse_, coarse_numbers_);
+}
+
+double ReferenceRay::number_in(const Lens& lens, const Vec3& g, const Vec3& x, double at_x,
+                               double at_y) const {
+  if (!coarse_ || !has_transition(lens)) return number_at(g);
+  double u = 0.0;
+  if (lens.screen) u = std::hypot(at_x - lens.screen->x, at_y - lens.screen->y) / lens.screen->radius;
+  const Vec3 center = center_of(lens.shape, Vec3(0.0));
+  if (!lens.screen && x != center) u = 1.0 / clip_line(lens.shape, center, x - center).last;
+  const double s = std::clamp((1.0 - u) / lens.transition, 0.0, 1.0);
+  return glm::mix(coarse_at(g), number_at(g), s * s * (3.0 - 2.0 * s));
+}
+
+double ReferenceRay::number_at(const Vec3& g, const VolumeImage& image, const std::vector<double>& numbers) {
+  const Index3 n = image.points;
   const Vec3 bounded = glm::clamp(g, Vec3(0.0), Vec3(n - 1));
   const Index3 cell = glm::min(Index3(glm::floor(bounded)), glm::max(n - 2, Index3(0)));
   const Vec3 u = bounded - Vec3(cell);
@@ -51,10 +73,10 @@ double ReferenceRay::number_at(const Vec3& g) const {
     const Index3 p = glm::min(cell + bit, n - 1);
     double weight = 1.0;
     for (int a = 0; a < 3; ++a) weight *= bit[a] != 0 ? u[a] : 1.0 - u[a];
-    sum += weight * numbers_[static_cast<std::size_t>(p.x) +
-                             static_cast<std::size_t>(n.x) *
-                                 (static_cast<std::size_t>(p.y) +
-                                  static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z))];
+    sum += weight * numbers[static_cast<std::size_t>(p.x) +
+                            static_cast<std::size_t>(n.x) *
+                                (static_cast<std::size_t>(p.y) +
+                                 static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z))];
   }
   return sum;
 }
@@ -111,11 +133,13 @@ Rgba ReferenceRay::cast(double x, double y) const {
   }
   first = std::max(first, nearest);
   last = std::min(last, farthest);
+  const double at_x = (x - 0.5 * width_) / height_, at_y = (y - 0.5 * height_) / height_;
+  const auto in_circle = [&](const Lens& lens) { return !lens.screen || lens.screen->holds(at_x, at_y); };
   std::vector<double> borders;
   if (first < last) borders = {first, last};
   for (const Lens& lens : view_.lenses) {
     const LineInterval inside = clip_line(lens.shape, origin, direction);
-    if (!(inside.first < inside.last)) continue;
+    if (!(inside.first < inside.last) || !in_circle(lens)) continue;
     for (double t : {inside.first, inside.last}) {
       // What is enlarged may be seen out of the volume, too.
       if (magnifies(lens)) t = std::clamp(t, nearest, std::max(nearest, farthest));
@@ -130,8 +154,9 @@ Rgba ReferenceRay::cast(double x, double y) const {
   for (std::size_t part = 0; part + 1 < borders.size(); ++part) {
     const double length = borders[part + 1] - borders[part];
     const Vec3 middle = origin + (borders[part] + 0.5 * length) * direction;
-    const auto owner = std::find_if(view_.lenses.begin(), view_.lenses.end(),
-                                    [&](const Lens& lens) { return lens.shape.contains(middle); });
+    const auto owner = std::find_if(view_.lenses.begin(), view_.lenses.end(), [&](const Lens& lens) {
+      return in_circle(lens) && lens.shape.contains(middle);
+    });
     const bool focus = owner != view_.lenses.end();
     if (focus && owner->cut) continue;
     const ColorTransfer& transfer = focus && owner->transfer ? *owner->transfer : view_.transfer;
@@ -155,7 +180,12 @@ Rgba ReferenceRay::cast(double x, double y) const {
         for (int a = 0; a < 3; ++a) out = out || g[a] < image.lower()[a] || g[a] > image.upper()[a];
         if (out) continue;
       }
-      const double value = image.offset + image.scale * number_at(g);
+      const double number =
+          focus && !bent
+              ? number_in(*owner, g, origin + (borders[part] + (i + 0.5) * step) * direction, at_x, at_y)
+          : !focus && coarse_ ? coarse_at(g)
+                              : number_at(g);
+      const double value = image.offset + image.scale * number;
       const ColorSample sample = transfer.at(value);
       const double thickness = optical_depth(sample.opacity) * h / opacity_length;
       if (thickness <= 0.0) continue;

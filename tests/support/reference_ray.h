@@ -6,9 +6,11 @@
 ///
 ///   C = int tau c T dt      T = exp(-int tau dt)      A = 1 - T
 ///
-/// by the midpoint rule on each part of the ray between borders of the volume and of lenses.
+/// by the midpoint rule on each part of the ray between borders of the volume and of lenses. Where the
+/// context has coarser voxels, it and what goes over into it are without light.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "common/render/camera.h"
@@ -27,7 +29,14 @@ class ReferenceRay {
 
  private:
   // Trilinear between points; beyond them the outermost ones hold.
-  [[nodiscard]] double number_at(const Vec3& g) const;
+  [[nodiscard]] double number_at(const Vec3& g) const { return number_at(g, *view_.image, numbers_); }
+  [[nodiscard]] static double number_at(const Vec3& g, const VolumeImage& image,
+                                        const std::vector<double>& numbers);
+  // Of the coarser voxels, at fine grid coordinates g.
+  [[nodiscard]] double coarse_at(const Vec3& g) const;
+  // What `lens` shows at x, g: its own number, or where values go over some of the coarser one.
+  [[nodiscard]] double number_in(const Lens& lens, const Vec3& g, const Vec3& x, double at_x,
+                                 double at_y) const;
   [[nodiscard]] Vec3 lit(const Vec3& g, const Vec3& color, const Vec3& direction) const;
 
   const VolumeView& view_;
@@ -35,6 +44,8 @@ class ReferenceRay {
   double height_, width_;
   double samples_;
   std::vector<double> numbers_;
+  std::shared_ptr<const VolumeImage> coarse_;  // of the context; null: it has the same
+  std::vector<double> coarse_numbers_;
   Mat3 grid_from_data_;
   double place_scale_;  // table coordinates a number
 };

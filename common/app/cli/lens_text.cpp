@@ -15,8 +15,9 @@ namespace {
 
 constexpr const char* kGrammar =
     "a lens is sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), cylinder:x,y,z,x,y,z,r, "
-    "polyhedron:nx,ny,nz,d,nx,ny,nz,d,... or halfspace:nx,ny,nz,d, and behind it ',cut' where it cuts away, "
-    "',magnify=M', ',samples=N' or ',shading=on' or 'off'";
+    "polyhedron:nx,ny,nz,d,nx,ny,nz,d,..., halfspace:nx,ny,nz,d or screen:x,y,r, and behind it ',cut' where "
+    "it cuts away, "
+    "',magnify=M', ',blend=B', ',samples=N' or ',shading=on' or 'off'";
 
 Vec3 vec_at(const std::vector<double>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
@@ -77,6 +78,15 @@ ConvexShape shape_of(std::string_view text, const std::string& all) {
   if (kind == "polyhedron") return polyhedron_of(rest, refusal);
   if (kind == "halfspace") return parse_beyond(rest, "--lens " + all);
   throw usage_error(refusal);
+}
+
+// A circle on the screen, where the words are of one.
+std::optional<ScreenCircle> circle_of(std::string_view text, const std::string& all) {
+  constexpr std::string_view kKind = "screen:";
+  if (!text.starts_with(kKind)) return std::nullopt;
+  const auto v = parse_numbers(text.substr(kKind.size()), 3, "--lens " + all + ": " + kGrammar);
+  check_above_zero(v[2], all, "radius");
+  return ScreenCircle{.x = v[0], .y = v[1], .radius = v[2]};
 }
 
 std::string joined(std::initializer_list<double> numbers) {
@@ -162,6 +172,8 @@ LensWords parse_lens(const std::string& text) {
       words.off = true;
     } else if (word == "magnify") {
       words.lens.magnification = number_from(1.0, 100.0, what, "--lens " + all + ": magnify");
+    } else if (word == "blend") {
+      words.lens.transition = number_from(0.0, 1.0, what, "--lens " + all + ": blend");
     } else if (word == "samples") {
       words.samples = number_from(0.01, 64.0, what, "--lens " + all + ": samples");
     } else if (word == "shading" && (what == "on" || what == "off")) {
@@ -179,7 +191,8 @@ LensWords parse_lens(const std::string& text) {
     said.push_back(one);
     rest = rest.substr(0, comma);
   }
-  words.lens.shape = shape_of(rest, text);
+  words.lens.screen = circle_of(rest, text);
+  if (!words.lens.screen) words.lens.shape = shape_of(rest, text);
   for (std::size_t i = 0; i < said.size(); ++i) {
     const std::size_t equal = said[i].find('=');
     const std::string_view word = said[i].substr(0, equal);
@@ -194,14 +207,19 @@ LensWords parse_lens(const std::string& text) {
     throw usage_error("--lens " + all + ": only a half-space that cuts can be off");
   if (!lens.cut && lens.magnification > 1.0 && !magnifies(lens))
     throw usage_error("--lens " + all + ": only a shape with a middle and bounds can magnify");
+  if (!lens.cut && lens.transition > 0.0 && !magnifies(lens) && !has_transition(lens))
+    throw usage_error("--lens " + all + ": only a shape with a middle and bounds can blend");
   return words;
 }
 
 std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
-  auto text = shape_text(lens.shape);
+  const auto& circle = lens.screen;
+  auto text = circle ? std::optional("screen:" + joined({circle->x, circle->y, circle->radius}))
+                     : shape_text(lens.shape);
   if (!text) return text;
   if (lens.cut) return *text + ",cut";
   if (lens.magnification > 1.0) *text += ",magnify=" + exact_number(lens.magnification);
+  if (lens.transition > 0.0) *text += ",blend=" + exact_number(lens.transition);
   if (lens.samples_per_voxel != view.samples_per_voxel)
     *text += ",samples=" + exact_number(lens.samples_per_voxel);
   if (lens.shading != view.shading) *text += lens.shading ? ",shading=on" : ",shading=off";

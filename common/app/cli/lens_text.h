@@ -1,11 +1,12 @@
 /// Lenses as words: `--lens` and what a session keeps of those of a window.
 ///
 ///   sphere:x,y,z,r | box:x,y,z,x,y,z (two opposite corners) | cylinder:x,y,z,x,y,z,r (the middles of its
-///   ends) | polyhedron:nx,ny,nz,d,... (where n.x <= d for each) | halfspace:nx,ny,nz,d (where n.x > d)
+///   ends) | polyhedron:nx,ny,nz,d,... (where n.x <= d for each) | halfspace:nx,ny,nz,d (where n.x > d) |
+///   screen:x,y,r (a circle on the screen, in heights of the picture from its middle, y up)
 ///
 /// and behind it, in any order, ",cut": cut away, and ",off" with it where a half-space does not for now;
-/// ",magnify=M"; ",samples=N" a voxel; ",shading=on" or "off", each as outside the lens where it is not said.
-/// Places and lengths in data units.
+/// ",magnify=M"; ",blend=B" (Lens::transition); ",samples=N" a voxel; ",shading=on" or "off", each as outside
+/// the lens where it is not said. Places and lengths in data units.
 #pragma once
 
 #include <optional>

@@ -15,11 +15,14 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
   options.add_several(
       "--lens", volume.lenses,
       "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), "
-      "cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each) or halfspace:nx,ny,nz,d "
-      "(where n.x > d); behind it ',cut' cuts it away (',off' with it: a half-space does not for now), "
-      "',magnify=M' enlarges, ',samples=N' and ',shading=on' "
-      "or "
-      "'off' are its own; may be repeated, the first one wins",
+      "cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each), halfspace:nx,ny,nz,d "
+      "(where n.x > d) or screen:x,y,r (a circle that stays on the screen, in heights of the picture from "
+      "its middle); "
+      "behind it ',cut' cuts it away (',off' with it: a half-space does not for now), "
+      "',magnify=M' enlarges, ',blend=B' has values go over into those of --context-level along that share "
+      "of the "
+      "way to its middle, ',samples=N' and ',shading=on' or 'off' are its own; may be repeated, the first "
+      "one wins",
       "SHAPE", kGroup);
   options.add(
       "--context-viewport", volume.context_viewport,

@@ -25,6 +25,11 @@ double reach_of(const Lens& lens, const Camera& camera) {
 }
 
 void grow(Lens& lens, double notches, const Camera& camera, const Box& bounds) {
+  if (lens.screen) {
+    double& radius = lens.screen->radius;
+    radius = std::clamp(radius * std::exp(kGrowthPerNotch * notches), kSmallestCircle, kLargestCircle);
+    return;
+  }
   const double reach = reach_of(lens, camera), diagonal = bounds.diagonal();
   if (!(reach > 0.0) || !std::isfinite(reach) || !(diagonal > 0.0)) return;  // a half-space has no size
   const double wanted =
@@ -42,7 +47,19 @@ Lens new_lens(const Lens& model, const Vec3& center, const Box& bounds) {
   return lens;
 }
 
+Lens new_screen_lens(const Lens& model) {
+  Lens lens = model;
+  lens.shape = {};
+  lens.screen = ScreenCircle{};
+  return lens;
+}
+
 void LensControl::follow_mouse(const PictureArea& area, const Camera& camera, Lens& lens) const {
+  if (lens.screen) {
+    lens.screen->x = (x_ - area.left - 0.5 * area.width) / area.height;
+    lens.screen->y = (area.top + 0.5 * area.height - y_) / area.height;
+    return;
+  }
   const Vec3 center = center_of(lens.shape, camera.focal_point);
   const Vec3 wanted = under_mouse(camera, size_of(area), {x_ - area.left, y_ - area.top}, center);
   // A half-space goes along its normal alone: its border passes through the point under the mouse.
@@ -62,7 +79,7 @@ bool LensControl::handle(const InputEvent& event, const PictureArea& area, const
     case InputKind::kWheel: {
       if (!followed_ || event.y == 0.0 || !area.contains(x_, y_)) return false;
       Lens& lens = view.lenses[*followed_];
-      if (control_) {
+      if (control_ && !lens.screen) {
         const Vec3 center = center_of(lens.shape, camera.focal_point);
         const Vec3 wanted = pushed(camera, center, event.y, std::nullopt);
         lens.shape = moved(lens.shape, wanted - center_of(lens.shape, wanted));

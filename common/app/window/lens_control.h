@@ -1,7 +1,7 @@
 /// What mouse and keys do to the lenses of a volume. A key begins a lens under the mouse, or takes up the
 /// last one; it follows the mouse in the plane through its middle that the camera faces, the wheel changes
 /// its size, with Ctrl it moves it along the view, and a click or the key leaves it there. Plain arithmetic,
-/// no window.
+/// no window. A lens on the screen follows the mouse there, and is as far as the eye.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +19,10 @@ namespace palpate {
 /// A ball about `center` to begin with, a sixth of the longest side of `bounds` in radius, that shows what is
 /// in it as `model` does.
 [[nodiscard]] Lens new_lens(const Lens& model, const Vec3& center, const Box& bounds);
+
+/// A circle in the middle of the screen, a quarter of its height in radius, that does likewise.
+[[nodiscard]] Lens new_screen_lens(const Lens& model);
+inline constexpr double kSmallestCircle = 0.01, kLargestCircle = 1.0;  ///< radius [heights of the picture]
 
 class LensControl {
  public:

@@ -24,9 +24,13 @@ std::optional<double> reach_of(const ConvexShape& shape) {
   return inside.last > 0.0 ? std::optional(inside.last) : std::nullopt;
 }
 
-/// @return whether the lens is to go.
-bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
-  if (const auto reach = reach_of(lens.shape)) {
+/// @param coarser what lies outside is of coarser voxels. @return whether the lens is to go.
+bool draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarser) {
+  if (lens.screen) {
+    ImGui::SliderScalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle,
+                        &kLargestCircle, "%.2f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SameLine();
+  } else if (const auto reach = reach_of(lens.shape)) {
     constexpr double kLeast = 1e-3, kMost = 1.0;  // diagonals
     const double least = kLeast * bounds.diagonal(), most = kMost * bounds.diagonal();
     double wanted = *reach;
@@ -36,7 +40,7 @@ bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
     }
     ImGui::SameLine();
   }
-  ImGui::TextUnformatted(kind_of(lens.shape));
+  ImGui::TextUnformatted(lens.screen ? "on the screen" : kind_of(lens.shape));
   if (!lens.cut) {
     constexpr double kPlain = 1.0, kMostEnlarged = 8.0, kFewest = 0.5, kMost = 16.0;
     Lens enlarged = lens;
@@ -44,6 +48,15 @@ bool draw_lens(Lens& lens, const Lens& model, const Box& bounds) {
     if (magnifies(enlarged)) {
       ImGui::SliderScalar("magnify", ImGuiDataType_Double, &lens.magnification, &kPlain, &kMostEnlarged,
                           "%.1f x", ImGuiSliderFlags_AlwaysClamp);
+    }
+    constexpr double kHard = 0.0, kSoft = 1.0;
+    Lens blending = lens;
+    blending.transition = kSoft;
+    if (coarser && has_transition(blending)) {
+      ImGui::SliderScalar("blend", ImGuiDataType_Double, &lens.transition, &kHard, &kSoft, "%.2f",
+                          ImGuiSliderFlags_AlwaysClamp);
+      if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("share of the way to the middle in which the coarser values outside go over");
     }
     ImGui::SliderScalar("samples", ImGuiDataType_Double, &lens.samples_per_voxel, &kFewest, &kMost, "%.1f",
                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
@@ -64,16 +77,22 @@ void draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (draw_lens(view.lenses[i], model, bounds)) gone = i;
+    if (draw_lens(view.lenses[i], model, bounds, view.context.level > 0)) gone = i;
     ImGui::PopID();
   }
   if (gone) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(*gone));
   if (view.lenses.size() == kMostLenses) {
     ImGui::TextDisabled("%d lenses: no more are possible", static_cast<int>(kMostLenses));
-  } else if (ImGui::SmallButton("+ lens")) {
-    view.lenses.push_back(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+    return;
   }
+  if (ImGui::SmallButton("+ lens"))
+    view.lenses.push_back(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball in the middle; L moves it with the mouse");
+  ImGui::SameLine();
+  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ on the screen"))
+    view.lenses.push_back(new_screen_lens(model));
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("a circle that stays where it is when the volume is turned; L moves it with the mouse");
 }
 
 }  // namespace palpate

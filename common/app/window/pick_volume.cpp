@@ -36,11 +36,14 @@ std::optional<Vec3> pick_volume(const VolumeView& view, const Box& bounds,
     first = std::max(first, kept.first);
     last = std::min(last, kept.last);
   }
+  // In heights of the picture from its middle.
+  const PicturePoint at{(mouse.x - 0.5 * size.width) / size.height,
+                        (0.5 * size.height - mouse.y) / size.height};
   // Lenses overlap: after each one that the place lies in, all are looked at again.
   for (std::size_t n = 0; n <= view.lenses.size(); ++n) {
     const double before = first;
     for (const Lens& lens : view.lenses) {
-      if (!lens.cut) continue;
+      if (!lens.cut || (lens.screen && !lens.screen->holds(at.x, at.y))) continue;
       const LineInterval gone = clip_line(lens.shape, ray.from, ray.along);
       if (gone.first <= first && first < gone.last) first = gone.last;
     }

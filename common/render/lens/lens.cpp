@@ -100,6 +100,13 @@ bool is_bounded(const ConvexShape& shape) {
   return true;
 }
 
+// Whether there is room between the middle and each face.
+bool has_middle(const ConvexShape& shape) {
+  const Vec3 center = center_of(shape, Vec3(0.0));
+  return std::all_of(shape.half_spaces.begin(), shape.half_spaces.end(),
+                     [&](const ConvexShape::HalfSpace& h) { return glm::dot(h.outward, center) < h.offset; });
+}
+
 }  // namespace
 
 bool ConvexShape::contains(const Vec3& x) const noexcept {
@@ -220,13 +227,19 @@ ConvexShape scaled(ConvexShape shape, double factor) noexcept {
   return shape;
 }
 
+bool ScreenCircle::holds(double at_x, double at_y) const noexcept {
+  return std::hypot(at_x - x, at_y - y) <= radius;
+}
+
 bool magnifies(const Lens& lens) {
-  if (lens.cut || !(lens.magnification > 1.0)) return false;
-  if (!is_bounded(lens.shape)) return false;
-  const auto& faces = lens.shape.half_spaces;
-  const Vec3 center = center_of(lens.shape, Vec3(0.0));
-  return std::all_of(faces.begin(), faces.end(),
-                     [&](const ConvexShape::HalfSpace& h) { return glm::dot(h.outward, center) < h.offset; });
+  if (lens.cut || lens.screen || !(lens.magnification > 1.0)) return false;
+  return is_bounded(lens.shape) && has_middle(lens.shape);
+}
+
+bool has_transition(const Lens& lens) {
+  if (lens.cut || magnifies(lens) || !(lens.transition > 0.0)) return false;
+  const bool everything = !lens.shape.quadric && lens.shape.half_spaces.empty();
+  return everything ? lens.screen.has_value() : is_bounded(lens.shape) && has_middle(lens.shape);
 }
 
 }  // namespace palpate

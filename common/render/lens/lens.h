@@ -68,8 +68,20 @@ struct LineInterval {
 inline constexpr std::size_t kMostLenses = 8;
 inline constexpr std::size_t kMostHalfSpaces = 32;  ///< of one lens
 
+/// A circle on the screen, in heights of the picture from its middle: x to the right, y up.
+struct ScreenCircle {
+  double x = 0.0, y = 0.0;
+  double radius = 0.25;  ///< > 0
+
+  [[nodiscard]] bool holds(double at_x, double at_y) const noexcept;
+  bool operator==(const ScreenCircle&) const = default;
+};
+
 struct Lens {
   ConvexShape shape;
+  /// Where present, the lens is what `shape` holds of the rays through this circle, be the volume turned or
+  /// not; a shape without quadric and half-spaces holds all of them.
+  std::optional<ScreenCircle> screen;
   std::optional<ColorTransfer> transfer;  ///< absent: that of the context
   double samples_per_voxel = 4.0;         ///< > 0
   bool shading = true;
@@ -78,11 +90,18 @@ struct Lens {
   /// >= 1: matter about center_of() is seen this many times as large (shaders/volume/magnify.glsl); it
   /// takes its place among its neighbours again toward the border, which stays where it is.
   double magnification = 1.0;
+  /// In [0, 1]: over this share of the way from the border to center_of() values go over from those of the
+  /// coarser voxels outside (ContextQuality::level) to the lens's own, before they have a colour; 0: at once.
+  double transition = 0.0;
 
   bool operator==(const Lens&) const = default;
 };
 
-/// Whether the lens enlarges: cut away, without bounds or without room about its middle it does not.
+/// Whether the lens enlarges: cut away, without bounds, without room about its middle or on the screen it
+/// does not.
 [[nodiscard]] bool magnifies(const Lens& lens);
+/// Whether values go over at its border: as for magnifies(), but on the screen they do, too; where the lens
+/// enlarges they do not.
+[[nodiscard]] bool has_transition(const Lens& lens);
 
 }  // namespace palpate

@@ -167,7 +167,10 @@ void ContextPicture::bind_pictures(std::uint32_t wanted) const {
   glUniform1ui(volume_shader::kWantedKind, wanted);
 }
 
-void ContextPicture::bind() const { bind_pictures(1); }
+void ContextPicture::bind() const {
+  bind_pictures(1);
+  textures_.bind_voxels(volume_shader::kCoarseVoxels);
+}
 
 void ContextPicture::show() {
   if (!enlarged_) enlarged_ = compile_program("volume/context_tiles.vert", "volume/enlarged.frag");

@@ -34,8 +34,8 @@ class ContextPicture {
 
   /// Draws the tiles of the whole picture that are F enlarged, over the framebuffer that is bound.
   void show();
-  /// Gives F and B to the program in use (shaders/volume/enlarge.glsl), and where it draws
-  /// (shaders/volume/context_tiles.vert): in the other ones of grid().
+  /// Gives F, B and the voxels that they are of to the program in use (shaders/volume/enlarge.glsl,
+  /// blend.glsl), and where it draws (shaders/volume/context_tiles.vert): in the other ones of grid().
   void bind() const;
   [[nodiscard]] const TileGrid& grid() const noexcept { return grid_; }  ///< of the whole picture
 

@@ -16,7 +16,8 @@ inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kLensBlock = 2
 inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4,
                                kColors = 5;
 inline constexpr std::uint32_t kKeptPicture = 6, kKeptDepth = 7;
-inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9;
+inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9,
+                               kCoarseVoxels = 10;
 
 // Uniforms.
 inline constexpr std::int32_t kHasOpaqueDepth = 0;

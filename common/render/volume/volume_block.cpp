@@ -141,6 +141,9 @@ LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame) {
     const double magnification = magnifies(view.lenses[i]) ? view.lenses[i].magnification : 1.0;
     block.centers[i] = {Vec3f(frame.scene_from_data(center_of(shape, frame.center))), magnification};
     block.faces[i] = {static_cast<int>(next), static_cast<int>(shape.half_spaces.size()), 0, 0};
+    const Lens& lens = view.lenses[i];
+    const ScreenCircle circle = lens.screen.value_or(ScreenCircle{.radius = 0.0});
+    block.circles[i] = {circle.x, circle.y, circle.radius, has_transition(lens) ? lens.transition : 0.0};
     for (const ConvexShape::HalfSpace& h : shape.half_spaces) {
       block.planes[next++] = plane_in_scene(h, frame);
     }

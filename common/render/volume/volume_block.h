@@ -54,6 +54,7 @@ struct LensBlock {
   std::array<glm::vec4, kMostLenses> centers{};  ///< middle, magnification
   std::array<glm::ivec4, kMostLenses> faces{};
   std::array<glm::vec4, kMostLenses * kMostHalfSpaces> planes{};
+  std::array<glm::vec4, kMostLenses> circles{};  ///< on the screen: middle, radius (0: none); transition
 };
 
 /// @param bricks an axis. @pre view.image is not null; at most kMostLenses lenses and kMostCuts planes.

@@ -29,21 +29,26 @@ namespace {
 
 enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored, kMagnified, kMagnifiedColored };
 
-/// What is cast of a ray: all of it; a slab, over what is kept; or lenses, over a picture of the context.
-enum class Reach : std::uint8_t { kAll, kSlab, kLenses };
+/// What is cast of a ray: all of it; a slab, over what is kept; or lenses, over a picture of the context,
+/// into whose values theirs may go over.
+enum class Reach : std::uint8_t { kAll, kSlab, kLenses, kBlendedLenses };
 
 /// For each reach and variant; null: that is cast in one go.
-constexpr std::array<std::array<const char*, 6>, 3> kFragments{
+constexpr std::array<std::array<const char*, 6>, 4> kFragments{
     {{"volume/volume.frag", "volume/shaded.frag", "volume/lenses.frag", "volume/colored.frag",
       "volume/magnified.frag", "volume/magnified_colored.frag"},
      {"volume/slab_volume.frag", "volume/slab_shaded.frag", "volume/slab_lenses.frag", nullptr,
       "volume/slab_magnified.frag", nullptr},
      {nullptr, nullptr, "volume/focus.frag", "volume/focus_colored.frag", "volume/focus_magnified.frag",
-      "volume/focus_magnified_colored.frag"}}};
+      "volume/focus_magnified_colored.frag"},
+     {nullptr, nullptr, "volume/focus_blended.frag", "volume/focus_blended_colored.frag",
+      "volume/focus_blended_magnified.frag", "volume/focus_blended_magnified_colored.frag"}}};
 
 const char* fragment_of(Reach reach, Variant variant) {
   return kFragments[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
 }
+
+bool over_context(Reach reach) { return reach == Reach::kLenses || reach == Reach::kBlendedLenses; }
 
 /// Whether the shader is told of lenses, be there none.
 bool knows_lenses(Variant variant) { return variant != Variant::kPlain && variant != Variant::kShaded; }
@@ -82,7 +87,7 @@ struct VolumePass::State {
   const GlProgram& program_of(Reach reach) {
     GlProgram& program = programs[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
     if (!program) {
-      program = compile_program(reach == Reach::kLenses ? "volume/context_tiles.vert" : "volume/volume.vert",
+      program = compile_program(over_context(reach) ? "volume/context_tiles.vert" : "volume/volume.vert",
                                 fragment_of(reach, variant));
       ++cost.programs;
     }
@@ -197,7 +202,10 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   if (slabs) {
     s.begin_slab(opaque_depth);
   } else {
-    s.bind(s.program_of(s.context ? Reach::kLenses : Reach::kAll), s.volume_block, opaque_depth);
+    const Reach reach = !s.context               ? Reach::kAll
+                        : blends_values(s.shown) ? Reach::kBlendedLenses
+                                                 : Reach::kLenses;
+    s.bind(s.program_of(reach), s.volume_block, opaque_depth);
     if (s.context) s.context->bind();
   }
   glEnable(GL_BLEND);

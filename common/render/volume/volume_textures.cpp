@@ -116,6 +116,8 @@ void VolumeTextures::bind(bool colors) const {
   if (colors) glBindTextureUnit(volume_shader::kColors, colors_.name());
 }
 
+void VolumeTextures::bind_voxels(std::uint32_t unit) const { glBindTextureUnit(unit, voxels_->name()); }
+
 void VolumeTextures::update_image(const VolumeView& view, const VolumeTextures* other) {
   if (image_ == view.image) return;
   const bool shared = other != nullptr && other->image_ == view.image;

@@ -26,6 +26,8 @@ class VolumeTextures {
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
+  /// The voxels alone, to another unit.
+  void bind_voxels(std::uint32_t unit) const;
 
   [[nodiscard]] const std::shared_ptr<const VolumeImage>& image() const noexcept { return image_; }
   [[nodiscard]] const Index3& bricks() const noexcept { return ranges_.bricks; }  ///< an axis

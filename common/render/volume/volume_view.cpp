@@ -66,7 +66,15 @@ bool draws_context_alone(const VolumeView& view) {
   return !view.lenses.empty() && !view.colored && (view.context.viewport < 1.0 || view.context.level > 0);
 }
 
-bool asks_tiles(const VolumeView& view) { return view.skip_empty && !has_magnified_parts(view); }
+bool blends_values(const VolumeView& view) {
+  return draws_context_alone(view) && view.context.level > 0 &&
+         std::any_of(view.lenses.begin(), view.lenses.end(),
+                     [](const Lens& lens) { return has_transition(lens); });
+}
+
+bool asks_tiles(const VolumeView& view) {
+  return view.skip_empty && !has_magnified_parts(view) && !blends_values(view);
+}
 
 double opacity_length_of(const VolumeView& view) noexcept {
   constexpr double kPartOfDiagonal = 1.0 / 512.0;

@@ -89,7 +89,10 @@ struct VolumeView {
 /// Whether what lies outside lenses is a picture of its own: where there are some, quality is saved on it,
 /// and its colours are not those of the voxels.
 [[nodiscard]] bool draws_context_alone(const VolumeView& view);
-/// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere.
+/// Whether values go over at the border of some lens: where the context has voxels of its own.
+[[nodiscard]] bool blends_values(const VolumeView& view);
+/// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere, and not
+/// where values are seen that no fine voxel has.
 [[nodiscard]] bool asks_tiles(const VolumeView& view);
 
 /// Length in data units that `view` uses for its opacities.

@@ -132,6 +132,13 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
   EXPECT_EQ(made.textures["voxels"], 29U * 29U * 29U + 15U * 15U * 15U);
   EXPECT_EQ(made.textures["context before lenses"], 8U * kWidth * kHeight);
 
+  view.lenses[0].transition = 0.5;
+  (void)expect(
+      "values that go over at its border",
+      with(kAnyScene, {"volume/tiles.frag", "volume/focus_blended.frag", "volume/context_shaded.frag",
+                       "volume/context_tiles.frag", "volume/enlarged.frag"}),
+      context);
+
   view.lenses[0].magnification = 2.0;
   auto image = std::make_shared<VolumeImage>(*view.image);
   image->colors = std::make_shared<const std::vector<std::array<std::uint8_t, 4>>>(image->point_count());

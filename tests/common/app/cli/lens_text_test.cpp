@@ -41,7 +41,8 @@ TEST(LensText, MeansTheShapesThatItNames) {
 TEST(LensText, GivesTheWordsBack) {
   for (const std::string text :
        {"sphere:1,-2,3,0.5", "box:-1,0,0.25,2,4,8", "cylinder:1,0,0,1,0,4,2,cut", "halfspace:0,0,1,-3,cut",
-        "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,-1,0,0,2", "sphere:1,2,3,4,magnify=2.5"}) {
+        "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,-1,0,0,2", "sphere:1,2,3,4,magnify=2.5", "screen:-0.25,0.5,0.125",
+        "screen:0,0,0.25,cut", "box:-1,0,0.25,2,4,8,blend=0.5"}) {
     EXPECT_EQ(words_of(lens_of(text)), text);
   }
   VolumeView view;
@@ -101,6 +102,13 @@ TEST(LensText, RefusesWhatIsNoLens) {
                                  "polyhedron:1,0,0,1,0,1,0,1,0,0,1,1,magnify=2",
                                  "polyhedron:1,0,0",
                                  "polyhedron:0,0,0,1",
+                                 "screen:0,0",
+                                 "screen:0,0,0",
+                                 "screen:0,0,nan",
+                                 "screen:0,0,0.2,magnify=2",
+                                 "sphere:1,2,3,4,blend=1.5",
+                                 "sphere:1,2,3,4,blend=-0.1",
+                                 "halfspace:0,0,1,3,blend=0.5",
                                  "sphere:1,2,3,4,samples=0",
                                  "sphere:1,2,3,4,shading=dim",
                                  "sphere:1,2,3,4,shading=on,shading=on"}) {

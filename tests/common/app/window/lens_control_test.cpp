@@ -113,6 +113,23 @@ TEST_F(LensControlTest, KeysChangeItsSizeAndAHalfSpaceMovesAlongItsNormal) {
   EXPECT_NEAR(radius(), 0.25, 1e-12);
 }
 
+TEST_F(LensControlTest, ACircleOnTheScreenFollowsTheMouseThere) {
+  view_.lenses = {new_screen_lens(model_)};
+  const ScreenCircle& circle = *view_.lenses[0].screen;
+  EXPECT_EQ(view_.lenses[0].transfer, model_.transfer);
+  move(kArea.left + 0.75 * kArea.width, kArea.top + 0.25 * kArea.height);
+  (void)run(Command::kLens);
+  EXPECT_NEAR(circle.x, 0.25 * kArea.width / kArea.height, 1e-12);
+  EXPECT_NEAR(circle.y, 0.25, 1e-12) << "up";
+  const double before = circle.radius;
+  EXPECT_TRUE(wheel(2.0));
+  EXPECT_GT(circle.radius, 1.1 * before);
+  for (int i = 0; i < 200; ++i) (void)wheel(1.0);
+  EXPECT_EQ(circle.radius, kLargestCircle);
+  for (int i = 0; i < 400; ++i) (void)wheel(-1.0);
+  EXPECT_EQ(circle.radius, kSmallestCircle);
+}
+
 TEST_F(LensControlTest, ALensThatThePanelTookAwayIsNotFollowed) {
   move(250, 120);
   (void)run(Command::kLens);

@@ -11,6 +11,7 @@
 
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
+#include "tests/support/reference_ray.h"
 
 namespace palpate::test {
 namespace {
@@ -78,6 +79,47 @@ TEST_F(ContextPicture, OfAsManyPixelsChangesNothing) {
     inside.view_height = 0.1;
     expect_same(view, inside, name + ", from inside");
   }
+}
+
+// Values, not colours, go over from the coarser voxels to those of the lens.
+TEST(Transition, AgreesWithTheReferenceForEveryShape) {
+  constexpr int kSize = 56;
+  constexpr double kSamples = 40.0, kBound = 2.0 / 255.0;
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = with_context(plain_view(), 1.0, 2);
+  view.transfer = focus_colors();
+  view.samples_per_voxel = 8.0;  // of coarse ones
+  std::vector<NamedLens> all = lenses();
+  all.push_back({"screen", all[0].lens});
+  all.back().lens.shape = {};
+  all.back().lens.screen = ScreenCircle{.x = 0.05, .y = 0.0, .radius = 0.25};
+  for (NamedLens& one : all) {
+    view.lenses = {one.lens};
+    view.lenses[0].transfer.reset();
+    const Camera camera = camera_of(view);
+    const FloatImage hard = picture.draw(view, camera);
+    view.lenses[0].transition = 0.6;
+    if (!has_transition(view.lenses[0])) {
+      EXPECT_EQ(one.name, "half-space");
+      continue;
+    }
+    const FloatImage soft = picture.draw(view, camera);
+    EXPECT_GT(worst_difference(soft, hard), 0.02) << one.name << " does not blend";
+    const Comparison result = compare(soft, ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
+    EXPECT_LE(result.worst, kBound) << one.name << ": " << result.beyond_bound << " pixels";
+    EXPECT_LE(result.exempt, kSize * kSize / 200) << one.name;
+  }
+}
+
+// Without coarser voxels there is nothing to go over into.
+TEST(Transition, ChangesNothingWhereVoxelsAreTheSame) {
+  VolumePicture picture(kWidth, kHeight);
+  VolumeView view = with_context(plain_view(), 0.5);
+  view.lenses = {lenses()[0].lens};
+  const Camera camera = camera_of(view);
+  const FloatImage hard = picture.draw(view, camera);
+  view.lenses[0].transition = 1.0;
+  EXPECT_EQ(worst_difference(picture.draw(view, camera), hard), 0.0);
 }
 
 TEST_F(ContextPicture, EndsAtOpaqueThings) {

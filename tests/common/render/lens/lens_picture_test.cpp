@@ -50,6 +50,42 @@ TEST(LensPicture, AgreesWithTheReferenceForEveryShape) {
   }
 }
 
+TEST(LensPicture, AgreesWithTheReferenceOnTheScreen) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  Lens lens = lenses()[0].lens;
+  lens.screen = ScreenCircle{.x = 0.1, .y = -0.05, .radius = 0.2};
+  for (const bool bounded : {false, true}) {
+    if (!bounded) lens.shape = {};
+    if (bounded) lens.shape = make_half_space({0.1, 0.0, 0.0}, {1.0, 2.0, -0.5});
+    lens.cut = bounded;
+    view.lenses = {lens, lenses()[1].lens};
+    for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic})
+      expect_agreement(picture, view, camera_of(view, {}, projection),
+                       bounded ? "half of a circle" : "a circle");
+  }
+  // It stays where it is when the volume is turned, and nothing changes outside it.
+  view.lenses = {lens};
+  view.lenses[0].shape = {};
+  view.lenses[0].cut = true;
+  const FloatImage cut = picture.draw(view, camera_of(view, {.azimuth = 110.0, .elevation = -20.0}));
+  const FloatImage whole =
+      picture.draw(plain_view(), camera_of(view, {.azimuth = 110.0, .elevation = -20.0}));
+  int changed = 0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const bool inside = lens.screen->holds((x + 0.5) / kSize - 0.5, (y + 0.5) / kSize - 0.5);
+      if (inside) {
+        EXPECT_EQ(cut.at(x, y)[3], 0.0) << x << ' ' << y;
+      } else {
+        EXPECT_NEAR(cut.at(x, y)[3], whole.at(x, y)[3], 0.5 / 255.0) << x << ' ' << y;
+      }
+      changed += inside && whole.at(x, y)[3] > 0.1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, 500);
+}
+
 TEST(LensPicture, AgreesWithTheReferenceUnderLight) {
   VolumeView view = plain_view();
   view.shading = true;
