@@ -13,7 +13,7 @@ namespace palpate {
 Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
-       .groups = {.view = true, .touch = true, .record = true, .replay = true, .notes = true},
+       .groups = {.view = true, .touch = true, .record = true, .replay = true, .notes = true, .part = true},
        .modes = grid_modes(),
        .render = volume_render_verb(grid_modes(), {}),
        .next = "probe FILE --path path.csv --out log.csv",

@@ -334,10 +334,11 @@ class VerbParser {
   }
 
   void add_part() {
-    app_.add_option("--box", options_.slice.box,
-                    "keep what lies in a box, in data units: two opposite corners; default: all")
-        ->type_name("x,y,z,x,y,z")
-        ->group("Part");
+    scene_options_.add(
+        "--box", options_.slice.box,
+        "a box of interest, in data units: two opposite corners; `clip` keeps what lies in it, a "
+        "window shows it, to be dragged and cropped to",
+        "x,y,z,x,y,z", "Part");
   }
 
   void add_turn() {

@@ -1,8 +1,10 @@
 #include "common/app/cli/verb_open.h"
 
+#include <optional>
 #include <utility>
 
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/slice_plane.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/window_touch.h"
 #include "common/app/window/window.h"
@@ -41,6 +43,8 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .command_line = context.command_line,
       .version = version_text(context.explorer.name),
       .touch = std::move(touch),
+      .region =
+          options.slice.box.empty() ? std::nullopt : std::optional(parse_box(options.slice.box, "--box")),
       .plotted = options.series.plot,
       .play_rate = options.view.play_rate,
       .threads = options.common.threads,

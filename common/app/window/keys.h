@@ -31,6 +31,7 @@ enum class Command : std::uint8_t {
   kSaveLines,
   kUndo,
   kLocalLines,
+  kCorner,  ///< of the region of interest, at the probe
   kLockX,
   kLockY,
   kLockZ,

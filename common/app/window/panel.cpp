@@ -275,6 +275,10 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
     section("ON PLANES");
     edit_plane_images(volume, histogram);
   }
+  if (state.region != nullptr) {
+    section("REGION");
+    actions.region = edit_region(*state.region, *volume.image);
+  }
   section("LENSES");
   draw_lens_panel(volume, scene.lens, scene.info->bounds);
   if (volume.lenses.empty()) return;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/app/window/live_picture.h"
+#include "common/app/window/region_panel.h"
 #include "common/app/window/seed_choice.h"
 #include "common/app/window/series_panel.h"
 #include "common/app/window/touch_panel.h"
@@ -33,6 +34,7 @@ struct PanelState {
   std::string plotted;               ///< edited; empty: nothing
   bool keep_steps = false;           ///< edited: those that were read for the plot stay in memory
   std::optional<SeriesPlot> series;  ///< none where nothing is plotted
+  RegionControl* region = nullptr;   ///< of a volume
   ProbeSession* touch = nullptr;     ///< null or not available(): no such part
   bool grabbed = false;
   bool marking = false;                     ///< clicks mark places
@@ -57,6 +59,7 @@ struct PanelActions {
   bool save_focus = false;         ///< that of new lenses to PanelState::focus_file
   std::optional<double> time;      ///< of the step nearest to it
   TouchActions touch;
+  RegionActions region;
 };
 
 /// Parts of the window [pixels].

@@ -1,12 +1,16 @@
 #include "common/app/window/saved_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/field/color_transfer_file.h"
+#include "common/field/grid/image_resample.h"
 #include "common/load/write_annotations.h"
+#include "common/load/write_image.h"
 
 namespace palpate {
 
@@ -48,10 +52,47 @@ std::filesystem::path SavedFiles::save_transfer(const std::string& name,
 
 std::filesystem::path SavedFiles::save_annotations(std::span<const Annotation> annotations,
                                                    const std::string& ending) const {
-  std::filesystem::path path = folder_ / ("annotations" + ending);
-  for (int number = 2; std::filesystem::exists(path); ++number)
-    path = folder_ / ("annotations-" + std::to_string(number) + ending);
+  std::filesystem::path path = free_name("annotations", ending);
   write_annotations(path, annotations, false);
+  return path;
+}
+
+std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Box& region,
+                                              const std::string& ending) const {
+  const UniformTopology grid{.points = image.points, .origin = image.origin, .axes = image.axes};
+  const auto part = points_in(grid, region);
+  PALPATE_CHECK(part.has_value());
+  const Index3 n = part->points();
+  const std::size_t across = static_cast<std::size_t>(grid.points.x);
+  const std::size_t layer = across * static_cast<std::size_t>(grid.points.y);
+  std::vector<float> values;
+  values.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+                 static_cast<std::size_t>(n.z));
+  for (int k = part->first.z; k <= part->last.z; ++k) {
+    for (int j = part->first.y; j <= part->last.y; ++j) {
+      for (int i = part->first.x; i <= part->last.x; ++i) {
+        const std::size_t at = static_cast<std::size_t>(i) + across * static_cast<std::size_t>(j) +
+                               layer * static_cast<std::size_t>(k);
+        values.push_back(static_cast<float>(image.value(at)));
+      }
+    }
+  }
+  float lowest = HUGE_VALF;
+  for (const float value : values) {
+    if (std::isfinite(value)) lowest = std::min(lowest, value);
+  }
+  for (float& value : values) {
+    if (!std::isfinite(value)) value = std::isfinite(lowest) ? lowest : 0.0F;
+  }
+  std::filesystem::path path = free_name("crop", ending);
+  write_image(path, part_of(grid, *part), ImageContent::kScalar, values, ImageConvention::kMrtrix, false);
+  return path;
+}
+
+std::filesystem::path SavedFiles::free_name(const std::string& stem, const std::string& ending) const {
+  std::filesystem::path path = folder_ / (stem + ending);
+  for (int number = 2; std::filesystem::exists(path); ++number)
+    path = folder_ / (stem + "-" + std::to_string(number) + ending);
   return path;
 }
 

@@ -14,6 +14,7 @@
 #include "common/geometry/annotation.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
+#include "common/render/volume/volume_image.h"
 
 namespace palpate {
 
@@ -36,11 +37,19 @@ class SavedFiles {
   /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
   [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
                                                        const std::string& ending) const;
+  /// Saves the voxels of `image` in `region` as `crop` and `ending`, .nii.gz, .nrrd or .vti, under the first
+  /// number that is free: in single precision, the lowest value where there is none, as `grid clip` does.
+  /// @pre some are in it.
+  [[nodiscard]] std::filesystem::path save_region(const VolumeImage& image, const Box& region,
+                                                  const std::string& ending) const;
   /// Saves a picture under the first number that is free.
   [[nodiscard]] std::filesystem::path save_picture(const Image& image,
                                                    const std::vector<PngText>& texts) const;
 
  private:
+  /// `stem` and `ending` in the folder, numbered where that is taken.
+  [[nodiscard]] std::filesystem::path free_name(const std::string& stem, const std::string& ending) const;
+
   std::filesystem::path folder_;
   std::string program_;
   using Lines = std::set<std::shared_ptr<const Line>>;

@@ -25,6 +25,7 @@
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
 #include "common/app/window/plane_image_control.h"
+#include "common/app/window/region_control.h"
 #include "common/app/window/saved_files.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
@@ -35,6 +36,7 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/geometry/box_edges.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 
@@ -54,7 +56,8 @@ class Window {
         options_(options),
         files_(options.picture_folder, options.program),
         glfw_(options),
-        view_(options.view) {
+        view_(options.view),
+        region_control_(options.region) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
@@ -65,6 +68,7 @@ class Window {
     touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
     touch_control_ = std::make_unique<TouchControl>(*touch_);
     state_.touch = touch_.get();
+    state_.region = &region_control_;
     state_.recent = options_.recent;
     state_.plotted = options_.plotted;
     state_.play_rate = options_.play_rate;
@@ -96,6 +100,7 @@ class Window {
                         .view = view_,
                         .settings = state_.settings,
                         .message = state_.message,
+                        .region = region_control_.box(),
                         .probe = touch_->readout(),
                         .tensor = state_.tensor,
                         .replay = touch_->replay_verdict(),
@@ -232,6 +237,7 @@ class Window {
     show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
       plotted_.clear();  // of another input
+      if (job_kind_ == JobKind::kOpen) region_control_ = RegionControl();
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;
       needs_camera_ = true;
@@ -340,6 +346,11 @@ class Window {
     if (actions.touch.mark) touch_control_->mark(!touch_control_->marking());
     if (!actions.touch.save_notes.empty())
       attempt([&] { return files_.save_annotations(touch_->notes().entries(), actions.touch.save_notes); });
+    if (!actions.region.crop.empty()) {
+      attempt([&] {
+        return files_.save_region(*view_.volume->image, *region_control_.box(), actions.region.crop);
+      });
+    }
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
     // Surfaces are solid: they would hide what is in a lens.
@@ -385,7 +396,10 @@ class Window {
       }
     }
     const PlanePoses& poses = touch_->planes()->poses;
-    if (!(poses == cut_planes_)) live_->lens_moved(glfwGetTime());
+    if (!(poses == cut_planes_)) {
+      live_->lens_moved(glfwGetTime());
+      region_changes_ = region_control_.changes();
+    }
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
   }
@@ -408,7 +422,7 @@ class Window {
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
       // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
       const bool of_lens = event.kind == InputKind::kPress && lens_control_.followed();
-      if (!of_panel && !handle_plane_image(event, parts.picture) &&
+      if (!of_panel && !handle_region(event, parts.picture) && !handle_plane_image(event, parts.picture) &&
           !(of_lens && handle_lens(event, parts.picture)) &&
           !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
           !handle_lens(event, parts.picture) &&
@@ -429,6 +443,14 @@ class Window {
     if (!view_.volume) return false;
     if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
+  }
+
+  // While the probe is grabbed the mouse is its own.
+  bool handle_region(const InputEvent& event, const PictureArea& area) {
+    if (!view_.volume || (touch_control_->grabbed() && event.kind != InputKind::kMove)) return false;
+    const bool taken = region_control_.handle(event, area, view_.camera, view_.bounds);
+    if (region_control_.dragging()) live_->lens_moved(glfwGetTime());
+    return taken;
   }
 
   bool handle_plane_image(const InputEvent& event, const PictureArea& area) {
@@ -465,6 +487,7 @@ class Window {
         slice_control_.let_go();
         lens_control_.let_go();
         plane_image_control_.let_go();
+        region_control_.let_go();
         touch_control_->let_go();
         touch_control_->mark(false);
         state_.show_help = state_.playing = false;
@@ -473,6 +496,23 @@ class Window {
         break;
       case Command::kQuit:
         glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+        break;
+      case Command::kCorner:
+        if (!view_.volume) break;
+        if (touch_->readout().held) {
+          say(region_control_.put_corner(touch_->readout().proxy), false);
+        } else {
+          say("grab the probe (G) first: the corner is put where it is", false);
+        }
+        break;
+      case Command::kUndo:
+        // What was changed last, of planes and the box.
+        if (!touch_control_->marking() && region_control_.changes() > region_changes_ &&
+            region_control_.undo()) {
+          say("undone", false);
+        } else {
+          run_touch(command);
+        }
         break;
       case Command::kVolume:
         if (view_.volume) view_.volume->shown = !view_.volume->shown;
@@ -586,6 +626,7 @@ class Window {
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> set_options() const {
     auto set = touch_->options();
     if (!state_.plotted.empty()) set.emplace_back("plot", state_.plotted);
+    if (const auto& box = region_control_.box(); box && view_.volume) set.emplace_back("box", box_text(*box));
     if (state_.play_rate != kPlayRate) set.emplace_back("play-rate", exact_number(state_.play_rate));
     return set;
   }
@@ -617,10 +658,18 @@ class Window {
     picture.notes = notes_of(
         touch_->notes(), length_unit(picture),
         touch_->notes().pending().empty() ? std::nullopt : touch_control_->next_mark(picture_, view_));
-    if (touch_->planes()) {
-      for (auto& line : lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius()))
-        picture.outline.push_back(std::move(line));
+    std::vector<std::vector<Vec3>> handled;
+    if (touch_->planes())
+      handled = lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius());
+    if (picture.volume) {
+      if (region_control_.box()) {
+        for (auto& edge : box_edges(*region_control_.box())) handled.push_back(std::move(edge));
+      }
+      if (auto dots = region_control_.dots(); !dots.empty())
+        picture.notes.push_back({.points = std::move(dots), .outline = {}, .words = {}});
     }
+    if (!handled.empty() && picture.outline.empty()) picture.outline = box_edges(picture.bounds);
+    picture.outline.insert(picture.outline.end(), handled.begin(), handled.end());
     return picture;
   }
 
@@ -659,7 +708,9 @@ class Window {
   SliceControl slice_control_;
   LensControl lens_control_;
   PlaneImageControl plane_image_control_;
-  PlanePoses cut_planes_;  // those of the hand for which the first cuts stand
+  RegionControl region_control_;
+  int region_changes_ = 0;  // so many when planes were last moved
+  PlanePoses cut_planes_;   // those of the hand for which the first cuts stand
   std::optional<InputFiles> to_open_;
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved

@@ -32,6 +32,7 @@ struct WindowOptions {
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   ProbeSessionOptions touch;                   ///< without modes: the window knows no touch
+  std::optional<Box> region;                   ///< of interest, in a volume
   std::string plotted;                         ///< one of SceneInfo::plotted, or empty
   double play_rate = kPlayRate;                ///< time steps a second
   int threads = 0;                             ///< of what is read beside the picture; 0: all cores
@@ -59,6 +60,7 @@ struct WindowResult {
   SceneSettings settings;          ///< at the end
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
+  std::optional<Box> region;         ///< at the end
   ProbeReadout probe;                ///< at the end
   std::optional<TensorPick> tensor;  ///< that is read out under the mouse at the end
   std::string replay;                ///< verdict on a replay that came to its end

@@ -1,4 +1,5 @@
 // A window that shows a volume in place of lines.
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "common/app/window/panel.h"
 #include "common/app/window/picture_panels.h"
+#include "common/app/window/region_control.h"
 #include "common/app/window/window.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/color_transfer_file.h"
@@ -28,29 +30,36 @@ class VolumeModel : public WindowModel {
     return make(settings);
   }
   std::string save_session(const SceneSettings&, const SceneView& view,
-                           const std::vector<std::pair<std::string, std::string>>&) override {
+                           const std::vector<std::pair<std::string, std::string>>& set) override {
+    set_saved = set;
     samples_saved = view.volume ? view.volume->samples_per_voxel : 0.0;
     return "voxel.toml";
   }
 
   std::atomic<int> updated{0};
   std::atomic<double> samples_saved{0.0};
+  std::vector<std::pair<std::string, std::string>> set_saved;
+
+  static Box bounds() { return image()->bounds(); }
 
  private:
+  static std::shared_ptr<const VolumeImage> image() {
+    static const auto voxel = make_volume_image(volume_example("voxel"), kVolumeArray, "voxel");
+    return voxel;
+  }
   static SceneState make(const SceneSettings& settings) {
-    static const auto image = make_volume_image(volume_example("voxel"), kVolumeArray, "voxel");
     auto info = std::make_shared<SceneInfo>();
     info->name = "voxel";
     info->fields = {"scalars", "others"};
-    info->bounds = image->bounds();
+    info->bounds = bounds();
     info->anatomical = true;
     SceneState scene;
     scene.info = info;
     scene.settings = settings;
     scene.lines = std::make_shared<const std::vector<Line>>();
     scene.volume =
-        VolumeView{.image = image,
-                   .transfer = make_color_transfer(ColorPreset::kDensity, image->lowest, image->highest)};
+        VolumeView{.image = image(),
+                   .transfer = make_color_transfer(ColorPreset::kDensity, image()->lowest, image()->highest)};
     return scene;
   }
 };
@@ -112,6 +121,40 @@ TEST_F(VolumeWindow, PutsALensUnderTheMouseThatTheWheelMakesLarger) {
   EXPECT_NEAR(shown.x + parts.picture.left, 480.0, 1.5);
   EXPECT_NEAR(shown.y, 210.0, 1.5);
   EXPECT_GT(clip_line(shape, center, Vec3(1.0, 0.0, 0.0)).last, 1.05 * result.view.bounds.size().x / 6.0);
+}
+
+// The dot on the upper face along x, dragged by the mouse; then Ctrl+S, and in another window Ctrl+Z.
+TEST_F(VolumeWindow, DragsAFaceOfTheRegionSavesItAndTakesItBack) {
+  const Box bounds = model_.bounds(), box = new_region(bounds);
+  options_.region = box;
+  options_.frames = 20;
+  const WindowLayout parts = layout(640, 480, 14.0F);
+  const auto width = static_cast<int>(parts.picture.width), height = static_cast<int>(parts.picture.height);
+  const Camera camera = make_camera(bounds, options_.angles, parts.picture.width / parts.picture.height,
+                                    Projection::kOrthographic);
+  const auto shown = [&](double x) {
+    Vec3 at = box.center();
+    at.x = x;
+    return project(camera, at, width, height) + Vec3(parts.picture.left, parts.picture.top, 0.0);
+  };
+  const double wanted = box.upper.x + 0.125 * bounds.size().x;
+  const Vec3 from = shown(box.upper.x), to = shown(wanted);
+  options_.script = {{2, {.kind = InputKind::kMove, .x = from.x, .y = from.y}},
+                     {4, {.kind = InputKind::kPress}},
+                     {6, {.kind = InputKind::kMove, .x = to.x, .y = to.y}},
+                     {8, {.kind = InputKind::kRelease}},
+                     {10, {.kind = InputKind::kKeyDown, .key = 'S', .modifiers = kModifierControl}}};
+  const WindowResult dragged = run_window(model_, options_);
+  ASSERT_TRUE(dragged.region);
+  EXPECT_NEAR(dragged.region->upper.x, wanted, 1e-9 * bounds.diagonal());
+  EXPECT_EQ(dragged.region->lower, box.lower);
+  EXPECT_EQ(dragged.view.camera.axes, camera.axes);  // it has not turned the view
+  const std::pair<std::string, std::string> saved{"box", box_text(*dragged.region)};
+  EXPECT_NE(std::ranges::find(model_.set_saved, saved), model_.set_saved.end());
+  options_.script.push_back({12, {.kind = InputKind::kKeyDown, .key = 'Z', .modifiers = kModifierControl}});
+  const WindowResult undone = run_window(model_, options_);
+  ASSERT_TRUE(undone.region);
+  EXPECT_EQ(undone.region->upper, box.upper);
 }
 
 // The fourth of the preset's points, dragged up in the editor: an own function, which the model is asked for.

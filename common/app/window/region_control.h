@@ -1,0 +1,69 @@
+/// The region of interest of a volume: a box along the axes of its coordinates, to be cropped to. The mouse
+/// takes hold of the dots in the middle of its faces, which go along their axis, and of the one in its own
+/// middle; the probe puts its corners. Plain arithmetic, no window.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/app/window/input_event.h"
+#include "common/app/window/view_control.h"
+#include "common/render/camera.h"
+
+namespace palpate {
+
+/// The middle of `bounds`, half as long along each axis.
+[[nodiscard]] Box new_region(const Box& bounds);
+
+/// The corners as the option --box has them: x,y,z,x,y,z.
+[[nodiscard]] std::string box_text(const Box& box);
+
+class RegionControl {
+ public:
+  RegionControl() = default;
+  explicit RegionControl(const std::optional<Box>& box) : box_(box) {}
+
+  /// Data units; none to begin with.
+  [[nodiscard]] const std::optional<Box>& box() const noexcept { return box_; }
+  /// Another box, or none; undo() goes back.
+  void put(const std::optional<Box>& box);
+  /// Another box still, which undo() takes back together with the last put().
+  void change(const Box& box) { box_ = box; }
+  /// Presses take hold of the dot that is nearest to the mouse, within a few pixels; a face stays within
+  /// `bounds` and on its side of the one across, the middle where the whole box is within them.
+  /// @return whether the event was for the box.
+  bool handle(const InputEvent& event, const PictureArea& area, const Camera& camera, const Box& bounds);
+  /// A first corner at `x`, then the one across from it; later, the corner nearest to `x` goes there.
+  /// @return what to tell the user.
+  std::string put_corner(const Vec3& x);
+  /// Takes back the last change, a drag as one. @return whether there was one.
+  bool undo();
+  [[nodiscard]] bool dragging() const noexcept { return held_.has_value(); }
+  void let_go() noexcept { held_.reset(); }
+  /// Goes up with every change of the box that undo() takes back.
+  [[nodiscard]] int changes() const noexcept { return changes_; }
+
+  /// The dots, or the first of two corners; none where there is no box.
+  [[nodiscard]] std::vector<Vec3> dots() const;
+
+ private:
+  struct Hold {
+    std::size_t handle = 0;   ///< 2 axis + side, or kMiddle
+    double x = 0.0, y = 0.0;  ///< where the mouse went down [pixels]
+    Box from;                 ///< the box then
+  };
+  static constexpr std::size_t kMiddle = 6;
+  [[nodiscard]] static std::array<Vec3, kMiddle + 1> handles(const Box& box);
+  void drag(const PictureArea& area, const Camera& camera, const Box& bounds);
+
+  std::optional<Box> box_;
+  std::optional<Vec3> corner_;  ///< the first of two
+  std::vector<std::optional<Box>> before_;
+  int changes_ = 0;
+  double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
+  std::optional<Hold> held_;
+};
+
+}  // namespace palpate
