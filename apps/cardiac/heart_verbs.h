@@ -1,4 +1,5 @@
-/// The verbs of hearts: tetrahedra, values over time, lines along fibres, maps of angles, pictures of layers.
+/// The verbs of hearts: tetrahedra, values over time, lines along fibres, maps of angles, pictures of layers,
+/// and what errors all that has.
 #pragma once
 
 #include <vector>
@@ -12,6 +13,7 @@ namespace palpate {
 [[nodiscard]] Verb convert_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb mesh_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb heart_report_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);
 
 }  // namespace palpate

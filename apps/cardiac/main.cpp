@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                    {"cardiac mesh heart.exelem.gz --out heart.vtu", "tetrahedra, and how good they are"},
                    {"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
                     "feel along a recorded path"},
+                   {"cardiac report heart.exelem.gz --out report", "error against run time, on this heart"},
                    {"cardiac --example list", "the built-in hearts"}},
       .verbs = {
           info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
@@ -58,6 +59,10 @@ int main(int argc, char** argv) {
                 "cut open"},
                {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out felt.png",
                 "with what a hand on that path has felt"}}),
+          heart_report_verb({{"cardiac report heart.exelem.gz --out report",
+                              "errors of volume, layers, angles, fibres and friction beside run time"},
+                             {"cardiac report --example ventricle --quick --out report",
+                              "the built-in ventricle, in a few seconds"}}),
           open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
                      {"cardiac --example ventricle", "a built-in heart"},
                      {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),

@@ -24,6 +24,8 @@ constexpr int kMostWays = 64;      // straight pieces from a seed to its layer
 /// Of the largest coordinate: a line is never more exact.
 constexpr double kRounding = 0x1p-44;
 constexpr double kLoopErrors = 4.0;
+/// How much farther apart 2h and h are than h is off, for errors of that order in h.
+constexpr double kFirstOrder = 1.0, kSecondOrder = 3.0;
 
 /// Frame L.
 struct Point {
@@ -113,8 +115,8 @@ class Tracer {
         if (half.cell >= 0) push(line, half.x, arc, error + half.held + rounding_);
         break;
       }
-      constexpr double kRichardson = 15.0;
-      error += glm::distance(twice.x, once.x) / kRichardson + half.held + twice.held + rounding_;
+      const double apart_by = on_layer_ ? kFirstOrder : kSecondOrder;
+      error += glm::distance(twice.x, once.x) / apart_by + half.held + twice.held + rounding_;
       arc += 2.0 * h;
       at = twice;
       along = end_along;

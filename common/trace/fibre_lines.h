@@ -5,9 +5,12 @@
 /// hand feels it with (isosurface.h), so each point lies on it to rounding. Through the wall it follows the
 /// fibre as it is. Signs are chosen along the way.
 ///
-/// Two steps of h are compared with one of 2h: their distance over 15 is the error estimate of both
-/// (Richardson; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, sec. II.4), summed up
-/// along the line. It speaks of the method: what the mesh leaves out of the heart is not in it.
+/// Two steps of h are compared with one of 2h. Between kinks their distance over 15 would be the error of
+/// both (Richardson; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, sec. II.4), but
+/// lines cross kinks at every cell: on a layer the facets of the isosurface turn what is left of the
+/// direction, so that errors fall at first order in h, and the distance itself is the estimate; through the
+/// wall the direction is continuous, and it is a third of the distance. They are summed up along the line. It
+/// speaks of the method: what the mesh leaves out of the heart is not in it.
 ///
 /// Lines end at the rim of the layer or the border of the mesh (left_domain, found by halving), where the
 /// gap falls below the cut-off or the fibre stands on the layer (below_cutoff), where fibres are not known

@@ -68,7 +68,31 @@ Mat3 Ventricle::wall_axes(const Prolate& at) const noexcept {
 Vec3 Ventricle::fibre(const Prolate& at) const noexcept {
   const Mat3 axes = wall_axes(at);
   const double alpha = helix_angle(at.lambda);
-  return std::cos(alpha) * axes[0] + std::sin(alpha) * axes[1];
+  return std::cos(imbrication) * (std::cos(alpha) * axes[0] + std::sin(alpha) * axes[1]) +
+         std::sin(imbrication) * axes[2];
+}
+
+Vec3 Ventricle::sheet(const Prolate& at) const noexcept {
+  const Mat3 axes = wall_axes(at);
+  const double alpha = helix_angle(at.lambda);
+  return std::cos(imbrication) * axes[2] -
+         std::sin(imbrication) * (std::cos(alpha) * axes[0] + std::sin(alpha) * axes[1]);
+}
+
+double Ventricle::volume() const noexcept {
+  // h_lambda h_mu h_theta = f^3 (sinh^2 lambda + sin^2 mu) sinh lambda sin mu, a sum of two products.
+  const auto radial = [](double lambda) { return std::cosh(lambda); };
+  const auto radial3 = [](double lambda) { return std::pow(std::cosh(lambda), 3) / 3.0 - std::cosh(lambda); };
+  const auto polar = [](double mu) { return -std::cos(mu); };
+  const auto polar3 = [](double mu) { return std::pow(std::cos(mu), 3) / 3.0 - std::cos(mu); };
+  const auto across = [this](const auto& of) { return of(lambda_outer) - of(lambda_inner); };
+  const auto along = [this](const auto& of) { return of(mu_base) - of(0.0); };
+  return 2.0 * kPi * std::pow(focus, 3) * (across(radial3) * along(polar) + across(radial) * along(polar3));
+}
+
+double Ventricle::potential(double lambda) const noexcept {
+  const auto q = [](double at) { return std::log(std::tanh(0.5 * at)); };
+  return (q(lambda) - q(lambda_inner)) / (q(lambda_outer) - q(lambda_inner));
 }
 
 double Ventricle::turn(double lambda, double mu) const noexcept {
@@ -89,11 +113,11 @@ DataSet ventricle_mesh(const Ventricle& ventricle, const VentricleCells& cells) 
       for (int r = 0; r < (l == 0 ? 1 : cells.around); ++r) {
         const Prolate at{lambda, ventricle.mu_base * l / cells.along, 2.0 * kPi * r / cells.around};
         add(positions, ventricle.position(at));
-        const Mat3 axes = ventricle.wall_axes(at);
         const Vec3 fibre = l == 0 ? Vec3{kNaN} : ventricle.fibre(at);
         add(fibres, fibre);
-        add(sheets, l == 0 ? Vec3{kNaN} : axes[2]);
-        add(normals, l == 0 ? Vec3{kNaN} : glm::cross(fibre, axes[2]));
+        const Vec3 sheet = l == 0 ? Vec3{kNaN} : ventricle.sheet(at);
+        add(sheets, sheet);
+        add(normals, glm::cross(fibre, sheet));
         layer.push_back(s);
         surface.push_back(w == 0 ? 1.0 : w == cells.wall ? 2.0 : 0.0);
       }

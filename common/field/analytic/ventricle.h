@@ -8,7 +8,7 @@
 ///
 /// the wall is lambda_in <= lambda <= lambda_out, 0 <= mu <= mu_base. Its layers are the confocal ellipsoids
 /// of constant lambda; the depth s = (lambda - lambda_in) / (lambda_out - lambda_in) is 0 on the inner and 1
-/// on the outer surface. Fibres lie in the layers, at the helix angle
+/// on the outer surface. Fibres lie in the layers (but for an imbrication), at the helix angle
 ///
 ///   alpha(s) = (1 - s) alpha_in + s alpha_out                                                       (2)
 ///
@@ -40,6 +40,8 @@ struct Ventricle {
   double mu_base = 1.9;                      ///< [rad]: a little above the equator
   double alpha_inner = 1.0471975511965976;   ///< [rad]
   double alpha_outer = -1.0471975511965976;  ///< [rad]
+  /// Angle by which fibres rise out of their layer, outwards; the sheet is turned with them [rad].
+  double imbrication = 0.0;
 
   [[nodiscard]] Vec3 position(const Prolate& at) const noexcept;
   /// The inverse of position(); theta in (-pi, pi].
@@ -50,6 +52,12 @@ struct Ventricle {
   /// @pre mu > 0.
   [[nodiscard]] Mat3 wall_axes(const Prolate& at) const noexcept;
   [[nodiscard]] Vec3 fibre(const Prolate& at) const noexcept;  ///< unit. @pre mu > 0.
+  [[nodiscard]] Vec3 sheet(const Prolate& at) const noexcept;  ///< unit, across the fibre. @pre mu > 0.
+  [[nodiscard]] double volume() const noexcept;                ///< of the wall [mm^3]
+  /// The solution of Laplace's equation that is 0 on the inner and 1 on the outer surface, with no flux
+  /// through the base: ln tanh(lambda / 2) up to two constants, since confocal ellipsoids are its
+  /// equipotentials.
+  [[nodiscard]] double potential(double lambda) const noexcept;
   /// (3) without theta_0: how far a fibre has turned by mu. @pre alpha and mu not zero.
   [[nodiscard]] double turn(double lambda, double mu) const noexcept;
 };
@@ -60,8 +68,8 @@ struct VentricleCells {
 };
 
 /// The ventricle as a mesh of hexahedra, wedges at the apex, with the point arrays "fibre", "sheet" and
-/// "normal" (unit; the sheet transmural, NaN at the apex), "layer" (the depth) and "surface"
-/// (layer/wall_surfaces.h).
+/// "normal" (unit; the sheet transmural but for an imbrication, NaN at the apex), "layer" (the depth) and
+/// "surface" (layer/wall_surfaces.h).
 [[nodiscard]] DataSet ventricle_mesh(const Ventricle& ventricle, const VentricleCells& cells);
 
 }  // namespace palpate

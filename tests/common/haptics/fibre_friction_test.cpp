@@ -4,34 +4,20 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/ventricle.h"
+#include "common/report/fibre_chain.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
-#include "tests/common/haptics/fibre_chain.h"
 #include "tests/support/shared_data.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-/// The ventricle whose fibres are turned out of their layers by `imbrication`.
-DataSet leaning_ventricle(double imbrication, const VentricleCells& cells) {
-  DataSet mesh = ventricle_mesh({}, cells);
-  const DataArray* sheet = mesh.find("sheet", Association::kPoint);  // along the layer's normal
-  DataArray& fibre = mesh.arrays.front();
-  std::vector<double> turned;
-  for (std::size_t p = 0; p < fibre.tuples; ++p)
-    for (int c = 0; c < 3; ++c)
-      turned.push_back(std::cos(imbrication) * fibre.at(p, c) + std::sin(imbrication) * sheet->at(p, c));
-  fibre = make_array("fibre", Association::kPoint, 3, std::span<const double>(turned));
-  return mesh;
-}
 
 /// The corrected eq. 8.1, in metres.
 double expected_threshold(double u) {
@@ -45,8 +31,8 @@ TEST(FibreFriction, OnTheShellItIsTheHarderTheMoreFibresLeaveTheirLayer) {
   const Ventricle shape;
   double before = 0.0;
   for (const double degrees : {0.0, 20.0, -45.0, 75.0}) {
-    test::FibreChain chain(
-        test::layered(leaning_ventricle(degrees * kDegree, {.wall = 8, .along = 40, .around = 80})));
+    FibreChain chain(
+        layered(ventricle_mesh({.imbrication = degrees * kDegree}, {.wall = 8, .along = 40, .around = 80})));
     const double expected = expected_threshold(std::abs(std::sin(degrees * kDegree)));
     // Down through the layer in the middle of the wall, where fibres run around, then around with them.
     (void)chain.step(shape.position({0.655, 1.2, 0.0}));
@@ -78,7 +64,7 @@ struct Strokes {
 
 /// A slow hand over the heart. Where the fibre leaves the layer is asked of the heart anew at each place.
 Strokes stroke(const std::shared_ptr<const LayeredHeart>& heart, int steps) {
-  test::FibreChain chain(heart);
+  FibreChain chain(heart);
   const LocalFrame& frame = heart->frame();
   const double metres = chain.workspace().scale();
   const Box box = heart->heart().layer->bounds();
@@ -137,7 +123,7 @@ TEST(FibreFriction, OnTheDogItFollowsTheDirectionsThereAndRestsBelowTheThreshold
   ex::Model model;
   ex::read_ex_file(nodes.string(), model);
   ex::read_ex_file((nodes.parent_path() / "heart.exelem.gz").string(), model);
-  const Strokes seen = stroke(test::layered(ex::sample(model, 3, "heart").mesh), 20'000);
+  const Strokes seen = stroke(layered(ex::sample(model, 3, "heart").mesh), 20'000);
   EXPECT_GT(seen.held, 2000);
   EXPECT_GT(seen.moved, 300);
   EXPECT_GT(seen.rested, 300);

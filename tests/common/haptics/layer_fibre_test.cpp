@@ -9,17 +9,16 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/ventricle.h"
+#include "common/report/fibre_chain.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
-#include "tests/common/haptics/fibre_chain.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/shared_data.h"
 
 namespace palpate {
 namespace {
 
-using Chain = test::FibreChain;
-using test::layered;
+using Chain = FibreChain;
 
 /// A slab 0 <= x, y <= 4, 0 <= z <= 1 with depth z and fibres that lean out of the layers by `lean`, at the
 /// angle `turn` from x.

@@ -11,8 +11,9 @@
 #include "common/haptics/constraint/layer.h"
 #include "common/haptics/proxy_chain.h"
 
-namespace palpate::test {
+namespace palpate {
 
+/// A heart with the likeliest arrays of `mesh`. @throws Error as make_heart().
 inline std::shared_ptr<const LayeredHeart> layered(const DataSet& mesh) {
   std::vector<ArrayInfo> arrays;
   for (const DataArray& a : mesh.arrays)
@@ -40,14 +41,19 @@ class FibreChain {
     chain_ = std::make_unique<ProxyChain>(std::move(made), settings);
   }
 
+  /// @param x_data finite.
   ChainStep step(const Vec3& x_data) { return chain_->step(workspace_.workspace_from_data(x_data)); }
+  /// Data coordinates.
   [[nodiscard]] Vec3 proxy(const ChainStep& step, std::size_t link) const {
     return workspace_.data_from_workspace(step.proxies[link]);
   }
+  /// Which of the default layers holds; -1: none.
   [[nodiscard]] int layer() const { return layer_->surface().held_by(); }
+  /// Its depth.
   [[nodiscard]] double level() const {
     return layer_->surface().point().level / heart_->heart().layer->value_scale();
   }
+  /// At which friction gives [m]; that of a chain of three.
   [[nodiscard]] double threshold() const { return friction_->threshold(); }
   [[nodiscard]] const Workspace& workspace() const { return workspace_; }
   [[nodiscard]] const LayeredHeart& heart() const { return *heart_; }
@@ -60,4 +66,4 @@ class FibreChain {
   std::unique_ptr<ProxyChain> chain_;
 };
 
-}  // namespace palpate::test
+}  // namespace palpate
