@@ -48,7 +48,7 @@ std::array<Vec3, RegionControl::kMiddle + 1> RegionControl::handles(const Box& b
   std::array<Vec3, kMiddle + 1> places{};
   places.fill(box.center());
   for (int axis = 0; axis < 3; ++axis) {
-    const auto first = static_cast<std::size_t>(2 * axis);
+    const std::size_t first = 2 * static_cast<std::size_t>(axis);
     places[first][axis] = box.lower[axis];
     places[first + 1][axis] = box.upper[axis];
   }

@@ -92,7 +92,7 @@ std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Bo
 std::filesystem::path SavedFiles::free_name(const std::string& stem, const std::string& ending) const {
   std::filesystem::path path = folder_ / (stem + ending);
   for (int number = 2; std::filesystem::exists(path); ++number)
-    path = folder_ / (stem + "-" + std::to_string(number) + ending);
+    path = folder_ / std::string(stem).append("-").append(std::to_string(number)).append(ending);
   return path;
 }
 
