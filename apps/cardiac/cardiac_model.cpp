@@ -1,19 +1,74 @@
 #include "apps/cardiac/cardiac_model.h"
 
+#include <algorithm>
+#include <functional>
+#include <span>
+#include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
-#include "apps/cardiac/heart_scene.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/scalar_choice.h"
 
 namespace palpate {
+namespace {
+
+/// Of all that the heart is made of, at the input's time step; never 0.
+std::uint64_t fingerprint(Input& input, Progress& progress) {
+  std::uint64_t print = 1;
+  const auto add = [&](const auto& numbers) {
+    const auto bytes = std::as_bytes(std::span(numbers));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // turns the bits over, so that order counts
+    print = (print ^ std::hash<std::string_view>()(text)) * kOdd;
+  };
+  for (const DataSet& block : input.read(input.heart_choice().arrays(), &progress)) {
+    for (const DataArray& array : block.arrays) add(array.bytes);
+    if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
+      add(cells->positions.bytes);
+      add(cells->types);
+      add(cells->connectivity);
+    } else if (const auto* points = std::get_if<StructuredTopology>(&block.topology)) {
+      add(points->positions.bytes);
+    }
+  }
+  return std::max<std::uint64_t>(print, 1);
+}
+
+/// Whether both mean the same lines and triangles of one heart.
+bool same_layer(const SceneSettings& a, const SceneSettings& b) {
+  return a.layer == b.layer && a.seeds == b.seeds && a.max_length == b.max_length && a.step == b.step &&
+         a.random_seed == b.random_seed;
+}
+
+/// By their labels, the likeliest one first.
+std::vector<std::string> scalars_of(const Input& input) {
+  std::vector<std::string> labels;
+  for (const ScalarChoice& choice : scalar_choices(input.arrays()))
+    labels.push_back(label_of(choice, input.arrays()));
+  return labels;
+}
+
+}  // namespace
 
 CardiacModel::CardiacModel(Options options, std::string program)
     : InputModel(std::move(options), std::move(program), FieldKind::kFibre) {}
 
 CardiacContent CardiacModel::read(Input& input, const Options& options, Progress& progress) const {
-  return load_layered_heart(input, options.heart, options.common.threads, &progress);
+  // Most hearts beat in their potentials alone: fibres and layers are made once, however many steps there
+  // are.
+  const Scene* open = scene();
+  const bool other_step = open != nullptr && &open->input == &input && input.times().size() > 1 &&
+                          open->shown.settings.field == input.field_label();
+  CardiacContent content;
+  if (other_step) {
+    content.print = fingerprint(input, progress);
+    if (content.print == open->content.print) return open->content;
+  }
+  content.heart = load_layered_heart(input, HeartOptions(), options.common.threads, &progress);
+  return content;
 }
 
 void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
@@ -23,11 +78,16 @@ void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const 
   settings.step = options.tracing.step;
   settings.random_seed = options.common.seed;
   settings.color_array = options.heart.angle;
+  settings.contours = options.heart.contours;
+  if (!options.heart.lens.empty()) settings.lens_array = options.heart.lens_angle;
 }
 
-SceneState CardiacModel::present(Input& input, const CardiacContent& heart, const Options& options,
-                                 const SceneSettings& settings, const SceneState* /*before*/,
+SceneState CardiacModel::present(Input& input, const CardiacContent& content, const Options& options,
+                                 const SceneSettings& settings, const SceneState* before,
                                  Progress& progress) const {
+  const auto& heart = content.heart;
+  const ScalarField& depth = *heart->heart().layer;
+  const int threads = options.common.threads;
   Options with = options;
   with.heart.layer = exact_number(settings.layer);
   with.heart.angle = settings.color_array.empty() ? options.heart.angle : settings.color_array;
@@ -35,8 +95,40 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& heart, cons
   with.tracing.max_length = settings.max_length;
   with.tracing.step = settings.step;
   with.common.seed = settings.random_seed;
-  LayerScene layer = make_layer_scene(input, heart, with, 1.0, &progress);
-  const ScalarField& depth = *heart->heart().layer;
+
+  SceneState state = begin_state(input, settings);
+  state.felt_scalar = heart->heart().layer;
+  state.felt_tensor = heart->heart().fibres;
+  LayerGeometry layer;
+  if (before != nullptr && before->felt_tensor == state.felt_tensor &&
+      same_layer(before->settings, settings)) {
+    layer.lines = before->lines;
+    layer.mesh = before->surfaces.front().mesh;
+    state.ends = before->ends;
+    state.seeds = before->seeds;
+    state.outside_seeds = before->outside_seeds;
+    state.error_max = before->error_max;
+    state.seconds_trace = before->seconds_trace;
+  } else {
+    layer = make_layer_geometry(*heart, with, &progress);
+    state.ends = layer.fibres.ends;
+    state.seeds = layer.lines->size();
+    state.outside_seeds = layer.fibres.outside_seeds.size();
+    state.error_max = layer.fibres.error_max;
+    state.seconds_trace = layer.fibres.seconds;
+  }
+  LayerColors colors = color_layer(input, heart, layer, with.heart, threads);
+  state.lines = layer.lines;
+  state.surfaces = {surface_of(layer, colors, settings.contours)};
+  if (!settings.lens_array.empty()) {
+    with.heart.angle = settings.lens_array;
+    const LayerColors inside = color_layer(input, heart, layer, with.heart, threads);
+    state.surfaces.front().lens_values = inside.values;
+    state.color_lens = lens_of(options.heart).value_or(ColorLens());
+    state.color_lens->style = inside.style;
+  }
+  state.color_array = colors.style.array;
+  state.style = std::move(colors.style);
 
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
@@ -44,29 +136,14 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& heart, cons
   info->layers = ValueRange{depth.lowest(), depth.highest()};
   info->color_arrays = {"helix", "transverse", "gap", "depth"};
   if (heart->heart().sheets) info->color_arrays.insert(info->color_arrays.begin() + 2, "sheet");
-  // A scalar of the file is read with the heart: the one that was named.
-  const HeartOptions& named = options.heart;
-  if (heart->heart().value) info->color_arrays.push_back(named.angle);
+  for (const std::string& name : scalars_of(input)) info->color_arrays.push_back(name);
   if (info->times.size() > 1) {
-    for (const ScalarChoice& choice : scalar_choices(input.arrays()))
-      info->plotted.push_back(label_of(choice, input.arrays()));
+    info->plotted = scalars_of(input);
     info->input = input.spec();
   }
-  info->bounds = layer.view.bounds;
-  info->units = layer.view.units;
-  SceneState state = begin_state(input, settings);
+  info->bounds = depth.bounds();
+  info->units = units_of(input);
   state.info = std::move(info);
-  state.lines = layer.view.lines;
-  state.felt_scalar = heart->heart().layer;
-  state.felt_tensor = heart->heart().fibres;
-  state.color_array = layer.view.style.array;
-  state.surfaces = std::move(layer.view.surfaces);
-  state.style = std::move(layer.view.style);
-  state.ends = layer.fibres.ends;
-  state.seeds = layer.fibres.lines.size();
-  state.outside_seeds = layer.fibres.outside_seeds.size();
-  state.error_max = layer.fibres.error_max;
-  state.seconds_trace = layer.fibres.seconds;
   state.notes.insert(state.notes.end(), heart->heart().notes.begin(), heart->heart().notes.end());
   return state;
 }
@@ -81,6 +158,14 @@ void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/,
   add_option(session, "convention", options.heart.convention);
   add_option(session, "axis", options.heart.axis);
   add_option(session, "cut", options.heart.cut);
+  if (settings.contours > 0.0) add_option(session, "contour-spacing", exact_number(settings.contours));
+  if (view.color_lens) {
+    const Vec3& x = view.color_lens->center;
+    add_option(session, "lens",
+               "sphere:" + exact_number(x.x) + "," + exact_number(x.y) + "," + exact_number(x.z) + "," +
+                   exact_number(view.color_lens->radius));
+    add_option(session, "lens-angle", settings.lens_array);
+  }
   describe_camera(session, view);
 }
 

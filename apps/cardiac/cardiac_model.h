@@ -1,15 +1,22 @@
-/// What the window shows of a heart: a layer with its fibres, made on the window's background thread.
+/// The model behind the window of cardiac: a heart, and one layer of it with its fibres.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "apps/cardiac/heart_scene.h"
 #include "common/app/cli/input_model.h"
 #include "common/trace/layer_fibre.h"
 
 namespace palpate {
 
-using CardiacContent = std::shared_ptr<const LayeredHeart>;
+struct CardiacContent {
+  std::shared_ptr<const LayeredHeart> heart;
+  std::uint64_t print =
+      0;  ///< of what it was made from, so that other time steps know it again; 0: not taken
+};
 
 class CardiacModel final : public InputModel<CardiacContent> {
  public:
@@ -17,7 +24,7 @@ class CardiacModel final : public InputModel<CardiacContent> {
 
  private:
   [[nodiscard]] CardiacContent read(Input& input, const Options& options, Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const CardiacContent& heart, const Options& options,
+  [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Options& options,
                                    const SceneSettings& settings, const SceneState* before,
                                    Progress& progress) const override;
   void begin(SceneSettings& settings, const Input& input, const Options& options) const override;

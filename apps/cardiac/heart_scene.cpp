@@ -6,12 +6,15 @@
 #include <utility>
 
 #include "apps/cardiac/cut_away.h"
+#include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
+#include "common/field/field_on_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/scalar_choice.h"
 #include "common/field/tensor/eigenframe.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/seeds.h"
@@ -42,6 +45,9 @@ std::vector<double> point_values(const ScalarField& field) {
       field.values().values);
   return values;
 }
+
+/// Of a ball.
+double reach_along_x(const ConvexShape::Quadric& ball) { return 1.0 / glm::length(ball.unit_from_data[0]); }
 
 double sampled(const ScalarField& field, const Vec3& x, CellHint& hint) {
   const ScalarSample sample = field.sample(x, hint);
@@ -75,8 +81,9 @@ Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
   return *axis;
 }
 
-AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options)
-    : heart_(std::move(heart)), options_(options) {
+AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options,
+                       std::shared_ptr<const ScalarField> value)
+    : heart_(std::move(heart)), options_(options), value_(value ? std::move(value) : heart_->heart().value) {
   for (int i = 0; i < kWallAngleCount; ++i) {
     const auto angle = static_cast<WallAngle>(i);
     if (name_of(angle) == options.angle) angle_ = angle;
@@ -85,7 +92,7 @@ AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOpt
     const auto convention = static_cast<AngleConvention>(i);
     if (name_of(convention) == options.convention) convention_ = convention;
   }
-  if (!angle_ && !is_own_word(options.angle) && !heart_->heart().value)
+  if (!angle_ && !is_own_word(options.angle) && !value_)
     throw usage_error("--angle " + options.angle + ": was not read with the heart");
   if (!angle_) return;
   if (!defines(convention_, *angle_))
@@ -100,7 +107,7 @@ const char* AngleProbe::unit() const noexcept { return angle_ ? "degrees" : ""; 
 double AngleProbe::at(const Vec3& x, CellHint& hint) const {
   const LocalFrame& frame = heart_->frame();
   if (options_.angle == "depth") return sampled(*heart_->heart().layer, x, hint);
-  if (!is_own_word(options_.angle)) return sampled(*heart_->heart().value, x, hint);
+  if (!is_own_word(options_.angle)) return sampled(*value_, x, hint);
   const FibreSample fibre = heart_->sample(frame.local_from_data(x), hint);
   if (fibre.status != SampleStatus::kOk) return kNaN;
   if (!angle_) return fibre.gap;
@@ -121,7 +128,26 @@ double AngleProbe::at(const Vec3& x, CellHint& hint) const {
 std::vector<double> AngleProbe::map() const {
   if (angle_) return map_angle(heart_->heart(), heart_->normals(), axis_, *angle_, convention_);
   if (options_.angle == "gap") return map_gap(heart_->heart());
-  return point_values(options_.angle == "depth" ? *heart_->heart().layer : *heart_->heart().value);
+  return point_values(options_.angle == "depth" ? *heart_->heart().layer : *value_);
+}
+
+std::vector<float> values_at(const AngleProbe& probe, const std::vector<Vec3>& places, int threads) {
+  std::vector<float> values(places.size());
+  parallel_for(places.size(), threads, [&](std::size_t begin, std::size_t end) {
+    CellHint hint;
+    for (std::size_t p = begin; p < end; ++p) values[p] = static_cast<float>(probe.at(places[p], hint));
+  });
+  return values;
+}
+
+SurfaceView surface_of(const LayerGeometry& layer, const LayerColors& colors, double contours) {
+  return {.mesh = layer.mesh, .color = kMuscle, .values = colors.values, .contours = contours};
+}
+
+UnitNames units_of(const Input& input) {
+  UnitNames units;
+  if (input.file()->units.find("mm") != std::string::npos) units.length = "mm";
+  return units;
 }
 
 std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line>& lines, int threads) {
@@ -138,60 +164,99 @@ std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line
   return values;
 }
 
-LayerScene make_layer_scene(const Input& input, const std::shared_ptr<const LayeredHeart>& heart,
-                            const Options& options, double aspect, Progress* progress) {
-  const ScalarField& layer = *heart->heart().layer;
-  const double diagonal = layer.diagonal();
-  LayerScene scene;
-  scene.depth = layer_of(options.heart).value_or(kViewLayer);
+LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& options, Progress* progress) {
+  const ScalarField& depths = *heart.heart().layer;
+  const double diagonal = depths.diagonal();
+  LayerGeometry layer;
+  layer.depth = layer_of(options.heart).value_or(kViewLayer);
   const auto plane = parse_cut(options.heart.cut);
   const std::string seeds = options.tracing.seeds.empty() ? kViewFibres : options.tracing.seeds;
   const double length = options.tracing.max_length;
   const auto places =
-      make_seeds(parse_seeds(seeds), *layer.tet_mesh(), heart->frame(), layer.bounds(), options.common.seed);
-  scene.fibres =
-      trace_fibres(*heart, places,
-                   {.layer = scene.depth,
+      make_seeds(parse_seeds(seeds), *depths.tet_mesh(), heart.frame(), depths.bounds(), options.common.seed);
+  layer.fibres =
+      trace_fibres(heart, places,
+                   {.layer = layer.depth,
                     .step = options.tracing.step > 0.0 ? options.tracing.step : kViewFibreStep * diagonal,
                     .max_length = length > 0.0 ? length : kViewFibreLength * diagonal,
                     .least_gap = options.heart.least_gap,
                     .threads = options.common.threads},
                    progress);
-  if (plane) cut_lines(*plane, scene.fibres.lines);
-  const auto lines = std::make_shared<const std::vector<Line>>(scene.fibres.lines);
+  if (plane) cut_lines(*plane, layer.fibres.lines);
+  layer.lines = std::make_shared<const std::vector<Line>>(std::exchange(layer.fibres.lines, {}));
+  if (progress) progress->begin("drawing the layer", 0);
+  IsosurfaceMesh mesh = make_isosurface_mesh(depths, layer.depth, kMostTriangles, progress);
+  if (plane) cut_surface(*plane, mesh);
+  layer.mesh = std::make_shared<const IsosurfaceMesh>(std::move(mesh));
+  return layer;
+}
 
-  const AngleProbe probe(heart, options.heart);
+LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
+                        const LayerGeometry& layer, const HeartOptions& options, int threads) {
+  std::shared_ptr<const ScalarField> value;
+  if (!is_own_word(options.angle)) {
+    const ScalarChoice choice = choose_scalar(input.arrays(), options.angle, input.title());
+    const std::vector<DataSet> blocks = input.read({choice.array});
+    value = make_scalar_field(heart->heart().fibres->grid(), blocks.front(), choice, input.title(), threads);
+  }
+  const AngleProbe probe(heart, options, value);
+  LayerColors colors;
   auto array = std::make_shared<LineArray>();
   array->name = probe.name();
   array->unit = probe.unit();
-  for (const double value : angles_along(probe, *lines, options.common.threads))
-    array->values.push_back(static_cast<float>(value));
-  scene.view.style.color_by = ColorBy::kArray;
-  scene.view.style.array = std::move(array);
+  const std::vector<double> along = angles_along(probe, *layer.lines, threads);
+  array->values.assign(along.begin(), along.end());
+  colors.style.color_by = ColorBy::kArray;
+  colors.style.array = std::move(array);
   if (probe.is_angle()) {
     constexpr double kRightAngle = 90.0;
-    scene.view.style.range = ValueRange{-kRightAngle, kRightAngle};
-    scene.view.style.color_map = ColorMap::kDiverging;
+    colors.style.range = ValueRange{-kRightAngle, kRightAngle};
+    colors.style.color_map = ColorMap::kDiverging;
   }
   constexpr double kThin = 1.6;
-  scene.view.style.width = kThin;
-  scene.view.style.halo = false;
+  colors.style.width = kThin;
+  colors.style.halo = false;
+  colors.values = std::make_shared<const std::vector<float>>(values_at(probe, layer.mesh->points, threads));
+  return colors;
+}
 
-  if (progress) progress->begin("drawing the layer", 0);
-  IsosurfaceMesh mesh = make_isosurface_mesh(layer, scene.depth, kMostTriangles, progress);
-  if (plane) cut_surface(*plane, mesh);
-  scene.view.surfaces.push_back(
-      {.mesh = std::make_shared<const IsosurfaceMesh>(std::move(mesh)), .color = kMuscle});
-  scene.view.bounds = layer.bounds();
-  scene.view.lines = lines;
-  scene.view.title = input.title();
-  scene.view.subtitle = "fibres at depth " + short_number(scene.depth) + ", " + probe.name() +
-                        (probe.is_angle() ? " angle (" + options.heart.convention + ")" : "");
-  if (!input.file()->units.empty() && input.file()->units.find("mm") != std::string::npos)
-    scene.view.units.length = "mm";
+std::optional<ColorLens> lens_of(const HeartOptions& options) {
+  if (options.lens.empty()) return std::nullopt;
+  const Lens lens = parse_lens(options.lens).lens;
+  const auto& ball = lens.shape.quadric;
+  const double radius = lens.shape.half_spaces.empty() && ball ? reach_along_x(*ball) : 0.0;
+  if (!(radius > 0.0)) throw usage_error("--lens " + options.lens + ": a ball is expected: sphere:x,y,z,r");
+  return ColorLens{.center = ball->center, .radius = radius, .style = {}};
+}
+
+LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
+                            const Options& options, double aspect, Progress* progress) {
+  const ScalarField& depths = *heart->heart().layer;
+  LayerScene scene{.view = {}, .layer = make_layer_geometry(*heart, options, progress)};
+  SceneView& view = scene.view;
+  const int threads = options.common.threads;
+  LayerColors colors = color_layer(input, heart, scene.layer, options.heart, threads);
+  view.surfaces = {surface_of(scene.layer, colors, options.heart.contours)};
+  view.color_lens = lens_of(options.heart);
+  if (view.color_lens) {
+    HeartOptions inside = options.heart;
+    inside.angle = options.heart.lens_angle;
+    const LayerColors other = color_layer(input, heart, scene.layer, inside, threads);
+    view.color_lens->style = other.style;
+    view.surfaces.front().lens_values = other.values;
+  }
+  view.style = std::move(colors.style);
+  view.bounds = depths.bounds();
+  view.lines = scene.layer.lines;
+  view.title = input.title();
+  const std::string& angle = options.heart.angle;
+  view.subtitle = "fibres at depth " + short_number(scene.layer.depth) + ", " + angle +
+                  (view.style.array->unit.empty() ? "" : " angle (" + options.heart.convention + ")");
+  if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
+  view.units = units_of(input);
   const Projection projection =
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
-  scene.view.camera = make_camera(scene.view.bounds, camera_angles(options.view.camera), aspect, projection);
+  view.camera = make_camera(view.bounds, camera_angles(options.view.camera), aspect, projection);
   return scene;
 }
 

@@ -14,6 +14,7 @@
 #include "common/render/scene_view.h"
 #include "common/scene/input.h"
 #include "common/trace/fibre_lines.h"
+#include "common/trace/isosurface_mesh.h"
 #include "common/trace/layer_fibre.h"
 
 namespace palpate {
@@ -44,9 +45,11 @@ inline constexpr double kViewFibreStep = 4e-3;
 /// What `--angle` names, at a place. The directions of sheets are looked up for sheet angles only.
 class AngleProbe {
  public:
+  /// @param value the scalar that is named, on the heart's mesh; null: Heart::value.
   /// @throws Error (usage) where the convention does not define the angle, sheets are not known, or there is
   /// no axis.
-  AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options);
+  AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options,
+             std::shared_ptr<const ScalarField> value = nullptr);
   /// Degrees, a number without a unit for "gap" and "depth", or the value of a scalar of the file; NaN where
   /// it is not defined.
   /// @param x data coordinates.
@@ -64,6 +67,7 @@ class AngleProbe {
  private:
   std::shared_ptr<const LayeredHeart> heart_;
   HeartOptions options_;
+  std::shared_ptr<const ScalarField> value_;
   std::optional<WallAngle> angle_;
   AngleConvention convention_ = AngleConvention::kStreeter;
   Vec3 axis_{0.0};
@@ -73,17 +77,50 @@ class AngleProbe {
 [[nodiscard]] std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line>& lines,
                                                int threads);
 
-/// A layer with its fibres, as options say.
-struct LayerScene {
-  SceneView view;
-  FibreLineResult fibres;
+/// The same at places in data coordinates, in single precision.
+[[nodiscard]] std::vector<float> values_at(const AngleProbe& probe, const std::vector<Vec3>& places,
+                                           int threads);
+
+/// A layer as lines and triangles, whatever colours them.
+struct LayerGeometry {
   double depth = 0.0;
+  FibreLineResult fibres;                          ///< its lines are in `lines`
+  std::shared_ptr<const std::vector<Line>> lines;  ///< cut
+  std::shared_ptr<const IsosurfaceMesh> mesh;      ///< cut
 };
 
 /// @param settings of tracing; zeros and empty words stand for the view's own defaults.
 /// @throws Error, Cancelled.
-[[nodiscard]] LayerScene make_layer_scene(const Input& input,
-                                          const std::shared_ptr<const LayeredHeart>& heart,
+[[nodiscard]] LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& options,
+                                                Progress* progress);
+
+/// What colours a layer: numbers of its lines and of its triangles' corners, and how they are shown.
+struct LayerColors {
+  LineStyle style;  ///< with the array of the lines
+  std::shared_ptr<const std::vector<float>> values;
+};
+
+/// @param options which angle or scalar; that of the file is read at the input's time step.
+/// @throws Error, Cancelled.
+[[nodiscard]] LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
+                                      const LayerGeometry& layer, const HeartOptions& options, int threads);
+
+/// @param contours distance of lines of equal value; 0: none.
+[[nodiscard]] SurfaceView surface_of(const LayerGeometry& layer, const LayerColors& colors, double contours);
+
+[[nodiscard]] UnitNames units_of(const Input& input);
+
+/// `--lens` as a ball; its style is that of no colours yet. @throws Error (usage).
+[[nodiscard]] std::optional<ColorLens> lens_of(const HeartOptions& options);
+
+/// A layer with its fibres, as options say.
+struct LayerScene {
+  SceneView view;
+  LayerGeometry layer;
+};
+
+/// @throws Error, Cancelled.
+[[nodiscard]] LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
                                           const Options& options, double aspect, Progress* progress);
 
 }  // namespace palpate

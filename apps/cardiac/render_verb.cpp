@@ -24,6 +24,7 @@ const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& o
 void check(const Options& options) {
   (void)layer_of(options.heart);
   (void)parse_cut(options.heart.cut);
+  (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
   if (!options.path.empty()) (void)read_probe_path(options.path.string());
   (void)mode_of(cardiac_modes(), options);
@@ -31,13 +32,13 @@ void check(const Options& options) {
 }
 
 DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
-  const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
+  const auto heart = load_layered_heart(input, HeartOptions(), options.common.threads, &context.progress);
   LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);
   DrawnScene drawn;
   drawn.field = input.field_label();
-  drawn.seconds_trace = layer.fibres.seconds;
-  drawn.lines = layer.fibres.lines.size();
-  drawn.points = layer.fibres.points;
+  drawn.seconds_trace = layer.layer.fibres.seconds;
+  drawn.lines = layer.layer.lines->size();
+  drawn.points = layer.layer.fibres.points;
   drawn.what = counted(drawn.lines, "fibre");
   drawn.measured = measured_costs(input, heart->heart().layer->tet_mesh());
   drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});

@@ -320,18 +320,29 @@ void draw_colors(const Pen& pen, const SceneView& view, const ColorLegend& legen
   if ((view.tensors || view.tracts) && !legend.has_lines) {
     draw_tensor_colors(pen, view, right, shows_path(view) ? 0.31F * h : 0.5F * h, 0.30F * h);
   }
-  if (!shows_path(view)) {
-    if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.5F * h, 0.46F * h);
-    return;
+  // Columns share the border: that of the lens above, the lines' below it, that of the forces at the foot.
+  const bool path = shows_path(view), lens = view.color_lens && legend.has_lines;
+  float middle = path ? 0.31F : 0.5F, length = path ? 0.30F : 0.46F;
+  if (lens) {
+    const float part = path ? 0.19F : 0.28F;
+    draw_color_bar(pen,
+                   {.label = "in the lens: " + color_label(view.color_lens->style, view.units),
+                    .table = color_table(color_map_of(view.color_lens->style)),
+                    .range = legend.lens_range,
+                    .logarithmic = is_logarithmic(view.color_lens->style)},
+                   right, path ? 0.19F * h : 0.27F * h, part * h);
+    middle = path ? 0.47F : 0.70F;
+    length = part;
   }
-  // Two columns share the border: the lines' above, that of the forces below.
-  if (legend.has_lines) draw_line_colors(pen, view, legend, right, 0.31F * h, 0.30F * h);
+  if (legend.has_lines) draw_line_colors(pen, view, legend, right, middle * h, length * h);
+  if (!path) return;
+  const float force_length = lens ? 0.19F : 0.26F;
   draw_color_bar(pen,
                  {.label = "force [N]",
                   .table = color_table(view.probe->style.force_map),
                   .range = force_range(*view.probe),
                   .values_above = legend.forces_above},
-                 right, 0.74F * h, 0.26F * h);
+                 right, (lens ? 0.76F : 0.74F) * h, force_length * h);
 }
 
 // A place in the picture where words may stand: [pixels]; none behind the eye or far outside.

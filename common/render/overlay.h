@@ -14,6 +14,7 @@ namespace palpate {
 /// What the colour bar says about the lines that are shown.
 struct ColorLegend {
   ValueRange range;
+  ValueRange lens_range;      ///< of what SceneView::color_lens shows
   bool values_below = false;  ///< some lie below the range
   bool values_above = false;
   std::array<std::size_t, kEndCount> ends{};  ///< lines by end reason

@@ -80,8 +80,9 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
       !a.probe || (a.probe->path.points == b.probe->path.points && a.probe->style == b.probe->style);
   return same_path && a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
          same_box(a.bounds, b.bounds) && a.background == b.background && a.show_outline == b.show_outline &&
-         a.outline == b.outline && a.surfaces == b.surfaces && a.volume.has_value() == b.volume.has_value() &&
-         (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts;
+         a.outline == b.outline && a.surfaces == b.surfaces && a.color_lens == b.color_lens &&
+         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
+         same_tensors(a, b) && a.tracts == b.tracts;
 }
 
 bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
@@ -133,7 +134,7 @@ struct SceneRenderer::State {
   std::shared_ptr<const TensorVoxels> shown_tensors;
   std::shared_ptr<const TractBundle> shown_tracts;
   std::vector<std::vector<Vec3>> shown_outline;
-  std::optional<LineStyle> shown_style;
+  std::optional<LineStyle> shown_style, shown_lens_style;
   SceneFrame frame;
   FrameBlock block;  // of this picture
   ColorLegend legend;
@@ -164,13 +165,17 @@ struct SceneRenderer::State {
     shown_tracts = view.tracts ? view.tracts->bundle : nullptr;
     shown_outline = view.outline;
     shown_style.reset();
+    shown_lens_style.reset();
     still.reset();
     filled = true;
   }
 
   void update_colors(const SceneView& view) {
+    update_lens_colors(view);
     if (shown_style && same_colors(*shown_style, view.style)) return;
+    const ValueRange lens_range = legend.lens_range;
     legend = {};
+    legend.lens_range = lens_range;
     if (view.lines) {
       const std::vector<double> values = line_values(*view.lines, view.style);
       legend.range = value_range(*view.lines, view.style);
@@ -182,6 +187,21 @@ struct SceneRenderer::State {
       lines.set_values(map_coordinates(values, view.style, legend.range));
     }
     shown_style = view.style;
+    still.reset();
+  }
+
+  void update_lens_colors(const SceneView& view) {
+    if (!view.color_lens || !view.lines) {
+      if (shown_lens_style) lines.set_lens_values({});
+      shown_lens_style.reset();
+      return;
+    }
+    const LineStyle& style = view.color_lens->style;
+    if (shown_style && shown_lens_style && same_colors(*shown_lens_style, style)) return;
+    legend.lens_range = value_range(*view.lines, style);
+    const std::vector<double> values = line_values(*view.lines, style);
+    lines.set_lens_values(map_coordinates(values, style, legend.lens_range));
+    shown_lens_style = style;
     still.reset();
   }
 
@@ -206,8 +226,13 @@ struct SceneRenderer::State {
   }
 
   void draw_lines(const SceneView& view, const LineDraw& base, float unit) {
-    line_program.use(color_map_of(view.style));
+    line_program.use(color_map_of(view.style),
+                     color_map_of(view.color_lens ? view.color_lens->style : view.style));
     LineDraw how = base;
+    if (view.color_lens) {
+      how.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));
+      how.lens_radius = static_cast<float>(view.color_lens->radius * power_of_two(-frame.exponent));
+    }
     how.coloring = view.style.color_by == ColorBy::kDirection ? LineDraw::Coloring::kDirection
                    : view.style.color_by == ColorBy::kUniform ? LineDraw::Coloring::kOneColor
                                                               : LineDraw::Coloring::kMap;
@@ -249,7 +274,15 @@ struct SceneRenderer::State {
     if (view.surfaces.empty() && !surfaces) return;
     if (!surfaces) surfaces = std::make_unique<SurfacePass>();
     surfaces->update(view.surfaces, frame);
-    surfaces->draw();
+    SurfaceColors colors{
+        .style = view.style, .range = legend.range, .contour_width = std::max(1.0F, 1.6F * unit)};
+    if (view.color_lens) {
+      colors.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));
+      colors.lens_radius = static_cast<float>(view.color_lens->radius * power_of_two(-frame.exponent));
+      colors.lens_style = view.color_lens->style;
+      colors.lens_range = legend.lens_range;
+    }
+    surfaces->draw(colors);
   }
 
   // Tracts of another view begin anew. @return whether there are any.

@@ -32,6 +32,15 @@ struct NoteView {
   bool operator==(const NoteView&) const = default;
 };
 
+/// A ball in which lines and coloured surfaces show another number than around it.
+struct ColorLens {
+  Vec3 center{0.0};
+  double radius = 0.0;  ///< data units
+  LineStyle style;      ///< what it shows: array, range and map
+
+  bool operator==(const ColorLens&) const = default;
+};
+
 struct SceneView {
   Box bounds;                                      ///< of the domain
   std::shared_ptr<const std::vector<Line>> lines;  ///< may be null
@@ -48,6 +57,7 @@ struct SceneView {
   Camera camera;
   std::optional<ProbeView> probe;
   std::vector<SurfaceView> surfaces;
+  std::optional<ColorLens> color_lens;
   std::optional<VolumeView> volume;
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;

@@ -2,6 +2,7 @@
 // Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width.
 #include "include/frame.glsl"
 #include "include/color.glsl"
+#include "include/color_table.glsl"
 #include "include/shade.glsl"
 #include "include/line_light.glsl"
 
@@ -11,7 +12,9 @@ layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for co
 layout(location = 6) uniform float fading;       // share of the depth cue
 layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
 layout(location = 8) uniform float dimming;      // share of the background at any depth
+layout(location = 10) uniform vec4 lens;         // a ball in N with colours of its own; no radius: none
 layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
+layout(binding = 1) uniform sampler2D lens_map;
 
 in Vertex {
   vec3 tangent;
@@ -20,6 +23,8 @@ in Vertex {
   float across;
   float outer;
   float value;
+  float lens_value;
+  vec3 place;
   float depth;
 } vertex;
 noperspective in float halo_z;
@@ -29,10 +34,8 @@ layout(location = 0) out vec4 color;
 vec3 base_color(vec3 t) {
   if (coloring == 1) return abs(t);
   if (coloring >= 2) return line_color.rgb;
-  if (isnan(vertex.value)) return vec3(0.5);
-  // Middle of the first texel to middle of the last: t = 0 and 1 are the ends of the table.
-  float entries = float(textureSize(color_map, 0).x);
-  return texture(color_map, vec2((vertex.value * (entries - 1.0) + 0.5) / entries, 0.5)).rgb;
+  if (distance(vertex.place, lens.xyz) < lens.w) return table_color(lens_map, vertex.lens_value);
+  return table_color(color_map, vertex.value);
 }
 
 void main() {

@@ -9,11 +9,13 @@ struct Point {
 };
 layout(std430, binding = 0) readonly buffer Points { Point points[]; };
 layout(std430, binding = 1) readonly buffer Values { float values[]; };  // place in the colour map, or NaN
+layout(std430, binding = 2) readonly buffer LensValues { float lens_values[]; };  // likewise, inside the ball
 
 layout(location = 0) uniform float width;       // at the focal point, pixels
 layout(location = 1) uniform float halo_width;  // beyond either edge, pixels
 layout(location = 2) uniform float min_width;   // pixels, wherever the point lies
 layout(location = 3) uniform bool has_values;
+layout(location = 10) uniform vec4 lens;        // centre and radius in N of a ball; no radius: none
 layout(location = 9) uniform float lift;        // toward the eye, in depth alone, half widths
 
 out Vertex {
@@ -23,6 +25,8 @@ out Vertex {
   float across;        // -1 and 1 at the edges of the line, beyond in its halo
   float outer;         // |across| at the outer edge of the halo
   float value;
+  float lens_value;
+  vec3 place;          // of the middle of the line, in N
   float depth;         // along the view, in N
 } result;
 noperspective out float halo_z;  // depth of the halo's outer edge in the depth buffer, [0, 1]
@@ -53,6 +57,8 @@ void main() {
   result.across = sign_of_side * outer / radius;
   result.outer = outer / radius;
   result.value = has_values ? values[index] : 0.5;
+  result.lens_value = lens.w > 0.0 ? lens_values[index] : 0.5;
+  result.place = p;
   result.depth = depth;
   gl_Position = frame.clip_from_scene * vec4(corner, 1.0);
   if (lift > 0.0) {

@@ -6,6 +6,7 @@
 // over the grey as opaque as its transfer function says: the table has the opacity A of its longest stretch, l of the
 // length for which transfer functions state theirs, hence that of the whole length is 1 - (1 - A)^(1/l).
 #include "include/frame.glsl"
+#include "include/contour.glsl"
 #include "volume/volume_block.glsl"
 #include "volume/ray.glsl"
 #include "volume/lens_segments.glsl"
@@ -54,13 +55,10 @@ void main() {
     if (seen.a > 0.0)
       color.rgb = mix(color.rgb, seen.rgb / seen.a, 1.0 - pow(1.0 - min(seen.a, 1.0), longest_parts));
   }
-  // Lines, with a dark rim that shows them on white, too.
-  const vec3 kLine = vec3(0.25, 0.85, 1.0), kRim = vec3(0.03, 0.08, 0.12);
   float nearest = 1e30;
   for (int i = 0; i < contour_count; ++i) nearest = min(nearest, abs(number - contours[i]));
   float away = slope > 0.0 ? nearest / slope : 1e30;
-  float line = clamp(0.5 * line_width + 0.5 - away, 0.0, 1.0);
-  float rim = 0.6 * clamp(0.5 * line_width + 1.5 - away, 0.0, 1.0);
-  if (!shown && rim + line <= 0.5) discard;
-  if (contour_count > 0) color.rgb = mix(mix(color.rgb, kRim, rim), kLine, line);
+  if (!shown && contour_rim(away, line_width) + contour_line(away, line_width) <= 0.5) discard;
+  const vec3 kLine = vec3(0.25, 0.85, 1.0);
+  if (contour_count > 0) color.rgb = with_contour(color.rgb, kLine, away, line_width);
 }

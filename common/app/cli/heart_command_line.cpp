@@ -44,6 +44,24 @@ void add_angle_options(SceneOptions& options, HeartOptions& heart) {
               "X,Y,Z", group);
 }
 
+void add_layer_look(SceneOptions& options, HeartOptions& heart) {
+  const char* group = "View";
+  options.add("--cut", heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d", group);
+  add_contour_spacing(options, heart);
+  options.add("--lens", heart.lens, "a ball in which the layer shows another angle or scalar",
+              "sphere:x,y,z,r", group);
+  options.add("--lens-angle", heart.lens_angle, "which one, as --angle; default helix", "NAME", group);
+}
+
+void add_contour_spacing(SceneOptions& options, HeartOptions& heart) {
+  options
+      .add("--contour-spacing", heart.contours,
+           "lines of equal value on the layer where --angle is a multiple of this: isochrones of a time of "
+           "activation",
+           "D", "View")
+      ->check(CLI::NonNegativeNumber);
+}
+
 void add_mesher_options(SceneOptions& options, HeartOptions& heart) {
   const char* group = "Mesh";
   options

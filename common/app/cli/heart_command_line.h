@@ -23,6 +23,10 @@ void add_refine_option(SceneOptions& options, InputOptions& input);
 
 /// Which scalar over time, and where. Binds the options to `series`, which outlives `options`.
 void add_series_options(SceneOptions& options, SeriesOptions& series);
+/// How a layer is drawn. Binds as above.
+void add_layer_look(SceneOptions& options, HeartOptions& heart);
+/// Lines of equal value alone. Binds as above.
+void add_contour_spacing(SceneOptions& options, HeartOptions& heart);
 /// Which scalar is plotted over time at the probe. Binds as above.
 void add_plot_option(SceneOptions& options, SeriesOptions& series);
 

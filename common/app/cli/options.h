@@ -127,6 +127,9 @@ struct HeartOptions {
   std::string angle = "helix";          ///< name_of(WallAngle), gap, depth
   std::string convention = "streeter";  ///< name_of(AngleConvention)
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
+  double contours = 0.0;                ///< distance of lines of equal value on a layer; 0: none
+  std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
+  std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;
   std::string mesher = "delaunay";  ///< delaunay, tetgen
   double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled

@@ -1,5 +1,7 @@
 #include "common/app/cli/view_command_line.h"
 
+#include "common/app/cli/heart_command_line.h"
+
 namespace palpate {
 namespace {
 
@@ -151,8 +153,7 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
       add_projection(options, bound.volume);
       return;
     case FieldKind::kFibre:
-      options.add("--cut", bound.heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d",
-                  kGroup);
+      add_layer_look(options, bound.heart);
       add_projection(options, bound.volume);
       return;
     case FieldKind::kVector:

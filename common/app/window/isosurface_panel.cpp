@@ -9,6 +9,7 @@
 
 #include <imgui.h>
 
+#include "common/app/haptic/haptic_mode.h"
 #include "common/app/window/panel_parts.h"
 #include "common/base/text.h"
 #include "common/render/surface/surface_view.h"
@@ -116,15 +117,17 @@ Isovalues with_another(const Isovalues& isovalues, double lowest, double highest
 }
 
 void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, const FeltSurfaces::Made& made,
-                      std::optional<double> fraction, bool flow) {
+                      std::optional<double> fraction, const std::string& mode, bool flow) {
   if (!felt.field) return;
   draw_histogram(made.histogram.get(), *felt.field, felt.isovalues, fraction);
   if (const Isovalues edited = edit_values(felt); !(edited == felt.isovalues)) settings.isovalues = edited;
-  choose_hold(settings);
+  // The layers of a heart hold as such.
+  const bool chosen = mode == kIsosurfaceMode;
+  if (chosen) choose_hold(settings);
   if (distance_slider("lets through at", settings.depth, kLeastMillimetres, kMostMillimetres)) {
     settings.snap_distance = std::min(settings.snap_distance, settings.depth);
   }
-  if (settings.hold == IsosurfaceHold::kLayer) {
+  if (!chosen || settings.hold == IsosurfaceHold::kLayer) {
     (void)distance_slider("catches from", settings.snap_distance, 0.0, kMillimetres * settings.depth);
   }
   if (flow) ImGui::Checkbox("along a streamline", &settings.along_streamline);

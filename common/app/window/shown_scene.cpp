@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/app/window/color_lens_control.h"
 #include "common/app/window/picture_panels.h"
 #include "common/base/text.h"
 
@@ -59,6 +60,18 @@ void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
   view.tensors = std::move(kept);
 }
 
+// A lens stays where it is, whatever it shows.
+void show_lens(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<ColorLens> before = std::exchange(view.color_lens, scene.color_lens);
+  if (!view.color_lens) return;
+  if (before && !new_input) {
+    view.color_lens->center = before->center;
+    view.color_lens->radius = before->radius;
+  } else if (!(view.color_lens->radius > 0.0)) {
+    place_lens(view, *view.color_lens);
+  }
+}
+
 // Colours by `array`, or where there is none by a quantity of the lines.
 void color_lines(const std::shared_ptr<const LineArray>& array, LineStyle& style) {
   const bool by_array = style.color_by == ColorBy::kArray;
@@ -75,6 +88,8 @@ void color_lines(const std::shared_ptr<const LineArray>& array, LineStyle& style
 
 void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
   view.lines = scene.lines;
+  view.surfaces = scene.surfaces;
+  show_lens(scene, new_input, view);
   color_lines(scene.color_array, view.style);
   view.bounds = scene.info->bounds;
   view.outline = scene.info->outline;

@@ -161,7 +161,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   edit_curves(choice, session.modes()[choice.mode].name, session);
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
-                   session.has_flow());
+                   session.modes()[choice.mode].name, session.has_flow());
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   choose_looks(choice, half, session.has_flow(), felt.field != nullptr);

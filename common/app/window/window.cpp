@@ -16,6 +16,7 @@
 
 #include "common/app/haptic/probe_picture.h"
 #include "common/app/window/background_job.h"
+#include "common/app/window/color_lens_control.h"
 #include "common/app/window/event_text.h"
 #include "common/app/window/glfw_window.h"
 #include "common/app/window/gui.h"
@@ -421,7 +422,8 @@ class Window {
       const bool of_panel =
           (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
       // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
-      const bool of_lens = event.kind == InputKind::kPress && lens_control_.followed();
+      const bool of_lens =
+          event.kind == InputKind::kPress && (lens_control_.followed() || color_lens_control_.followed());
       if (!of_panel && !handle_region(event, parts.picture) && !handle_plane_image(event, parts.picture) &&
           !(of_lens && handle_lens(event, parts.picture)) &&
           !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
@@ -440,6 +442,9 @@ class Window {
   }
 
   bool handle_lens(const InputEvent& event, const PictureArea& area) {
+    if (scene_ && scene_->info->layers) {
+      return color_lens_control_.handle(event, area, {scene_->felt_scalar, scene_->settings.layer}, view_);
+    }
     if (!view_.volume) return false;
     if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
@@ -486,6 +491,7 @@ class Window {
         control_.let_go();
         slice_control_.let_go();
         lens_control_.let_go();
+        color_lens_control_.follow(false);
         plane_image_control_.let_go();
         region_control_.let_go();
         touch_control_->let_go();
@@ -545,7 +551,29 @@ class Window {
     }
   }
 
+  /// The lens on a layer: what is in it has to be sampled before it is there.
+  void run_color_lens(Command command) {
+    if (command != Command::kLens) {
+      if (view_.color_lens)
+        ColorLensControl::grow(command == Command::kLensLarger ? 1.0 : -1.0, view_.bounds, *view_.color_lens);
+      return;
+    }
+    color_lens_control_.follow(!color_lens_control_.followed());
+    if (state_.settings.lens_array.empty()) {
+      state_.settings.lens_array = scene_->info->color_arrays.front();
+      color_lens_control_.follow(true);
+    }
+    say(color_lens_control_.followed()
+            ? "the lens follows the mouse over the layer; wheel: its size, click: leave it there"
+            : "the lens stays there",
+        false);
+  }
+
   void run_lens(Command command) {
+    if (scene_ && scene_->info->layers) {
+      run_color_lens(command);
+      return;
+    }
     if (!scene_ || !view_.volume) return;
     say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
     live_->lens_moved(glfwGetTime());
@@ -707,6 +735,7 @@ class Window {
   ViewControl control_;
   SliceControl slice_control_;
   LensControl lens_control_;
+  ColorLensControl color_lens_control_;
   PlaneImageControl plane_image_control_;
   RegionControl region_control_;
   int region_changes_ = 0;  // so many when planes were last moved

@@ -50,6 +50,8 @@ struct SceneSettings {
   std::string underlay;     ///< a scalar image below slices, as --underlay; empty: none
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
   double layer = 0.5;       ///< of a heart: the depth that is shown
+  double contours = 0.0;    ///< of a heart: distance of lines of equal value on the layer; 0: none
+  std::string lens_array;   ///< of a heart: what a lens shows in place of color_array; empty: there is none
   std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
   std::string focus;        ///< of lenses, as --focus-tf; empty: the model's own
 
@@ -85,6 +87,7 @@ struct SceneState {
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
   std::vector<SurfaceView> surfaces;               ///< drawn with the lines
+  std::optional<ColorLens> color_lens;             ///< where the settings want one; its ball is the first one
   std::optional<LineStyle> style;                  ///< of the lines at the start; none: the window's
   std::optional<VolumeView> volume;                ///< in place of lines
   std::optional<TensorView> tensors;               ///< likewise, also with a volume

@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
-#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -20,25 +19,10 @@ enum Uniform : GLint {
   kFading = 6,
   kHaloColor = 7,
   kDimming = 8,
-  kLift = 9
+  kLift = 9,
+  kLens = 10
 };
-constexpr GLuint kTableUnit = 0;
-
-GlTexture make_table_texture(ColorMap map) {
-  GLuint name = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &name);
-  GlTexture texture(name);
-  label_object(GpuObject::Kind::kTexture, name, "colours of lines");
-  const auto& table = color_table(map);
-  glTextureStorage2D(name, 1, GL_RGB32F, kColorTableSize, 1);
-  glTextureSubImage2D(name, 0, 0, 0, kColorTableSize, 1, GL_RGB, GL_FLOAT, table.data());
-  const GLint filter = map == ColorMap::kCategorical ? GL_NEAREST : GL_LINEAR;
-  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
-  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
-}
+constexpr GLuint kTableUnit = 0, kLensTableUnit = 1;
 
 }  // namespace
 
@@ -76,12 +60,11 @@ void end_lines() {
 
 }  // namespace detail
 
-void LineProgram::use(ColorMap map) {
+void LineProgram::use(ColorMap map, ColorMap lens_map) {
   if (!program_) program_ = compile_program("line/line.vert", "line/line.frag");
-  GlTexture& table = tables_[static_cast<std::size_t>(map)];
-  if (!table) table = make_table_texture(map);
   glUseProgram(program_.name());
-  glBindTextureUnit(kTableUnit, table.name());
+  tables_.bind(map, kTableUnit);
+  tables_.bind(lens_map, kLensTableUnit);
 }
 
 void LineSet::set_geometry(LineGeometry geometry) {
@@ -91,6 +74,7 @@ void LineSet::set_geometry(LineGeometry geometry) {
   if (!vertex_array_) vertex_array_ = make_vertex_array();
   points_ = make_buffer(std::span<const LineVertex>(geometry_.vertices));
   values_ = make_buffer(std::span<const float>());
+  set_lens_values({});
 }
 
 void LineSet::set_values(std::vector<float> coordinates) {
@@ -98,6 +82,12 @@ void LineSet::set_values(std::vector<float> coordinates) {
   coordinates_ = std::move(coordinates);
   arrangement_ = {};
   values_ = make_buffer(std::span<const float>(coordinates_));
+}
+
+void LineSet::set_lens_values(std::span<const float> coordinates) {
+  PALPATE_CHECK(coordinates.empty() || coordinates.size() == geometry_.vertices.size());
+  has_lens_values_ = !coordinates.empty();
+  lens_values_ = make_buffer(coordinates);
 }
 
 void LineSet::arrange(const Arrangement& wanted) {
@@ -126,13 +116,18 @@ void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
   // What shines through is too faint for its order to matter: no second arrangement for it.
   const bool transparent = how.opacity < 1.0F && !how.hidden_part;
-  arrange({how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
+  // Points are left out by the first values alone: with others all are there.
+  arrange({has_lens_values_ ? 0.0 : how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 
   detail::begin_lines(how, !coordinates_.empty());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, detail::kLinePoints, points_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, detail::kLineValues, values_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, detail::kLineLensValues, lens_values_.name());
+  glUniform4f(kLens, how.lens_center.x, how.lens_center.y, how.lens_center.z,
+              has_lens_values_ ? how.lens_radius : 0.0F);
   glBindVertexArray(vertex_array_.name());
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corner_count_), GL_UNSIGNED_INT, nullptr);
+  glUniform4f(kLens, 0.0F, 0.0F, 0.0F, 0.0F);  // trails have none
   detail::end_lines();
 }
 

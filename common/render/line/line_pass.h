@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "common/render/color_map.h"
+#include "common/render/color_tables.h"
 #include "common/render/gl/object.h"
 #include "common/render/line/line_geometry.h"
 
@@ -29,6 +29,8 @@ struct LineDraw {
   float dimming = 0.0F;  ///< share of the background at any depth
   float fading = 1.0F;   ///< share of the depth cue
   float opacity = 1.0F;
+  Vec3f lens_center{0.0F};       ///< of a ball where the second values colour them (scene frame)
+  float lens_radius = 0.0F;      ///< 0: there is none
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
 };
@@ -39,18 +41,19 @@ namespace detail {
 void begin_lines(const LineDraw& how, bool has_values);
 void end_lines();
 // Bindings of shaders/line/line.vert.
-inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1;
+inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1, kLineLensValues = 2;
 }  // namespace detail
 
 /// The compiled program and its colour tables, shared by all sets of lines. Needs the frame's uniform
 /// block bound to 0.
 class LineProgram {
  public:
-  void use(ColorMap map);
+  /// @param lens_map of what is inside LineDraw::lens.
+  void use(ColorMap map, ColorMap lens_map = ColorMap::kSequential);
 
  private:
   GlProgram program_;  ///< compiled at the first use
-  std::array<GlTexture, kColorMapCount> tables_;
+  ColorTables tables_;
 };
 
 /// Lines on the GPU.
@@ -59,6 +62,8 @@ class LineSet {
   void set_geometry(LineGeometry geometry);
   /// One place in the colour map for each vertex.
   void set_values(std::vector<float> coordinates);
+  /// The same for what is inside the ball of LineDraw; none: it has no colours of its own.
+  void set_lens_values(std::span<const float> coordinates);
   /// @pre LineProgram::use().
   void draw(const LineDraw& how);
 
@@ -79,7 +84,8 @@ class LineSet {
   Arrangement arrangement_;
   std::size_t corner_count_ = 0;
   GlVertexArray vertex_array_;
-  GlBuffer points_, values_, indices_;
+  GlBuffer points_, values_, lens_values_, indices_;
+  bool has_lens_values_ = false;
 };
 
 }  // namespace palpate

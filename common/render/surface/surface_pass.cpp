@@ -1,19 +1,30 @@
 #include "common/render/surface/surface_pass.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
 
 #include <epoxy/gl.h>
 
+#include "common/base/check.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
 namespace {
 
 // Of shaders/surface/surface.*.
-constexpr GLint kColor = 0;
+enum Uniform : GLint {
+  kColor = 0,
+  kHasValues = 1,
+  kScale = 2,
+  kLensScale = 3,
+  kLens = 4,
+  kContours = 5,
+  kOver = 6
+};
+constexpr GLuint kTableUnit = 0, kLensTableUnit = 1, kValueBinding = 1, kLensValueBinding = 2;
 
 /// As laid out for the shader.
 struct SurfaceVertex {
@@ -27,6 +38,15 @@ std::vector<SurfaceVertex> vertices_of(const IsosurfaceMesh& mesh, const SceneFr
     vertices[i] = {Vec3f(frame.scene_from_data(mesh.points[i])), mesh.normals[i]};
   }
   return vertices;
+}
+
+/// From a number to its place in the colour map: see the shader.
+void set_scale(GLint location, const LineStyle& style, const ValueRange& range) {
+  const bool logarithmic = is_logarithmic(style);
+  const double lower = logarithmic ? std::log(range.lower) : range.lower;
+  const double extent = (logarithmic ? std::log(range.upper) : range.upper) - lower;
+  glUniform3f(location, static_cast<float>(lower), extent > 0.0 ? static_cast<float>(1.0 / extent) : 0.0F,
+              logarithmic ? 1.0F : 0.0F);
 }
 
 void describe(const GlVertexArray& array, GLuint location, std::size_t offset) {
@@ -49,7 +69,9 @@ void SurfacePass::update(const std::vector<SurfaceView>& surfaces, const SceneFr
     if (known != before.end()) {
       uploaded_.push_back(std::move(*known));
       before.erase(known);
-      uploaded_.back().view = surface;
+      const SurfaceView shown = std::exchange(uploaded_.back().view, surface);
+      if (shown.values != surface.values || shown.lens_values != surface.lens_values)
+        set_values(uploaded_.back());
       continue;
     }
     const std::vector<SurfaceVertex> vertices = vertices_of(*surface.mesh, frame);
@@ -63,11 +85,46 @@ void SurfacePass::update(const std::vector<SurfaceView>& surfaces, const SceneFr
     glVertexArrayElementBuffer(made.vertex_array.name(), made.triangles.name());
     describe(made.vertex_array, 0, offsetof(SurfaceVertex, position));
     describe(made.vertex_array, 1, offsetof(SurfaceVertex, normal));
+    set_values(made);
     uploaded_.push_back(std::move(made));
   }
 }
 
-void SurfacePass::draw() {
+void SurfacePass::set_values(Uploaded& surface) {
+  const GLuint array = surface.vertex_array.name();
+  const auto set = [&](const std::shared_ptr<const std::vector<float>>& values, GLuint location,
+                       GLuint binding, GlBuffer& buffer) {
+    buffer.reset();
+    if (!values) {
+      glDisableVertexArrayAttrib(array, location);
+      return;
+    }
+    PALPATE_CHECK(values->size() == surface.view.mesh->points.size());
+    buffer = make_buffer(std::span<const float>(*values));
+    glVertexArrayVertexBuffer(array, binding, buffer.name(), 0, sizeof(float));
+    glEnableVertexArrayAttrib(array, location);
+    glVertexArrayAttribFormat(array, location, 1, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, location, binding);
+  };
+  constexpr GLuint kValue = 2, kLensValue = 3;  // locations
+  set(surface.view.values, kValue, kValueBinding, surface.values);
+  set(surface.view.lens_values, kLensValue, kLensValueBinding, surface.lens_values);
+}
+
+void SurfacePass::draw(const Uploaded& surface, const SurfaceColors& colors, bool over) {
+  const Rgb& color = surface.view.color;
+  glUniform4f(kColor, color.r, color.g, color.b,
+              static_cast<float>(std::clamp(surface.view.opacity, 0.0, 1.0)));
+  const Vec3f& lens = colors.lens_center;
+  glUniform1i(kHasValues, surface.view.values ? 1 : 0);
+  glUniform4f(kLens, lens.x, lens.y, lens.z, surface.view.lens_values ? colors.lens_radius : 0.0F);
+  glUniform2f(kContours, static_cast<float>(surface.view.contours), colors.contour_width);
+  glUniform1i(kOver, over ? 1 : 0);
+  glBindVertexArray(surface.vertex_array.name());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(surface.corners), GL_UNSIGNED_INT, nullptr);
+}
+
+void SurfacePass::draw(const SurfaceColors& colors) {
   if (uploaded_.empty()) return;
   if (!program_) program_ = compile_program("surface/surface.vert", "surface/surface.frag");
   glEnable(GL_DEPTH_TEST);
@@ -78,13 +135,20 @@ void SurfacePass::draw() {
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0F, 2.0F);
   glUseProgram(program_.name());
+  tables_.bind(color_map_of(colors.style), kTableUnit);
+  tables_.bind(color_map_of(colors.lens_style), kLensTableUnit);
+  set_scale(kScale, colors.style, colors.range);
+  set_scale(kLensScale, colors.lens_style, colors.lens_range);
+  for (const Uploaded& surface : uploaded_) draw(surface, colors, false);
+  // What is drawn on a surface lies before the lines there.
+  glPolygonOffset(-2.0F, -8.0F);
+  glDepthMask(GL_FALSE);
   for (const Uploaded& surface : uploaded_) {
-    const Rgb& color = surface.view.color;
-    glUniform4f(kColor, color.r, color.g, color.b,
-                static_cast<float>(std::clamp(surface.view.opacity, 0.0, 1.0)));
-    glBindVertexArray(surface.vertex_array.name());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(surface.corners), GL_UNSIGNED_INT, nullptr);
+    if (surface.view.values &&
+        (surface.view.contours > 0.0 || (surface.view.lens_values && colors.lens_radius > 0.0F)))
+      draw(surface, colors, true);
   }
+  glDepthMask(GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   glBindVertexArray(0);

@@ -14,6 +14,11 @@ struct SurfaceView {
   Rgb color{0.86F, 0.80F, 0.70F};
   /// Share of a pixel's samples that it covers, in (0, 1].
   double opacity = 1.0;
+  /// A number a point of the mesh, coloured as SceneView::style colours lines; null: `color` does.
+  std::shared_ptr<const std::vector<float>> values;
+  /// Likewise inside SceneView::color_lens; null: as outside.
+  std::shared_ptr<const std::vector<float>> lens_values;
+  double contours = 0.0;  ///< distance of lines of equal value, at its multiples; 0: none
 
   bool operator==(const SurfaceView&) const = default;
 };

@@ -92,5 +92,76 @@ TEST(SurfacePicture, WithTheProbeOnIt) {
   expect_baseline(view, "surface_probe");
 }
 
+/// The ball, coloured by x from -0.8 to 0.8, blue to red.
+SceneView colored_ball() {
+  SceneView view = ball_view();
+  view.style.color_by = ColorBy::kArray;
+  view.style.array = std::make_shared<const LineArray>();
+  view.style.range = ValueRange{-0.8, 0.8};
+  view.style.color_map = ColorMap::kDiverging;
+  std::vector<float> values;
+  for (const Vec3& x : view.surfaces[0].mesh->points) values.push_back(static_cast<float>(x.x));
+  view.surfaces[0].values = std::make_shared<const std::vector<float>>(values);
+  return view;
+}
+
+/// How much more red than blue.
+int redness(const std::array<int, 4>& pixel) { return pixel[0] - pixel[2]; }
+
+TEST(SurfacePicture, ValuesColourIt) {
+  SceneView view = colored_ball();
+  const Image image = render_image(view, kSize, kSize).image;
+  EXPECT_GT(redness(at(image, 0.6, 0.0)), 40);
+  EXPECT_LT(redness(at(image, -0.6, 0.0)), -40);
+  EXPECT_LT(std::abs(redness(at(image, 0.0, 0.0))), 25);
+  // Where there is no number it is grey.
+  view.surfaces[0].values =
+      std::make_shared<const std::vector<float>>(view.surfaces[0].mesh->points.size(), std::nanf(""));
+  EXPECT_LT(std::abs(redness(at(render_image(view, kSize, kSize).image, 0.6, 0.0))), 12);
+}
+
+TEST(SurfacePicture, LinesOfEqualValueLieAtItsMultiples) {
+  SceneView view = colored_ball();
+  const Image plain = render_image(view, kSize, kSize).image;
+  view.surfaces[0].contours = 0.25;
+  const Image image = render_image(view, kSize, kSize).image;
+  for (int y = -3; y <= 3; ++y) {
+    for (const double x : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+      EXPECT_NE(at(image, x, 0.1 * y), at(plain, x, 0.1 * y)) << x << " " << y;
+      EXPECT_EQ(at(image, x + 0.125, 0.1 * y), at(plain, x + 0.125, 0.1 * y)) << x << " " << y;
+    }
+  }
+}
+
+// A ball of radius 0.3 about the middle of the front, which shows z in place of x.
+TEST(SurfacePicture, ALensShowsOtherValuesWithinItsBall) {
+  SceneView view = colored_ball();
+  const Image plain = render_image(view, kSize, kSize).image;
+  std::vector<float> inside;
+  for (const Vec3& x : view.surfaces[0].mesh->points) inside.push_back(static_cast<float>(4.0 * x.z));
+  view.surfaces[0].lens_values = std::make_shared<const std::vector<float>>(inside);
+  view.color_lens = ColorLens{.center = {0.0, -0.8, 0.0}, .radius = 0.3, .style = view.style};
+  const Image image = render_image(view, kSize, kSize).image;
+  EXPECT_GT(redness(at(image, 0.0, 0.2)), 40);
+  EXPECT_LT(redness(at(image, 0.0, -0.2)), -40);
+  for (const auto& [x, z] :
+       {std::pair{0.34, 0.0}, std::pair{-0.34, 0.0}, std::pair{0.0, 0.34}, std::pair{0.5, 0.5}})
+    EXPECT_EQ(at(image, x, z), at(plain, x, z)) << "beside it nothing changes";
+  // Lines, too.
+  Line line = across(0.1, -0.81);
+  view.lines = std::make_shared<const std::vector<Line>>(std::vector{line});
+  const auto array_of = [&](double value) {
+    auto array = std::make_shared<LineArray>();
+    array->values.assign(line.points.size(), static_cast<float>(value));
+    return array;
+  };
+  view.style.array = array_of(0.8);
+  view.color_lens->style.array = array_of(-0.8);
+  const Image with_line = render_image(view, kSize, kSize).image;
+  EXPECT_LT(redness(at(with_line, 0.1, 0.1)), -40) << "inside";
+  EXPECT_GT(redness(at(with_line, 0.5, 0.1)), 40) << "outside";
+  expect_baseline(view, "surface_lens");
+}
+
 }  // namespace
 }  // namespace palpate::test
