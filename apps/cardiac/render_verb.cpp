@@ -56,7 +56,6 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
     drawn.view.probe =
         probe_after(read_probe_path(options.path.string()), mode_of(modes, options).make(scene), scene,
                     touch_limits(options.touch), drawn.view.style.color_by);
-    fade_lines(drawn.view);
   }
   return drawn;
 }

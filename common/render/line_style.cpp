@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/render/line/line_values.h"
@@ -76,6 +77,11 @@ ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
     return values[static_cast<std::size_t>(n)];
   };
   ValueRange range{quantile(kTail), quantile(1.0 - kTail)};
+  // What differs by no more than numbers of single precision do is one value: its noise has no colours.
+  constexpr double kSame = 16.0 * std::numeric_limits<float>::epsilon();
+  const double most = std::max(std::abs(range.lower), std::abs(range.upper));
+  if (style.color_by == ColorBy::kArray && range.upper - range.lower < kSame * most)
+    range.lower = range.upper = 0.5 * (range.lower + range.upper);
   if (logarithmic) {
     range.lower = std::max(range.lower, range.upper * std::pow(10.0, -kMaxDecades));
   } else if (color_map_of(style) == ColorMap::kDiverging) {

@@ -226,8 +226,9 @@ struct SceneRenderer::State {
   }
 
   void draw_lines(const SceneView& view, const LineDraw& base, float unit) {
-    line_program.use(color_map_of(view.style),
-                     color_map_of(view.color_lens ? view.color_lens->style : view.style));
+    std::optional<ColorMap> lens_map;
+    if (view.color_lens) lens_map = color_map_of(view.color_lens->style);
+    line_program.use(color_map_of(view.style), lens_map);
     LineDraw how = base;
     if (view.color_lens) {
       how.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));

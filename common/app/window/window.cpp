@@ -477,7 +477,8 @@ class Window {
         needs_camera_ = true;
         break;
       case Command::kPlay:
-        if (touch_control_->grabbed()) {
+        // Along layers there are no lines to keep.
+        if (touch_control_->grabbed() && (touch_->has_flow() || touch_->has_tensors())) {
           run_touch(Command::kKeepLine);
         } else if (scene_ && scene_->info->times.size() > 1)
           state_.playing = !state_.playing;
@@ -682,7 +683,9 @@ class Window {
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
     const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
-    if ((hand || !view_.surfaces.empty()) && touch_->choice().fade_rest) fade_lines(picture);
+    // Those on a layer are its grain.
+    const bool on_layer = scene_ && scene_->info->layers;
+    if ((hand || !view_.surfaces.empty()) && !on_layer && touch_->choice().fade_rest) fade_lines(picture);
     picture.notes = notes_of(
         touch_->notes(), length_unit(picture),
         touch_->notes().pending().empty() ? std::nullopt : touch_control_->next_mark(picture_, view_));

@@ -60,11 +60,11 @@ void end_lines() {
 
 }  // namespace detail
 
-void LineProgram::use(ColorMap map, ColorMap lens_map) {
+void LineProgram::use(ColorMap map, std::optional<ColorMap> lens_map) {
   if (!program_) program_ = compile_program("line/line.vert", "line/line.frag");
   glUseProgram(program_.name());
   tables_.bind(map, kTableUnit);
-  tables_.bind(lens_map, kLensTableUnit);
+  tables_.bind(lens_map.value_or(map), kLensTableUnit);
 }
 
 void LineSet::set_geometry(LineGeometry geometry) {

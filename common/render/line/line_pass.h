@@ -48,8 +48,8 @@ inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1, kLineLensValues
 /// block bound to 0.
 class LineProgram {
  public:
-  /// @param lens_map of what is inside LineDraw::lens.
-  void use(ColorMap map, ColorMap lens_map = ColorMap::kSequential);
+  /// @param lens_map of what is inside the ball of LineDraw, where there is one.
+  void use(ColorMap map, std::optional<ColorMap> lens_map = std::nullopt);
 
  private:
   GlProgram program_;  ///< compiled at the first use

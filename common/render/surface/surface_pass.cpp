@@ -45,8 +45,10 @@ void set_scale(GLint location, const LineStyle& style, const ValueRange& range) 
   const bool logarithmic = is_logarithmic(style);
   const double lower = logarithmic ? std::log(range.lower) : range.lower;
   const double extent = (logarithmic ? std::log(range.upper) : range.upper) - lower;
-  glUniform3f(location, static_cast<float>(lower), extent > 0.0 ? static_cast<float>(1.0 / extent) : 0.0F,
-              logarithmic ? 1.0F : 0.0F);
+  // Without extent all has the colour in the middle.
+  const bool one = !(extent > 0.0);
+  glUniform3f(location, static_cast<float>(one ? lower - 0.5 : lower),
+              static_cast<float>(one ? 1.0 : 1.0 / extent), logarithmic ? 1.0F : 0.0F);
 }
 
 void describe(const GlVertexArray& array, GLuint location, std::size_t offset) {
@@ -135,8 +137,12 @@ void SurfacePass::draw(const SurfaceColors& colors) {
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0F, 2.0F);
   glUseProgram(program_.name());
-  tables_.bind(color_map_of(colors.style), kTableUnit);
-  tables_.bind(color_map_of(colors.lens_style), kLensTableUnit);
+  if (std::any_of(uploaded_.begin(), uploaded_.end(),
+                  [](const Uploaded& each) { return each.view.values != nullptr; })) {
+    const LineStyle& lens_style = colors.lens_radius > 0.0F ? colors.lens_style : colors.style;
+    tables_.bind(color_map_of(colors.style), kTableUnit);
+    tables_.bind(color_map_of(lens_style), kLensTableUnit);
+  }
   set_scale(kScale, colors.style, colors.range);
   set_scale(kLensScale, colors.lens_style, colors.lens_range);
   for (const Uploaded& surface : uploaded_) draw(surface, colors, false);

@@ -70,7 +70,7 @@ TEST(GpuObjects, OfAVolumeAreOneShaderForItsRaysAndOneForTiles) {
   VolumeView view = byte_view();
   Made made = made_for(view);
   EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag", "volume/tiles.frag"}));
-  EXPECT_EQ(names_of(made), (Names{"colours of lines", "voxels", "preintegrated tables", "empty bricks",
+  EXPECT_EQ(names_of(made), (Names{"colour map", "voxels", "preintegrated tables", "empty bricks",
                                    "tiles that rays are cast in", "depths for rays"}));
   EXPECT_EQ(made.textures["voxels"], std::uint64_t{kPoints} * kPoints * kPoints);
   EXPECT_EQ(made.textures["preintegrated tables"], 64U * 64U * 16U * 8U);
@@ -89,7 +89,7 @@ TEST(GpuObjects, OfAVolumeThatIsHiddenAreNone) {
   view.shown = false;
   const Made made = made_for(view);
   EXPECT_EQ(made.shaders, kAnyScene);
-  EXPECT_EQ(names_of(made), Names{"colours of lines"});
+  EXPECT_EQ(names_of(made), Names{"colour map"});
 }
 
 // Each feature adds what it needs, and takes away what it takes the place of.
