@@ -99,6 +99,7 @@ std::vector<bool> reached_points(const TetMesh& mesh, const std::vector<WallSurf
 
 /// The linear system of the points whose value is sought.
 struct System {
+  std::size_t thin_cells = 0;           ///< that have no say
   std::vector<std::int32_t> unknown;    ///< of each point; -1 where its value is given or it is not reached
   std::vector<std::uint32_t> point_of;  ///< of each unknown
   Matrix matrix;
@@ -111,8 +112,7 @@ struct CellsOfRows {
   std::vector<std::uint32_t> cells;
 };
 
-CellsOfRows cells_of_rows(const TetMesh& mesh, const System& system) {
-  const std::vector<bool> takes_part = cells_of_system(mesh);
+CellsOfRows cells_of_rows(const TetMesh& mesh, const System& system, const std::vector<bool>& takes_part) {
   CellsOfRows rows;
   rows.begin.assign(system.point_of.size() + 1, 0);
   const auto visit = [&](const auto& act) {
@@ -192,7 +192,9 @@ System assemble(const TetMesh& mesh, const std::vector<WallSurface>& surface,
   }
   const std::size_t count = system.point_of.size();
   system.right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  const CellsOfRows rows = cells_of_rows(mesh, system);
+  const std::vector<bool> takes_part = cells_of_system(mesh);
+  system.thin_cells = static_cast<std::size_t>(std::count(takes_part.begin(), takes_part.end(), false));
+  const CellsOfRows rows = cells_of_rows(mesh, system, takes_part);
   constexpr std::size_t kPiece = 16384;  // rows
   std::vector<RowPiece> pieces((count + kPiece - 1) / kPiece);
   parallel_for(pieces.size(), threads, [&](std::size_t first, std::size_t last) {
@@ -291,7 +293,9 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
                      " left a residual of " + short_number(layer.residual));
 
   std::vector<double> values(mesh.point_count(), kNaN);
-  std::size_t without = 0;
+  constexpr double kBeyond = 1e-6;  // of the depth: less is the solver's
+  std::size_t without = 0, beyond = 0;
+  double farthest = 0.0;
   for (std::size_t input = 0; input < values.size(); ++input) {
     const std::size_t p = grid.point_of_input.empty() ? input : grid.point_of_input[input];
     if (p >= reached.size() || !reached[p]) {
@@ -299,11 +303,22 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
       continue;
     }
     const std::int32_t unknown = system.unknown[p];
+    if (unknown < 0) {
+      values[input] = surfaces.of_point[p] == WallSurface::kOuter ? 1.0 : 0.0;
+      continue;
+    }
     // Laplace's solution keeps to its border's range; what obtuse cells add to that is error.
-    values[input] = unknown >= 0                                  ? std::clamp(solution.x[unknown], 0.0, 1.0)
-                    : surfaces.of_point[p] == WallSurface::kOuter ? 1.0
-                                                                  : 0.0;
+    const double found = solution.x[unknown];
+    values[input] = std::clamp(found, 0.0, 1.0);
+    const double off = std::abs(found - values[input]);
+    if (off > kBeyond) ++beyond;
+    farthest = std::max(farthest, off);
   }
+  if (system.thin_cells > 0)
+    layer.notes.push_back(counted(system.thin_cells, "cell") + " too thin to have a say in the layers");
+  if (beyond > 0)
+    layer.notes.push_back("depths beyond the surfaces brought back to them at " + counted(beyond, "point") +
+                          ", by " + short_number(farthest) + " at most");
   if (without > 0)
     layer.notes.push_back(counted(without, "point") + " that no cell joins to a surface: no layer there");
   layer.array = make_array(kLayerArray, Association::kPoint, 1, std::span<const double>(values));

@@ -21,8 +21,8 @@ struct WallLayer {
 
 /// Solves Laplace's equation in the tetrahedra of `mesh` (as make_field_grid() splits it) with u = 0 on the
 /// inner and u = 1 on the outer surface (wall_surfaces.h) and no flux through the rest. Points of parts that
-/// touch no surface, or that no cell with a volume uses, are NaN. On obtuse tetrahedra u may leave [0, 1] a
-/// little.
+/// touch no surface, or that no cell with a volume uses, are NaN. On obtuse tetrahedra u may leave [0, 1]
+/// a little: it is brought back there. Notes count such points, and cells too thin to have a say.
 /// @throws Error (bad input) with `file` as find_wall_surfaces() and make_field_grid(); (work failed) where
 /// the iteration does not converge.
 [[nodiscard]] WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads = 0);

@@ -112,6 +112,32 @@ TEST(WallLayer, RisesBetweenZeroAndOne) {
   }
 }
 
+TEST(WallLayer, CellsWithoutASayAreCounted) {
+  // Point 5 lies nearly on the face 0 1 3 of a proper cell: the cell between them is flat, and 6 lies beyond.
+  const std::vector<double> x{0, 0,   0,   1,   0,   0,     0,   1,   0,  0.3, 0,
+                              1, 0.4, 0.4, 0.5, 0.4, -1e-5, 0.3, 0.5, -1, 0.3};
+  const std::vector<double> tags{1, 1, 1, 2, 0, 0, 0};
+  const auto notes_of = [&](std::vector<std::int64_t> corners) {
+    UnstructuredTopology topology;
+    topology.positions = make_array("x", Association::kPoint, 3, std::span<const double>(x));
+    topology.types.assign(corners.size() / 4, 10);
+    for (std::size_t c = 0; c <= topology.types.size(); ++c)
+      topology.offsets.push_back(static_cast<std::int64_t>(4 * c));
+    topology.connectivity = std::move(corners);
+    DataSet mesh;
+    mesh.topology = std::move(topology);
+    mesh.arrays = {make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(tags))};
+    std::string notes;
+    for (const std::string& note : make_wall_layer(mesh, "wedge").notes) notes += note + "\n";
+    return notes;
+  };
+  const char* const counted_text = "1 cell too thin to have a say";
+  EXPECT_EQ(notes_of({0, 1, 2, 4, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4, 3}).find("too thin"), std::string::npos);
+  const std::string notes =
+      notes_of({0, 1, 2, 4, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4, 3, 0, 1, 3, 5, 0, 1, 5, 6});
+  EXPECT_NE(notes.find(counted_text), std::string::npos) << notes;
+}
+
 TEST(WallLayer, AWallWithoutAnInsideIsRefused) {
   DataSet brick = shell(3);
   std::vector<double> positions;
