@@ -139,6 +139,24 @@ InteractionGeometry interaction_of(const Section& s) {
   return out;
 }
 
+ScreenGeometry screen_of(const Section& s) {
+  ScreenGeometry out{.corners = {s.vector("lower_left"), s.vector("lower_right"), s.vector("upper_left")},
+                     .name = {}};
+  if (const std::string fault = fault_of(out.corners); !fault.empty())
+    s.refuse_at("lower_left", fault, "three corners of a rectangle, in metres");
+  if (s.has("name")) out.name = s.at("name").value<std::string>().value_or("");
+  if (s.has("pixels")) {
+    const auto pixels = s.numbers(s.at("pixels"), 2);
+    constexpr double kMost = 65536.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!(pixels[i] >= 1.0 && pixels[i] <= kMost && pixels[i] == std::floor(pixels[i])))
+        s.refuse_at("pixels", short_number(pixels[i]) + " pixels", "two whole numbers above zero");
+      out.pixels[i] = static_cast<int>(pixels[i]);
+    }
+  }
+  return out;
+}
+
 TrackerCorrection tracker_of(const Section& s) {
   TrackerCorrection out;
   if (s.has("degree")) {
@@ -289,9 +307,20 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
     if (s.has("left")) out.eyes->left = s.vector("left");
     if (s.has("right")) out.eyes->right = s.vector("right");
   });
-  section("screen", {"lower_left", "lower_right", "upper_left"}, [&](const Section& s) {
-    out.screen = {s.vector("lower_left"), s.vector("lower_right"), s.vector("upper_left")};
-  });
+  const auto add_screen = [&](const toml::table& table) {
+    out.screens.push_back(screen_of(
+        Section(table, "screen", path, {"lower_left", "lower_right", "upper_left", "name", "pixels"})));
+  };
+  if (const toml::node* node = root.get("screen")) {
+    const toml::array* several = node->as_array();
+    if (const toml::table* one = node->as_table()) {
+      add_screen(*one);
+    } else if (several && several->is_array_of_tables()) {
+      for (const toml::node& each : *several) add_screen(*each.as_table());
+    } else {
+      refuse(path, line_of(*node), "'screen' is no section", "[screen], or [[screen]] for each of several");
+    }
+  }
   section("interaction", {"technique", "middle", "rotation", "gain"},
           [&](const Section& s) { out.interaction = interaction_of(s); });
   return out;
@@ -352,12 +381,6 @@ std::string stylus_section_text(const Vec3& tip) { return "[stylus]\ntip = " + r
 std::string section_text(const EyesGeometry& eyes) {
   return std::string("[eyes]\n") + (eyes.left ? "left = " + row_text(*eyes.left) + "\n" : "") +
          (eyes.right ? "right = " + row_text(*eyes.right) + "\n" : "");
-}
-
-std::string section_text(const ScreenGeometry& screen) {
-  return "[screen]\nlower_left = " + row_text(screen.lower_left) +
-         "\nlower_right = " + row_text(screen.lower_right) + "\nupper_left = " + row_text(screen.upper_left) +
-         "\n";
 }
 
 bool has_section(const std::filesystem::path& path, const std::string& name) {

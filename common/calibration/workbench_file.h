@@ -4,18 +4,31 @@
 /// key may be missing.
 ///
 ///   [tracker]          # distortion: tracker_correction.h
-///   degree = 4                     # with center, scale, position, orientation: the polynomials
+///   degree = 4         # with center, scale, position, orientation: the polynomials
 ///   position = [[x, y, z], …]      # coefficients, as vector_polynomial.h orders them; orientation likewise
-///   table_count = [12, 10, 5]      # with table_lower, table_spacing, table_position, table_orientation: the
-///   table [apparatus]        # where an optical instrument stands: x_optical = rotation x_tracker +
-///   translation rotation, translation; markers = [[x, y, z], …]    # in the sensor's frame; nan: not
-///   measured [arm]              # dhh_chain.h rows = [[d, a, alpha, beta, gamma, joint], …]      # joint
-///   from 1; 0: the row has none free = ["d a alpha gamma", …]  # optional: what a full calibration estimates
-///   of each row [coregistration]   # x_tracker = rotation x_arm + translation rotation, translation; sensor
-///   = [x, y, z]          # of the tracker, in the frame of the arm's end [stylus]           # tip = [x, y,
-///   z] in the sensor's frame [eyes]             # left, right = [x, y, z] in the head sensor's frame; one
-///   may be missing [screen]           # lower_left, lower_right, upper_left = [x, y, z] in the tracker's
-///   frame
+///   table_count = [12, 10, 5]      # the table, with table_lower, table_spacing, table_position and
+///                                  # table_orientation
+///
+///   [apparatus]        # where an optical instrument stands: x_optical = rotation x_tracker + translation
+///   markers = [[x, y, z], …]       # with rotation, translation; in the sensor's frame; nan: not measured
+///
+///   [arm]              # dhh_chain.h
+///   rows = [[d, a, alpha, beta, gamma, joint], …]      # joint from 1; 0: the row has none
+///   free = ["d a alpha gamma", …]  # optional: what a full calibration estimates of each row
+///
+///   [coregistration]   # x_tracker = rotation x_arm + translation
+///   sensor = [x, y, z]             # with rotation, translation; of the tracker, in the arm's end frame
+///
+///   [stylus]
+///   tip = [x, y, z]                # in the sensor's frame
+///
+///   [eyes]
+///   left = [x, y, z]               # and right, in the head sensor's frame; one may be missing
+///
+///   [screen]           # or [[screen]] for each of several; written by hand
+///   lower_left = [x, y, z]         # lower_right, upper_left: its corners in the tracker's frame
+///   name = "front"                 # optional, for --screen
+///   pixels = [1920, 1080]          # optional
 ///
 ///   [interaction]      # how hands work with the data; written by hand, no calibration makes it
 ///   technique = "immersive"        # tracked hands; "desktop", the default: a mouse
@@ -26,11 +39,13 @@
 /// Other sections belong to others and are left alone.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/geometry/screen.h"
 #include "common/kinematics/dhh_chain.h"
 #include "common/kinematics/tracker_correction.h"
 
@@ -47,8 +62,11 @@ struct CoregistrationGeometry {
 struct EyesGeometry {
   std::optional<Vec3> left, right;
 };
+/// A screen, and what it shows.
 struct ScreenGeometry {
-  Vec3 lower_left{0.0}, lower_right{0.0}, upper_left{0.0};
+  Screen corners;                   ///< [m] in the tracker's frame
+  std::string name;                 ///< may be empty
+  std::array<int, 2> pixels{0, 0};  ///< across and up; 0: not known
 };
 
 /// How hands work with the data: with x of the tracker, the probe is at m + gain R (x - middle) in the
@@ -67,7 +85,7 @@ struct WorkbenchGeometry {
   std::optional<CoregistrationGeometry> coregistration;
   std::optional<Vec3> stylus;
   std::optional<EyesGeometry> eyes;
-  std::optional<ScreenGeometry> screen;
+  std::vector<ScreenGeometry> screens;  ///< in the order of the file
   InteractionGeometry interaction;
 };
 
@@ -84,7 +102,6 @@ struct WorkbenchGeometry {
 [[nodiscard]] std::string section_text(const CoregistrationGeometry& coregistration);
 [[nodiscard]] std::string stylus_section_text(const Vec3& tip);
 [[nodiscard]] std::string section_text(const EyesGeometry& eyes);
-[[nodiscard]] std::string section_text(const ScreenGeometry& screen);
 /// @}
 
 /// Whether `path` holds the section already. A file that does not exist holds none.

@@ -17,6 +17,10 @@ constexpr double kFitMargin = 1.10, kFitMarginAcross = 1.22;
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
+Vec2 offset_of(const Camera& camera) {
+  return camera.projection == Projection::kPerspective ? camera.eye_offset : Vec2(0.0);
+}
+
 // Rotation of the axes among themselves: columns of `turn` are the new axes in terms of the old.
 void turn_axes(Camera& camera, const Mat3& turn) {
   Mat3 axes = camera.axes * turn;
@@ -114,7 +118,10 @@ double distance(const Camera& camera) noexcept {
   return 0.5 * camera.view_height / std::tan(0.5 * camera.field_of_view);
 }
 
-Vec3 eye(const Camera& camera) noexcept { return camera.focal_point + distance(camera) * camera.axes[2]; }
+Vec3 eye(const Camera& camera) noexcept {
+  const Vec2 o = offset_of(camera);
+  return camera.focal_point + distance(camera) * camera.axes[2] + o.x * camera.axes[0] + o.y * camera.axes[1];
+}
 
 Vec3 SceneFrame::scene_from_data(const Vec3& x) const noexcept {
   return (x - center) * power_of_two(-exponent);
@@ -135,7 +142,9 @@ ViewTransform view_transform(const Camera& camera, const SceneFrame& frame, cons
   view.focal_point = frame.scene_from_data(camera.focal_point);
   view.view_height = camera.view_height * scale;
   view.distance = distance(camera) * scale;
-  view.eye = view.focal_point + view.distance * axes[2];
+  view.eye_offset = offset_of(camera) * scale;
+  view.eye =
+      view.focal_point + view.distance * axes[2] + view.eye_offset.x * axes[0] + view.eye_offset.y * axes[1];
 
   const Box box = usable(bounds);
   const Vec3 middle = frame.scene_from_data(box.center());
@@ -152,16 +161,19 @@ ViewTransform view_transform(const Camera& camera, const SceneFrame& frame, cons
 
   // Clip planes a little outside the scene; in perspective never nearer than a part of the distance, so
   // that depth keeps its resolution when the eye is inside the scene.
-  constexpr double kClipMargin = 0.02, kNearest = 0.01;
+  constexpr double kClipMargin = 0.02;
   const double margin = kClipMargin * radius + 1e-6 * view.distance;
   double near_plane = view.near_depth - margin, far_plane = view.far_depth + margin;
   Mat4 clip_from_eye(0.0);
   if (camera.projection == Projection::kPerspective) {
-    near_plane = std::max(near_plane, kNearest * view.distance);
+    near_plane = std::max(near_plane, kNearestDepth * view.distance);
     far_plane = std::max(far_plane, 2.0 * near_plane);
     const double s = 1.0 / std::tan(0.5 * camera.field_of_view);
     clip_from_eye[0][0] = s / aspect;
     clip_from_eye[1][1] = s;
+    // Off-axis: the middle of the picture lies at -o on the focal plane.
+    clip_from_eye[2][0] = -view.eye_offset.x / (0.5 * view.view_height * aspect);
+    clip_from_eye[2][1] = -view.eye_offset.y / (0.5 * view.view_height);
     clip_from_eye[2][2] = -(far_plane + near_plane) / (far_plane - near_plane);
     clip_from_eye[2][3] = -1.0;
     clip_from_eye[3][2] = -2.0 * far_plane * near_plane / (far_plane - near_plane);
@@ -181,8 +193,11 @@ Vec3 project(const Camera& camera, const Vec3& x, int width, int height) noexcep
   const double d = distance(camera);
   const double depth = d - v.z;
   const double enlarge = camera.projection == Projection::kPerspective ? d / depth : 1.0;
-  const double pixels = enlarge * height / camera.view_height;
-  return {0.5 * width + v.x * pixels, 0.5 * height - v.y * pixels, depth};
+  const Vec2 o = offset_of(camera);
+  const double pixel = camera.view_height / height;
+  // From the eye through the point on to the focal plane.
+  const double x_there = o.x + (v.x - o.x) * enlarge, y_there = o.y + (v.y - o.y) * enlarge;
+  return {0.5 * width + x_there / pixel, 0.5 * height - y_there / pixel, depth};
 }
 
 }  // namespace palpate

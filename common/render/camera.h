@@ -3,11 +3,12 @@
 /// Symbols.  f focal point; (r, u, b) unit axes right, up and back (toward the viewer), right-handed;
 /// h height of the view at the focal point [data units]; alpha vertical field of view; d distance.
 ///
-///   d = h / (2 tan(alpha / 2))        eye = f + d b                                      (1)
+///   d = h / (2 tan(alpha / 2))        eye = f + d b + o_x r + o_y u                      (1)
 ///
-/// so that a perspective and an orthographic view of the same h show the focal plane at the same size.
-/// Every operation is a rotation or a product with h: scaling the data by a power of two scales f and h
-/// exactly and leaves the picture as it is.
+/// so that a perspective and an orthographic view of the same h show the focal plane at the same size. An
+/// offset o of the eye leaves the picture's rectangle on the focal plane where it is: the frustum becomes an
+/// off-axis one, that of one of two eyes, or of a head before a screen. Every operation is a rotation or a
+/// product with h: scaling the data by a power of two scales f and h exactly and leaves the picture as it is.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ struct Camera {
   double view_height = 2.0;  ///< h > 0
   Projection projection = Projection::kPerspective;
   double field_of_view = 0.5235987755982988;  ///< alpha [rad], 30 degrees
+  Vec2 eye_offset{0.0};  ///< o, along r and u [data units]; perspective alone, where a picture is drawn
 
   bool operator==(const Camera&) const = default;
 };
@@ -58,7 +60,10 @@ void pan(Camera& camera, double to_right, double to_top);
 void zoom(Camera& camera, double factor, double to_right = 0.0, double to_top = 0.0);
 
 [[nodiscard]] double distance(const Camera& camera) noexcept;  ///< d of (1)
-[[nodiscard]] Vec3 eye(const Camera& camera) noexcept;         ///< of (1), for both projections
+/// Of (1); orthographic: without o.
+[[nodiscard]] Vec3 eye(const Camera& camera) noexcept;
+/// Nearer to the eye than this part of d nothing is drawn in perspective.
+inline constexpr double kNearestDepth = 0.01;
 
 /// Scene frame N of the GPU: x_N = 2^-exponent (x_X - center). Coordinates are near one whatever the
 /// data's units and origin, so that single precision is enough.
@@ -75,6 +80,7 @@ struct SceneFrame {
 struct ViewTransform {
   Mat4 clip_from_scene{1.0};
   Vec3 eye{0.0};             ///< scene frame
+  Vec2 eye_offset{0.0};      ///< o of (1), scene units; 0 in an orthographic view
   Vec3 focal_point{0.0};     ///< scene frame
   double distance = 1.0;     ///< scene units
   double view_height = 2.0;  ///< scene units

@@ -8,8 +8,8 @@ FrameBlock make_frame_block(const Camera& camera, const ViewTransform& transform
   FrameBlock block;
   block.clip_from_scene = glm::mat4(transform.clip_from_scene);
   block.eye = {Vec3f(transform.eye), perspective ? 1.0F : 0.0F};
-  block.right = {Vec3f(camera.axes[0]), 0.0F};
-  block.up = {Vec3f(camera.axes[1]), 0.0F};
+  block.right = {Vec3f(camera.axes[0]), transform.eye_offset.x};
+  block.up = {Vec3f(camera.axes[1]), transform.eye_offset.y};
   block.back = {Vec3f(camera.axes[2]), 0.0F};
   block.size = {width, height, transform.view_height / height, transform.distance};
   block.depth_cue = {transform.near_depth, transform.far_depth, depth_cue ? colors.fading : 0.0F,

@@ -13,8 +13,8 @@ namespace palpate {
 struct FrameBlock {
   glm::mat4 clip_from_scene{1.0F};
   glm::vec4 eye{0.0F};    ///< xyz position; w 1 perspective, 0 orthographic
-  glm::vec4 right{0.0F};  ///< xyz unit axes of the camera
-  glm::vec4 up{0.0F};
+  glm::vec4 right{0.0F};  ///< xyz unit axes of the camera; w: Camera::eye_offset along it [N]
+  glm::vec4 up{0.0F};     ///< likewise
   glm::vec4 back{0.0F};
   glm::vec4 size{0.0F};       ///< width, height [pixels]; N a pixel at the focal point; focal distance
   glm::vec4 depth_cue{0.0F};  ///< nearest and farthest depth; fading at the far end; strength of highlights

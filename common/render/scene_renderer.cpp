@@ -20,6 +20,7 @@
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/tract/tract_pass.h"
@@ -125,6 +126,7 @@ struct SceneRenderer::State {
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
   std::unique_ptr<Overlay> overlay;
+  std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
   Stopwatch since_draw;
 
   // What the uploaded buffers were made from.
@@ -376,6 +378,55 @@ struct SceneRenderer::State {
     glFinish();
     volume_ms = 1e3 * watch.seconds();
   }
+
+  // The picture of one eye, into the target's plain framebuffer.
+  void draw_eye(const SceneView& view, int width, int height, double resolution, double tract_milliseconds) {
+    if (target.resize(width, height, resolution)) still.reset();
+    update_geometry(view);
+    update_colors(view);
+
+    const double aspect = static_cast<double>(width) / height;
+    const ViewTransform transform = view_transform(view.camera, frame, reach, aspect);
+    const bool perspective = view.camera.projection == Projection::kPerspective;
+    // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
+    const int scene_height = target.scene_height();
+    const double pixel = transform.view_height / scene_height;
+    block = make_frame_block(view.camera, transform, palette_of(view.background), view.style.depth_cue,
+                             target.scene_width(), scene_height);
+    const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
+
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_MULTISAMPLE);
+    const float unit = static_cast<float>(scene_height) / 1000.0F;
+    LineDraw base;
+    base.tolerance = line_tolerance(transform, perspective, pixel);
+    base.back = Vec3f(view.camera.axes[2]);
+    if (view.probe || (view.tracts && std::isfinite(tract_milliseconds))) {
+      draw_over_still_part(view, base, unit, transform, tract_milliseconds);
+    } else {
+      still.reset();
+      target.bind_scene();
+      draw_still_part(view, base, unit, transform);
+      if (begin_tracts(view, tract_milliseconds)) draw_tracts(view, base, unit, tract_milliseconds);
+      if (shows_volume(view)) draw_volume(view);
+    }
+    if (is_transparent(view)) draw_lines(view, base, unit);
+
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(0);
+    glUseProgram(0);
+    target.resolve();
+    target.bind_resolved();
+    if (has_overlay(view)) {
+      legend.has_lines = has_colored_lines(view);
+      if (!overlay) overlay = std::make_unique<Overlay>();
+      overlay->draw(view, legend, width, height);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
 };
 
 SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
@@ -386,51 +437,23 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   State& s = *state_;
   s.stop_tracts = stop_tracts;
   s.since_draw.restart();
-  if (s.target.resize(width, height, resolution)) s.still.reset();
-  s.update_geometry(view);
-  s.update_colors(view);
-
-  const double aspect = static_cast<double>(width) / height;
-  const ViewTransform transform = view_transform(view.camera, s.frame, s.reach, aspect);
-  const bool perspective = view.camera.projection == Projection::kPerspective;
-  // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
-  const int scene_height = s.target.scene_height();
-  const double pixel = transform.view_height / scene_height;
-  s.block = make_frame_block(view.camera, transform, palette_of(view.background), view.style.depth_cue,
-                             s.target.scene_width(), scene_height);
-  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glEnable(GL_MULTISAMPLE);
-  const float unit = static_cast<float>(scene_height) / 1000.0F;
-  LineDraw base;
-  base.tolerance = line_tolerance(transform, perspective, pixel);
-  base.back = Vec3f(view.camera.axes[2]);
-  if (view.probe || (view.tracts && std::isfinite(tract_milliseconds))) {
-    s.draw_over_still_part(view, base, unit, transform, tract_milliseconds);
-  } else {
+  if (!has_two_eyes(view)) {
+    s.stereo.reset();
+    s.draw_eye(view, width, height, resolution, tract_milliseconds);
+    return;
+  }
+  if (!s.stereo) s.stereo = std::make_unique<StereoPass>();
+  s.stereo->begin(view.stereo.mode, width, height);
+  s.stop_tracts = {};
+  const StereoEyes eyes = stereo_eyes(view.camera, view.stereo, view.bounds);
+  SceneView seen = view;
+  for (std::size_t i = 0; i < eyes.cameras.size(); ++i) {
+    seen.camera = eyes.cameras[i];
     s.still.reset();
-    s.target.bind_scene();
-    s.draw_still_part(view, base, unit, transform);
-    if (s.begin_tracts(view, tract_milliseconds)) s.draw_tracts(view, base, unit, tract_milliseconds);
-    if (shows_volume(view)) s.draw_volume(view);
+    s.draw_eye(seen, s.stereo->eye_size().width, s.stereo->eye_size().height, resolution, HUGE_VAL);
+    s.stereo->keep(view.stereo.swapped ? 1 - i : i, s.target.resolved());
   }
-  if (is_transparent(view)) s.draw_lines(view, base, unit);
-
-  glDisable(GL_DEPTH_TEST);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  s.target.resolve();
-  s.target.bind_resolved();
-  if (has_overlay(view)) {
-    s.legend.has_lines = has_colored_lines(view);
-    if (!s.overlay) s.overlay = std::make_unique<Overlay>();
-    s.overlay->draw(view, s.legend, width, height);
-  }
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  s.stereo->compose();
 }
 
 bool SceneRenderer::complete() const noexcept { return !state_->tracts || state_->progress.complete(); }
@@ -455,8 +478,16 @@ double SceneRenderer::finish() {
   return 1e3 * state_->since_draw.seconds();
 }
 
-Image SceneRenderer::read() const { return state_->target.read(); }
-void SceneRenderer::show(int left, int bottom) const { state_->target.show(left, bottom); }
+Image SceneRenderer::read() const { return state_->stereo ? state_->stereo->read() : state_->target.read(); }
+
+void SceneRenderer::show(int left, int bottom) const {
+  if (state_->stereo) {
+    state_->stereo->show(left, bottom);
+  } else {
+    state_->target.show(left, bottom);
+  }
+}
+
 ValueRange SceneRenderer::range() const { return state_->legend.range; }
 
 }  // namespace palpate

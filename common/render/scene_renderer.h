@@ -21,7 +21,9 @@ struct TractShare {
 /// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
 /// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time. A
 /// volume belongs to what does not move: with a probe in the view it hides nothing of it, solid or not.
-/// Needs an OpenGL 4.5 core context, the same at every call and at destruction.
+/// A view with two eyes is drawn once for each, then composed (stereo_pass.h). What stands still is kept for
+/// one eye alone, so that each of the two draws all of it, tracts without a limit of time. Needs an
+/// OpenGL 4.5 core context, the same at every call and at destruction.
 class SceneRenderer {
  public:
   SceneRenderer();

@@ -8,7 +8,7 @@ bool same_tensors(const SceneView& a, const SceneView& b) {
 }
 
 bool same_picture(const SceneView& a, const SceneView& b) {
-  return a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
+  return a.lines == b.lines && a.style == b.style && a.camera == b.camera && a.stereo == b.stereo &&
          a.bounds.lower == b.bounds.lower && a.bounds.upper == b.bounds.upper && a.units == b.units &&
          a.background == b.background && a.show_outline == b.show_outline && a.show_axes == b.show_axes &&
          a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
@@ -17,6 +17,10 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
          a.notes == b.notes && a.volume_label == b.volume_label && a.anatomical == b.anatomical &&
          a.surfaces == b.surfaces && a.color_lens == b.color_lens;
+}
+
+bool has_two_eyes(const SceneView& view) noexcept {
+  return view.stereo.mode != StereoMode::kNone && view.camera.projection == Projection::kPerspective;
 }
 
 std::string length_unit(const SceneView& view) {

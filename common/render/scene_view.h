@@ -14,6 +14,7 @@
 #include "common/render/camera.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
+#include "common/render/stereo/stereo_view.h"
 #include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
 #include "common/render/tract/tract_view.h"
@@ -55,6 +56,7 @@ struct SceneView {
   std::string title;     ///< top left; empty: none
   std::string subtitle;  ///< smaller, below it
   Camera camera;
+  StereoView stereo;  ///< of a perspective camera; an orthographic one has one eye
   std::optional<ProbeView> probe;
   std::vector<SurfaceView> surfaces;
   std::optional<ColorLens> color_lens;
@@ -68,6 +70,9 @@ struct SceneView {
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const SceneView& a, const SceneView& b);
+
+/// Whether it is drawn for two eyes: an orthographic camera has one.
+[[nodiscard]] bool has_two_eyes(const SceneView& view) noexcept;
 
 /// Of lengths in the picture; empty where it is not known.
 [[nodiscard]] std::string length_unit(const SceneView& view);

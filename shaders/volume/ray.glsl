@@ -52,7 +52,8 @@ Ray pixel_ray() {
   bool perspective = frame.eye.w > 0.5;
   Ray ray;
   ray.origin = perspective ? frame.eye.xyz : frame.eye.xyz + across;
-  ray.direction = perspective ? normalize(across - frame.size.w * frame.back.xyz) : -frame.back.xyz;
+  vec3 off_axis = frame.right.w * frame.right.xyz + frame.up.w * frame.up.xyz;
+  ray.direction = perspective ? normalize(across - off_axis - frame.size.w * frame.back.xyz) : -frame.back.xyz;
   ray.start = (volume.grid_from_scene * vec4(ray.origin, 1.0)).xyz;
   ray.speed = mat3(volume.grid_from_scene) * ray.direction;
 

@@ -23,7 +23,7 @@ void main() {
   float t = c.z;
   if (frame.eye.w > 0.5) {
     t = length(c);
-    at = c.xy * (frame.size.w / c.z);
+    at = c.xy * (frame.size.w / c.z) + vec2(frame.right.w, frame.up.w);
     reach = radius * (1.0 + abs(c.xy) / c.z) / (c.z - radius) * frame.size.w;  // (1)
     // Beside or behind the eye a sphere may be seen anywhere.
     if (c.z <= 1.01 * radius) {

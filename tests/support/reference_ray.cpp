@@ -108,7 +108,7 @@ Rgba ReferenceRay::cast(double x, double y) const {
   const bool perspective = camera_.projection == Projection::kPerspective;
   const Vec3 origin = perspective ? eye(camera_) : eye(camera_) + across;
   const Vec3 direction =
-      perspective ? glm::normalize(across - distance(camera_) * camera_.axes[2]) : -camera_.axes[2];
+      perspective ? glm::normalize(camera_.focal_point + across - origin) : -camera_.axes[2];
 
   const VolumeImage& image = *view_.image;
   const Vec3 g0 = grid_from_data_ * (origin - image.origin), speed = grid_from_data_ * direction;

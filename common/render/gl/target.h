@@ -30,9 +30,10 @@ class RenderTarget {
   /// passes that look up what lies in front of them. @return the name of a texture that stays valid until the
   /// size changes.
   [[nodiscard]] std::uint32_t copy_depth();
-  void resolve();                    ///< copies it, averaged, to the plain one
-  void bind_resolved();              ///< draw into the plain one, without depth
-  [[nodiscard]] Image read() const;  ///< of the plain one
+  void resolve();        ///< copies it, averaged, to the plain one
+  void bind_resolved();  ///< draw into the plain one, without depth
+  [[nodiscard]] std::uint32_t resolved() const noexcept { return resolved_.name(); }  ///< the plain one
+  [[nodiscard]] Image read() const;                                                   ///< of it
   /// Copies the plain one to the framebuffer that the window shows, `left` and `bottom` pixels from its
   /// lower left corner.
   void show(int left, int bottom) const;

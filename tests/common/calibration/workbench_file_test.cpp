@@ -48,11 +48,9 @@ TEST_F(WorkbenchFileTest, EverySectionComesBackToTheBit) {
   write_section(path_, "coregistration", section_text(CoregistrationGeometry{motion, {0.1, 0, 0}}), false);
   write_section(path_, "stylus", stylus_section_text({0.0, 0.0, -0.14}), false);
   write_section(path_, "eyes", section_text(EyesGeometry{Vec3{-0.03, 0, 0}, std::nullopt}), false);
-  write_section(path_, "screen", section_text(ScreenGeometry{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), false);
 
   const WorkbenchGeometry back = read_workbench(path_);
-  ASSERT_TRUE(back.tracker && back.arm && back.apparatus && back.coregistration && back.stylus && back.eyes &&
-              back.screen);
+  ASSERT_TRUE(back.tracker && back.arm && back.apparatus && back.coregistration && back.stylus && back.eyes);
   EXPECT_EQ(back.tracker->position.coefficients, tracker.position.coefficients);
   EXPECT_EQ(back.tracker->position.center, tracker.position.center);
   EXPECT_EQ(back.tracker->table.values[7].position, tracker.table.values[7].position);
@@ -123,6 +121,33 @@ TEST_F(WorkbenchFileTest, SaysHowHandsWork) {
   names("[interaction]\ngain = 0\n", "line 2", "above zero");
   names("[interaction]\nspeed = 1\n", "line 2", "gain");
   names("[interaction]\nrotation = [2, 0, 0, 0]\n", "line 2", "length 2");
+}
+
+TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
+  write("[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0, 0.5, 0]\n");
+  ASSERT_EQ(read_workbench(path_).screens.size(), 1U);
+  EXPECT_EQ(width(read_workbench(path_).screens[0].corners), 1.0);
+  write(
+      "[[screen]]\nname = 'table'\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0, 0, 1]\n"
+      "[[screen]]\nname = 'desk'\npixels = [1920, 1080]\nlower_left = [0, 0, 1]\nlower_right = [1, 0, 1]\n"
+      "upper_left = [0, 1, 1]\n");
+  const auto screens = read_workbench(path_).screens;
+  ASSERT_EQ(screens.size(), 2U);
+  EXPECT_EQ(screens[1].name, "desk");
+  EXPECT_EQ(screens[1].pixels[1], 1080);
+  const auto names = [this](const std::string& content, const char* line, const char* word) {
+    const std::string text = refusal(content);
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  };
+  names("[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0.5, 0.5, 0]\n", "line 2",
+        "rectangle");
+  names("[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\n", "line 1", "upper_left");
+  names(
+      "[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0, 1, 0]\npixels = [1.5, "
+      "2]\n",
+      "line 5", "whole");
+  names("a = 1\nscreen = 3\n", "line 2", "[screen]");
 }
 
 TEST_F(WorkbenchFileTest, NamesTheLineOfWhatIsWrong) {

@@ -72,6 +72,18 @@ TEST(VolumePass, AgreesWithTheReferenceInOrthographicAndGrazingViews) {
   expect_agreement(view, camera_of(view, {.azimuth = 45.0, .elevation = 89.9}), "from above");
 }
 
+// The eyes of a head before a screen: tiles without anything in them are found off the axis, too.
+TEST(VolumePass, AgreesWithTheReferenceOffAxis) {
+  VolumeView view = sampled_view(blobs, ScalarType::kFloat32, 65);
+  view.transfer = spread(ColorTransfer({{0.8, Vec3f(0.0F), 0.0}, {1.0, Vec3f(1.0F), 0.5}}), 0.0, 1.0);
+  for (const bool skip : {false, true}) {
+    view.skip_empty = skip;
+    Camera camera = camera_of(view);
+    camera.eye_offset = camera.view_height * Vec2(0.9, -0.6);
+    expect_agreement(view, camera, skip ? "off-axis, without empty bricks" : "off-axis");
+  }
+}
+
 TEST(VolumePass, AgreesWithTheReferenceFromInside) {
   const VolumeView view = sampled_view(blobs);
   Camera camera = camera_of(view);

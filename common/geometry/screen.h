@@ -1,0 +1,48 @@
+/// A flat screen that pictures are shown on, by three of its corners, in any frame and unit.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "common/math/vec.h"
+
+namespace palpate {
+
+struct Screen {
+  Vec3 lower_left{0.0}, lower_right{0.0}, upper_left{0.0};
+
+  bool operator==(const Screen&) const = default;
+};
+
+[[nodiscard]] inline double width(const Screen& screen) {
+  return glm::distance(screen.lower_left, screen.lower_right);
+}
+[[nodiscard]] inline double height(const Screen& screen) {
+  return glm::distance(screen.lower_left, screen.upper_left);
+}
+[[nodiscard]] inline Vec3 center(const Screen& screen) {
+  return 0.5 * (screen.lower_right + screen.upper_left);
+}
+
+/// What is wrong with the corners: an edge without length, or edges that are not upright on each other. Empty
+/// where nothing is.
+[[nodiscard]] inline std::string fault_of(const Screen& screen) {
+  constexpr double kMostSkew = 0.02;  // cosine of the angle between the edges: 1.1 degrees off
+  const Vec3 across = screen.lower_right - screen.lower_left, up = screen.upper_left - screen.lower_left;
+  const double size = glm::length(across) * glm::length(up);
+  if (!(size > 0.0) || !std::isfinite(size)) return "an edge of the screen has no length";
+  if (std::abs(glm::dot(across, up)) > kMostSkew * size)
+    return "the corners of the screen are no rectangle's";
+  return {};
+}
+
+/// Columns: right, up, and out of the screen towards the eyes; orthonormal, up being made upright on right.
+/// @pre fault_of() is empty.
+[[nodiscard]] inline Mat3 axes(const Screen& screen) {
+  const Vec3 right = glm::normalize(screen.lower_right - screen.lower_left);
+  const Vec3 up = screen.upper_left - screen.lower_left;
+  const Vec3 upright = glm::normalize(up - glm::dot(up, right) * right);
+  return {right, upright, glm::cross(right, upright)};
+}
+
+}  // namespace palpate

@@ -1,0 +1,83 @@
+#include "common/render/stereo/stereo_pass.h"
+
+#include <cstddef>
+#include <string_view>
+
+#include <epoxy/gl.h>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/render/gl/gpu_objects.h"
+#include "common/render/gl/program.h"
+#include "common/render/gl/target.h"
+
+namespace palpate {
+namespace {
+
+constexpr GLint kModeLocation = 0;
+
+void make_layer(GlTexture& texture, GlFramebuffer& framebuffer, int width, int height,
+                std::string_view what) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  texture = GlTexture(name);
+  label_object(GpuObject::Kind::kTexture, name, what);
+  glTextureStorage2D(name, 1, GL_RGBA8, width, height);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  GLuint buffer = 0;
+  glCreateFramebuffers(1, &buffer);
+  framebuffer = GlFramebuffer(buffer);
+  glNamedFramebufferTexture(buffer, GL_COLOR_ATTACHMENT0, name, 0);
+  if (glCheckNamedFramebufferStatus(buffer, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw work_error("the OpenGL driver refuses a framebuffer for two eyes");
+}
+
+}  // namespace
+
+void StereoPass::begin(StereoMode mode, int width, int height) {
+  PALPATE_CHECK(mode != StereoMode::kNone);
+  if (mode == mode_ && width == width_ && height == height_) return;
+  eye_size_ = eye_picture_size(mode, width, height);
+  for (std::size_t i = 0; i < eyes_.size(); ++i)
+    make_layer(eyes_[i], eye_framebuffers_[i], eye_size_.width, eye_size_.height,
+               i == 0 ? "left eye" : "right eye");
+  make_layer(picture_, framebuffer_, width, height, "both eyes");
+  mode_ = mode;
+  width_ = width;
+  height_ = height;
+}
+
+void StereoPass::keep(std::size_t eye, std::uint32_t framebuffer) const {
+  const auto [width, height] = eye_size_;
+  glBlitNamedFramebuffer(framebuffer, eye_framebuffers_[eye].name(), 0, 0, width, height, 0, 0, width, height,
+                         GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void StereoPass::compose() {
+  if (!program_) {
+    program_ = compile_program("background/background.vert", "stereo/compose.frag");
+    no_vertices_ = make_vertex_array();
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_, height_);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glUseProgram(program_.name());
+  glUniform1i(kModeLocation, static_cast<GLint>(mode_));
+  for (std::size_t i = 0; i < eyes_.size(); ++i) glBindTextureUnit(static_cast<GLuint>(i), eyes_[i].name());
+  glBindVertexArray(no_vertices_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+Image StereoPass::read() const { return read_framebuffer(framebuffer_.name(), width_, height_); }
+
+void StereoPass::show(int left, int bottom) const {
+  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, left, bottom, left + width_,
+                         bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace palpate

@@ -1,0 +1,47 @@
+/// Puts the pictures of two eyes together: both are kept as textures, one triangle composes them.
+///
+/// Anaglyphs: with linear colours L and R, the picture is A L + B R, clamped. A and B are the least-squares
+/// projection of Dubois 2009 ("Conversion of a stereo pair to anaglyph with the least-squares projection
+/// method") for red-cyan glasses before an LCD; or, in grey, red takes the luminance (ITU-R BT.709) of L,
+/// green and blue that of R.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/render/gl/object.h"
+#include "common/render/scene_view.h"
+#include "common/render/stereo/stereo_view.h"
+
+namespace palpate {
+
+class StereoPass {
+ public:
+  /// Makes what a picture of this size needs, unless it is there.
+  /// @pre mode is not kNone. @throws Error (usage) as eye_picture_size().
+  void begin(StereoMode mode, int width, int height);
+  /// What each eye's picture has to have.
+  [[nodiscard]] EyePictureSize eye_size() const noexcept { return eye_size_; }
+  /// Keeps the picture that `framebuffer` holds as that of eye 0, left, or 1, right.
+  void keep(std::size_t eye, std::uint32_t framebuffer) const;
+  /// Both eyes are kept: draws the picture.
+  void compose();
+  /// @name The picture, as RenderTarget
+  /// @{
+  [[nodiscard]] Image read() const;
+  void show(int left, int bottom) const;
+  /// @}
+
+ private:
+  StereoMode mode_ = StereoMode::kNone;
+  int width_ = 0, height_ = 0;
+  EyePictureSize eye_size_;
+  GlProgram program_;
+  GlVertexArray no_vertices_;
+  std::array<GlTexture, 2> eyes_;
+  std::array<GlFramebuffer, 2> eye_framebuffers_;
+  GlTexture picture_;
+  GlFramebuffer framebuffer_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,153 @@
+// Pictures of two eyes: each mode holds the pictures of both, and points lie apart as the formula says.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "common/render/render_image.h"
+#include "tests/common/render/sample_scenes.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kWidth = 400, kHeight = 300;
+
+SceneView quiet(SceneView view) {
+  view.show_axes = view.show_color_bar = view.show_outline = false;
+  return view;
+}
+
+Image drawn(const SceneView& view, int width, int height) { return render_image(view, width, height).image; }
+
+// One eye's picture by itself, from its camera.
+Image eye_alone(SceneView view, std::size_t eye, int width, int height) {
+  view.camera = stereo_eyes(view.camera, view.stereo, view.bounds).cameras[eye];
+  view.stereo.mode = StereoMode::kNone;
+  return drawn(view, width, height);
+}
+
+// Pixels of `image` that differ from eye `eye`'s picture where `shows` says that it is shown.
+template <class Shows>
+int strange_pixels(const Image& image, const Image& eye, int left, int top, const Shows& shows) {
+  int count = 0;
+  for (int y = 0; y < eye.height; ++y) {
+    for (int x = 0; x < eye.width; ++x) {
+      if (shows(x, y) && image.pixel(left + x, top + y) != eye.pixel(x, y)) ++count;
+    }
+  }
+  return count;
+}
+
+TEST(StereoPicture, HoldsThePicturesOfBothEyesWhereTheModeSays) {
+  SceneView view = test::whirlwind(4.0 / 3.0, 12);
+  const auto all = [](int, int) { return true; };
+
+  view.stereo.mode = StereoMode::kSideBySide;
+  const Image beside = drawn(view, kWidth, kHeight);
+  const int half = kWidth / 2;
+  EXPECT_EQ(strange_pixels(beside, eye_alone(view, 0, half, kHeight), 0, 0, all), 0);
+  EXPECT_EQ(strange_pixels(beside, eye_alone(view, 1, half, kHeight), half, 0, all), 0);
+  EXPECT_GT(strange_pixels(beside, eye_alone(view, 0, half, kHeight), half, 0, all), 100);
+
+  view.stereo.mode = StereoMode::kTopBottom;
+  const Image above = drawn(view, kWidth, kHeight);
+  EXPECT_EQ(strange_pixels(above, eye_alone(view, 0, kWidth, kHeight / 2), 0, 0, all), 0);
+  EXPECT_EQ(strange_pixels(above, eye_alone(view, 1, kWidth, kHeight / 2), 0, kHeight / 2, all), 0);
+
+  const Image left = eye_alone(view, 0, kWidth, kHeight), right = eye_alone(view, 1, kWidth, kHeight);
+  view.stereo.mode = StereoMode::kRows;
+  const Image rows = drawn(view, kWidth, kHeight);
+  EXPECT_EQ(strange_pixels(rows, left, 0, 0, [](int, int y) { return y % 2 == 0; }), 0);
+  EXPECT_EQ(strange_pixels(rows, right, 0, 0, [](int, int y) { return y % 2 == 1; }), 0);
+
+  view.stereo.mode = StereoMode::kColumns;
+  view.stereo.swapped = true;
+  const Image columns = drawn(view, kWidth, kHeight);
+  EXPECT_EQ(strange_pixels(columns, right, 0, 0, [](int x, int) { return x % 2 == 0; }), 0);
+  EXPECT_EQ(strange_pixels(columns, left, 0, 0, [](int x, int) { return x % 2 == 1; }), 0);
+}
+
+double linear(int byte) {
+  const double c = byte / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+int encoded(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return static_cast<int>(
+      std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
+}
+
+TEST(StereoPicture, AnaglyphsMixColoursAsTheirMatricesSay) {
+  using Rows = std::array<std::array<double, 6>, 3>;  // of the left eye's colours, then the right one's
+  const Rows dubois{{{0.437, 0.449, 0.164, -0.011, -0.032, -0.007},
+                     {-0.062, -0.062, -0.024, 0.377, 0.761, 0.009},
+                     {-0.048, -0.050, -0.017, -0.026, -0.093, 1.234}}};
+  const Rows grey{{{0.2126, 0.7152, 0.0722, 0, 0, 0},
+                   {0, 0, 0, 0.2126, 0.7152, 0.0722},
+                   {0, 0, 0, 0.2126, 0.7152, 0.0722}}};
+  SceneView view = test::whirlwind(4.0 / 3.0, 12);
+  view.stereo.mode = StereoMode::kAnaglyph;
+  const Image left = eye_alone(view, 0, kWidth, kHeight), right = eye_alone(view, 1, kWidth, kHeight);
+  for (const auto& [mode, matrix] :
+       {std::pair(StereoMode::kAnaglyph, dubois), std::pair(StereoMode::kAnaglyphGrey, grey)}) {
+    view.stereo.mode = mode;
+    const Image picture = drawn(view, kWidth, kHeight);
+    int worst = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const auto l = left.pixel(x, y), r = right.pixel(x, y), p = picture.pixel(x, y);
+        for (std::size_t row = 0; row < 3; ++row) {
+          double sum = 0.0;
+          for (std::size_t c = 0; c < 3; ++c)
+            sum += matrix[row][c] * linear(l[c]) + matrix[row][c + 3] * linear(r[c]);
+          worst = std::max(worst, std::abs(encoded(sum) - p[row]));
+        }
+      }
+    }
+    EXPECT_LE(worst, 1);
+  }
+}
+
+// The middle of what is drawn: of a short upright line, its x in pixels.
+double middle_of(const Image& image, int left, int width) {
+  const auto nothing = image.pixel(left, 0);
+  double sum = 0.0, weight = 0.0;
+  for (int y = image.height / 4; y < 3 * image.height / 4; ++y) {
+    for (int x = left; x < left + width; ++x) {
+      const auto p = image.pixel(x, y);
+      // Backgrounds are a gradient: lines are far brighter.
+      const double bright = std::max(0, p[0] + p[1] + p[2] - nothing[0] - nothing[1] - nothing[2] - 90);
+      sum += bright * (x - left + 0.5);
+      weight += bright;
+    }
+  }
+  return weight > 0.0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+}
+
+// A point at depth z is drawn e (z - d) / z further right for the right eye than for the left one, on a
+// screen at d.
+TEST(StereoPicture, APointLiesApartAsItsDepthSays) {
+  for (const double depth : {-0.9, -0.4, 0.0, 0.5, 0.9}) {
+    SceneView view;
+    view.bounds = {Vec3(-1.0), Vec3(1.0)};
+    auto lines = std::make_shared<std::vector<Line>>();
+    lines->push_back(test::polyline({{0.1, depth, -0.3}, {0.1, depth, 0.3}}));
+    view.lines = lines;
+    view.style.color_by = ColorBy::kUniform;
+    view.style.halo = false;
+    view.style.depth_cue = false;
+    view.camera = make_camera(view.bounds, {.azimuth = 0, .elevation = 0}, 1.0);
+    view = quiet(view);
+    view.stereo = {.mode = StereoMode::kSideBySide, .separation = 0.1, .most_disparity = 1.0};
+    constexpr int kEdge = 500;
+    const Image image = drawn(view, 2 * kEdge, kEdge);
+    const double apart = middle_of(image, kEdge, kEdge) - middle_of(image, 0, kEdge);
+    const double d = distance(view.camera), z = d + depth, e = 0.1 * d;
+    EXPECT_NEAR(apart, e * (z - d) / z * kEdge / view.camera.view_height, 0.5) << depth;
+  }
+}
+
+}  // namespace
+}  // namespace palpate
