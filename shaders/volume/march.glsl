@@ -9,7 +9,7 @@
 
 // Table coordinate of the value at g; NaN where there is none.
 float value_at(vec3 g) {
-  float number = texture(voxels, (g + 0.5) / volume.points.xyz).x;
+  float number = number_at(g);
 #ifdef BLENDED
   number = blended_number(number, g);
 #endif

@@ -43,7 +43,7 @@ void main() {
   vec4 part = in_lens ? volume.parts[lens + 1] : volume.parts[0];
   vec3 x = in_lens && magnifies(lens) ? place_seen(lens, place) : place;
   vec3 g = (volume.grid_from_scene * vec4(x, 1.0)).xyz;
-  float number = texture(voxels, (g + 0.5) / volume.points.xyz).x;
+  float number = number_at(g);
   float slope = length(vec2(dFdx(number), dFdy(number)));
   bool cut_away = in_lens && part.w > 0.5 && part.w < 1.5;
   if (cut_away || isnan(number)) discard;

@@ -19,7 +19,7 @@ layout(std140, binding = 1) uniform Volume {
   ivec4 counts;                 // x: lenses, y: cuts
 } volume;
 
-layout(binding = 0) uniform sampler3D voxels;
+#include "volume/voxels.glsl"
 layout(binding = 1) uniform sampler2DArray tables;   // associated colour and opacity: front entry, back entry, layer
 layout(binding = 2) uniform usampler3D empty_bricks; // distances in bricks, one map after another along z
 layout(binding = 3) uniform sampler2D opaque_depth;

@@ -1,5 +1,7 @@
 #include "common/app/cli/input_model.h"
 
+#include <cmath>
+
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 
@@ -38,6 +40,9 @@ void describe_rays(Session& session, const VolumeView& volume) {
   add_option(session, "samples", exact_number(volume.samples_per_voxel));
   if (volume.context.viewport < 1.0)
     add_option(session, "context-viewport", exact_number(volume.context.viewport));
+  if (volume.storage.memory > 0)
+    add_option(session, "gpu-memory",
+               exact_number(std::ldexp(static_cast<double>(volume.storage.memory), -20)));
   if (volume.context.level > 0) add_option(session, "context-level", std::to_string(volume.context.level));
   add_option(session, "shading", volume.shading ? "on" : "off");
 }

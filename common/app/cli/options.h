@@ -88,6 +88,7 @@ struct VolumeOptions {
   double samples = 4.0;                 ///< per voxel along a ray
   double context_viewport = 1.0;        ///< ContextQuality::viewport
   int context_level = 0;                ///< ContextQuality::level
+  double gpu_memory = 0.0;              ///< that voxels may take there [2^20 bytes]; 0: no bound
   bool shading = true;                  ///< Phong
   std::string projection = "perspective";
 };

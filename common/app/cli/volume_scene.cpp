@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -162,6 +164,7 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
   volume.samples_per_voxel = options.volume.samples;
   volume.context.viewport = options.volume.context_viewport;
   volume.context.level = options.volume.context_level;
+  volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
     VolumeParts parts =

@@ -63,8 +63,9 @@ std::string readable(const std::string& log, const ShaderSource& source) {
   return origin.file + ":" + std::to_string(origin.line) + std::string(after, end);
 }
 
-GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile> files) {
-  const ShaderSource source = assemble_shader(path, files);
+GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile> files,
+                 std::span<const std::string> defines) {
+  const ShaderSource source = assemble_shader(path, files, defines);
   GlShader shader(glCreateShader(stage));
   const char* text = source.text.c_str();
   glShaderSource(shader.name(), 1, &text, nullptr);
@@ -83,17 +84,23 @@ GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile
 
 }  // namespace
 
-ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files) {
+ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files,
+                             std::span<const std::string> defines) {
   ShaderSource source;
   std::vector<std::string> taken;
   append_file(path, {}, files, taken, source);
+  if (defines.empty()) return source;
+  std::string lines;
+  for (const std::string& define : defines) lines += "#define " + define + "\n";
+  source.text.insert(source.text.find('\n') + 1, lines);
+  source.lines.insert(source.lines.begin() + 1, defines.size(), {std::string(path), 1});
   return source;
 }
 
 GlProgram compile_program(std::string_view vertex, std::string_view fragment,
-                          std::span<const ShaderFile> files) {
-  const GlShader vertex_shader = compile(GL_VERTEX_SHADER, vertex, files);
-  const GlShader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment, files);
+                          std::span<const ShaderFile> files, std::span<const std::string> defines) {
+  const GlShader vertex_shader = compile(GL_VERTEX_SHADER, vertex, files, defines);
+  const GlShader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment, files, defines);
   GlProgram program(glCreateProgram());
   glAttachShader(program.name(), vertex_shader.name());
   glAttachShader(program.name(), fragment_shader.name());

@@ -36,11 +36,14 @@ struct ShaderSource {
 
 /// Puts in the includes of `path`, looked up in `files`.
 /// @throws Error (work failed) naming a file that is not there, and who includes it.
-[[nodiscard]] ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files);
+/// @param defines what follows `#define` in lines behind the first one, which states the version.
+[[nodiscard]] ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files,
+                                           std::span<const std::string> defines = {});
 
-/// Compiles and links `vertex` and `fragment` (paths below shaders/).
+/// Compiles and links `vertex` and `fragment` (paths below shaders/), both with `defines`.
 /// @throws Error (work failed) with the file, line and message of the first error of the driver.
 [[nodiscard]] GlProgram compile_program(std::string_view vertex, std::string_view fragment,
-                                        std::span<const ShaderFile> files = shader_files());
+                                        std::span<const ShaderFile> files = shader_files(),
+                                        std::span<const std::string> defines = {});
 
 }  // namespace palpate

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <epoxy/gl.h>
 
@@ -13,6 +17,7 @@
 #include "common/render/volume/coarse_image.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
+#include "common/render/volume/voxel_texture.h"
 
 namespace palpate {
 namespace {
@@ -28,7 +33,25 @@ VolumeView context_of(const VolumeView& view) {
     lens.colored = false;
   }
   context.table_entries = view.context.table_entries;
+  context.storage = {};  // shared with the whole picture, or as coarse as its share of the memory asks for
   return context;
+}
+
+// The coarser voxels, whole, in the memory that there is for them.
+std::shared_ptr<const VolumeImage> coarse_context(const VolumeView& view) {
+  const std::uint64_t memory = view.storage.memory / kContextShare;
+  auto image = coarse_image(*view.image, view.context.level);
+  const int largest = largest_volume_texture();
+  const auto fits = [&] {
+    const Index3 n = image->points;
+    return std::max({n.x, n.y, n.z}) <= largest && (memory == 0 || image->bytes.size() <= memory);
+  };
+  while (!fits()) {
+    const Index3 points = image->points;
+    image = coarse_image(*image, 1);
+    if (image->points == points) break;
+  }
+  return image;
 }
 
 }  // namespace
@@ -38,7 +61,7 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   PALPATE_CHECK(view.context.viewport > 0.0 && view.context.viewport <= 1.0);
   const auto coarse = fine_ == view.image && level_ == view.context.level ? view_.image
                       : view.context.level == 0                           ? view.image
-                                                : coarse_image(*view.image, view.context.level);
+                                                                          : coarse_context(view);
   fine_ = view.image;
   level_ = view.context.level;
   view_ = context_of(view);
@@ -47,6 +70,11 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);
   textures_.update(view_, &whole);
+  if (std::vector<std::string> defines = textures_.shader_defines(); defines != defines_) {
+    unlit_.reset();
+    shaded_.reset();
+    defines_ = std::move(defines);
+  }
   volume_block_ = volume_shader::make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
   lens_block_ = volume_shader::make_block_buffer(make_lens_block(view_, frame));
 }
@@ -85,7 +113,8 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
   GlProgram& program = view_.shading ? shaded_ : unlit_;
   if (!program)
     program = compile_program("volume/volume.vert",
-                              view_.shading ? "volume/context_shaded.frag" : "volume/context.frag");
+                              view_.shading ? "volume/context_shaded.frag" : "volume/context.frag",
+                              shader_files(), defines_);
   glUseProgram(program.name());
   glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
   glUniform3f(volume_shader::kDepthPixel, 1.0F / scale_, -left_ / scale_, -bottom_ / scale_);
@@ -169,7 +198,7 @@ void ContextPicture::bind_pictures(std::uint32_t wanted) const {
 
 void ContextPicture::bind() const {
   bind_pictures(1);
-  textures_.bind_voxels(volume_shader::kCoarseVoxels);
+  if (level_ > 0) textures_.bind_voxels(volume_shader::kCoarseVoxels);
 }
 
 void ContextPicture::show() {

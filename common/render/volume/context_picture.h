@@ -22,9 +22,13 @@
 
 namespace palpate {
 
+/// Of the memory for voxels, one part is for a context from coarser ones.
+inline constexpr std::uint64_t kContextShare = 4;
+
 class ContextPicture {
  public:
   /// @param whole what was made for the whole of `view`.
+  /// Its coarser voxels take one of kContextShare parts of the memory that the view has for voxels.
   /// @pre draws_context_alone(view), and as for VolumePass::update().
   void update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole);
 
@@ -62,6 +66,7 @@ class ContextPicture {
   bool has_opaque_depth_ = false;
 
   VolumeTextures textures_;
+  std::vector<std::string> defines_;  ///< of `unlit_` and `shaded_`
   GlProgram unlit_, shaded_, tiles_, enlarged_;
   GlVertexArray no_vertices_;
   GlBuffer volume_block_, lens_block_;

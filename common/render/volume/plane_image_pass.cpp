@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -22,9 +23,11 @@ constexpr float kWidth = 1.8F;
 
 }  // namespace
 
-void PlaneImagePass::draw(const VolumeView& view, const SceneFrame& frame, const FrameBlock& block) {
+void PlaneImagePass::draw(const VolumeView& view, const SceneFrame& frame, const FrameBlock& block,
+                          std::span<const std::string> defines) {
   PALPATE_CHECK(view.planes.contours.size() <= kMostContours);
-  if (!program_) program_ = compile_program("volume/plane_image.vert", "volume/plane_image.frag");
+  if (!program_)
+    program_ = compile_program("volume/plane_image.vert", "volume/plane_image.frag", shader_files(), defines);
   const VolumeImage& image = *view.image;
   const double unit = largest_number(image.type);
   const auto number = [&](double value) { return (value - image.offset) / image.scale / unit; };

@@ -18,6 +18,7 @@ inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaq
 inline constexpr std::uint32_t kKeptPicture = 6, kKeptDepth = 7;
 inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9,
                                kCoarseVoxels = 10;
+inline constexpr std::uint32_t kBrickIndex = 11;
 
 // Uniforms.
 inline constexpr std::int32_t kHasOpaqueDepth = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -61,6 +62,13 @@ Variant variant_of(const VolumeView& view) {
   return view.shading ? Variant::kShaded : Variant::kPlain;
 }
 
+// What there is for the voxels that are not those of a coarser context.
+VoxelStorage storage_of_whole(const VolumeView& view) {
+  VoxelStorage storage = view.storage;
+  if (draws_context_alone(view) && view.context.level > 0) storage.memory -= storage.memory / kContextShare;
+  return storage;
+}
+
 }  // namespace
 
 struct VolumePass::State {
@@ -73,6 +81,7 @@ struct VolumePass::State {
 
   PlaneImagePass planes;
   Variant variant = Variant::kPlain;
+  std::vector<std::string> defines;  // of all programs that look up voxels
   SceneFrame frame;
   bool asks_tiles = true;
 
@@ -88,7 +97,7 @@ struct VolumePass::State {
     GlProgram& program = programs[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
     if (!program) {
       program = compile_program(over_context(reach) ? "volume/context_tiles.vert" : "volume/volume.vert",
-                                fragment_of(reach, variant));
+                                fragment_of(reach, variant), shader_files(), defines);
       ++cost.programs;
     }
     return program;
@@ -164,14 +173,24 @@ struct VolumePass::State {
 VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
 VolumePass::~VolumePass() = default;
 
-void VolumePass::update(const VolumeView& view, const SceneFrame& frame) {
-  PALPATE_CHECK(view.image != nullptr);
-  PALPATE_CHECK(view.samples_per_voxel > 0.0 && std::isfinite(view.samples_per_voxel));
-  for (const Lens& lens : view.lenses) {
+void VolumePass::update(const VolumeView& asked, const SceneFrame& frame) {
+  PALPATE_CHECK(asked.image != nullptr);
+  PALPATE_CHECK(asked.samples_per_voxel > 0.0 && std::isfinite(asked.samples_per_voxel));
+  for (const Lens& lens : asked.lenses) {
     PALPATE_CHECK(lens.samples_per_voxel > 0.0 && std::isfinite(lens.samples_per_voxel));
   }
   State& s = *state_;
+  VolumeView view = asked;
+  view.storage = storage_of_whole(asked);
   s.textures.update(view);
+  view.storage = asked.storage;
+  view.image = s.textures.image();
+  if (std::vector<std::string> defines = s.textures.shader_defines(); defines != s.defines) {
+    s.programs = {};
+    s.planes = {};
+    s.context.reset();
+    s.defines = std::move(defines);
+  }
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
@@ -225,7 +244,7 @@ void VolumePass::draw_planes(const FrameBlock& block) {
   PALPATE_CHECK(s.textures.image() != nullptr);
   if (!shows_planes(s.shown)) return;
   s.bind_volume(s.volume_block);
-  s.planes.draw(s.shown, s.frame, block);
+  s.planes.draw(s.shown, s.frame, block, s.defines);
 }
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }

@@ -27,12 +27,12 @@ class VolumePass {
   VolumePass(const VolumePass&) = delete;
   VolumePass& operator=(const VolumePass&) = delete;
 
-  /// Uploads what `view` changes: voxels when the image is another one, tables when transfer functions or
+  /// Uploads what `asked` changes: voxels when the image is another one, tables when transfer functions or
   /// lengths are.
-  /// @pre view.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
+  /// @pre asked.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
   /// least two table entries, and lengths a multiple of kLengthGroup.
-  /// @throws Error (usage) where the volume is larger than the driver's textures.
-  void update(const VolumeView& view, const SceneFrame& frame);
+  /// @throws Error as VolumeTextures::update().
+  void update(const VolumeView& asked, const SceneFrame& frame);
 
   /// Draws over the framebuffer that is bound, with the one shader that this needs, behind none of what it
   /// holds but in front of it as far as the depths say: with associated colours, without writing depth. Needs

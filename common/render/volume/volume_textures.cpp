@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -11,65 +11,26 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/render/gl/gpu_objects.h"
+#include "common/render/volume/coarse_image.h"
 #include "common/render/volume/preintegration.h"
 #include "common/render/volume/volume_bindings.h"
+#include "common/render/volume/voxel_texture.h"
 
 namespace palpate {
 namespace {
 
-GlTexture make_texture(GLenum target, std::string_view what) {
-  GLuint name = 0;
-  glCreateTextures(target, 1, &name);
-  label_object(GpuObject::Kind::kTexture, name, what);
-  return GlTexture(name);
-}
-
-void set_sampling(const GlTexture& texture, GLint filter, GLint border = GL_CLAMP_TO_EDGE) {
-  glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, filter);
-  glTextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, filter);
-  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-    glTextureParameteri(texture.name(), wrap, border);
-  }
-}
-
-void set_voxel_sampling(const GlTexture& texture) {
-  // One voxel beyond the border, as far as gradients reach, mirroring is the same as clamping. It keeps a
-  // software rasteriser (llvmpipe) from interpolating 8-bit voxels in 8 bits, which is up to 6/255 off.
-  set_sampling(texture, GL_LINEAR, GL_MIRROR_CLAMP_TO_EDGE);
-}
-
-struct VoxelFormat {
-  GLenum internal, type;
-};
-
-VoxelFormat format_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::kUint8:
-      return {GL_R8, GL_UNSIGNED_BYTE};
-    case ScalarType::kUint16:
-      return {GL_R16, GL_UNSIGNED_SHORT};
-    default:
-      return {GL_R32F, GL_FLOAT};
-  }
-}
-
-GlTexture upload_voxels(const VolumeImage& image) {
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+void check_size(const VolumeImage& image, int largest) {
   const Index3 n = image.points;
-  if (std::max({n.x, n.y, n.z}) > largest) {
-    throw usage_error("a volume of " + std::to_string(n.x) + "x" + std::to_string(n.y) + "x" +
-                      std::to_string(n.z) + " voxels does not fit the driver's textures; each side is 1 to " +
-                      std::to_string(largest));
-  }
-  GlTexture texture = make_texture(GL_TEXTURE_3D, "voxels");
-  const VoxelFormat format = format_of(image.type);
-  glTextureStorage3D(texture.name(), 1, format.internal, n.x, n.y, n.z);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage3D(texture.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RED, format.type, image.bytes.data());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  set_voxel_sampling(texture);
+  if (std::max({n.x, n.y, n.z}) <= largest) return;
+  throw usage_error("a volume of " + std::to_string(n.x) + "x" + std::to_string(n.y) + "x" +
+                    std::to_string(n.z) +
+                    " voxels with colours does not fit the driver's textures; each side is 1 to " +
+                    std::to_string(largest));
+}
+
+GlTexture upload_whole(const VolumeImage& image) {
+  GlTexture texture = make_voxel_texture(image.points, image.type, "voxels");
+  upload_voxels(texture, Index3(0), image.points, image.type, image.bytes.data());
   return texture;
 }
 
@@ -83,14 +44,7 @@ GlTexture upload_colors(const VolumeImage& image) {
   return texture;
 }
 
-// The transfer functions of a view: that of the context, then those of lenses that have one.
-std::vector<const ColorTransfer*> transfers_of(const VolumeView& view) {
-  std::vector<const ColorTransfer*> transfers{&view.transfer};
-  for (const Lens& lens : view.lenses) {
-    if (lens.transfer) transfers.push_back(&*lens.transfer);
-  }
-  return transfers;
-}
+std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MB"; }
 
 }  // namespace
 
@@ -104,13 +58,23 @@ void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other)
   PALPATE_CHECK(view.image != nullptr);
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
   if (other != nullptr) tiles_.share_program(other->tiles_);
-  update_image(view, other);
-  update_colors(view);
-  update_tables(view);
+  VolumeView drawn = view;
+  if (other != nullptr && other->image_ == view.image) {
+    share_voxels(*other);
+  } else {
+    place_voxels(drawn);
+  }
+  drawn.image = image_;
+  update_colors(drawn);
+  update_tables(drawn);
 }
 
 void VolumeTextures::bind(bool colors) const {
-  glBindTextureUnit(volume_shader::kVoxels, voxels_->name());
+  if (bricks_) {
+    bricks_->bind();
+  } else {
+    glBindTextureUnit(volume_shader::kVoxels, voxels_->name());
+  }
   glBindTextureUnit(volume_shader::kTables, tables_.name());
   glBindTextureUnit(volume_shader::kEmptyBricks, empty_bricks_.name());
   if (colors) glBindTextureUnit(volume_shader::kColors, colors_.name());
@@ -118,15 +82,99 @@ void VolumeTextures::bind(bool colors) const {
 
 void VolumeTextures::bind_voxels(std::uint32_t unit) const { glBindTextureUnit(unit, voxels_->name()); }
 
-void VolumeTextures::update_image(const VolumeView& view, const VolumeTextures* other) {
-  if (image_ == view.image) return;
-  const bool shared = other != nullptr && other->image_ == view.image;
-  voxels_ = shared ? other->voxels_ : std::make_shared<const GlTexture>(upload_voxels(*view.image));
-  ranges_ = shared ? other->ranges_ : brick_ranges(*view.image);
-  image_ = view.image;
+std::vector<std::string> VolumeTextures::shader_defines() const {
+  if (!bricks_) return {};
+  return {"BRICKED " + std::to_string(bricks_->layout().cells)};
+}
+
+void VolumeTextures::take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges) {
+  if (image_ == image) return;
+  image_ = image;
+  ranges_ = ranges;
   colors_ = GlTexture();
   key_ = {};
-  cost_.voxel_bytes = shared ? 0 : image_->bytes.size();
+}
+
+void VolumeTextures::share_voxels(const VolumeTextures& other) {
+  take_image(other.image_, other.ranges_);
+  voxels_ = other.voxels_;
+  bricks_ = other.bricks_;
+  placed_ = {};
+  cost_.voxel_bytes = 0;
+}
+
+void VolumeTextures::place_voxels(VolumeView view) {
+  PlaceKey wanted{.image = view.image, .storage = view.storage, .transfers = {}, .cuts = {}};
+  const int largest = largest_volume_texture();
+  const auto is_whole = [&](const VolumeImage& image) {
+    const Index3 n = image.points;
+    return std::max({n.x, n.y, n.z}) <= largest &&
+           (view.storage.memory == 0 || image.bytes.size() <= view.storage.memory);
+  };
+  const bool may_cut = !view.image->colors;
+  const bool whole = !may_cut || (view.storage.brick_cells == 0 && is_whole(*view.image));
+  if (!whole) {
+    // What bricks that are seen depend on.
+    for (const ColorTransfer* transfer : transfers_of(view)) wanted.transfers.push_back(*transfer);
+    wanted.step = step_lengths(view).longest;
+    wanted.opacity_length = opacity_length_of(view);
+    wanted.magnified = has_magnified_parts(view);
+    wanted.blended = blends_values(view);
+    if (shows_planes(view)) wanted.cuts = view.cuts;
+  }
+  if (wanted == placed_) return;
+  if (wanted.image != placed_.image) levels_.clear();
+  placed_ = {};
+
+  if (whole) {
+    check_size(*view.image, largest);
+    take_image(view.image, brick_ranges(*view.image));
+    bricks_.reset();
+    voxels_.reset();
+    voxels_ = std::make_shared<const GlTexture>(upload_whole(*image_));
+    cost_.voxel_bytes = image_->bytes.size();
+    placed_ = std::move(wanted);
+    return;
+  }
+  // The finest level that fits.
+  for (std::size_t level = 0;; ++level) {
+    if (level == levels_.size()) {
+      auto image = level == 0 ? view.image : coarse_image(*levels_.back().image, 1);
+      if (level > 0 && image->points == levels_.back().image->points) {
+        throw usage_error("no " + megabytes(view.storage.memory) +
+                          " of memory hold a volume, however coarse");
+      }
+      BrickRanges ranges = brick_ranges(*image);
+      levels_.push_back({std::move(image), std::move(ranges)});
+    }
+    const Level& at = levels_[level];
+    view.image = at.image;
+    if (level > 0 && is_whole(*at.image)) {
+      bricks_.reset();
+      voxels_.reset();
+      voxels_ = std::make_shared<const GlTexture>(upload_whole(*at.image));
+      cost_.voxel_bytes = at.image->bytes.size();
+    } else {
+      const int cells = view.storage.brick_cells > 0 ? view.storage.brick_cells : kPoolBrickCells;
+      const BrickLayout layout = brick_layout(*at.image, cells);
+      const std::vector<bool> needed = needed_bricks(view, at.ranges, layout);
+      const auto count = static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true));
+      const std::uint64_t bytes = bricked_bytes(count, layout, at.image->type, largest);
+      if (bytes == std::numeric_limits<std::uint64_t>::max() ||
+          (view.storage.memory > 0 && bytes > view.storage.memory))
+        continue;
+      voxels_.reset();
+      if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells) {
+        bricks_.reset();
+        bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges);
+      }
+      bricks_->hold(needed, view.storage.memory);
+      cost_.voxel_bytes = bricks_->bytes();
+    }
+    take_image(at.image, at.ranges);
+    placed_ = std::move(wanted);
+    return;
+  }
 }
 
 void VolumeTextures::update_colors(const VolumeView& view) {
@@ -152,11 +200,11 @@ void VolumeTextures::update_tables(const VolumeView& view) {
   const int layers = wanted.lengths * static_cast<int>(transfers.size());
   tables_ = make_texture(GL_TEXTURE_2D_ARRAY, "preintegrated tables");
   glTextureStorage3D(tables_.name(), 1, GL_RGBA16, wanted.entries, wanted.entries, layers);
-  set_sampling(tables_, GL_LINEAR);
+  set_sampling(tables_, GL_LINEAR, GL_CLAMP_TO_EDGE);
   const Index3 b = ranges_.bricks;
   empty_bricks_ = make_texture(GL_TEXTURE_3D, "empty bricks");
   glTextureStorage3D(empty_bricks_.name(), 1, GL_R8UI, b.x, b.y, b.z * static_cast<int>(transfers.size()));
-  set_sampling(empty_bricks_, GL_NEAREST);
+  set_sampling(empty_bricks_, GL_NEAREST, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 
   table_.resize(4 * entries * entries * lengths);

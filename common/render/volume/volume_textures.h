@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/render/gl/object.h"
@@ -10,25 +11,33 @@
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_view.h"
+#include "common/render/volume/voxel_bricks.h"
 
 namespace palpate {
 
 class VolumeTextures {
  public:
-  /// Uploads what `view` changes: voxels when the image is another one, colours when some part is first drawn
+  /// Uploads what `view` changes: voxels when the image is another one or others are seen of a volume in
+  /// bricks, colours when some part is first drawn
   /// in them, tables and bricks when transfer functions or lengths are others.
   /// @pre view.image is not null; samples a voxel are positive and finite; at least two table entries, and
   /// lengths a multiple of kLengthGroup.
-  /// @throws Error (usage) where the volume is larger than the driver's textures.
+  /// @throws Error (usage) where a volume with colours is larger than the driver's textures, or no memory is
+  /// given.
   /// @param other whose voxels on the GPU are these, too, where it has the same image, and whose program for
   /// tiles is; null: none.
   void update(const VolumeView& view, const VolumeTextures* other = nullptr);
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
-  /// The voxels alone, to another unit.
+  /// The voxels alone, to another unit. @pre they stand as a whole: shader_defines() is empty.
   void bind_voxels(std::uint32_t unit) const;
 
+  /// What shaders that look up voxels are told (compile_program()): others only after update() for another
+  /// image or other storage.
+  [[nodiscard]] std::vector<std::string> shader_defines() const;
+
+  /// What is drawn: the view's, or a coarser one where that does not fit its storage.
   [[nodiscard]] const std::shared_ptr<const VolumeImage>& image() const noexcept { return image_; }
   [[nodiscard]] const Index3& bricks() const noexcept { return ranges_.bricks; }  ///< an axis
   [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
@@ -51,11 +60,32 @@ class VolumeTextures {
 
     bool operator==(const TableKey& other) const;
   };
-  void update_image(const VolumeView& view, const VolumeTextures* other);
+  /// All that decides where the voxels of a view stand.
+  struct PlaceKey {
+    std::shared_ptr<const VolumeImage> image;
+    VoxelStorage storage;
+    std::vector<ColorTransfer> transfers;  ///< this and what follows: of volumes in bricks alone
+    double step = 0.0, opacity_length = 0.0;
+    bool magnified = false, blended = false;
+    std::vector<CuttingPlane> cuts;  ///< on which values are drawn
+
+    bool operator==(const PlaceKey&) const = default;
+  };
+  /// The volume from means of 2^n voxels an axis, n its place in `levels_`.
+  struct Level {
+    std::shared_ptr<const VolumeImage> image;
+    BrickRanges ranges;
+  };
+  void share_voxels(const VolumeTextures& other);
+  void place_voxels(VolumeView view);
+  void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
 
-  std::shared_ptr<const GlTexture> voxels_;
+  std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
+  std::shared_ptr<VoxelBricks> bricks_;
+  PlaceKey placed_;
+  std::vector<Level> levels_;  ///< of volumes in bricks, as far as they were asked for
   GlTexture colors_, tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;
   BrickRanges ranges_;

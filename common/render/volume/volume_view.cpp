@@ -14,7 +14,15 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
          a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
          a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
          a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
-         a.keep_slabs == b.keep_slabs && a.context == b.context;
+         a.keep_slabs == b.keep_slabs && a.context == b.context && a.storage == b.storage;
+}
+
+std::vector<const ColorTransfer*> transfers_of(const VolumeView& view) {
+  std::vector<const ColorTransfer*> transfers{&view.transfer};
+  for (const Lens& lens : view.lenses) {
+    if (lens.transfer) transfers.push_back(&*lens.transfer);
+  }
+  return transfers;
 }
 
 bool has_colored_parts(const VolumeView& view) noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,6 +46,16 @@ struct PlaneImages {
 };
 inline constexpr std::size_t kMostContours = 16;  ///< of one picture
 
+/// Where voxels stand on the GPU. Volumes that do not fit are stored in bricks (voxel_bricks.h), those that
+/// are seen alone, and from coarser voxels where these are too many; volumes with colours as a whole.
+struct VoxelStorage {
+  std::uint64_t memory = 0;  ///< that voxels may take [bytes]; 0: no bound
+  /// Cells of bricks an axis, a multiple of kBrickCells; 0: the usual ones, and bricks only where need be.
+  int brick_cells = 0;
+
+  bool operator==(const VoxelStorage&) const = default;
+};
+
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
   ColorTransfer transfer;
@@ -65,12 +76,16 @@ struct VolumeView {
   bool skip_empty = true;  ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
   /// Keep pictures of slabs while one cut moves (slab_cache.h); changes no pixel by 1/255.
   bool keep_slabs = true;
-  ContextQuality context;         ///< samples_per_voxel are of voxels of its level
+  ContextQuality context;  ///< samples_per_voxel are of voxels of its level
+  VoxelStorage storage;
   bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
 };
 
 /// Whether both give the same picture; images count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
+
+/// The transfer functions of a view: that of the context, then those of lenses that have one.
+[[nodiscard]] std::vector<const ColorTransfer*> transfers_of(const VolumeView& view);
 
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,20 @@ TEST(CompileProgram, ErrorNamesTheIncludedFileAndItsLine) {
   EXPECT_NE(message.find("b.glsl:2"), std::string::npos) << message;
   EXPECT_NE(message.find("nothing"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+TEST(CompileProgram, DefinitionsFollowTheVersionAndKeepLinesOfErrors) {
+  const OffscreenContext context;
+  const ShaderFile files[] = {
+      {"a.vert", "#version 450 core\nvoid main() { gl_Position = vec4(COUNT); }\n"},
+      {"a.frag", "#version 450 core\nout vec4 c;\n#ifdef FLAG\nvoid main() { c = vec4(COUNT); }\n#endif\n"},
+      {"bad.frag", "#version 450 core\nout vec4 c;\nvoid main() { c = nothing; }\n"}};
+  const std::vector<std::string> defines{"COUNT 3", "FLAG"};
+  EXPECT_TRUE(static_cast<bool>(compile_program("a.vert", "a.frag", files, defines)));
+  EXPECT_NE(message_of([&] { (void)compile_program("a.vert", "a.frag", files); }), "no error");
+  const std::string message =
+      message_of([&] { (void)compile_program("a.vert", "bad.frag", files, defines); });
+  EXPECT_NE(message.find("bad.frag:3"), std::string::npos) << message;
 }
 
 }  // namespace

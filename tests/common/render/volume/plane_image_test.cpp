@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <numbers>
 #include <vector>
 
@@ -46,6 +48,29 @@ TEST(PlaneImage, GreyIsTheValueInItsWindow) {
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(pixel_of(image, scene.camera, x)[static_cast<std::size_t>(c)], grey, kHalfPixel) << x.x;
   }
+}
+
+// Bricks that planes meet are held, though nothing of the volume is seen.
+TEST(PlaneImage, IsTheSameFromVoxelsInBricks) {
+  SceneView scene = scene_of(blobs);
+  scene.volume->cuts[0].kept.outward = glm::normalize(Vec3(0.2, -0.3, 1.0));
+  scene.volume->planes.contours = {0.4};
+  const Image whole = render_image(scene, kSize, kSize).image;
+  scene.volume->storage.brick_cells = 8;
+  const RenderedImage bricked = render_image(scene, kSize, kSize);
+  int worst = 0;
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(whole.pixel(x, y)[c] - bricked.image.pixel(x, y)[c]));
+    }
+  }
+  EXPECT_LE(worst, 2) << "values and lines, both drawn over an edge in one pixel";
+  const auto pool = std::find_if(bricked.gpu.begin(), bricked.gpu.end(), [](const GpuObject& object) {
+    return object.what.starts_with("voxels in bricks");
+  });
+  ASSERT_NE(pool, bricked.gpu.end());
+  EXPECT_LT(pool->bytes, 33U * 33U * 33U * 4U) << "others are not held";
 }
 
 // The plane of another cut ends it, and one that does not cut shows its picture, too.

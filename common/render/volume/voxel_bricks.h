@@ -1,0 +1,90 @@
+/// Voxels on the GPU in bricks: those that are seen stand in one pool, an index finds them (Ikits 2006, sec.
+/// 5.6).
+///
+/// Symbols.  c cells of a brick an axis; g grid coordinates; b = floor(g / c) brick; p_b the voxel of the
+/// pool at which it begins. A brick has c + 1 points an axis: neighbours share the layer between them, so
+/// values between points, and differences of these for gradients, are those of the whole. A point of the
+/// volume is found in the pool at
+///   p_b + g - b c,      b <= bricks - 1: the last brick owns the upper end of the volume
+/// (derived anew: eq. 5.1 of the reference counts shared layers twice).
+///
+/// A brick need not stand in the pool where all its numbers are the same, and where nothing is seen of it: a
+/// number of its range then stands for all of it. Where lenses blend values with coarser ones, all others are
+/// there. What is seen depends on the transfer functions alone, not
+/// on the view.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/math/vec.h"
+#include "common/render/gl/object.h"
+#include "common/render/volume/brick_map.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+/// Cells an axis: the layers shared are a tenth of the voxels.
+inline constexpr int kPoolBrickCells = 32;
+
+struct BrickLayout {
+  int cells = kPoolBrickCells;  ///< an axis: c
+  Index3 bricks{1};             ///< an axis
+  Index3 points{2};             ///< of a brick, an axis; fewer than c + 1 along short axes
+};
+/// @pre cells is a positive multiple of kBrickCells.
+[[nodiscard]] BrickLayout brick_layout(const VolumeImage& image, int cells);
+
+/// For each brick, x fastest, whether it must stand in the pool for the picture of `view`.
+/// @param ranges brick_ranges(*view.image).
+[[nodiscard]] std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,
+                                              const BrickLayout& layout);
+
+/// Bricks an axis of a pool for `count` of them, as small as may be.
+/// @pre count > 0. @param largest side of a texture [voxels].
+/// @return zeros where no pool is large enough.
+[[nodiscard]] Index3 pool_size(std::size_t count, const BrickLayout& layout, int largest);
+
+/// Bytes of the index and of a pool for `count` bricks; the largest number where no pool is large enough.
+[[nodiscard]] std::uint64_t bricked_bytes(std::size_t count, const BrickLayout& layout, ScalarType type,
+                                          int largest);
+
+/// The pool and the index. Needs the context current in which it was made.
+class VoxelBricks {
+ public:
+  /// @param ranges brick_ranges(*image).
+  VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout, const BrickRanges& ranges);
+
+  /// Uploads those of the needed bricks that are not there, in place of others.
+  /// @param needed one for each brick; @pre bricked_bytes() of their number <= memory, or memory is 0: no
+  /// bound.
+  void hold(const std::vector<bool>& needed, std::uint64_t memory);
+
+  /// Binds the pool as the voxels, and the index (shaders/volume/voxels.glsl).
+  void bind() const;
+  [[nodiscard]] const BrickLayout& layout() const noexcept { return layout_; }
+  [[nodiscard]] std::size_t held() const noexcept { return held_; }  ///< bricks in the pool
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
+  [[nodiscard]] std::uint64_t uploads() const noexcept { return uploads_; }  ///< of bricks, so far
+
+ private:
+  void make_pool(std::size_t count, std::uint64_t memory);
+  void upload(std::size_t brick, std::size_t slot);
+  void write_index();
+  [[nodiscard]] Index3 place_of(std::size_t slot) const;
+
+  std::shared_ptr<const VolumeImage> image_;
+  BrickLayout layout_;
+  std::vector<float> stand_ins_;  ///< for each brick the number that stands for it, as textures give it
+  std::vector<int> slots_;        ///< for each brick its place in the pool; -1: none
+  std::vector<int> free_;         ///< places
+  Index3 pool_bricks_{0};
+  GlTexture pool_, index_;
+  std::vector<std::byte> scratch_;
+  std::size_t held_ = 0;
+  std::uint64_t bytes_ = 0, uploads_ = 0;
+};
+
+}  // namespace palpate
