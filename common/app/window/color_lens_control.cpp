@@ -25,9 +25,9 @@ void place_lens(const SceneView& view, ColorLens& lens) {
 }
 
 void ColorLensControl::grow(double notches, const Box& bounds, ColorLens& lens) {
-  constexpr double kGrowth = 0.12, kSmallest = 1e-3, kLargest = 2.0;  // logarithm; diagonals
-  lens.radius = std::clamp(lens.radius * std::exp(kGrowth * notches), kSmallest * bounds.diagonal(),
-                           kLargest * bounds.diagonal());
+  constexpr double kGrowth = 0.12, kLeastReach = 1e-3, kMostReach = 2.0;  // logarithm; diagonals
+  lens.radius = std::clamp(lens.radius * std::exp(kGrowth * notches), kLeastReach * bounds.diagonal(),
+                           kMostReach * bounds.diagonal());
 }
 
 bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, const ShownLayer& layer,

@@ -15,16 +15,16 @@ namespace palpate {
 namespace {
 
 // Of shaders/surface/surface.*.
-enum Uniform : GLint {
-  kColor = 0,
-  kHasValues = 1,
-  kScale = 2,
-  kLensScale = 3,
-  kLens = 4,
-  kContours = 5,
-  kOver = 6
+enum SurfaceUniform : GLint {
+  kSurfaceColor = 0,
+  kSurfaceHasValues = 1,
+  kSurfaceScale = 2,
+  kSurfaceLensScale = 3,
+  kSurfaceLens = 4,
+  kSurfaceContours = 5,
+  kSurfaceOver = 6
 };
-constexpr GLuint kTableUnit = 0, kLensTableUnit = 1, kValueBinding = 1, kLensValueBinding = 2;
+constexpr GLuint kSurfaceTable = 0, kSurfaceLensTable = 1, kSurfaceValues = 1, kSurfaceLensValues = 2;
 
 /// As laid out for the shader.
 struct SurfaceVertex {
@@ -41,7 +41,7 @@ std::vector<SurfaceVertex> vertices_of(const IsosurfaceMesh& mesh, const SceneFr
 }
 
 /// From a number to its place in the colour map: see the shader.
-void set_scale(GLint location, const LineStyle& style, const ValueRange& range) {
+void set_surface_scale(GLint location, const LineStyle& style, const ValueRange& range) {
   const bool logarithmic = is_logarithmic(style);
   const double lower = logarithmic ? std::log(range.lower) : range.lower;
   const double extent = (logarithmic ? std::log(range.upper) : range.upper) - lower;
@@ -109,19 +109,19 @@ void SurfacePass::set_values(Uploaded& surface) {
     glVertexArrayAttribBinding(array, location, binding);
   };
   constexpr GLuint kValue = 2, kLensValue = 3;  // locations
-  set(surface.view.values, kValue, kValueBinding, surface.values);
-  set(surface.view.lens_values, kLensValue, kLensValueBinding, surface.lens_values);
+  set(surface.view.values, kValue, kSurfaceValues, surface.values);
+  set(surface.view.lens_values, kLensValue, kSurfaceLensValues, surface.lens_values);
 }
 
 void SurfacePass::draw(const Uploaded& surface, const SurfaceColors& colors, bool over) {
   const Rgb& color = surface.view.color;
-  glUniform4f(kColor, color.r, color.g, color.b,
+  glUniform4f(kSurfaceColor, color.r, color.g, color.b,
               static_cast<float>(std::clamp(surface.view.opacity, 0.0, 1.0)));
   const Vec3f& lens = colors.lens_center;
-  glUniform1i(kHasValues, surface.view.values ? 1 : 0);
-  glUniform4f(kLens, lens.x, lens.y, lens.z, surface.view.lens_values ? colors.lens_radius : 0.0F);
-  glUniform2f(kContours, static_cast<float>(surface.view.contours), colors.contour_width);
-  glUniform1i(kOver, over ? 1 : 0);
+  glUniform1i(kSurfaceHasValues, surface.view.values ? 1 : 0);
+  glUniform4f(kSurfaceLens, lens.x, lens.y, lens.z, surface.view.lens_values ? colors.lens_radius : 0.0F);
+  glUniform2f(kSurfaceContours, static_cast<float>(surface.view.contours), colors.contour_width);
+  glUniform1i(kSurfaceOver, over ? 1 : 0);
   glBindVertexArray(surface.vertex_array.name());
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(surface.corners), GL_UNSIGNED_INT, nullptr);
 }
@@ -140,11 +140,11 @@ void SurfacePass::draw(const SurfaceColors& colors) {
   if (std::any_of(uploaded_.begin(), uploaded_.end(),
                   [](const Uploaded& each) { return each.view.values != nullptr; })) {
     const LineStyle& lens_style = colors.lens_radius > 0.0F ? colors.lens_style : colors.style;
-    tables_.bind(color_map_of(colors.style), kTableUnit);
-    tables_.bind(color_map_of(lens_style), kLensTableUnit);
+    tables_.bind(color_map_of(colors.style), kSurfaceTable);
+    tables_.bind(color_map_of(lens_style), kSurfaceLensTable);
   }
-  set_scale(kScale, colors.style, colors.range);
-  set_scale(kLensScale, colors.lens_style, colors.lens_range);
+  set_surface_scale(kSurfaceScale, colors.style, colors.range);
+  set_surface_scale(kSurfaceLensScale, colors.lens_style, colors.lens_range);
   for (const Uploaded& surface : uploaded_) draw(surface, colors, false);
   // What is drawn on a surface lies before the lines there.
   glPolygonOffset(-2.0F, -8.0F);
