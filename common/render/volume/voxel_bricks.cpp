@@ -101,7 +101,7 @@ std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickR
 
 // How many bricks of BrickRanges beyond those in which something is seen values are read that count: as far
 // as a sample and the differences about it reach.
-int reach_of(const VolumeView& view) {
+int bricks_reached(const VolumeView& view) {
   double shortest = HUGE_VAL;
   for (int a = 0; a < 3; ++a) shortest = std::min(shortest, glm::length(view.image->axes[a]));
   const double step = shortest > 0.0 ? step_lengths(view).longest / shortest : kStepRatio;
@@ -133,7 +133,7 @@ std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& range
                                 const BrickLayout& layout) {
   std::vector<bool> needed(product(layout.bricks), false);
   const std::vector<std::uint8_t> distances = distances_to_seen(view, ranges);
-  const int reach = reach_of(view);
+  const int reach = bricks_reached(view);
   for_each_part(ranges, layout, [&](std::size_t part, std::size_t brick) {
     if (distances[part] <= reach) needed[brick] = true;
   });
