@@ -379,6 +379,22 @@ void draw_sides(const Pen& pen, const SceneView& view, int width, int height) {
   pen.text(0.5F * w, h - 1.8F * em, side_of(-up), pen.ink(), 0.5F);
 }
 
+// Upper end of a label at `left` that begins at `top`, or as little below as it takes to cover none of
+// `taken` [left, top, right, bottom], which it joins.
+float free_top(std::vector<ImVec4>& taken, float left, float top, const ImVec2& size) {
+  const auto covered = [&](const ImVec4& other) {
+    return left < other.z && left + size.x > other.x && top < other.w && top + size.y > other.y;
+  };
+  // Each one that is met moves the label on for good: as many rounds as there are others.
+  for (std::size_t round = 0; round < taken.size(); ++round) {
+    const auto met = std::find_if(taken.begin(), taken.end(), covered);
+    if (met == taken.end()) break;
+    top = met->w;
+  }
+  taken.emplace_back(left, top, left + size.x, top + size.y);
+  return top;
+}
+
 // A bright line with a dark rim stands out from dark and light alike.
 void draw_notes(const Pen& pen, const SceneView& view, int width, int height) {
   constexpr ImU32 kBright = IM_COL32(255, 214, 10, 255), kRim = IM_COL32(20, 16, 0, 230);
@@ -397,13 +413,18 @@ void draw_notes(const Pen& pen, const SceneView& view, int width, int height) {
       }
     }
   }
-  // Words last: no line runs through them.
+  // Words last: no line runs through them; below others where they would cover these.
+  std::vector<ImVec4> taken;
   for (const NoteView& note : view.notes) {
     if (note.words.empty() || note.points.empty()) continue;
     Vec3 middle{0.0};
     for (const Vec3& point : note.points) middle += point / static_cast<double>(note.points.size());
-    if (const auto at = place_of(view, middle, width, height))
-      pen.label(at->x + 0.8F * em, at->y + 0.5F * em, note.words);
+    const auto at = place_of(view, middle, width, height);
+    if (!at) continue;
+    const ImVec2 size = Pen::size_of(note.words);
+    const float left = at->x + 0.8F * em;
+    const float top = free_top(taken, left, at->y + 0.5F * em, {size.x + 0.6F * em, size.y + 0.5F * em});
+    pen.label(left, top, note.words);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "common/haptics/widget/widget_text.h"
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <vector>
 
@@ -169,7 +170,12 @@ std::optional<PlanePose> pose_through(const std::array<Vec3, 3>& points) {
 }
 
 Vec4 plane_of_pose(const PlanePose& pose) {
-  const Vec3 n = axes_of(pose)[2];
+  Vec3 n = axes_of(pose)[2];
+  // What a quaternion's rounding leaves beside an axis of the data is none of the user's doing.
+  constexpr double kRounding = 1e-15;
+  for (int a = 0; a < 3; ++a) {
+    if (std::abs(n[a]) < kRounding) n[a] = 0.0;
+  }
   return {n, glm::dot(n, pose.center)};
 }
 
