@@ -104,6 +104,7 @@ class VerbParser {
     if (verb.groups.replay) add_replay();
     if (verb.groups.out) add_out(verb);
     if (verb.groups.picture) add_picture();
+    if (verb.groups.picture && !verb.groups.path) add_workbench();
     if (verb.groups.effort) add_effort();
     if (verb.groups.image) add_image();
     if (verb.groups.measure) add_measure();
@@ -221,7 +222,8 @@ class VerbParser {
 
   void add_workbench() {
     app_.add_option("--workbench", options_.workbench,
-                    "calibrations of a workbench, and how hands work there: [interaction] technique = "
+                    "calibrations of a workbench, its screens for --head, and how hands work there: "
+                    "[interaction] technique = "
                     "\"immersive\" takes tracked hands, with the header t,x,y,z,qw,qx,qy,qz[,b0,b1,hx,hy,hz,"
                     "hqw,hqx,hqy,hqz,h0], in place of a mouse or a path")
         ->type_name("W.toml")
@@ -287,6 +289,15 @@ class VerbParser {
   void add_picture() {
     app_.add_option("--size", options_.size, "size of the picture in pixels; default 1280x960")
         ->type_name("WxH")
+        ->group("View");
+    app_.add_option(
+            "--head", options_.view.head,
+            "the picture as a screen of --workbench shows it to this head: where its sensor is in the "
+            "tracker's frame, in metres, and how it is turned; --camera says nothing then")
+        ->type_name("x,y,z[,qw,qx,qy,qz]")
+        ->group("View");
+    app_.add_option("--screen", options_.view.screen, "which screen of --workbench; default: its first")
+        ->type_name("NAME")
         ->group("View");
     app_.add_option("--repeat", options_.repeat, "frames to time after the first one")
         ->type_name("N")

@@ -12,6 +12,7 @@
 
 #include "common/app/cli/options.h"
 #include "common/app/cli/session_of.h"
+#include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/window/window_model.h"
 #include "common/base/text.h"
@@ -90,6 +91,7 @@ class InputModel : public WindowModel {
     describe_session(session, spec, options_, settings, view);
     if (options_.view.frame_budget > 0.0)
       add_option(session, "frame-budget", exact_number(options_.view.frame_budget));
+    for (const auto& [option, value] : stereo_options(options_.view)) add_option(session, option, value);
     for (const auto& [option, value] : set) add_option(session, option.c_str(), value);
     return store_session(session, spec);
   }

@@ -70,10 +70,17 @@ struct TractTracingOptions {
 
 /// How it is looked at.
 struct ViewOptions {
-  std::string camera;         ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
-  std::string color;          ///< array that colours the lines; empty: speed
-  double frame_budget = 0.0;  ///< [ms] that a picture may take while something moves; 0: the default
-  double play_rate = 5.0;     ///< time steps a second
+  std::string camera;            ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
+  std::string color;             ///< array that colours the lines; empty: speed
+  double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
+  double play_rate = 5.0;        ///< time steps a second
+  std::string stereo = "none";   ///< kStereoModeNames
+  double eye_separation = 63.0;  ///< [mm]
+  double eye_distance = 600.0;   ///< between eyes and screen [mm]
+  double disparity_limit = 1.0;  ///< [degrees]
+  bool swap_eyes = false;
+  std::string head;  ///< x,y,z[,qw,qx,qy,qz] of a tracker [m]: where the head is before a screen; empty: none
+  std::string screen;  ///< which of the workbench's; empty: the first
 };
 
 /// How a volume is drawn.
@@ -192,7 +199,7 @@ struct Options {
   SeriesOptions series;
   TouchOptions touch;
   std::filesystem::path path;       ///< probe: the recorded path
-  std::filesystem::path workbench;  ///< open, probe: calibration/workbench_file.h; empty: a desktop
+  std::filesystem::path workbench;  ///< open, probe, render: workbench_file.h; empty: a desktop
   std::filesystem::path record;     ///< open: where the run is recorded
   /// open: mouse, replay:FILE.csv, hands:FILE.csv or simulated…; probe: mouse, which stands for the path, or
   /// simulated…

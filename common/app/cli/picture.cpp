@@ -5,8 +5,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/app/cli/head_view.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
@@ -71,6 +73,14 @@ double difference(const Image& image, const Image& fine, int oversampling) {
 
 /// Lines against more samples a pixel, volumes against more samples along the rays.
 void measure_error(const SceneView& view, const Image& image, RenderSummary& summary) {
+  if (has_two_eyes(view)) {
+    // Of one eye: an interlaced picture has no finer one.
+    SceneView one = view;
+    one.stereo.mode = StereoMode::kNone;
+    const EyePictureSize size = eye_picture_size(view.stereo.mode, image.width, image.height);
+    measure_error(one, render_image(one, size.width, size.height).image, summary);
+    return;
+  }
   if (view.volume && view.volume->shown) {
     constexpr double kFiner = 4.0;
     SceneView finer = view;
@@ -96,6 +106,8 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   const PictureSize size = parse_size(options.size);
   (void)camera_angles(options.view.camera);
+  const StereoView stereo = stereo_of(options.view);
+  check_head(options, eye_aspect(stereo.mode, size.width, size.height));
   if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {
     throw usage_error(options.out.string() + ": pictures are written as .png");
   }
@@ -112,7 +124,11 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
     console.print(plan_text(summary.plan));
   }
 
-  const DrawnScene drawn = maker.make(input, options, context, static_cast<double>(size.width) / size.height);
+  DrawnScene drawn = maker.make(input, options, context, eye_aspect(stereo.mode, size.width, size.height));
+  drawn.view.stereo = stereo;
+  if (stereo.mode != StereoMode::kNone && !has_two_eyes(drawn.view))
+    throw usage_error("--stereo needs a perspective picture: leave out --projection orthographic");
+  take_head(options, drawn.view);
   summary.field = drawn.field;
   summary.lines = drawn.lines;
   summary.points = drawn.points;
@@ -141,6 +157,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   console.print(summary.input + ": " + drawn.what + " -> " + summary.output + " (" +
                 std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
+  console.print(stereo_text(drawn.view));
   if (options.common.explain) console.print(gpu_text(summary.gpu) + measured_text(summary.measured));
   console.print_json(render_json(summary));
   return ExitCode::kDone;

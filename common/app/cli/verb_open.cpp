@@ -5,6 +5,7 @@
 
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/slice_plane.h"
+#include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/window_touch.h"
 #include "common/app/window/window.h"
@@ -20,6 +21,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
   const CameraAngles angles = camera_angles(options.view.camera);
+  const StereoView stereo = stereo_of(options.view);
   verb.check(options);
   const bool felt = !verb.modes.empty();
   ProbeSessionOptions touch;
@@ -50,6 +52,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .threads = options.common.threads,
       .stop_requested = [] { return InterruptGuard::interrupted(); }};
   verb.style(options, window.view);
+  window.view.stereo = stereo;
   const WindowResult result = run_user_window(*model, std::move(window),
                                               [&](const std::string& line) { context.console.note(line); });
   if (felt) tell_of_touch(result, context);

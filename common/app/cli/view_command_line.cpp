@@ -51,6 +51,31 @@ void add_plane_images(SceneOptions& options, VolumeOptions& volume) {
               kGroup);
 }
 
+void add_stereo(SceneOptions& options, ViewOptions& view) {
+  options.add(
+      "--stereo", view.stereo,
+      "a picture for each eye, shown together: none (default), side-by-side, top-bottom, rows, columns "
+      "(interlaced, the left eye first), anaglyph (red-cyan, in colour) or anaglyph-grey",
+      "MODE", kGroup);
+  options
+      .add("--eye-separation", view.eye_separation, "between the eyes, in millimetres; default 63", "MM",
+           kGroup)
+      ->check(CLI::Range(0.0, 1000.0));
+  options
+      .add("--eye-distance", view.eye_distance, "from the eyes to the screen, in millimetres; default 600",
+           "MM", kGroup)
+      ->check(CLI::Range(1.0, 1e5));
+  options
+      .add("--disparity-limit", view.disparity_limit,
+           "degrees of disparity that eyes can fuse: they are brought nearer to each other until the nearest "
+           "and the farthest point of the scene keep it; default 1",
+           "DEG", kGroup)
+      ->check(CLI::Range(1e-3, 90.0));
+  options.add("--swap-eyes", view.swap_eyes,
+              "on shows each eye the other one's picture, for crossed eyes or such a display; default off",
+              "on|off", kGroup);
+}
+
 void add_projection(SceneOptions& options, VolumeOptions& volume) {
   options.add("--projection", volume.projection, "perspective (default) or orthographic", "NAME", kGroup)
       ->check(CLI::IsMember({"perspective", "orthographic"}));
@@ -149,6 +174,7 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
            "then pixels, in lenses last; default 60. A picture in a file is drawn as such a one",
            "MS", kGroup)
       ->check(CLI::Range(1.0, 1e5));
+  add_stereo(options, bound.view);
   switch (kind) {
     case FieldKind::kScalar:
       add_volume(options, bound.volume);

@@ -309,7 +309,8 @@ class Window {
     gui_->begin_frame(glfw_.events(), width, height, seconds);
     handle_events(parts);
     if (needs_camera_ && scene_) {
-      view_.camera = make_camera(view_.bounds, options_.angles, parts.picture.width / parts.picture.height,
+      view_.camera = make_camera(view_.bounds, options_.angles,
+                                 eye_aspect(view_.stereo.mode, parts.picture.width, parts.picture.height),
                                  view_.camera.projection);
       needs_camera_ = false;
     }
@@ -581,7 +582,9 @@ class Window {
   }
 
   void run_touch(Command command) {
-    if (ViewControl::look(command, view_.bounds, picture_.width / picture_.height, view_.camera)) return;
+    if (ViewControl::look(command, view_.bounds,
+                          eye_aspect(view_.stereo.mode, picture_.width, picture_.height), view_.camera))
+      return;
     if (view_.tensors && SliceControl::run(command, *view_.tensors)) return;
     if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
   }
