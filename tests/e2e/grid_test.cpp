@@ -147,6 +147,32 @@ TEST_F(Grid, RenderStatesItsErrorAndRefusesNonsense) {
   refused({"--field", "density"}, 2, "scalars");
 }
 
+TEST_F(Grid, StoresVoxelsInTheMemoryGiven) {
+  const auto voxels = [this](const std::string& memory) {
+    const Json summary = json({"render", "--example", "shells", "--size", "64x48", "--out",
+                               "memory" + memory + ".png", "--gpu-memory", memory, "--explain"});
+    std::pair<std::string, std::uint64_t> found{"", 0U};
+    for (const Json& object : summary["gpu"]) {
+      const std::string what = object["what"].is_string() ? object["what"].get<std::string>() : "";
+      if (!what.starts_with("voxels") && what != "index of bricks") continue;
+      if (what.starts_with("voxels")) found.first = what;
+      found.second += object["bytes"].get<std::uint64_t>();
+    }
+    return found;
+  };
+  const auto [whole, all] = voxels("1000");
+  EXPECT_EQ(whole, "voxels");
+  const auto megabytes = [](std::uint64_t bytes) {
+    return std::to_string(static_cast<double>(bytes) / 1048576.0);
+  };
+  const auto [bricks, some] = voxels(megabytes(all - all / 16));
+  EXPECT_TRUE(bricks.starts_with("voxels")) << bricks;
+  EXPECT_LE(some, all - all / 16);
+  EXPECT_GT(some, all / 16);
+  EXPECT_LE(voxels(megabytes(all / 100)).second, all / 100);
+  EXPECT_EQ(run({"render", "--example", "shells", "--gpu-memory", "0", "--out", "c.png"}).exit_code, 2);
+}
+
 // Through the outermost shell of the example "shells", radius 0.86, and on to the middle.
 // A budget that no picture keeps leaves the coarsest one, a generous one all that was asked for.
 TEST_F(Grid, GivesUpQualityForABudgetAndSaysHowMuch) {

@@ -38,10 +38,9 @@ std::string box_text(const Box& box) {
 }
 
 void RegionControl::put(const std::optional<Box>& box) {
-  before_.push_back(box_);
   box_ = box;
   corner_.reset();
-  ++changes_;
+  held_.reset();
 }
 
 std::array<Vec3, RegionControl::kMiddle + 1> RegionControl::handles(const Box& box) {
@@ -111,14 +110,10 @@ bool RegionControl::handle(const InputEvent& event, const PictureArea& area, con
       }
       if (!found) return false;
       held_ = Hold{.handle = *found, .x = x_, .y = y_, .from = *box_};
-      put(box_);
       return true;
     }
     case InputKind::kRelease: {
       if (!held_ || event.button != MouseButton::kLeft) return false;
-      // A click that moved nothing is nothing to take back.
-      if (before_.back() && box_->lower == before_.back()->lower && box_->upper == before_.back()->upper)
-        before_.pop_back();
       held_.reset();
       return true;
     }
@@ -128,7 +123,6 @@ bool RegionControl::handle(const InputEvent& event, const PictureArea& area, con
 }
 
 std::string RegionControl::put_corner(const Vec3& x) {
-  held_.reset();
   if (box_) {
     Box box = *box_;
     for (int axis = 0; axis < 3; ++axis) {
@@ -144,18 +138,6 @@ std::string RegionControl::put_corner(const Vec3& x) {
   }
   put(Box{glm::min(*corner_, x), glm::max(*corner_, x)});
   return "a box between both corners";
-}
-
-bool RegionControl::undo() {
-  held_.reset();
-  if (corner_) {
-    corner_.reset();
-    return true;
-  }
-  if (before_.empty()) return false;
-  box_ = before_.back();
-  before_.pop_back();
-  return true;
 }
 
 std::vector<Vec3> RegionControl::dots() const {

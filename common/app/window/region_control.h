@@ -27,10 +27,8 @@ class RegionControl {
 
   /// Data units; none to begin with.
   [[nodiscard]] const std::optional<Box>& box() const noexcept { return box_; }
-  /// Another box, or none; undo() goes back.
+  /// Another box, or none.
   void put(const std::optional<Box>& box);
-  /// Another box still, which undo() takes back together with the last put().
-  void change(const Box& box) { box_ = box; }
   /// Presses take hold of the dot that is nearest to the mouse, within a few pixels; a face stays within
   /// `bounds` and on its side of the one across, the middle where the whole box is within them.
   /// @return whether the event was for the box.
@@ -38,13 +36,8 @@ class RegionControl {
   /// A first corner at `x`, then the one across from it; later, the corner nearest to `x` goes there.
   /// @return what to tell the user.
   std::string put_corner(const Vec3& x);
-  /// Takes back the last change, a drag as one. @return whether there was one.
-  bool undo();
   [[nodiscard]] bool dragging() const noexcept { return held_.has_value(); }
   void let_go() noexcept { held_.reset(); }
-  /// Goes up with every change of the box that undo() takes back.
-  [[nodiscard]] int changes() const noexcept { return changes_; }
-
   /// The dots, or the first of two corners; none where there is no box.
   [[nodiscard]] std::vector<Vec3> dots() const;
 
@@ -60,9 +53,7 @@ class RegionControl {
 
   std::optional<Box> box_;
   std::optional<Vec3> corner_;  ///< the first of two
-  std::vector<std::optional<Box>> before_;
-  int changes_ = 0;
-  double x_ = 0.0, y_ = 0.0;  ///< of the mouse [pixels]
+  double x_ = 0.0, y_ = 0.0;    ///< of the mouse [pixels]
   std::optional<Hold> held_;
 };
 

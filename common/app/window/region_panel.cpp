@@ -23,11 +23,10 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
     std::array<double, 2> ends{box.lower[axis], box.upper[axis]};
     const bool typed = ImGui::InputScalarN(kAxes[static_cast<std::size_t>(axis)], ImGuiDataType_Double,
                                            ends.data(), 2, nullptr, nullptr, "%.6g");
-    if (ImGui::IsItemActivated()) region.put(box);
     if (!typed || !(ends[0] < ends[1])) continue;
     box.lower[axis] = ends[0];
     box.upper[axis] = ends[1];
-    region.change(box);
+    region.put(box);
   }
   const auto part = points_in({.points = image.points, .origin = image.origin, .axes = image.axes}, box);
   if (part) {
@@ -45,8 +44,6 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   }
   ImGui::EndDisabled();
   if (ImGui::SmallButton("remove")) region.put(std::nullopt);
-  ImGui::SameLine();
-  if (ImGui::SmallButton("undo")) (void)region.undo();
   return actions;
 }
 

@@ -34,6 +34,7 @@
 #include "common/app/window/unsaved_question.h"
 #include "common/app/window/user_settings.h"
 #include "common/app/window/view_control.h"
+#include "common/app/window/view_edits.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -239,6 +240,7 @@ class Window {
     if (job_kind_ != JobKind::kUpdate) {
       plotted_.clear();  // of another input
       if (job_kind_ == JobKind::kOpen) region_control_ = RegionControl();
+      view_edits_.forget();
       // Edits made while the input was being read belonged to the old one.
       state_.settings = requested_ = scene_->settings;
       needs_camera_ = true;
@@ -355,6 +357,7 @@ class Window {
     }
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
+    follow_edits();
     // Surfaces are solid: they would hide what is in a lens.
     const bool lenses =
         view_.volume && view_.volume->shown && (!view_.volume->lenses.empty() || is_cut(*view_.volume));
@@ -400,7 +403,6 @@ class Window {
     const PlanePoses& poses = touch_->planes()->poses;
     if (!(poses == cut_planes_)) {
       live_->lens_moved(glfwGetTime());
-      region_changes_ = region_control_.changes();
     }
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
@@ -449,6 +451,29 @@ class Window {
     if (!view_.volume) return false;
     if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
+  }
+
+  [[nodiscard]] EditedView edited_view() const {
+    return {region_control_.box(), view_.volume ? view_.volume->planes.window : std::nullopt};
+  }
+
+  /// Remembers what is edited in the view, a drag as one edit.
+  void follow_edits() {
+    if (!view_.volume) return;
+    const bool resting =
+        !region_control_.dragging() && !plane_image_control_.dragging() && !ImGui::IsAnyItemActive();
+    view_edits_.follow(edited_view(), cut_planes_, resting);
+  }
+
+  /// Takes back the last edit of the view, if that came after all that the hand has done to planes.
+  bool undo_view_edit() {
+    if (!view_.volume || touch_control_->marking()) return false;
+    const auto before = view_edits_.undo(cut_planes_);
+    if (!before) return false;
+    region_control_.put(before->region);
+    view_.volume->planes.window = before->window;
+    say("undone", false);
+    return true;
   }
 
   // While the probe is grabbed the mouse is its own.
@@ -514,13 +539,7 @@ class Window {
         }
         break;
       case Command::kUndo:
-        // What was changed last, of planes and the box.
-        if (!touch_control_->marking() && region_control_.changes() > region_changes_ &&
-            region_control_.undo()) {
-          say("undone", false);
-        } else {
-          run_touch(command);
-        }
+        if (!undo_view_edit()) run_touch(command);
         break;
       case Command::kVolume:
         if (view_.volume) view_.volume->shown = !view_.volume->shown;
@@ -744,8 +763,8 @@ class Window {
   ColorLensControl color_lens_control_;
   PlaneImageControl plane_image_control_;
   RegionControl region_control_;
-  int region_changes_ = 0;  // so many when planes were last moved
-  PlanePoses cut_planes_;   // those of the hand for which the first cuts stand
+  ViewEdits view_edits_;
+  PlanePoses cut_planes_;  // those of the hand for which the first cuts stand
   std::optional<InputFiles> to_open_;
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved

@@ -91,26 +91,6 @@ TEST_P(RegionControlTest, PressesBesideADotAreNotForTheBox) {
   EXPECT_FALSE(press());  // there is no box
 }
 
-TEST_P(RegionControlTest, UndoTakesBackADragAsOne) {
-  move(shown(face(kBox, 1, 1)));
-  ASSERT_TRUE(press());
-  for (int i = 1; i < 8; ++i) move(shown(face(kBox, 1, 1) + Vec3(0.0, 0.05 * i, 0.0)));
-  release();
-  ASSERT_NE(control_.box()->upper.y, kBox.upper.y);
-  control_.put(std::nullopt);
-  EXPECT_FALSE(control_.box());
-  ASSERT_TRUE(control_.undo());
-  EXPECT_NE(control_.box()->upper.y, kBox.upper.y);
-  ASSERT_TRUE(control_.undo());
-  EXPECT_EQ(control_.box()->upper, kBox.upper);
-  EXPECT_FALSE(control_.undo());
-  // A click that moved nothing is nothing to take back.
-  move(shown(face(kBox, 1, 1)));
-  press();
-  release();
-  EXPECT_FALSE(control_.undo());
-}
-
 TEST_P(RegionControlTest, TwoCornersMakeABoxAndFurtherOnesMoveTheNearest) {
   control_ = RegionControl();
   (void)control_.put_corner({0.5, -0.25, 1.0});

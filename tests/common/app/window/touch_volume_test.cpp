@@ -6,6 +6,7 @@
 #include "common/app/haptic/grid_mode.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/scalar_threshold.h"
+#include "common/scene/seeds.h"
 #include "tests/common/app/window/touch_window.h"
 
 namespace palpate::test {
@@ -185,6 +186,32 @@ TEST_F(TouchVolume, AButtonCutsAcrossAnAxisOfTheGridAtTheProxy) {
   const ConvexShape::HalfSpace& kept = result.view.volume->cuts[0].kept;
   EXPECT_EQ(kept.outward, Vec3(1.0, 0.0, 0.0));
   EXPECT_EQ(kept.offset, result.probe.proxy.x) << "to the bit";
+}
+
+/// Annotations in mode isosurface [pixels]: the list of their kinds, an angle in it, and with one angle made
+/// the plane through it.
+constexpr double kKindX = 60.0, kKindY = 392.0, kAngleX = 33.0, kAngleY = 459.0, kMarkX = 60.0,
+                 kMarkY = 418.0, kPlaneX = 158.0, kPlaneY = 441.0;
+
+TEST_F(TouchVolume, APlaneGoesThroughThreePointsThatTheMouseMarks) {
+  click(next(), kKindX, kKindY);
+  click(next(), kAngleX, kAngleY);
+  click(next(), kMarkX, kMarkY);
+  for (const auto& [dx, dy] : {std::pair(0.0, 0.0), std::pair(30.0, 5.0), std::pair(5.0, 30.0)})
+    click(next(), middle_x_ + dx, middle_y_ + dy);
+  click(next(), kPlaneX, kPlaneY);
+  key('S', kModifierControl);
+  const WindowResult result = run();
+  ASSERT_TRUE(result.view.volume);
+  ASSERT_EQ(result.view.volume->cuts.size(), 1U) << result.message;
+  const std::string words = "annotation=angle:";
+  const std::size_t found = result.message.find(words);
+  ASSERT_NE(found, std::string::npos) << result.message;
+  const std::string text = result.message.substr(found + words.size());
+  const auto v = parse_numbers(text.substr(0, text.find_first_of(" =;")), 9, text);
+  const ConvexShape::HalfSpace& plane = result.view.volume->cuts[0].kept;
+  for (std::size_t i = 0; i < 9; i += 3)
+    EXPECT_NEAR(glm::dot(plane.outward, Vec3(v[i], v[i + 1], v[i + 2])), plane.offset, 1e-12) << text;
 }
 
 TEST_F(TouchVolume, TheSessionHoldsThePlanes) {
