@@ -82,8 +82,8 @@ Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
 }
 
 AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options,
-                       std::shared_ptr<const ScalarField> value)
-    : heart_(std::move(heart)), options_(options), value_(value ? std::move(value) : heart_->heart().value) {
+                       const std::shared_ptr<const ScalarField>& value)
+    : heart_(std::move(heart)), options_(options), value_(value ? value : heart_->heart().value) {
   for (int i = 0; i < kWallAngleCount; ++i) {
     const auto angle = static_cast<WallAngle>(i);
     if (name_of(angle) == options.angle) angle_ = angle;

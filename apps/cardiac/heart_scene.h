@@ -49,7 +49,7 @@ class AngleProbe {
   /// @throws Error (usage) where the convention does not define the angle, sheets are not known, or there is
   /// no axis.
   AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options,
-             std::shared_ptr<const ScalarField> value = nullptr);
+             const std::shared_ptr<const ScalarField>& value = nullptr);
   /// Degrees, a number without a unit for "gap" and "depth", or the value of a scalar of the file; NaN where
   /// it is not defined.
   /// @param x data coordinates.
