@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
-#include "common/app/cli/json_output.h"
+#include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -36,19 +33,6 @@ std::string mesh_sentence(const ScalarField& layer) {
          counted(quality.components, "part") + ".";
 }
 
-std::string results_text(const Report& report, const std::filesystem::path& out) {
-  std::string text = report.title + " -> " + (out / "index.html").string() + "\n";
-  for (const StabilityCase& c : report.stability) {
-    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
-            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
-  }
-  return text;
-}
-
-void append(std::vector<StabilityCase> from, std::vector<StabilityCase>& to) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
-}
-
 ExitCode run_heart_report(const Options& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
@@ -70,11 +54,7 @@ ExitCode run_heart_report(const Options& options, const VerbContext& context) {
   const std::vector<Vec3> seeds = make_seeds(parse_seeds(seeds_of(effort)), *layer.tet_mesh(), heart->frame(),
                                              layer.bounds(), options.common.seed);
 
-  Report report;
-  report.title = context.explorer.name + ": " + input.title();
-  report.command_line = context.command_line;
-  report.machine = this_machine();
-  report.scene.push_back(input.choice_sentence());
+  Report report = begin_report(input, context);
   report.scene.push_back(mesh_sentence(layer));
   for (const std::string& note : heart->heart().notes) report.scene.push_back(note + ".");
   report.scene.push_back("Opening it took " +
@@ -93,15 +73,8 @@ ExitCode run_heart_report(const Options& options, const VerbContext& context) {
   append(fibre_feel_cases(feel, friction), report.stability);
   report.seconds = watch.seconds();
 
-  context.interrupt.unfinished(unfinished_report_folder(options.out));
-  write_report(report, options.out, options.common.force);
-  context.interrupt.keep(options.out);
-  std::size_t failed = 0, rows = 0;
-  for (const StabilityCase& c : report.stability) failed += c.row.holds ? 0 : 1;
-  for (const ReportSection& section : report.sections) rows += section.work_precision.size();
-  console.print(results_text(report, options.out));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, layer.tet_mesh())));
-  console.print_json(report_summary_json(options.out.string(), rows, failed, report.seconds));
+  finish_report(report, {}, work_precision_rows(report), measured_costs(input, layer.tet_mesh()), options,
+                context);
   return ExitCode::kDone;
 }
 

@@ -41,6 +41,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
     if (i > 0 || budget == 0.0) result.frame_ms.push_back(milliseconds);
   }
   result.image = renderer.read();
+  result.coarser_voxels = renderer.coarser_voxels();
   result.gpu = gpu_objects();
   return result;
 }

@@ -12,11 +12,12 @@ namespace palpate {
 
 struct RenderedImage {
   Image image;
-  double first_frame_ms = 0.0;   ///< with the upload and the compiling of shaders
-  std::vector<double> frame_ms;  ///< of the repeated frames, by the clock
-  FrameQuality quality;          ///< that the budget left
-  std::string renderer;          ///< the OpenGL driver
-  std::vector<GpuObject> gpu;    ///< what was compiled and allocated
+  double first_frame_ms = 0.0;           ///< with the upload and the compiling of shaders
+  std::vector<double> frame_ms;          ///< of the repeated frames, by the clock
+  FrameQuality quality;                  ///< that the budget left
+  std::optional<Index3> coarser_voxels;  ///< as VolumePass
+  std::string renderer;                  ///< the OpenGL driver
+  std::vector<GpuObject> gpu;            ///< what was compiled and allocated
 };
 
 /// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does

@@ -467,6 +467,10 @@ TractShare SceneRenderer::tract_share() const noexcept {
           .milliseconds = s.tract_ms};
 }
 
+std::optional<Index3> SceneRenderer::coarser_voxels() const noexcept {
+  return state_->volume ? state_->volume->coarser_voxels() : std::nullopt;
+}
+
 bool SceneRenderer::made_slabs() const noexcept { return state_->volume && state_->volume->made_slabs(); }
 
 void SceneRenderer::forget_slabs() {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "common/render/scene_view.h"
 
@@ -43,7 +44,8 @@ class SceneRenderer {
   [[nodiscard]] bool complete() const noexcept;
   /// What the last picture shows of the tracts.
   [[nodiscard]] TractShare tract_share() const noexcept;
-  /// As VolumePass.
+  /// As VolumePass, of the last picture.
+  [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
   [[nodiscard]] bool made_slabs() const noexcept;
   void forget_slabs();
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of

@@ -92,6 +92,17 @@ std::vector<std::size_t> steps_in_order(const std::vector<double>& times) {
   return steps;
 }
 
+std::size_t step_beside(const std::vector<double>& times, std::size_t step, bool on) {
+  const std::vector<std::size_t> order = steps_in_order(times);
+  const auto place = static_cast<std::size_t>(std::ranges::find(order, step) - order.begin());
+  return order[(place + (on ? 1 : order.size() - 1)) % order.size()];
+}
+
+std::size_t nearest_step(const std::vector<double>& times, double time) {
+  const auto nearest = std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - time); });
+  return static_cast<std::size_t>(nearest - times.begin());
+}
+
 Input Input::open(const InputSpec& spec, Progress* progress) {
   if (spec.files.empty() && spec.example.empty()) {
     throw usage_error("no input: give a file, or --example NAME (--example list shows them)");

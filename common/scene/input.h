@@ -60,6 +60,11 @@ struct TimeChoice {
 
 /// The steps by their times; those of one time stay in the order of the file. Without times the only one.
 [[nodiscard]] std::vector<std::size_t> steps_in_order(const std::vector<double>& times);
+/// The step whose time comes after that of `step` (`on`) or before it, round at either end. @pre step <
+/// times.size().
+[[nodiscard]] std::size_t step_beside(const std::vector<double>& times, std::size_t step, bool on);
+/// The step with the nearest time. @pre there is one.
+[[nodiscard]] std::size_t nearest_step(const std::vector<double>& times, double time);
 
 class Input {
  public:

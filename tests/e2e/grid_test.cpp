@@ -171,6 +171,14 @@ TEST_F(Grid, StoresVoxelsInTheMemoryGiven) {
   EXPECT_GT(some, all / 16);
   EXPECT_LE(voxels(megabytes(all / 100)).second, all / 100);
   EXPECT_EQ(run({"render", "--example", "shells", "--gpu-memory", "0", "--out", "c.png"}).exit_code, 2);
+  // A coarser picture is not passed off as the volume's.
+  const auto said = [this](const std::string& memory) {
+    return run({"render", "--example", "shells", "--size", "32x32", "--gpu-memory", memory, "--out",
+                "said" + memory + ".png"})
+               .err.find("finer ones do not fit --gpu-memory") != std::string::npos;
+  };
+  EXPECT_FALSE(said("1000"));
+  EXPECT_TRUE(said(megabytes(all / 100)));
 }
 
 // Through the outermost shell of the example "shells", radius 0.86, and on to the middle.

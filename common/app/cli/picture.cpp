@@ -157,6 +157,11 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   console.print(summary.input + ": " + drawn.what + " -> " + summary.output + " (" +
                 std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
+  if (const auto& n = rendered.coarser_voxels) {
+    console.note("drawn from " + std::to_string(n->x) + " x " + std::to_string(n->y) + " x " +
+                 std::to_string(n->z) +
+                 " voxels, each the mean of several: finer ones do not fit --gpu-memory");
+  }
   console.print(stereo_text(drawn.view));
   if (options.common.explain) console.print(gpu_text(summary.gpu) + measured_text(summary.measured));
   console.print_json(render_json(summary));

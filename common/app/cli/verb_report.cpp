@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <iterator>
+#include <string>
 #include <utility>
 
-#include "common/app/cli/json_output.h"
+#include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -49,8 +49,8 @@ std::string grid_sentence(const VectorField& field) {
   return "The field is a formula.";
 }
 
-std::string results_text(const Report& report, const std::filesystem::path& out) {
-  std::string text = report.title + " -> " + (out / "index.html").string() + "\n";
+std::string figures_text(const Report& report) {
+  std::string text;
   for (const SweepRow& row : report.sweep.rows) {
     text += "  " + row.method + std::string(8 - std::min<std::size_t>(7, row.method.size()), ' ') +
             row.parameter + std::string(22 - std::min<std::size_t>(21, row.parameter.size()), ' ') +
@@ -62,10 +62,6 @@ std::string results_text(const Report& report, const std::filesystem::path& out)
     if (row.cells_swept || row.budget.iterations != UpdateBudget{}.iterations) continue;
     text += "  hand on a streamline, " + std::string(name_of(row.path)) + ": force error " +
             short_number(row.force_error.max) + " N, " + short_number(row.us_p99) + " us a step\n";
-  }
-  for (const StabilityCase& c : report.stability) {
-    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
-            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
   }
   return text;
 }
@@ -90,11 +86,7 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   const auto field = input.load_field(options.common.threads, &context.progress);
   const auto seeds = make_seeds(spec, *field, options.common.seed);
 
-  Report report;
-  report.title = context.explorer.name + ": " + input.title();
-  report.command_line = context.command_line;
-  report.machine = this_machine();
-  report.scene.push_back(input.choice_sentence());
+  Report report = begin_report(input, context);
   report.scene.push_back(grid_sentence(*field));
   report.scene.insert(report.scene.end(), field->notes().lines.begin(), field->notes().lines.end());
   report.sweep =
@@ -128,24 +120,15 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
     stability.blocks = input.read(stability.choice.arrays, &context.progress);
   }
   report.stability = run_stability(stability, &context.progress);
-  for (StabilityCase& c : run_haptic_stability(field, report.constraint, stability, &context.progress)) {
-    report.stability.push_back(std::move(c));
-  }
+  append(run_haptic_stability(field, report.constraint, stability, &context.progress), report.stability);
   add_constraint_studies(report, effort, &context.progress);
   WallStability wall = run_wall_stability(options.common.threads, &context.progress);
-  std::move(wall.cases.begin(), wall.cases.end(), std::back_inserter(report.stability));
+  append(std::move(wall.cases), report.stability);
   for (ReportSection& section : wall_sections(wall)) report.sections.push_back(std::move(section));
   report.seconds = watch.seconds();
 
-  context.interrupt.unfinished(unfinished_report_folder(options.out));
-  write_report(report, options.out, options.common.force);
-  context.interrupt.keep(options.out);
-  const auto failed = std::count_if(report.stability.begin(), report.stability.end(),
-                                    [](const StabilityCase& c) { return !c.row.holds; });
-  console.print(results_text(report, options.out));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, field->tet_mesh())));
-  console.print_json(report_summary_json(options.out.string(), report.sweep.rows.size(),
-                                         static_cast<std::size_t>(failed), report.seconds));
+  finish_report(report, figures_text(report), report.sweep.rows.size(),
+                measured_costs(input, field->tet_mesh()), options, context);
   return ExitCode::kDone;
 }
 

@@ -1,9 +1,7 @@
-#include <algorithm>
-#include <iterator>
 #include <string>
-#include <utility>
+#include <vector>
 
-#include "common/app/cli/json_output.h"
+#include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -18,20 +16,6 @@ namespace palpate {
 namespace {
 
 constexpr int kSpreadGradients = 30;  ///< where the data have none
-
-std::string results_text(const Report& report, const std::filesystem::path& out) {
-  std::string text = report.title + " -> " + (out / "index.html").string() + "\n";
-  for (const StabilityCase& c : report.stability) {
-    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
-            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
-  }
-  return text;
-}
-
-template <class Items>
-void append(Items&& from, Items& to) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
-}
 
 ExitCode run_tensor_report(const Options& options, const VerbContext& context) {
   Console& console = context.console;
@@ -52,11 +36,7 @@ ExitCode run_tensor_report(const Options& options, const VerbContext& context) {
   const bool own = gradients && gradient_problem(*gradients).empty();
   TensorImage image = input.load_tensor_image(threads, &context.progress);
 
-  Report report;
-  report.title = context.explorer.name + ": " + input.title();
-  report.command_line = context.command_line;
-  report.machine = this_machine();
-  report.scene.push_back(input.choice_sentence());
+  Report report = begin_report(input, context);
   report.scene.insert(report.scene.end(), image.notes.begin(), image.notes.end());
   report.scene.push_back("Opening it took " + short_number(input.seconds_open() + input.seconds_read()) +
                          " s" + (image.fit ? ", with the fit." : "."));
@@ -71,15 +51,7 @@ ExitCode run_tensor_report(const Options& options, const VerbContext& context) {
   append(tract_error_cases(tracts), report.stability);
   report.seconds = watch.seconds();
 
-  context.interrupt.unfinished(unfinished_report_folder(options.out));
-  write_report(report, options.out, options.common.force);
-  context.interrupt.keep(options.out);
-  std::size_t failed = 0, rows = 0;
-  for (const StabilityCase& c : report.stability) failed += c.row.holds ? 0 : 1;
-  for (const ReportSection& section : report.sections) rows += section.work_precision.size();
-  console.print(results_text(report, options.out));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, nullptr)));
-  console.print_json(report_summary_json(options.out.string(), rows, failed, report.seconds));
+  finish_report(report, {}, work_precision_rows(report), measured_costs(input, nullptr), options, context);
   return ExitCode::kDone;
 }
 

@@ -1,9 +1,9 @@
 #include "common/app/cli/verb_report_volume.h"
 
 #include <string>
-#include <utility>
+#include <vector>
 
-#include "common/app/cli/json_output.h"
+#include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/app/cli/volume_scene.h"
 #include "common/base/clock.h"
@@ -18,8 +18,8 @@
 namespace palpate {
 namespace {
 
-std::string results_text(const Report& report, const VolumeQuality& quality, const std::string& out) {
-  std::string text = report.title + " -> " + out + "/index.html\n";
+std::string figures_text(const VolumeQuality& quality) {
+  std::string text;
   for (const VolumeQualityRow& row : quality.rows) {
     text += "  " + row.method + " " + short_number(row.parameter) + ": error " + short_number(row.rms) +
             " in " + short_number(row.milliseconds) + " ms\n";
@@ -54,11 +54,8 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
         input, {.verb = "report", .threads = resolve_threads(options.common.threads), .drawing = true})));
   }
   const SceneView scene = make_volume_scene(input, load_volume(input, &context.progress), options, 1.0);
-  Report report;
-  report.title = context.explorer.name + ": " + input.title();
-  report.command_line = context.command_line;
-  report.machine = this_machine();
-  report.scene = {input.choice_sentence(), scene.subtitle + "."};
+  Report report = begin_report(input, context);
+  report.scene.push_back(scene.subtitle + ".");
   const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, &context.progress);
   report.sections.push_back(volume_quality_section(quality));
   const PlacingSettings placing = placing_settings(*scene.volume->image, effort, options.common.seed);
@@ -67,14 +64,8 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
   report.stability = plane_placing_cases(placed);
   report.seconds = watch.seconds();
 
-  context.interrupt.unfinished(unfinished_report_folder(options.out));
-  write_report(report, options.out, options.common.force);
-  context.interrupt.keep(options.out);
-  console.print(results_text(report, quality, options.out.string()));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, nullptr)));
-  std::size_t failed = 0;
-  for (const StabilityCase& c : report.stability) failed += c.row.holds ? 0 : 1;
-  console.print_json(report_summary_json(options.out.string(), quality.rows.size(), failed, report.seconds));
+  finish_report(report, figures_text(quality), quality.rows.size(), measured_costs(input, nullptr), options,
+                context);
   return ExitCode::kDone;
 }
 

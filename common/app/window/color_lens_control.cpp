@@ -7,6 +7,16 @@
 #include "common/app/window/pick_volume.h"
 
 namespace palpate {
+namespace {
+
+/// By a step of the wheel; `notches` > 0: larger.
+void resize(double notches, const Box& bounds, ColorLens& lens) {
+  constexpr double kGrowth = 0.12, kLeastReach = 1e-3, kMostReach = 2.0;  // logarithm; diagonals
+  lens.radius = std::clamp(lens.radius * std::exp(kGrowth * notches), kLeastReach * bounds.diagonal(),
+                           kMostReach * bounds.diagonal());
+}
+
+}  // namespace
 
 void place_lens(const SceneView& view, ColorLens& lens) {
   constexpr double kPartOfSide = 1.0 / 6.0;
@@ -24,10 +34,14 @@ void place_lens(const SceneView& view, ColorLens& lens) {
   }
 }
 
-void ColorLensControl::grow(double notches, const Box& bounds, ColorLens& lens) {
-  constexpr double kGrowth = 0.12, kLeastReach = 1e-3, kMostReach = 2.0;  // logarithm; diagonals
-  lens.radius = std::clamp(lens.radius * std::exp(kGrowth * notches), kLeastReach * bounds.diagonal(),
-                           kMostReach * bounds.diagonal());
+std::string ColorLensControl::run(Command command, SceneView& view) {
+  if (command != Command::kLens) {
+    if (view.color_lens) resize(command == Command::kLensLarger ? 1.0 : -1.0, view.bounds, *view.color_lens);
+    return {};
+  }
+  followed_ = !followed_ || !view.color_lens;
+  return followed_ ? "the lens follows the mouse over the layer; wheel: its size, click: leave it there"
+                   : "the lens stays there";
 }
 
 bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, const ShownLayer& layer,
@@ -51,7 +65,7 @@ bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, 
       return false;  // a camera that is being dragged goes on
     }
     case InputKind::kWheel:
-      grow(event.y, view.bounds, *view.color_lens);
+      resize(event.y, view.bounds, *view.color_lens);
       return true;
     case InputKind::kPress:
       if (event.button != MouseButton::kLeft) return false;

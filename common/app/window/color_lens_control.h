@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "common/app/window/input_event.h"
+#include "common/app/window/keys.h"
 #include "common/app/window/view_control.h"
 #include "common/field/scalar_field.h"
 #include "common/render/scene_view.h"
@@ -26,8 +28,9 @@ class ColorLensControl {
  public:
   /// Moves view.color_lens. @return whether the event was for it.
   bool handle(const InputEvent& event, const PictureArea& area, const ShownLayer& layer, SceneView& view);
-  /// By a step of the wheel. @param notches > 0: larger.
-  static void grow(double notches, const Box& bounds, ColorLens& lens);
+  /// kLens, which has it follow the mouse or no longer, kLensSmaller and kLensLarger.
+  /// @return what to tell the user.
+  std::string run(Command command, SceneView& view);
   /// The lens follows the mouse from now on, or no longer.
   void follow(bool on) noexcept { followed_ = on; }
   [[nodiscard]] bool followed() const noexcept { return followed_; }

@@ -31,6 +31,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
                    patient ? moment.interrupted : nullptr);
     figures_.milliseconds = renderer_.finish();
     figures_.tracts = renderer_.tract_share();
+    figures_.coarser_voxels = renderer_.coarser_voxels();
     if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(figures_.milliseconds);

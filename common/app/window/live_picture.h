@@ -18,6 +18,7 @@ struct PictureFigures {
   double milliseconds = 0.0;
   double frames_per_second = 0.0;
   FrameQuality quality;
+  std::optional<Index3> coarser_voxels;  ///< as VolumePass
   TractShare tracts;
 };
 

@@ -65,6 +65,10 @@ std::string frame_text(const PanelState& state) {
   give_up(quality.context, "samples");
   give_up(quality.viewport, "resolution around lenses");
   give_up(quality.resolution, "resolution");
+  if (const auto& n = state.picture.coarser_voxels) {
+    std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n->x, n->y, n->z);
+    text += part.data();
+  }
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
   std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);

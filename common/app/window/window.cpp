@@ -26,6 +26,7 @@
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
 #include "common/app/window/plane_image_control.h"
+#include "common/app/window/probe_plot.h"
 #include "common/app/window/region_control.h"
 #include "common/app/window/saved_files.h"
 #include "common/app/window/shown_scene.h"
@@ -106,7 +107,7 @@ class Window {
                         .probe = touch_->readout(),
                         .tensor = state_.tensor,
                         .replay = touch_->replay_verdict(),
-                        .series = series_ ? series_->curve() : SeriesCurve{}};
+                        .series = plot_.curve()};
     std::tie(result.width, result.height) = glfw_.size();
     result.median_frame_ms = live_->median_milliseconds();
     return result;
@@ -238,7 +239,7 @@ class Window {
     }
     show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
-      plotted_.clear();  // of another input
+      plot_.forget();
       if (job_kind_ == JobKind::kOpen) region_control_ = RegionControl();
       view_edits_.forget();
       // Edits made while the input was being read belonged to the old one.
@@ -324,13 +325,15 @@ class Window {
         view_.tensors && !control_.dragging() && !touch_->readout().held && !ImGui::GetIO().WantCaptureMouse;
     state_.tensor =
         looking ? slice_control_.under_mouse(picture_, view_.camera, *view_.tensors) : std::nullopt;
-    plot_at_probe();
+    state_.series.reset();
+    if (scene_) plot_.update(*scene_->info, scene_->settings.time_step, options_.threads, state_);
     const SceneSettings settings_before = state_.settings;
     const PanelActions actions = draw_panels(state_, view_, parts);
     if (actions.cancel) job_->cancel();
     if (actions.reset_camera) needs_camera_ = true;
     if (actions.look) run_command(*actions.look);
-    if (actions.time) show_time(*actions.time);
+    if (actions.time && has_times())
+      state_.settings.time_step = nearest_step(scene_->info->times, *actions.time);
     if (actions.open) open(*actions.open);
     answer_question();
     if (actions.save_picture) run_command(Command::kSavePicture);
@@ -401,9 +404,7 @@ class Window {
       }
     }
     const PlanePoses& poses = touch_->planes()->poses;
-    if (!(poses == cut_planes_)) {
-      live_->lens_moved(glfwGetTime());
-    }
+    if (!(poses == cut_planes_)) live_->lens_moved(glfwGetTime());
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
   }
@@ -453,6 +454,9 @@ class Window {
     return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
   }
 
+  /// Whether the volume is what is looked at, and may be cropped: that of tensors is made of them.
+  [[nodiscard]] bool has_region() const { return view_.volume && !view_.tensors; }
+
   [[nodiscard]] EditedView edited_view() const {
     return {region_control_.box(), view_.volume ? view_.volume->planes.window : std::nullopt};
   }
@@ -478,7 +482,7 @@ class Window {
 
   // While the probe is grabbed the mouse is its own.
   bool handle_region(const InputEvent& event, const PictureArea& area) {
-    if (!view_.volume || (touch_control_->grabbed() && event.kind != InputKind::kMove)) return false;
+    if (!has_region() || (touch_control_->grabbed() && event.kind != InputKind::kMove)) return false;
     const bool taken = region_control_.handle(event, area, view_.camera, view_.bounds);
     if (region_control_.dragging()) live_->lens_moved(glfwGetTime());
     return taken;
@@ -506,7 +510,7 @@ class Window {
         // Along layers there are no lines to keep.
         if (touch_control_->grabbed() && (touch_->has_flow() || touch_->has_tensors())) {
           run_touch(Command::kKeepLine);
-        } else if (scene_ && scene_->info->times.size() > 1)
+        } else if (has_times())
           state_.playing = !state_.playing;
         break;
       case Command::kStepBack:
@@ -531,7 +535,7 @@ class Window {
         glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
         break;
       case Command::kCorner:
-        if (!view_.volume) break;
+        if (!has_region()) break;
         if (touch_->readout().held) {
           say(region_control_.put_corner(touch_->readout().proxy), false);
         } else {
@@ -572,27 +576,11 @@ class Window {
     }
   }
 
-  /// The lens on a layer: what is in it has to be sampled before it is there.
-  void run_color_lens(Command command) {
-    if (command != Command::kLens) {
-      if (view_.color_lens)
-        ColorLensControl::grow(command == Command::kLensLarger ? 1.0 : -1.0, view_.bounds, *view_.color_lens);
-      return;
-    }
-    color_lens_control_.follow(!color_lens_control_.followed());
-    if (state_.settings.lens_array.empty()) {
-      state_.settings.lens_array = scene_->info->color_arrays.front();
-      color_lens_control_.follow(true);
-    }
-    say(color_lens_control_.followed()
-            ? "the lens follows the mouse over the layer; wheel: its size, click: leave it there"
-            : "the lens stays there",
-        false);
-  }
-
   void run_lens(Command command) {
     if (scene_ && scene_->info->layers) {
-      run_color_lens(command);
+      if (command == Command::kLens && state_.settings.lens_array.empty())
+        state_.settings.lens_array = scene_->info->color_arrays.front();  // is sampled before it is there
+      say(color_lens_control_.run(command, view_), false);
       return;
     }
     if (!scene_ || !view_.volume) return;
@@ -637,47 +625,17 @@ class Window {
 
   /// To the step whose time comes next, and round from the last to the first.
   void step_in_time(bool on) {
-    if (!scene_ || scene_->info->times.size() < 2) return;
-    const std::vector<std::size_t> order = steps_in_order(scene_->info->times);
-    const auto now = std::find(order.begin(), order.end(), state_.settings.time_step) - order.begin();
-    const auto count = static_cast<std::ptrdiff_t>(order.size());
-    state_.settings.time_step = order[static_cast<std::size_t>((now + (on ? 1 : count - 1)) % count)];
+    if (has_times())
+      state_.settings.time_step = step_beside(scene_->info->times, state_.settings.time_step, on);
   }
 
-  void show_time(double time) {
-    if (!scene_ || scene_->info->times.size() < 2) return;
-    const std::vector<double>& times = scene_->info->times;
-    const auto nearest = std::min_element(times.begin(), times.end(), [&](double a, double b) {
-      return std::abs(a - time) < std::abs(b - time);
-    });
-    state_.settings.time_step = static_cast<std::size_t>(nearest - times.begin());
-  }
-
-  /// The curve at the place where the hand is, or was last.
-  void plot_at_probe() {
-    state_.series.reset();
-    if (!scene_) return;
-    const SceneInfo& info = *scene_->info;
-    const bool known = std::ranges::find(info.plotted, state_.plotted) != info.plotted.end();
-    const std::string wanted = known ? state_.plotted : std::string();
-    if (wanted != plotted_) {
-      if (!series_) series_ = std::make_unique<ProbeSeries>([] { glfwPostEmptyEvent(); });
-      series_->choose(info.input, wanted, options_.threads);
-      plotted_ = wanted;
-    }
-    if (wanted.empty()) return;
-    series_->keep_steps(state_.keep_steps);
-    if (touch_->readout().held) series_->request(touch_->readout().proxy);
-    state_.series = SeriesPlot{.curve = series_->curve(),
-                               .reading = series_->reading(),
-                               .now = info.times.empty() ? 0.0 : info.times[scene_->settings.time_step]};
-  }
+  [[nodiscard]] bool has_times() const { return scene_ && scene_->info->times.size() > 1; }
 
   /// What a session holds beside the scene and its view.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> set_options() const {
     auto set = touch_->options();
     if (!state_.plotted.empty()) set.emplace_back("plot", state_.plotted);
-    if (const auto& box = region_control_.box(); box && view_.volume) set.emplace_back("box", box_text(*box));
+    if (const auto& box = region_control_.box(); box && has_region()) set.emplace_back("box", box_text(*box));
     if (state_.play_rate != kPlayRate) set.emplace_back("play-rate", exact_number(state_.play_rate));
     return set;
   }
@@ -714,7 +672,7 @@ class Window {
     std::vector<std::vector<Vec3>> handled;
     if (touch_->planes())
       handled = lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius());
-    if (picture.volume) {
+    if (has_region()) {
       if (region_control_.box()) {
         for (auto& edge : box_edges(*region_control_.box())) handled.push_back(std::move(edge));
       }
@@ -769,9 +727,8 @@ class Window {
   UnsavedQuestion question_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;
-  Stopwatch since_step_;                 // in time
-  std::string plotted_;                  // by series_
-  std::unique_ptr<ProbeSeries> series_;  // made when something is first plotted
+  Stopwatch since_step_;  // in time
+  ProbePlot plot_;
   std::string told_fault_, told_device_;
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;

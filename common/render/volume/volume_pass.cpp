@@ -86,7 +86,8 @@ struct VolumePass::State {
   bool asks_tiles = true;
 
   // What was drawn last, and what is kept of it.
-  VolumeView shown;  // of update()
+  VolumeView shown;                          // of update()
+  std::shared_ptr<const VolumeImage> asked;  // for, which may be finer
   std::optional<VolumeView> drawn_view;
   FrameBlock drawn_block;
   std::unique_ptr<SlabCache> slabs;
@@ -185,6 +186,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame) {
   s.textures.update(view);
   view.storage = asked.storage;
   view.image = s.textures.image();
+  s.asked = asked.image;
   if (std::vector<std::string> defines = s.textures.shader_defines(); defines != s.defines) {
     s.programs = {};
     s.planes = {};
@@ -245,6 +247,12 @@ void VolumePass::draw_planes(const FrameBlock& block) {
   if (!shows_planes(s.shown)) return;
   s.bind_volume(s.volume_block);
   s.planes.draw(s.shown, s.frame, block, s.defines);
+}
+
+std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
+  const auto& drawn = state_->textures.image();
+  if (drawn == nullptr || drawn == state_->asked) return std::nullopt;
+  return drawn->points;
 }
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }

@@ -57,6 +57,10 @@ class VolumePass {
   void forget_slabs();
 
   /// What was made for the last view, for `--explain`.
+  /// Voxels an axis of the coarser volume that is drawn in place of the view's, which does not fit its
+  /// storage; nothing where the view's own is drawn.
+  [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
+
   struct Cost {
     int programs = 0;               ///< compiled by this pass so far
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU

@@ -53,5 +53,19 @@ TEST(Input, MakesTheFieldOfAnExample) {
   EXPECT_NE(input.load_field(1)->analytic(), nullptr);
 }
 
+// In the order of time, whatever that of the file, and round at either end.
+TEST(TimeSteps, GoOnByTimeAndRound) {
+  const std::vector<double> times{0.5, 0.0, 2.0, 1.0};
+  EXPECT_EQ(step_beside(times, 1, true), 0U);
+  EXPECT_EQ(step_beside(times, 0, true), 3U);
+  EXPECT_EQ(step_beside(times, 2, true), 1U);
+  EXPECT_EQ(step_beside(times, 1, false), 2U);
+  for (std::size_t step = 0; step < times.size(); ++step)
+    EXPECT_EQ(step_beside(times, step_beside(times, step, true), false), step);
+  EXPECT_EQ(nearest_step(times, 1.4), 3U);
+  EXPECT_EQ(nearest_step(times, -7.0), 1U);
+  EXPECT_EQ(nearest_step(times, 9.0), 2U);
+}
+
 }  // namespace
 }  // namespace palpate::test
