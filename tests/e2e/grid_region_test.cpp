@@ -3,6 +3,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/app/haptic/box_hold.h"
 #include "common/app/window/region_control.h"
 #include "common/app/window/saved_files.h"
 #include "common/field/analytic/volume_examples.h"
@@ -53,6 +54,42 @@ TEST_F(GridRegion, SessionsWithABoxServeAllVerbs) {
       run({"clip", "--example", "shells", "--box", "-0.5,-0.5,-0.5,0.5,0.5,0.5", "--out", "option.nrrd"});
   ASSERT_EQ(same.exit_code, 0) << same.err;
   EXPECT_EQ(bytes_of(folder_.path("session.nrrd")), bytes_of(folder_.path("option.nrrd")));
+}
+
+// A hand on the grid takes the face at +x from 0.5 to 0.72: with teeth it is left on a voxel.
+TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
+  const double spacing = 2.0 / 95.0;  // of the example: 96 points from -1 to 1
+  const double from = -1.0 + 71.0 * spacing;
+  {
+    std::ofstream path(folder_.path("hand.csv"));
+    path << "t,x,y,z,b0\n";
+    for (int i = 0; i <= 300; ++i) {
+      const double led = i < 60 ? 0.0 : i < 200 ? (i - 60) / 140.0 : (300 - i) / 100.0;
+      path << 0.002 * i << ',' << from + led * (0.72 - from) << ',' << 0.004 * (i % 7 - 3) << ",0.1,"
+           << (i >= 40 && i < 200 ? 1 : 0) << '\n';
+    }
+  }
+  const std::vector<std::string> probe{"probe",  "--example", "shells",
+                                       "--path", "hand.csv",  "--mode",
+                                       "grid",   "--box",     "-0.5,-0.5,-0.5,0.5,0.5,0.5",
+                                       "--json"};
+  const auto box_after = [&](std::vector<std::string> words) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(result.out).at("box").get<std::vector<double>>();
+  };
+  std::vector<std::string> with_teeth = probe;
+  with_teeth.insert(with_teeth.end(), {"--grid-teeth", "1"});
+  const std::vector<double> box = box_after(with_teeth);
+  ASSERT_EQ(box.size(), 6U);
+  // A tooth is left for the next one where the hand is on that: the last node before 0.72.
+  EXPECT_NEAR(box[3], -1.0 + std::floor((0.72 + 1.0) / spacing) * spacing, 1e-12);
+  EXPECT_EQ(std::vector<double>({box[0], box[1], box[2], box[4], box[5]}),
+            std::vector<double>({-0.5, -0.5, -0.5, 0.5, 0.5}));
+  EXPECT_NEAR(box_after(probe)[3], 0.72, 0.005) << "where the hand was as it let go";
+  // Other modes know no box; what is none is refused.
+  EXPECT_EQ(run({"probe", "--example", "shells", "--path", "hand.csv", "--box", "1,2", "--json"}).exit_code,
+            2);
 }
 
 }  // namespace

@@ -348,7 +348,7 @@ class VerbParser {
     scene_options_.add(
         "--box", options_.slice.box,
         "a box of interest, in data units: two opposite corners; `clip` keeps what lies in it, a "
-        "window shows it, to be dragged and cropped to",
+        "window shows it, to be dragged and cropped to; on a haptic grid the button takes hold of its faces",
         "x,y,z,x,y,z", "Part");
   }
 

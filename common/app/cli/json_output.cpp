@@ -520,6 +520,9 @@ std::string probe_json(const ProbeSummary& summary) {
     for (const auto& [option, value] : grid_options(summary.settings.grid_axis)) grid[option] = value;
     Json& landmarks = json["landmarks"] = Json::array();
     for (const Vec4& plane : summary.landmarks) landmarks.push_back({plane.x, plane.y, plane.z, plane.w});
+    if (const auto& box = summary.box) {
+      json["box"] = {box->lower.x, box->lower.y, box->lower.z, box->upper.x, box->upper.y, box->upper.z};
+    }
   }
   if (summary.mode == kPlaneWidgetMode) {
     Json& planes = json["planes"] = Json::array();

@@ -9,12 +9,15 @@
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/probe_log.h"
 #include "common/app/cli/simulated_option.h"
+#include "common/app/cli/slice_plane.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/haptic/box_hold.h"
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/base/clock.h"
@@ -90,6 +93,7 @@ std::string summary_text(const ProbeSummary& summary) {
     text += "  plane      " + exact_number(plane.x) + "," + exact_number(plane.y) + "," +
             exact_number(plane.z) + "," + exact_number(plane.w) + "\n";
   }
+  if (summary.box) text += "  box        " + box_text(*summary.box) + "\n";
   for (const Vec4& plane : summary.landmarks) {
     text += "  landmark   " + short_number(plane.x) + "," + short_number(plane.y) + "," +
             short_number(plane.z) + "," + short_number(plane.w) + "\n";
@@ -121,6 +125,11 @@ class ProbeRun {
     log_.emplace(file, workspace_, links, measured);
   }
   void draw_on(TractPen& pen) { pen_ = &pen; }
+  /// The button takes hold of the faces of summary.box. @param reach, bounds as of BoxHold.
+  void hold_box(double reach, const Box& bounds) {
+    box_reach_ = reach;
+    bounds_ = bounds;
+  }
 
   /// Takes one step by `step`, and its time. @param row what stands in the log for where the probe was.
   template <class Step>
@@ -130,6 +139,7 @@ class ProbeRun {
     const double microseconds = thread_microseconds() - before;
     if (log_) log_->add(row, step, microseconds);
     if (pen_ != nullptr) draw(row, step);
+    if (box_reach_ > 0.0) size_box(row, step);
     times_.push_back(static_cast<float>(microseconds));
     ++summary_.states[static_cast<std::size_t>(step.state)];
     if (step.state == HoldState::kFault && first_fault_ == 0) {
@@ -163,11 +173,20 @@ class ProbeRun {
     pen_->add(row.time, proxy, glm::length(step.force));
   }
 
+  void size_box(const PathRow& row, const HandStep& step) {
+    if (step.state != HoldState::kHeld && step.state != HoldState::kFellBack) return;
+    const Vec3 proxy = ProbeLog::in_data(step.chain.proxy(step.probe), row, step, workspace_);
+    box_hold_.follow((step.buttons & 1U) != 0, proxy, box_reach_, bounds_, *summary_.box);
+  }
+
   ProbeSummary& summary_;
   const Workspace& workspace_;
   const VerbContext& context_;
   std::optional<ProbeLog> log_;
   TractPen* pen_ = nullptr;
+  BoxHold box_hold_;
+  double box_reach_ = 0.0;  ///< [data units]; 0: there is no box
+  Box bounds_;
   std::vector<float> times_;
   std::size_t first_fault_ = 0;
   ForceCut first_cut_ = ForceCut::kNone;
@@ -259,7 +278,7 @@ struct FeltInput {
   std::shared_ptr<const ScalarField> scalar;
   std::shared_ptr<const TensorField> tensor;
   std::string name;
-  Vec3 middle{0.0};
+  Box bounds;
   double diagonal = 0.0;
   const TetMesh* mesh = nullptr;
   std::vector<std::string> notes;
@@ -269,7 +288,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   FeltInput felt;
   const auto describe = [&felt](const auto& field) {
     felt.name = field.name();
-    felt.middle = field.bounds().center();
+    felt.bounds = field.bounds();
     felt.diagonal = field.diagonal();
     felt.mesh = field.tet_mesh();
     felt.notes = field.notes().lines;
@@ -277,7 +296,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   if (context.explorer.kind == FieldKind::kTensor) {
     felt.tensor = input.load_tensor(options.common.threads, &context.progress);
     felt.name = felt.tensor->name();
-    felt.middle = felt.tensor->bounds().center();
+    felt.bounds = felt.tensor->bounds();
     felt.diagonal = felt.tensor->bounds().diagonal();
     felt.mesh = felt.tensor->grid()->tets.get();
     felt.notes = felt.tensor->notes().lines;
@@ -286,7 +305,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
     felt.tensor = heart.fibres;
     felt.scalar = heart.layer;
     felt.name = heart.fibres->name();
-    felt.middle = heart.layer->bounds().center();
+    felt.bounds = heart.layer->bounds();
     felt.diagonal = heart.layer->diagonal();
     felt.mesh = heart.layer->tet_mesh();
     felt.notes = std::move(heart.notes);
@@ -410,6 +429,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
     run.draw_on(*pen);
   }
+  if (mode.name == kGridMode && !options.slice.box.empty()) {
+    summary.box = parse_box(options.slice.box, "--box");
+    run.hold_box(summary.settings.grid_axis.threshold / workspace.scale(), felt.bounds);
+  }
   if (recording) {
     // The fields of all examples have the same label.
     std::string label = input.field_label();
@@ -444,7 +467,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     summary.landmarks = haptics.landmarks;
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (immersive) {
-      ImmersiveTechnique technique(bench, felt.middle, workspace.scale());
+      ImmersiveTechnique technique(bench, felt.bounds.center(), workspace.scale());
       follow_hands(hands, technique, summary.settings, planes.get(), stepper, workspace, run,
                    context.progress);
     } else if (simulated) {
@@ -485,13 +508,15 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 }  // namespace
 
 Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
-  return {.name = "probe",
-          .summary = "follow a recorded path of the probe and log proxies and forces",
-          .groups = {.touch = true, .path = true, .hand = true, .replay = true, .out = true},
-          .examples = std::move(examples),
-          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
-            return run_probe(modes, options, context);
-          }};
+  const bool has_grid = std::ranges::any_of(modes, [](const HapticMode& m) { return m.name == kGridMode; });
+  return {
+      .name = "probe",
+      .summary = "follow a recorded path of the probe and log proxies and forces",
+      .groups = {.touch = true, .path = true, .hand = true, .replay = true, .out = true, .part = has_grid},
+      .examples = std::move(examples),
+      .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+        return run_probe(modes, options, context);
+      }};
 }
 
 }  // namespace palpate

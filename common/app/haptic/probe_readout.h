@@ -14,6 +14,7 @@ namespace palpate {
 /// Data units unless stated.
 struct ProbeReadout {
   bool held = false;  ///< a hand is on the probe
+  bool acts = false;  ///< and holds its button
   HoldState state = HoldState::kFree;
   ForceCut cut = ForceCut::kNone;
   Vec3 probe{0.0};

@@ -7,6 +7,7 @@
 
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/desktop_technique.h"
+#include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/base/text.h"
@@ -202,7 +203,17 @@ void ProbeSession::follow_hands(double time) {
 }
 
 /// Modes that take hold of something wait for the button; in all others the hand itself is the button.
-std::uint32_t ProbeSession::buttons() const noexcept { return planes_.there() && !pressed_ ? 0U : 1U; }
+std::uint32_t ProbeSession::buttons() const noexcept { return takes_hold() && !pressed_ ? 0U : 1U; }
+
+bool ProbeSession::takes_hold() const noexcept { return planes_.there() || on_grid(); }
+
+bool ProbeSession::on_grid() const noexcept {
+  return available() && options_.modes[choice_.mode].name == kGridMode;
+}
+
+bool ProbeSession::holds_on_grid() const { return on_grid() && readout_.held && readout_.acts; }
+
+double ProbeSession::box_reach() const { return choice_.settings.grid_axis.threshold / workspace().scale(); }
 
 void ProbeSession::put_planes(const PlanePoses& poses) {
   planes_.remember();
@@ -298,7 +309,7 @@ void ProbeSession::take(const HandStep& step) {
   if (!step.present) {
     path_->append(gap, 0.0);
     if (drawing_) drawing_->let_go();
-    readout_.held = false;
+    readout_.held = readout_.acts = false;
     held_before_ = false;
     return;
   }
@@ -330,6 +341,7 @@ void ProbeSession::take(const HandStep& step) {
     felt_.back().force = force;
   }
   readout_.held = true;
+  readout_.acts = (step.buttons & 1U) != 0;
   readout_.state = step.state;
   readout_.cut = step.cut;
   readout_.probe = workspace.data_from_workspace(step.probe);

@@ -93,7 +93,10 @@ class ProbeSession {
   void lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept;
   [[nodiscard]] const HandsIntent& intent() const noexcept { return technique_->intent(); }
   void let_go() noexcept;
-  /// The button of the mouse, while it has the probe: takes hold of planes.
+  /// Whether the mode waits for a button, which takes hold of planes or, on a haptic grid, of the faces of a
+  /// box.
+  [[nodiscard]] bool takes_hold() const noexcept;
+  /// That button of the mouse, while it has the probe.
   void press(bool down) noexcept { pressed_ = down; }
   void force_off() noexcept;
   void arm() noexcept;
@@ -138,6 +141,10 @@ class ProbeSession {
   [[nodiscard]] const std::shared_ptr<const ScalarField>& scalar() const noexcept { return open_.scalar; }
   /// Radius of the spheres of the planes [data units].
   [[nodiscard]] double sphere_radius() const;
+  /// Whether the hand holds its button on a haptic grid, and from how far it takes hold of the face of a box:
+  /// the pull by which another axis takes over [data units].
+  [[nodiscard]] bool holds_on_grid() const;
+  [[nodiscard]] double box_reach() const;
   /// Direction in which the felt scalar grows fastest at `x`, unit; none where there is none.
   [[nodiscard]] std::optional<Vec3> gradient_at(const Vec3& x) const;
 
@@ -185,6 +192,7 @@ class ProbeSession {
  private:
   [[nodiscard]] Workspace workspace() const;
   [[nodiscard]] std::uint32_t buttons() const noexcept;
+  [[nodiscard]] bool on_grid() const noexcept;
   void set_planes(const PlanePoses& poses);
   [[nodiscard]] ChainSettings chain_settings() const;
   [[nodiscard]] HapticChain build(const std::string& description) const;

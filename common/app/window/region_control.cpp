@@ -1,17 +1,14 @@
 #include "common/app/window/region_control.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/app/haptic/probe_mouse.h"
 #include "common/app/window/pick_volume.h"
-#include "common/base/text.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kReach = 9.0;      // of the mouse [pixels]
-constexpr double kThinnest = 1e-3;  // of the scene's side: a box stays one that can be seen
+constexpr double kReach = 9.0;  // of the mouse [pixels]
 
 /// How far along the axis from `from` its line comes closest to the ray; no way where both are parallel.
 double along_axis(const ViewRay& ray, const Vec3& from, int axis) {
@@ -29,18 +26,11 @@ Box new_region(const Box& bounds) {
   return {bounds.lower + quarter, bounds.upper - quarter};
 }
 
-std::string box_text(const Box& box) {
-  std::string text;
-  for (const Vec3& corner : {box.lower, box.upper}) {
-    for (int axis = 0; axis < 3; ++axis) text += (text.empty() ? "" : ",") + exact_number(corner[axis]);
-  }
-  return text;
-}
-
 void RegionControl::put(const std::optional<Box>& box) {
   box_ = box;
   corner_.reset();
   held_.reset();
+  hand_ = {};
 }
 
 std::array<Vec3, RegionControl::kMiddle + 1> RegionControl::handles(const Box& box) {
@@ -75,15 +65,7 @@ void RegionControl::drag(const PictureArea& area, const Camera& camera, const Bo
     box_ = Box{box.lower + by, box.upper + by};
     return;
   }
-  const double thin = kThinnest * bounds.size()[axis];
-  // A box from elsewhere may lie beyond the bounds: it is not pulled in by being touched.
-  if (held_->handle % 2 == 0) {
-    const double least = std::min(bounds.lower[axis], box.lower[axis]);
-    box.lower[axis] = std::clamp(wanted[axis], least, std::max(least, box.upper[axis] - thin));
-  } else {
-    const double most = std::max(bounds.upper[axis], box.upper[axis]);
-    box.upper[axis] = std::clamp(wanted[axis], std::min(most, box.lower[axis] + thin), most);
-  }
+  move_face(held_->handle, wanted[axis], bounds, box);
   box_ = box;
 }
 
@@ -120,6 +102,10 @@ bool RegionControl::handle(const InputEvent& event, const PictureArea& area, con
     default:
       return false;
   }
+}
+
+void RegionControl::follow_hand(bool pressed, const Vec3& hand, double reach, const Box& bounds) {
+  if (box_) hand_.follow(pressed, hand, reach, bounds, *box_);
 }
 
 std::string RegionControl::put_corner(const Vec3& x) {

@@ -1,6 +1,6 @@
 /// The region of interest of a volume: a box along the axes of its coordinates, to be cropped to. The mouse
 /// takes hold of the dots in the middle of its faces, which go along their axis, and of the one in its own
-/// middle; the probe puts its corners. Plain arithmetic, no window.
+/// middle; the probe puts its corners and takes hold of its faces. Plain arithmetic, no window.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/haptic/box_hold.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/view_control.h"
 #include "common/render/camera.h"
@@ -16,9 +17,6 @@ namespace palpate {
 
 /// The middle of `bounds`, half as long along each axis.
 [[nodiscard]] Box new_region(const Box& bounds);
-
-/// The corners as the option --box has them: x,y,z,x,y,z.
-[[nodiscard]] std::string box_text(const Box& box);
 
 class RegionControl {
  public:
@@ -33,21 +31,23 @@ class RegionControl {
   /// `bounds` and on its side of the one across, the middle where the whole box is within them.
   /// @return whether the event was for the box.
   bool handle(const InputEvent& event, const PictureArea& area, const Camera& camera, const Box& bounds);
+  /// The hand on the probe, as BoxHold.
+  void follow_hand(bool pressed, const Vec3& hand, double reach, const Box& bounds);
   /// A first corner at `x`, then the one across from it; later, the corner nearest to `x` goes there.
   /// @return what to tell the user.
   std::string put_corner(const Vec3& x);
-  [[nodiscard]] bool dragging() const noexcept { return held_.has_value(); }
+  [[nodiscard]] bool dragging() const noexcept { return held_.has_value() || hand_.held(); }
   void let_go() noexcept { held_.reset(); }
   /// The dots, or the first of two corners; none where there is no box.
   [[nodiscard]] std::vector<Vec3> dots() const;
 
  private:
   struct Hold {
-    std::size_t handle = 0;   ///< 2 axis + side, or kMiddle
+    std::size_t handle = 0;   ///< a BoxFace, or kMiddle
     double x = 0.0, y = 0.0;  ///< where the mouse went down [pixels]
     Box from;                 ///< the box then
   };
-  static constexpr std::size_t kMiddle = 6;
+  static constexpr std::size_t kMiddle = kBoxFaces;
   [[nodiscard]] static std::array<Vec3, kMiddle + 1> handles(const Box& box);
   void drag(const PictureArea& area, const Camera& camera, const Box& bounds);
 
@@ -55,6 +55,7 @@ class RegionControl {
   std::optional<Vec3> corner_;  ///< the first of two
   double x_ = 0.0, y_ = 0.0;    ///< of the mouse [pixels]
   std::optional<Hold> held_;
+  BoxHold hand_;
 };
 
 }  // namespace palpate

@@ -14,7 +14,8 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
     if (ImGui::SmallButton("+ box")) region.put(new_region(image.bounds()));
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip(
-          "about the middle; drag the dots on its faces. With the probe grabbed, C puts corners");
+          "about the middle; drag the dots on its faces. With the probe grabbed, C puts corners, and in mode "
+          "grid a press takes hold of the face that the probe is at");
     return actions;
   }
   Box box = *region.box();

@@ -80,19 +80,20 @@ bool TouchControl::mark_place(const PictureArea& area, const SceneView& view) {
   return place.has_value();
 }
 
-/// A press on a cutting plane: with the probe in the hand, wherever that is; else where its sphere and ring
+/// A press with the probe in the hand, wherever that is; else on a cutting plane, where its sphere and ring
 /// are in the picture.
-bool TouchControl::take_plane(const PictureArea& area, const SceneView& view, double time) {
-  if (!session_.planes() || !session_.by_mouse()) return false;
+bool TouchControl::take_hold(const PictureArea& area, const SceneView& view, double time) {
+  if (!session_.takes_hold() || !session_.by_mouse()) return false;
   if (!grabbed_) {
+    if (!session_.planes()) return false;
     const auto place = hold_of_planes(session_.planes()->poses, session_.sphere_radius(), view.camera,
                                       size_of(area), {x_ - area.left, y_ - area.top});
     if (!place) return false;
     grab_at(*place, time);
-    plane_grab_ = true;
+    grabbed_to_hold_ = true;
   }
   session_.press(true);
-  on_plane_ = true;
+  holding_ = true;
   return true;
 }
 
@@ -141,7 +142,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
 }
 
 void TouchControl::let_go() noexcept {
-  grabbed_ = by_shift_ = by_button_ = waiting_ = on_plane_ = plane_grab_ = false;
+  grabbed_ = by_shift_ = by_button_ = waiting_ = holding_ = grabbed_to_hold_ = false;
   lock(std::nullopt);
   session_.let_go();
 }
@@ -156,7 +157,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       const double dx = event.x - x_, dy = event.y - y_;
       x_ = event.x;
       y_ = event.y;
-      if (!grabbed_ || (buttons_ > 0 && !by_button_ && !on_plane_)) return false;
+      if (!grabbed_ || (buttons_ > 0 && !by_button_ && !holding_)) return false;
       dragged_ = dragged_ || std::hypot(x_ - pressed_x_, y_ - pressed_y_) > kDragDistance;
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
@@ -173,7 +174,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
     case InputKind::kPress:
       ++buttons_;
       if (event.button == MouseButton::kLeft && !waiting_ && !over_panel && area.contains(x_, y_) &&
-          (mark_place(area, view) || take_plane(area, view, time)))
+          (mark_place(area, view) || take_hold(area, view, time)))
         return true;
       if (!waiting_ || event.button != MouseButton::kLeft || over_panel || !area.contains(x_, y_))
         return false;
@@ -185,10 +186,10 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     case InputKind::kRelease: {
       buttons_ = std::max(0, buttons_ - 1);
-      if (on_plane_ && event.button == MouseButton::kLeft) {
-        on_plane_ = false;
+      if (holding_ && event.button == MouseButton::kLeft) {
+        holding_ = false;
         session_.press(false);
-        if (plane_grab_) let_go();
+        if (grabbed_to_hold_) let_go();
         return true;
       }
       if (!by_button_ || event.button != MouseButton::kLeft) return false;

@@ -44,7 +44,7 @@ class TouchControl {
   void grab(const PictureArea& area, const SceneView& view, double time);
   void grab_at(const Vec3& place, double time);
   bool mark_place(const PictureArea& area, const SceneView& view);
-  bool take_plane(const PictureArea& area, const SceneView& view, double time);
+  bool take_hold(const PictureArea& area, const SceneView& view, double time);
   [[nodiscard]] Vec3 start_of_hand(const PictureArea& area, const SceneView& view) const;
   [[nodiscard]] std::optional<Vec3> end_of_tract(const PictureSize& size, const PicturePoint& mouse,
                                                  const Camera& camera) const;
@@ -59,8 +59,8 @@ class TouchControl {
   bool marking_ = false;
   std::shared_ptr<const ScalarField> marked_;  ///< the field that marks have been placed in
   double threshold_ = 0.0;                     ///< between its object and its background
-  bool on_plane_ = false;                      ///< the press holds a cutting plane
-  bool plane_grab_ = false;                    ///< and has grabbed the probe for it
+  bool holding_ = false;                       ///< the press holds a cutting plane, or the face of a box
+  bool grabbed_to_hold_ = false;               ///< and has grabbed the probe for it
   bool dragged_ = false;                       ///< and has moved it
   double pressed_x_ = 0.0, pressed_y_ = 0.0;   ///< where it was [pixels]
   int buttons_ = 0;                            ///< that are down: the camera's then

@@ -360,6 +360,7 @@ class Window {
     }
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
+    size_region();
     follow_edits();
     // Surfaces are solid: they would hide what is in a lens.
     const bool lenses =
@@ -407,6 +408,13 @@ class Window {
     if (!(poses == cut_planes_)) live_->lens_moved(glfwGetTime());
     cut_by_planes(*view_.volume, poses, cut_planes_.count);
     cut_planes_ = poses;
+  }
+
+  /// The hand on a haptic grid takes hold of the faces of the region of interest.
+  void size_region() {
+    if (!has_region()) return;
+    region_control_.follow_hand(touch_->holds_on_grid(), touch_->readout().proxy, touch_->box_reach(),
+                                view_.bounds);
   }
 
   // Panels first: what happens over them is not for the camera.

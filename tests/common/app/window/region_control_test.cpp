@@ -107,10 +107,6 @@ TEST_P(RegionControlTest, TwoCornersMakeABoxAndFurtherOnesMoveTheNearest) {
 INSTANTIATE_TEST_SUITE_P(Region, RegionControlTest,
                          ::testing::Values(Projection::kOrthographic, Projection::kPerspective));
 
-TEST(Region, ItsTextIsThatOfTheOption) {
-  EXPECT_EQ(box_text({{-0.5, 0.0, 1.25}, {1.0, 2.0, 3.0}}), "-0.5,0,1.25,1,2,3");
-}
-
 TEST(Region, HasADotInEachFaceAndInItsMiddle) {
   EXPECT_EQ(RegionControl(kBox).dots().size(), 7U);
   EXPECT_TRUE(RegionControl().dots().empty());

@@ -188,6 +188,38 @@ TEST_F(TouchVolume, AButtonCutsAcrossAnAxisOfTheGridAtTheProxy) {
   EXPECT_EQ(kept.offset, result.probe.proxy.x) << "to the bit";
 }
 
+// In mode grid the button takes hold of the face that the probe is at; Ctrl+Z lets it be where it was.
+TEST_F(TouchVolume, TheHandOnAGridDragsAFaceOfTheRegion) {
+  options_.touch.choice.mode = mode_of(kGridMode);
+  grab();
+  const WindowResult before = run();
+  const Vec3 start = before.probe.proxy;
+  const double wide = 0.4 * before.view.bounds.size().x;
+  const Box box{start - Vec3(wide), start + Vec3(0.0, wide, wide)};
+  options_.region = box;
+  key('X');
+  at(next(), {.kind = InputKind::kPress});
+  lead_to(60.0, 0.0);
+  last_ += kPause;
+  const WindowResult held = run();
+  ASSERT_TRUE(held.region);
+  EXPECT_GT(held.probe.proxy.x, start.x + 0.05 * wide);
+  EXPECT_EQ(held.region->upper.x, held.probe.proxy.x) << "to the bit";
+  EXPECT_EQ(held.region->lower, box.lower);
+  EXPECT_EQ(held.region->upper.y, box.upper.y);
+  EXPECT_EQ(held.region->upper.z, box.upper.z);
+  at(next(), {.kind = InputKind::kRelease});
+  lead_to(0.0, 0.0);
+  last_ += kPause;
+  const WindowResult left = run();
+  ASSERT_TRUE(left.region);
+  EXPECT_GT(left.region->upper.x, left.probe.proxy.x + 0.05 * wide) << "stays where it was let go";
+  key('Z', kModifierControl);
+  const WindowResult undone = run();
+  ASSERT_TRUE(undone.region);
+  EXPECT_EQ(undone.region->upper, box.upper);
+}
+
 /// Annotations in mode isosurface [pixels]: the list of their kinds, an angle in it, and with one angle made
 /// the plane through it.
 constexpr double kKindX = 60.0, kKindY = 392.0, kAngleX = 33.0, kAngleY = 459.0, kMarkX = 60.0,
