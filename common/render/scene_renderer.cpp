@@ -473,6 +473,19 @@ std::optional<Index3> SceneRenderer::coarser_voxels() const noexcept {
 
 bool SceneRenderer::made_slabs() const noexcept { return state_->volume && state_->volume->made_slabs(); }
 
+bool SceneRenderer::prepare_slabs(std::size_t cut) {
+  State& s = *state_;
+  if (!s.volume || s.stereo) return false;
+  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
+  s.target.bind_scene();
+  const bool more = s.volume->prepare_slabs(cut);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return more;
+}
+
 void SceneRenderer::forget_slabs() {
   if (state_->volume) state_->volume->forget_slabs();
 }

@@ -47,6 +47,7 @@ class SceneRenderer {
   /// As VolumePass, of the last picture.
   [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
   [[nodiscard]] bool made_slabs() const noexcept;
+  bool prepare_slabs(std::size_t cut);
   void forget_slabs();
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.

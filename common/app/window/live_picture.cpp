@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "common/base/clock.h"
+
 namespace palpate {
 namespace {
 
@@ -13,6 +15,8 @@ constexpr double kPatientPictures = 5.0;
 constexpr double kLensRest = 0.3;
 // What is kept of a plane while it moves is given back after so long a rest [s].
 constexpr double kSlabRest = 5.0;
+// So long may panels wait while pictures are made that nobody waits for [s].
+constexpr double kPrepareSlice = 0.05;
 
 }  // namespace
 
@@ -45,7 +49,23 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     height_ = height;
     dirty_ = false;
   }
-  if (rest > kSlabRest) renderer_.forget_slabs();
+  preparing_ = false;
+  if (moving) return;
+  if (moment.next_cut && volume) {
+    prepare(moment);
+  } else if (rest > kSlabRest) {
+    renderer_.forget_slabs();
+  }
+}
+
+// Where planes move in coarser pictures, what is kept of full ones is of no use to them.
+void LivePicture::prepare(const PictureMoment& moment) {
+  if (!moment.interrupted || !renderer_.complete() || budget_.quality() != FrameQuality{}) return;
+  const Stopwatch watch;
+  do {
+    preparing_ = renderer_.prepare_slabs(*moment.next_cut);
+    renderer_.finish();
+  } while (preparing_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
 }
 
 double LivePicture::median_milliseconds() const {

@@ -29,6 +29,8 @@ struct PictureMoment {
   /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, until it
   /// returns true.
   std::function<bool()> interrupted;
+  /// The cut of the volume that may be moved next: while nobody waits, what does not change then is kept.
+  std::optional<std::size_t> next_cut;
 };
 
 /// Needs the window's context from its construction to its end.
@@ -48,20 +50,22 @@ class LivePicture {
   /// Copies the picture into the bound framebuffer. @param left, bottom its corner there [pixels].
   void show(int left, int bottom) { renderer_.show(left, bottom); }
 
-  /// Whether nothing is left to be added.
-  [[nodiscard]] bool complete() const { return renderer_.complete(); }
+  /// Whether nothing is left to be added, or to be kept for what comes next.
+  [[nodiscard]] bool complete() const { return renderer_.complete() && !preparing_; }
   [[nodiscard]] const PictureFigures& figures() const { return figures_; }
   [[nodiscard]] auto read() { return renderer_.read(); }
   /// Of all pictures [ms]; 0 where there are none.
   [[nodiscard]] double median_milliseconds() const;
 
  private:
+  void prepare(const PictureMoment& moment);
+
   SceneRenderer renderer_;
   FrameBudget budget_;
   TractTime tract_time_;  // what is left of tracts then is added by the next pictures
   SceneView shown_;       // as it was drawn last
   int width_ = 0, height_ = 0;
-  bool dirty_ = true;
+  bool dirty_ = true, preparing_ = false;
   double lens_moved_ = -1.0, last_drawn_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;

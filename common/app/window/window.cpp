@@ -703,6 +703,7 @@ class Window {
         return !glfw_.events().empty();
       };
     }
+    if (touch_->planes()) moment.next_cut = static_cast<std::size_t>(touch_->planes()->current);
     live_->draw(with_focus(), w, h, moment);
     state_.picture = live_->figures();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

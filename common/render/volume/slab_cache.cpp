@@ -15,9 +15,10 @@ namespace palpate {
 namespace {
 
 constexpr std::uint64_t kPixelBytes = 8;
-constexpr std::uint64_t kMostBytes = 256ULL << 20U;  // of all P_k; fewer, thicker slabs in larger pictures
-constexpr int kMostSlabs = 48, kFewestSlabs = 6;
-constexpr std::size_t kSlabsBelow = 4;  // the plane, made one by one
+constexpr std::uint64_t kMostBytes = 512ULL << 20U;  // of all P_k; fewer, thicker slabs in larger pictures
+constexpr int kMostSlabs = 96, kFewestSlabs = 6;
+constexpr int kSlabsAtOnce = 48;        // while somebody waits, thin ones are made several at once
+constexpr std::size_t kStepsBelow = 4;  // the plane, made one by one
 constexpr float kFar = 1e30F;
 
 // With the offset of one cut and the samples of another view.
@@ -66,6 +67,7 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   }
   margin_ = step_lengths(view).longest * power_of_two(-frame.exponent);
   for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
+  step_ = static_cast<std::size_t>((slabs + kSlabsAtOnce - 1) / kSlabsAtOnce);
   kept_.resize(borders_.size());
   kept_.front() = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
   framebuffer_ = make_framebuffer();
@@ -78,6 +80,11 @@ bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaqu
   VolumeView moved = view;
   moved.cuts[cut_].kept.offset = view_.cuts[cut_].kept.offset;
   return same_picture(moved, view_);
+}
+
+SlabCache::Slab SlabCache::begin(std::uint32_t opaque_depth) {
+  if (opaque_depth != 0 && !depth_) copy_depth(opaque_depth);
+  return {.normal = glm::vec3(view_.cuts[cut_].kept.outward), .depth = depth_.name()};
 }
 
 void SlabCache::copy_depth(std::uint32_t opaque_depth) {
@@ -107,31 +114,54 @@ float SlabCache::lower_border(std::size_t k) const {
   return k == 0 ? -kFar : static_cast<float>(borders_[k]);
 }
 
-SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
-  if (opaque_depth != 0 && !depth_) copy_depth(opaque_depth);
-  const Vec3 n = view_.cuts[cut_].kept.outward;
+// k of (2).
+std::size_t SlabCache::index_below(double offset) const {
   // As make_volume_block() has it, in single precision, so that the plane and a border are told apart alike.
-  const double d = (offset - glm::dot(n, frame_.center)) * power_of_two(-frame_.exponent);
+  const double d =
+      (offset - glm::dot(view_.cuts[cut_].kept.outward, frame_.center)) * power_of_two(-frame_.exponent);
   const auto above = std::upper_bound(borders_.begin(), borders_.end(), d - margin_);
-  const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
+}
 
-  Slab slab{.normal = glm::vec3(n), .depth = depth_.name()};
-  if (!kept_[k]) {
+bool SlabCache::prepare(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
+  const FramebufferGuard before;
+  const Slab slab = begin(opaque_depth);
+  const std::size_t k = index_below(offset);
+  // About the cut; then wherever it may go. Each from the one below it, the first in one go.
+  bool made = false;
+  for (const std::size_t reach : {kStepsBelow * step_, borders_.size()}) {
+    const std::size_t first = std::max<std::size_t>(1, k > reach ? k - reach : 0);
+    for (std::size_t to = first; to <= std::min(k + reach, borders_.size() - 1); ++to) {
+      if (kept_[to]) continue;
+      if (made) return true;
+      std::size_t from = to - 1;
+      while (!kept_[from]) --from;
+      make(slab, from, to, draw);
+      made = true;
+    }
+  }
+  return false;
+}
+
+SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
+  Slab slab = begin(opaque_depth);
+  const std::size_t k = index_below(offset);
+  std::size_t have = k;
+  while (!kept_[have]) --have;
+  if (k - have >= step_) {
     const FramebufferGuard before;
-    std::size_t have = k;
-    while (!kept_[have]) --have;
     // From far below in one go, in which rays end where they are opaque; some slabs below the plane, so that
     // it may come back.
-    if (k - have > kSlabsBelow) {
-      const std::size_t far = k - kSlabsBelow;
-      make(slab, have, far, draw);
-      have = far;
+    const std::size_t below = kStepsBelow * step_;
+    if (k - have > below) {
+      make(slab, have, k - below, draw);
+      have = k - below;
     }
-    for (; have < k; ++have) make(slab, have, have + 1, draw);
+    for (; k - have >= step_; have += step_) make(slab, have, have + step_, draw);
   }
-  slab.lower = lower_border(k);
+  slab.lower = lower_border(have);
   slab.upper = kFar;
-  slab.kept = kept_[k].name();
+  slab.kept = kept_[have].name();
   return slab;
 }
 

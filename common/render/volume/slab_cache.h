@@ -5,12 +5,13 @@
 /// volume to the other; P_k the picture of what lies at s <= b_k.
 ///
 ///   P_0 = nothing,   P_(k+1) = P_k and the slab from b_k to b_(k+1), whichever a ray meets first       (1)
-///   picture = P_k and what lies between b_k and the plane at s = d,   b_k <= d - h < b_(k+1)           (2)
+///   picture = P_k and what lies between b_k and the plane at s = d,   b_k <= d - h                     (2)
 ///
 /// h is the longest step of a ray: on each ray a border is moved to the next sample, so that no stretch
 /// between samples is split and (2) adds up to the same stretches as a ray that is cast in one go; h keeps
 /// what it is moved by within the cut. The order holds along each ray, so that both projections work.
-/// Pictures P_k are made when the plane first needs them, and kept with 16 bits a component: 8 bytes a pixel.
+/// Pictures P_k are made when the plane first needs them, or before it moves while nobody waits, and kept
+/// with 16 bits a component: 8 bytes a pixel.
 ///
 /// Local rendering (sec. 5.1) is part of it: where something opaque has moved since the first P_k, the ray is
 /// cast anew.
@@ -57,12 +58,18 @@ class SlabCache {
   /// Keeps framebuffer and viewport.
   [[nodiscard]] Slab slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw);
 
+  /// Makes one P_k that lacks, those next to the cut first. Parameters as of slab_below().
+  /// @return whether others lack still.
+  bool prepare(double offset, std::uint32_t opaque_depth, const DrawSlab& draw);
+
   /// The view of all P_k.
   [[nodiscard]] const VolumeView& uncut() const noexcept { return uncut_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept;
   [[nodiscard]] int drawn() const noexcept { return drawn_; }  ///< slabs so far
 
  private:
+  [[nodiscard]] std::size_t index_below(double offset) const;
+  [[nodiscard]] Slab begin(std::uint32_t opaque_depth);
   void copy_depth(std::uint32_t opaque_depth);
   void make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw);
   [[nodiscard]] float lower_border(std::size_t k) const;
@@ -74,6 +81,7 @@ class SlabCache {
   int width_ = 0, height_ = 0;
   std::vector<double> borders_;  ///< b
   double margin_ = 0.0;          ///< h
+  std::size_t step_ = 1;         ///< slabs that are made at once while somebody waits
   std::vector<GlTexture> kept_;  ///< P_k; P_0 is one pixel of nothing, those not made have no name
   GlTexture depth_;
   GlFramebuffer framebuffer_;

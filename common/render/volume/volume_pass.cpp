@@ -90,6 +90,7 @@ struct VolumePass::State {
   std::shared_ptr<const VolumeImage> asked;  // for, which may be finer
   std::optional<VolumeView> drawn_view;
   FrameBlock drawn_block;
+  std::uint32_t drawn_depth = 0;  // of opaque things, as draw() was given it
   std::unique_ptr<SlabCache> slabs;
   std::size_t moving_cut = 0;  // of `slabs`
   bool made_slabs = false;
@@ -108,11 +109,15 @@ struct VolumePass::State {
     return variant == Variant::kColored || variant == Variant::kMagnifiedColored;
   }
 
+  [[nodiscard]] bool keeps_slabs() const {
+    return shown.keep_slabs && fragment_of(Reach::kSlab, variant) != nullptr;
+  }
+
   // Whether this picture can use what is kept, or begins to keep it.
   bool uses_slabs(const FrameBlock& block, bool opaque) {
     if (slabs && slabs->fits(shown, block, opaque)) return true;
     slabs.reset();
-    if (!shown.keep_slabs || fragment_of(Reach::kSlab, variant) == nullptr) return false;
+    if (!keeps_slabs()) return false;
     if (!drawn_view || !same_camera(drawn_block, block)) return false;
     const auto cut = moved_cut(*drawn_view, shown);
     if (!cut) return false;
@@ -149,21 +154,39 @@ struct VolumePass::State {
     glBindTextureUnit(volume_shader::kKeptDepth, slab.depth);
   }
 
+  // Drivers compile at the first draw into a framebuffer: here with no pixel of it.
+  void compile_slab_draw() {
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    bind(program_of(Reach::kSlab), volume_block, drawn_depth);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, 0, 0);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    cast_rays();
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+  }
+
+  // Casts a slab that is to be kept. Rays end at what was opaque when the first one was made: what has moved
+  // since is cast anew in each picture.
+  [[nodiscard]] SlabCache::DrawSlab caster() {
+    auto uncut = std::make_shared<GlBuffer>(
+        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks())));
+    return [this, uncut](const SlabCache::Slab& slab) {
+      bind(program_of(Reach::kSlab), *uncut, slab.depth);
+      set_slab(slab);
+      glDisable(GL_BLEND);
+      cast_rays();
+    };
+  }
+
   // Makes what lacks below the slab of the cut, and leaves the shader ready for the rest.
   void begin_slab(std::uint32_t opaque_depth) {
     const GlProgram& program = program_of(Reach::kSlab);
-    const GlBuffer uncut =
-        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks()));
     const int before = slabs->drawn();
-    const SlabCache::Slab slab = slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth,
-                                                   [&](const SlabCache::Slab& below) {
-                                                     // Rays end at what was opaque then: what has moved since
-                                                     // is cast anew in each picture.
-                                                     bind(program, uncut, below.depth);
-                                                     set_slab(below);
-                                                     glDisable(GL_BLEND);
-                                                     cast_rays();
-                                                   });
+    const SlabCache::Slab slab =
+        slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth, caster());
     made_slabs = slabs->drawn() > before;
     cost.slab_bytes = slabs->bytes();
     bind(program, volume_block, opaque_depth);
@@ -239,6 +262,23 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   glDisable(GL_BLEND);
   s.drawn_view = s.shown;
   s.drawn_block = block;
+  s.drawn_depth = opaque_depth;
+}
+
+bool VolumePass::prepare_slabs(std::size_t cut) {
+  State& s = *state_;
+  if (!s.drawn_view || s.context || !s.keeps_slabs() || cut >= s.shown.cuts.size() || !s.shown.cuts[cut].on)
+    return false;
+  if (s.slabs && (s.moving_cut != cut || !s.slabs->fits(s.shown, s.drawn_block, s.drawn_depth != 0)))
+    s.slabs.reset();
+  if (!s.slabs) {
+    s.slabs = std::make_unique<SlabCache>(s.shown, cut, s.drawn_block, s.frame);
+    s.moving_cut = cut;
+    s.compile_slab_draw();
+  }
+  const bool more = s.slabs->prepare(s.shown.cuts[cut].kept.offset, s.drawn_depth, s.caster());
+  s.cost.slab_bytes = s.slabs->bytes();
+  return more;
 }
 
 void VolumePass::draw_planes(const FrameBlock& block) {

@@ -51,16 +51,22 @@ class VolumePass {
   /// @param block the frame's.
   void draw_planes(const FrameBlock& block);
 
+  /// Draws nothing, but keeps one more picture of a slab for when the cut of that number moves, and has what
+  /// draw() then needs compiled: for while nobody waits. Over the framebuffer of the last draw(), with the
+  /// frame's uniform block bound to 0.
+  /// @return whether more are worth keeping; never where no slabs are kept of such a view, or nothing was
+  /// drawn.
+  bool prepare_slabs(std::size_t cut);
   /// Whether the last draw() made pictures of slabs, which takes longer than the pictures that follow.
   [[nodiscard]] bool made_slabs() const noexcept;
   /// Gives back what is kept of a plane that moved: it rests.
   void forget_slabs();
 
-  /// What was made for the last view, for `--explain`.
   /// Voxels an axis of the coarser volume that is drawn in place of the view's, which does not fit its
   /// storage; nothing where the view's own is drawn.
   [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
 
+  /// What was made for the last view, for `--explain`.
   struct Cost {
     int programs = 0;               ///< compiled by this pass so far
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU

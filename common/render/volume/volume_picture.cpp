@@ -106,6 +106,14 @@ double VolumePicture::draw_again() {
   return 1e3 * clock.seconds();
 }
 
+bool VolumePicture::prepare_slabs(std::size_t cut) {
+  glBindFramebuffer(GL_FRAMEBUFFER, state_->framebuffer.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, state_->frame_buffer.name());
+  const bool more = state_->pass->prepare_slabs(cut);
+  glFinish();
+  return more;
+}
+
 VolumePass::Cost VolumePicture::cost() const { return state_->pass->cost(); }
 
 Rgba FloatImage::at(int x, int y) const {

@@ -38,6 +38,8 @@ class VolumePicture {
   double draw_alone(const VolumeView& view, const Camera& camera);
   /// Draws again what was drawn last and waits for it. [ms], by the clock.
   double draw_again();
+  /// As VolumePass, after one of the above. Waits for what is drawn.
+  bool prepare_slabs(std::size_t cut);
   [[nodiscard]] VolumePass::Cost cost() const;
 
  private:

@@ -2,9 +2,10 @@
 // slabs (common/render/volume/slab_cache.h) against frames cast anew, in turns.
 //   build/release/bench/moving_plane_bench TOOTH.nhdr HEAD.nii.gz [pixels] [steps]
 // Times are those of the processor, all threads together, as in volume_bench; the clock's stand beside them.
-// "new" frames all rays cast; "kept" mean of the whole drag, forth and back, all pictures of slabs made on
-// the way; "first" the first kept frame, "rest" those that made none. A plane faces the viewer, or what it
-// cuts away lies behind; goes along the view; goes along z; goes obliquely.
+// "new" frames all rays cast; "kept" mean of the whole drag, forth and back: "at once" with all pictures of
+// slabs made on the way, "rested" with those made before it while the view stood still, as a window does, in
+// the time that stands behind. "first" is the first of these frames, "rest" those that made none. A plane
+// faces the viewer, or what it cuts away lies behind; goes along the view; goes along z; goes obliquely.
 
 #include <algorithm>
 #include <array>
@@ -48,45 +49,66 @@ Frame mean(const std::vector<Frame>& frames) {
   return sum;
 }
 
+// Frames put together from kept slabs.
+struct Kept {
+  explicit Kept(int pixels) : picture(pixels, pixels, VolumePicture::Context::kCurrent) {}
+
+  void take(VolumeView view, const Camera& camera, const FloatImage& wanted, bool counts) {
+    view.keep_slabs = true;
+    const int programs = picture.cost().programs;
+    const std::uint64_t before = picture.cost().slab_bytes;
+    const Frame put = timed([&] { (void)picture.draw_alone(view, camera); });
+    const bool same = picture.cost().slab_bytes == before && picture.cost().programs == programs;
+    worst = std::max(worst, worst_difference(wanted, picture.draw(view, camera)));
+    if (!counts) return;
+    if (all.empty()) {
+      first = put;
+    } else if (same) {
+      rest.push_back(put);
+    }
+    all.push_back(put);
+  }
+
+  VolumePicture picture;
+  std::vector<Frame> all, rest;
+  Frame first;
+  double worst = 0.0;
+};
+
 // @param n of the plane, towards what is cut away.
 void drag(const std::string& name, VolumeView view, const Camera& camera, const Vec3& n, int pixels,
           int steps) {
-  VolumePicture kept(pixels, pixels, VolumePicture::Context::kCurrent);
+  Kept at_once(pixels), rested(pixels);
   VolumePicture anew(pixels, pixels, VolumePicture::Context::kCurrent);
   const Box box = view.image->bounds();
   const Vec3 half = 0.5 * box.size();
   const double reach = glm::dot(glm::abs(n), half), middle = glm::dot(n, box.center());
   view.cuts = {{.kept = {glm::normalize(n), 0.0}}};
-  std::vector<Frame> all_new, all_kept, rest;
-  double worst = 0.0;
-  Frame first;
+  std::vector<Frame> all_new;
+  Frame preparing;
   for (int i = 0; i <= steps; ++i) {
     // Forth and back over the inner fifth.
     view.cuts[0].kept.offset = middle + 0.2 * reach * std::sin(2.0 * 3.14159265358979 * (i + 0.3) / steps);
     view.keep_slabs = false;
     const Frame cast = timed([&] { (void)anew.draw_alone(view, camera); });
-    const FloatImage a = anew.draw(view, camera);
-    view.keep_slabs = true;
-    const int programs = kept.cost().programs;
-    const std::uint64_t before = kept.cost().slab_bytes;
-    const Frame put = timed([&] { (void)kept.draw_alone(view, camera); });
-    const bool same = kept.cost().slab_bytes == before && kept.cost().programs == programs;
-    worst = std::max(worst, worst_difference(a, kept.draw(view, camera)));
-    if (i == 0) continue;  // nothing has moved yet: tables, voxels and shaders are made
-    all_new.push_back(cast);
-    all_kept.push_back(put);
-    if (i == 1) {
-      first = put;
-    } else if (same) {
-      rest.push_back(put);
-    }
+    const FloatImage wanted = anew.draw(view, camera);
+    const bool counts = i > 0;  // before, nothing has moved: tables, voxels and shaders are made
+    if (counts) all_new.push_back(cast);
+    at_once.take(view, camera, wanted, counts);
+    rested.take(view, camera, wanted, counts);
+    if (counts) continue;
+    preparing = timed([&] {
+      while (rested.picture.prepare_slabs(0)) continue;
+    });
   }
-  const Frame n0 = mean(all_new), k0 = mean(all_kept), r0 = mean(rest);
+  const Frame n0 = mean(all_new), k0 = mean(at_once.all), r0 = mean(at_once.rest), k1 = mean(rested.all);
   std::printf(
-      "  %-26s new %6.1f (%6.1f) kept %6.1f (%6.1f) rest %6.1f first %6.1f  x%.2f (x%.2f at rest), worst "
-      "%.2f/255, %.0f MB\n",
-      name.c_str(), n0.cpu_ms, n0.ms, k0.cpu_ms, k0.ms, r0.cpu_ms, first.cpu_ms, n0.cpu_ms / k0.cpu_ms,
-      n0.cpu_ms / r0.cpu_ms, 255.0 * worst, static_cast<double>(kept.cost().slab_bytes) / 1e6);
+      "  %-16s new %5.1f (%5.1f) at once %5.1f (%5.1f) x%.2f, first %5.1f, rest %4.1f x%5.2f; rested %4.1f "
+      "(%4.1f) x%5.2f, first %4.1f, made in %.0f (%.0f); worst %.2f/255, %.0f MB\n",
+      name.c_str(), n0.cpu_ms, n0.ms, k0.cpu_ms, k0.ms, n0.cpu_ms / k0.cpu_ms, at_once.first.cpu_ms,
+      r0.cpu_ms, n0.cpu_ms / r0.cpu_ms, k1.cpu_ms, k1.ms, n0.cpu_ms / k1.cpu_ms, rested.first.cpu_ms,
+      preparing.cpu_ms, preparing.ms, 255.0 * std::max(at_once.worst, rested.worst),
+      static_cast<double>(rested.picture.cost().slab_bytes) / 1e6);
   std::fflush(stdout);
 }
 

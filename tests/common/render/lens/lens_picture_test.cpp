@@ -197,6 +197,46 @@ TEST_F(MovingPlane, ChangesNoPixelOfAFullRedraw) {
   }
 }
 
+// Made at rest, the pictures serve wherever the plane goes, and change nothing.
+TEST_F(MovingPlane, FindsAllPicturesThatWereMadeBeforeItMoves) {
+  VolumeView view = plain_view();
+  EXPECT_FALSE(moving_.prepare_slabs(0)) << "nothing is drawn";
+  const Camera camera = camera_of(view);
+  std::vector<float> depth(static_cast<std::size_t>(kSize * kSize), 1.0F);
+  for (std::size_t i = 0; i < depth.size(); i += 29) depth[i] = 0.6F;
+  for (const Vec3& n : {glm::normalize(Vec3(1.0, 0.2, 0.4)), camera.axes[2], -camera.axes[2]}) {
+    for (const double at : {0.2, -1.5, 1.5}) {
+      view.cuts = {{.kept = {{0.0, 1.0, 0.0}, 0.6}}, {.kept = {n, at}}};
+      view.keep_slabs = true;
+      (void)moving_.draw(view, camera, depth);
+      int more = 0;
+      while (moving_.prepare_slabs(1) && more < 1000) ++more;
+      EXPECT_EQ(more > 0, at == 0.2) << "those of the plane where it was before serve again";
+      EXPECT_FALSE(moving_.prepare_slabs(1)) << "all are made";
+      const std::uint64_t bytes = moving_.cost().slab_bytes;
+      EXPECT_GT(bytes, 0U);
+      for (const double offset : path(1.2)) {
+        view.cuts[1].kept.offset = offset;
+        view.keep_slabs = true;
+        const FloatImage moved = moving_.draw(view, camera, depth);
+        EXPECT_EQ(moving_.cost().slab_bytes, bytes) << offset;
+        view.keep_slabs = false;
+        EXPECT_LE(worst_difference(moved, still_.draw(view, camera, depth)), 1.0 / 255.0) << offset;
+      }
+    }
+  }
+  // Only for cuts that are there, and only where they may be kept.
+  view.keep_slabs = false;
+  (void)moving_.draw(view, camera);
+  EXPECT_FALSE(moving_.prepare_slabs(1));
+  view.keep_slabs = true;
+  view.cuts[1].on = false;
+  (void)moving_.draw(view, camera);
+  EXPECT_FALSE(moving_.prepare_slabs(1));
+  EXPECT_FALSE(moving_.prepare_slabs(2));
+  EXPECT_TRUE(moving_.prepare_slabs(0));
+}
+
 // A second plane stands still, opaque things move; and whatever else changes, nothing is left of the old.
 TEST_F(MovingPlane, MayHaveOthersAboutIt) {
   VolumeView view = plain_view();
