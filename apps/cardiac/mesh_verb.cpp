@@ -143,8 +143,12 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   if (choice) {
     const DataSet data = data_set_of(mesh);
     const Heart heart = make_heart(data, choose_heart(infos_of(data), "", input.title()), input.title(),
-                                   options.common.threads);
-    check_layers(heart, summary);
+                                   options.common.threads, LayersNeeded::kIfPossible);
+    if (heart.layer) {
+      check_layers(heart, summary);
+    } else {
+      summary.notes.push_back("nothing is said of layers: " + heart.no_layers);
+    }
   } else {
     summary.notes.emplace_back("no fibres, so nothing is said of layers");
   }

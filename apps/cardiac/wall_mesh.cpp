@@ -86,7 +86,7 @@ bool has(const WallMesh& mesh, const std::string& name) {
                      [&](const MeshColumn& column) { return column.name == name; });
 }
 
-/// Directions and depth of a heart at the points that have none yet.
+/// Directions and, where the heart has one, depth at the points that have none yet.
 void sample_heart(const Heart& heart, WallMesh& mesh) {
   const auto add_directions = [&mesh](const char* name, const TensorField& field) {
     if (has(mesh, name)) return;
@@ -102,7 +102,7 @@ void sample_heart(const Heart& heart, WallMesh& mesh) {
   };
   add_directions("fibre", *heart.fibres);
   if (heart.sheets) add_directions("sheet", *heart.sheets);
-  if (has(mesh, kLayerArray)) return;
+  if (has(mesh, kLayerArray) || !heart.layer) return;
   MeshColumn depth{.name = kLayerArray};
   CellHint hint;
   for (const Vec3& x : mesh.points) {
@@ -160,7 +160,7 @@ WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const W
                                               choice->sheet.association == Association::kCell);
   if (choice != nullptr && (new_points || of_cells)) {
     if (progress != nullptr) progress->begin("fibres and layers of the cells", 0);
-    const Heart heart = make_heart(block, *choice, file, options.threads);
+    const Heart heart = make_heart(block, *choice, file, options.threads, LayersNeeded::kIfPossible);
     sample_heart(heart, mesh);
     if (new_points)
       mesh.notes.emplace_back(

@@ -313,7 +313,7 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   return image;
 }
 
-Heart Input::load_heart(int threads, Progress* progress, const std::string& value) {
+Heart Input::load_heart(int threads, Progress* progress, const std::string& value, LayersNeeded layers) {
   Stopwatch watch;
   const HeartChoice chosen = heart_choice();
   std::vector<std::string> names = chosen.arrays();
@@ -330,7 +330,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
-  Heart heart = make_heart(blocks.front(), chosen, file_name(), threads);
+  Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers);
   heart.axis = file()->long_axis;
   if (scalar)
     heart.value = make_scalar_field(heart.fibres->grid(), blocks.front(), *scalar, file_name(), threads);

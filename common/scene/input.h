@@ -118,7 +118,9 @@ class Input {
   [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr);
   /// Fibres, sheets and layers of a heart. @pre file().
   /// @param value a scalar to come along as Heart::value (label_of() of scalar_choice.h); empty: none.
-  [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr, const std::string& value = {});
+  /// @throws Error as make_heart(); Cancelled.
+  [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr, const std::string& value = {},
+                                 LayersNeeded layers = LayersNeeded::kAlways);
   /// The image that load_tensor() makes its field of. @pre file().
   [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.

@@ -246,6 +246,8 @@ std::string info_json(const InfoSummary& summary) {
   } else if (summary.field_range) {
     json["range"] = {summary.field_range->lower, summary.field_range->upper};
   }
+  if (input.spec().kind == FieldKind::kFibre)
+    json["no_layers"] = summary.no_layers.empty() ? Json(nullptr) : Json(summary.no_layers);
   if (summary.tracts) json["tracts"] = lines_json(*summary.tracts);
   json["bounds"] = box_json(summary.bounds);
   json["diagonal"] = summary.bounds.diagonal();

@@ -201,6 +201,7 @@ std::string summary_text(const InfoSummary& summary) {
     }
     text += (others.empty() ? "" : "; others: " + others + " (--field)") + "\n";
   }
+  if (!summary.no_layers.empty()) text += "  layers     none to feel: " + summary.no_layers + "\n";
   text += "  memory     " + bytes_text(summary.memory_bytes) + " of arrays\n";
   for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
   return text;
@@ -219,6 +220,17 @@ void add_field(const Input& input, const Field& field, bool explain, InfoSummary
   summary.bounds = field.bounds();
   summary.notes.insert(summary.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
   if (explain) summary.measured = measured_costs(input, tet_mesh_of(field));
+}
+
+/// Fibres and layers of a heart. What the file holds is of use without layers, too: why there are none is a
+/// part of the answer.
+void add_heart(Input& input, const Options& options, Progress& progress, InfoSummary& summary) {
+  const Heart heart = input.load_heart(options.common.threads, &progress, {}, LayersNeeded::kIfPossible);
+  summary.field = input.field_label();
+  summary.bounds = heart.fibres->bounds();
+  summary.no_layers = heart.no_layers;
+  summary.notes.insert(summary.notes.end(), heart.notes.begin(), heart.notes.end());
+  if (options.common.explain) summary.measured = measured_costs(input, heart.fibres->grid()->tets.get());
 }
 
 ExitCode run_info(const Options& options, const VerbContext& context) {
@@ -266,11 +278,7 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
     summary.largest_trace = field->largest_trace();
     summary.negative_tensors = field->negative_tensors();
   } else if (has_field && context.explorer.kind == FieldKind::kFibre) {
-    const Heart heart = input.load_heart(options.common.threads, &context.progress);
-    summary.field = input.field_label();
-    summary.bounds = heart.layer->bounds();
-    summary.notes.insert(summary.notes.end(), heart.notes.begin(), heart.notes.end());
-    if (options.common.explain) summary.measured = measured_costs(input, heart.layer->tet_mesh());
+    add_heart(input, options, context.progress, summary);
   } else if (has_field) {
     const auto field = input.load_field(options.common.threads, &context.progress);
     add_field(input, *field, options.common.explain, summary);

@@ -40,6 +40,24 @@ bool is_direction(const ArrayInfo& array) {
   return array.components == 3 && (array.type == ScalarType::kFloat32 || array.type == ScalarType::kFloat64);
 }
 
+/// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
+void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
+                const std::string& file, int threads, Heart& heart) {
+  if (!choice.layer.empty()) {
+    heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
+    heart.notes.push_back("layers from the array '" + choice.layer + "'");
+  } else {
+    WallLayer layer = make_wall_layer(*grid, mesh, file, threads);
+    DataSet with = mesh;
+    with.arrays = {std::move(layer.array)};
+    heart.layer = make_scalar_field(grid, with, {.array = kLayerArray}, file, threads);
+    heart.notes.emplace_back("layers by Laplace's equation from the inner to the outer surface");
+    heart.notes.insert(heart.notes.end(), layer.notes.begin(), layer.notes.end());
+  }
+  if (!(heart.layer->local_range() > 0.0))
+    throw input_error({file, "", "has layers that are all the same", "a depth that rises through the wall"});
+}
+
 }  // namespace
 
 std::vector<std::string> HeartChoice::arrays() const {
@@ -95,7 +113,8 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
   return choice;
 }
 
-Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::string& file, int threads) {
+Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::string& file, int threads,
+                 LayersNeeded layers) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
@@ -123,19 +142,13 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
         "directions of cells brought to the points: volume-weighted mean of their outer products");
   }
   if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
-  if (!choice.layer.empty()) {
-    heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
-    heart.notes.push_back("layers from the array '" + choice.layer + "'");
-  } else {
-    WallLayer layer = make_wall_layer(*grid, mesh, file, threads);
-    DataSet with = mesh;
-    with.arrays = {std::move(layer.array)};
-    heart.layer = make_scalar_field(grid, with, {.array = kLayerArray}, file, threads);
-    heart.notes.emplace_back("layers by Laplace's equation from the inner to the outer surface");
-    heart.notes.insert(heart.notes.end(), layer.notes.begin(), layer.notes.end());
+  try {
+    add_layers(grid, mesh, choice, file, threads, heart);
+  } catch (const Error& error) {
+    if (layers == LayersNeeded::kAlways || error.code() == ExitCode::kInterrupted) throw;
+    heart.layer = nullptr;
+    heart.no_layers = error.what();
   }
-  if (!(heart.layer->local_range() > 0.0))
-    throw input_error({file, "", "has layers that are all the same", "a depth that rises through the wall"});
   return heart;
 }
 

@@ -5,6 +5,7 @@
 /// outer products, too (their volume-weighted mean), so that signs leave no trace there either.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,16 +49,20 @@ struct Heart {
   std::shared_ptr<const TensorField> fibres;
   std::shared_ptr<const TensorField> sheets;  ///< null: not known
   std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray
+  std::string no_layers;                      ///< why `layer` is null; empty: it is not
   std::shared_ptr<const ScalarField> value;  ///< a potential, an activation time: what else is shown; or null
   std::optional<Vec3> axis;                  ///< from apex to base, where the file says it; data coordinates
   std::vector<std::string> notes;            ///< of mesh, fibres and layers, for the user
 };
 
+/// What becomes of a heart without layers of which none can be made: an error, or a Heart that says why.
+enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible };
+
 /// Points at the very same place count as one (same_points.h).
-/// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without a volume, meshes
-/// without an inner and an outer surface where no layers are given, and as make_field_grid(); (work failed)
-/// as make_wall_layer().
+/// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without a volume, and as
+/// make_field_grid(); where layers are needed also for meshes without an inner and an outer surface that come
+/// without layers, and (work failed) as make_wall_layer().
 [[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
-                               int threads = 0);
+                               int threads = 0, LayersNeeded layers = LayersNeeded::kAlways);
 
 }  // namespace palpate
