@@ -194,17 +194,24 @@ class Tracer {
     return std::nullopt;
   }
 
-  /// One step of the classical Runge-Kutta method. `along` points the way and is turned to the end's.
+  /// The direction at a stage of a step: `at` moved by `way`, beside the layer by as much as that bends
+  /// there. Where that is beyond the wall, as it may be at its surfaces, on the layer itself.
+  [[nodiscard]] std::optional<End> stage(const Point& at, const Vec3& way, const Vec3& toward,
+                                         Vec3& out) const {
+    if (!direction({.x = at.x + way, .cell = at.cell}, toward, out)) return std::nullopt;
+    Point on;
+    if (auto stop = move(at, way, on)) return stop;
+    return direction(on, toward, out);
+  }
+
+  /// One step of the classical Runge-Kutta method, its end projected on the layer. `along` points the way and
+  /// is turned to the end's.
   [[nodiscard]] std::optional<End> advance(const Point& at, double h, Vec3& along, Point& out) const {
     Vec3 k1, k2, k3, k4;
-    Point stage;
     if (auto stop = direction(at, along, k1)) return stop;
-    if (auto stop = move(at, 0.5 * h * k1, stage)) return stop;
-    if (auto stop = direction(stage, k1, k2)) return stop;
-    if (auto stop = move(at, 0.5 * h * k2, stage)) return stop;
-    if (auto stop = direction(stage, k2, k3)) return stop;
-    if (auto stop = move(at, h * k3, stage)) return stop;
-    if (auto stop = direction(stage, k3, k4)) return stop;
+    if (auto stop = stage(at, 0.5 * h * k1, k1, k2)) return stop;
+    if (auto stop = stage(at, 0.5 * h * k2, k2, k3)) return stop;
+    if (auto stop = stage(at, h * k3, k3, k4)) return stop;
     if (auto stop = move(at, h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4), out)) return stop;
     along = k4;
     return std::nullopt;

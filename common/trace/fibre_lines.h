@@ -1,8 +1,10 @@
 /// Lines along muscle fibres: on one layer of a heart's wall, or through the wall.
 ///
 /// On a layer a line follows the direction in the layer (layer_fibre.h) by the classical Runge-Kutta method
-/// of order four; every stage is brought back to the layer's isosurface by the closest-point search that the
-/// hand feels it with (isosurface.h), so each point lies on it to rounding. Through the wall it follows the
+/// of order four; every step is brought back to the layer's isosurface by the closest-point search that the
+/// hand feels it with (isosurface.h), so each point lies on it to rounding (projection: Hairer, Lubich and
+/// Wanner, Geometric Numerical Integration, sec. IV.4, keeps the order). Stages between are taken beside the
+/// layer, where the direction goes on, and on it where the wall ends there. Through the wall it follows the
 /// fibre as it is. Signs are chosen along the way.
 ///
 /// Two steps of h are compared with one of 2h. Between kinks their distance over 15 would be the error of

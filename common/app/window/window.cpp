@@ -49,8 +49,9 @@ namespace {
 // A job that answers within this time is waited for before the next one starts; a slower one is
 // cancelled when the settings change again [s].
 constexpr double kPatience = 0.4;
-// Rest between two looks at the world while nothing happens [s].
-constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0;
+// Rest between two looks at the world while nothing happens [s], while something moves, and while only a job
+// runs: without a graphics card each picture of its progress takes processors from it.
+constexpr double kIdleRest = 0.25, kBusyRest = 1.0 / 60.0, kJobRest = 0.1;
 
 class Window {
  public:
@@ -125,7 +126,7 @@ class Window {
     }
     // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
     if (live_->complete()) {
-      glfwWaitEventsTimeout(busy() ? kBusyRest : kIdleRest);
+      glfwWaitEventsTimeout(lively() ? kBusyRest : job_->running() ? kJobRest : kIdleRest);
     } else {
       glfwPollEvents();  // there is work to do meanwhile: more tracts
     }
@@ -173,9 +174,7 @@ class Window {
     }
   }
 
-  [[nodiscard]] bool busy() const {
-    return job_->running() || lively_frames_ > 0 || state_.playing || touch_->lively();
-  }
+  [[nodiscard]] bool lively() const { return lively_frames_ > 0 || state_.playing || touch_->lively(); }
 
   void inject(int frame) {
     for (const ScriptedEvent& scripted : options_.script) {
@@ -697,7 +696,7 @@ class Window {
     if (glfw_.take_damage()) live_->damage();
     PictureMoment moment{.seconds = glfwGetTime(),
                          .moving = control_.dragging() || slice_control_.dragging() || state_.playing};
-    if (!busy() && !scripted()) {
+    if (!lively() && !job_->running() && !scripted()) {
       moment.interrupted = [this] {
         glfwPollEvents();
         return !glfw_.events().empty();

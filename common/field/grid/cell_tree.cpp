@@ -110,21 +110,22 @@ CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, con
   while ((std::size_t{1} << splits_) < cells.size()) ++splits_;
   split_.assign(std::size_t{1} << splits_, pack(std::numeric_limits<float>::infinity(), 0));
 
-  // The first cuts are made one by one; the parts that they leave are independent.
+  // The first cuts are made level by level; the parts that they leave are independent.
   constexpr std::size_t kPartLevel = 14;
-  std::vector<Range> parts;
-  std::vector<Range> pending{{1, 0, splits_}};
-  while (!pending.empty()) {
-    const Range range = pending.back();
-    pending.pop_back();
-    if (range.level <= kPartLevel) {
-      parts.push_back(range);
-      continue;
+  std::vector<Range> parts{{1, 0, splits_}};
+  while (parts.front().level > kPartLevel) {
+    std::vector<std::uint8_t> both(parts.size());
+    parallel_for(parts.size(), threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t p = first; p < last; ++p)
+        both[p] = halve(centres, parts[p], split_[parts[p].node]) ? 1 : 0;
+    });
+    std::vector<Range> halves;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const auto& [node, first, level] = parts[p];
+      halves.push_back({2 * node, first, level - 1});
+      if (both[p] != 0) halves.push_back({2 * node + 1, first + (std::size_t{1} << (level - 1)), level - 1});
     }
-    const std::size_t half = std::size_t{1} << (range.level - 1);
-    const bool both = halve(centres, range, split_[range.node]);
-    pending.push_back({2 * range.node, range.first, range.level - 1});
-    if (both) pending.push_back({2 * range.node + 1, range.first + half, range.level - 1});
+    parts = std::move(halves);
   }
   parallel_for(parts.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) split_range(centres, parts[p], split_);

@@ -10,6 +10,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
+#include "common/base/resident_pages.h"
 #include "common/field/grid/tet_shape.h"
 
 namespace palpate {
@@ -84,6 +85,8 @@ TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threa
 
 template <typename T>
 void TetMesh::fill_steps(LargeVector<Step<T>>& steps, int threads) {
+  steps.reserve(cells_.size());
+  make_resident(steps.data(), cells_.size() * sizeof(Step<T>), threads);
   steps.resize(cells_.size());
   parallel_for(cells_.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
