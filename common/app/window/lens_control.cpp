@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/app/haptic/probe_mouse.h"
 #include "common/app/window/keys.h"
@@ -52,6 +53,19 @@ Lens new_screen_lens(const Lens& model) {
   lens.shape = {};
   lens.screen = ScreenCircle{};
   return lens;
+}
+
+std::vector<Vec3> outline_of(const Lens& lens, const Camera& camera) {
+  if (lens.screen || !lens.shape.quadric || !lens.shape.half_spaces.empty()) return {};
+  constexpr int kSides = 64;
+  const Vec3 center = center_of(lens.shape, camera.focal_point);
+  const double radius = reach_of(lens, camera);
+  std::vector<Vec3> circle;
+  for (int i = 0; i <= kSides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i % kSides) / kSides;
+    circle.push_back(center + radius * (std::cos(angle) * camera.axes[0] + std::sin(angle) * camera.axes[1]));
+  }
+  return circle;
 }
 
 void LensControl::follow_mouse(const PictureArea& area, const Camera& camera, Lens& lens) const {
@@ -116,8 +130,13 @@ std::string LensControl::run(Command command, const PictureArea& area, const Cam
   }
   if (view.lenses.empty()) view.lenses.push_back(new_lens(model, camera.focal_point, bounds));
   view.shown = true;
-  followed_ = view.lenses.size() - 1;
+  const std::string words = follow(view.lenses.size() - 1);
   if (area.contains(x_, y_)) follow_mouse(area, camera, view.lenses[*followed_]);
+  return words;
+}
+
+std::string LensControl::follow(std::size_t lens) {
+  followed_ = lens;
   return "the lens follows the mouse; wheel: its size, Ctrl and wheel: along the view, click: leave it there";
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/app/window/input_event.h"
 #include "common/app/window/keys.h"
@@ -24,6 +25,9 @@ namespace palpate {
 [[nodiscard]] Lens new_screen_lens(const Lens& model);
 inline constexpr double kSmallestCircle = 0.01, kLargestCircle = 1.0;  ///< radius [heights of the picture]
 
+/// The circle that a ball is seen as, across the view; nothing for other lenses.
+[[nodiscard]] std::vector<Vec3> outline_of(const Lens& lens, const Camera& camera);
+
 class LensControl {
  public:
   /// @param bounds of the scene, which limit sizes. @return whether the event was for a lens.
@@ -32,6 +36,8 @@ class LensControl {
   /// kLens, kLensSmaller and kLensLarger. @param model of a new lens. @return what to tell the user.
   std::string run(Command command, const PictureArea& area, const Camera& camera, const Box& bounds,
                   const Lens& model, VolumeView& view);
+  /// From now on that lens follows the mouse. @return what to tell the user.
+  std::string follow(std::size_t lens);
   /// The lens that follows the mouse.
   [[nodiscard]] std::optional<std::size_t> followed() const noexcept { return followed_; }
   void let_go() noexcept { followed_.reset(); }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <imgui.h>
 
@@ -24,8 +26,10 @@ std::optional<double> reach_of(const ConvexShape& shape) {
   return inside.last > 0.0 ? std::optional(inside.last) : std::nullopt;
 }
 
-/// @param coarser what lies outside is of coarser voxels. @return whether the lens is to go.
-bool draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarser) {
+enum class LensWish : std::uint8_t { kNone, kMove, kRemove };
+
+/// @param coarser what lies outside is of coarser voxels.
+LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarser) {
   if (lens.screen) {
     ImGui::SliderScalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle,
                         &kLargestCircle, "%.2f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
@@ -67,32 +71,44 @@ bool draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarser) {
     lens.transfer = model.transfer;
     lens.colored = model.colored;
   }
+  LensWish wish = LensWish::kNone;
+  if (ImGui::SmallButton("move")) wish = LensWish::kMove;
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "with the mouse; wheel: its size, Ctrl and wheel: along the view, click: leave it there");
   ImGui::SameLine();
-  return ImGui::SmallButton("remove");
+  if (ImGui::SmallButton("remove")) wish = LensWish::kRemove;
+  return wish;
 }
 
 }  // namespace
 
-void draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
-  std::optional<std::size_t> gone;
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
+  std::optional<std::size_t> gone, taken;
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (draw_lens(view.lenses[i], model, bounds, view.context.level > 0)) gone = i;
+    const LensWish wish = draw_lens(view.lenses[i], model, bounds, view.context.level > 0);
+    if (wish == LensWish::kMove) taken = i;
+    if (wish == LensWish::kRemove) gone = i;
     ImGui::PopID();
   }
   if (gone) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(*gone));
   if (view.lenses.size() == kMostLenses) {
     ImGui::TextDisabled("%d lenses: no more are possible", static_cast<int>(kMostLenses));
-    return;
+    return taken;
   }
-  if (ImGui::SmallButton("+ lens"))
-    view.lenses.push_back(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball in the middle; L moves it with the mouse");
+  const auto add = [&](Lens lens) {
+    taken = view.lenses.size();
+    view.lenses.push_back(std::move(lens));
+  };
+  if (ImGui::SmallButton("+ lens")) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball that the mouse moves until it is clicked (L)");
   ImGui::SameLine();
-  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ on the screen"))
-    view.lenses.push_back(new_screen_lens(model));
+  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ on the screen")) add(new_screen_lens(model));
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("a circle that stays where it is when the volume is turned; L moves it with the mouse");
+    ImGui::SetTooltip(
+        "a circle that stays where it is when the volume is turned; the mouse moves it until it is clicked");
+  return taken;
 }
 
 }  // namespace palpate

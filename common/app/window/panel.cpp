@@ -295,7 +295,7 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
     actions.region = edit_region(*state.region, *volume.image);
   }
   section("LENSES");
-  draw_lens_panel(volume, scene.lens, scene.info->bounds);
+  actions.lens = draw_lens_panel(volume, scene.lens, scene.info->bounds);
   if (volume.lenses.empty()) return;
   ColorTransfer focus = focus_of(volume, scene);
   const ColorTransfer before = focus;
@@ -326,7 +326,7 @@ void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensor
   }
 }
 
-void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume) {
+void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions) {
   section("ANISOTROPY AS A VOLUME");
   ImGui::Checkbox("volume", &volume.shown);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
@@ -335,7 +335,7 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
   constexpr ValueSpan kAnisotropies{0.0, 1.0};
   (void)draw_transfer_editor("anisotropy", kAnisotropies, histogram, volume.transfer);
   draw_rays(volume);
-  draw_lens_panel(volume, scene.lens, scene.info->bounds);
+  actions.lens = draw_lens_panel(volume, scene.lens, scene.info->bounds);
   if (volume.lenses.empty()) return;
   ColorTransfer focus = focus_of(volume, scene);
   ImGui::TextDisabled("inside lenses");
@@ -431,7 +431,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     }
     if (state.scene->tensors && view.tensors) {
       draw_tensors(state, *state.scene, *view.tensors, view.tracts);
-      if (view.volume) draw_anisotropy(state, *state.scene, *view.volume);
+      if (view.volume) draw_anisotropy(state, *state.scene, *view.volume, actions);
     } else if (view.tracts) {
       section("TRACTS");
       draw_tract_look(*view.tracts);

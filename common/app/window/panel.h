@@ -60,6 +60,7 @@ struct PanelActions {
   std::optional<double> time;      ///< of the step nearest to it
   TouchActions touch;
   RegionActions region;
+  std::optional<std::size_t> lens;  ///< that the mouse is to move
 };
 
 /// Parts of the window [pixels].

@@ -357,6 +357,7 @@ class Window {
         return files_.save_region(*view_.volume->image, *region_control_.box(), actions.region.crop);
       });
     }
+    if (actions.lens) say(lens_control_.follow(*actions.lens), false);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
     size_region();
@@ -412,7 +413,8 @@ class Window {
   /// The hand on a haptic grid takes hold of the faces of the region of interest.
   void size_region() {
     if (!has_region()) return;
-    region_control_.follow_hand(touch_->holds_on_grid(), touch_->readout().proxy, touch_->box_reach(),
+    const bool holds = touch_->holds_on_grid();
+    region_control_.follow_hand(holds, touch_->readout().proxy, holds ? touch_->box_reach() : 0.0,
                                 view_.bounds);
   }
 
@@ -679,6 +681,11 @@ class Window {
     std::vector<std::vector<Vec3>> handled;
     if (touch_->planes())
       handled = lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius());
+    if (const auto lens = lens_control_.followed();
+        lens && view_.volume && *lens < view_.volume->lenses.size()) {
+      if (auto circle = outline_of(view_.volume->lenses[*lens], view_.camera); !circle.empty())
+        handled.push_back(std::move(circle));
+    }
     if (has_region()) {
       if (region_control_.box()) {
         for (auto& edge : box_edges(*region_control_.box())) handled.push_back(std::move(edge));

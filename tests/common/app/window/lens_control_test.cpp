@@ -56,6 +56,24 @@ TEST_F(LensControlTest, ALensBeginsUnderTheMouseAndFollowsIt) {
   EXPECT_EQ(center(), before);
 }
 
+// What the panel asks for: the first of two, seen as a circle.
+TEST_F(LensControlTest, AnyLensIsTakenUpAndSeenAsACircle) {
+  view_.lenses = {new_lens(model_, Vec3(0.2, 0.0, 0.1), kBox), new_lens(model_, Vec3(-0.4), kBox)};
+  const Vec3 other = center_of(view_.lenses[1].shape, Vec3(0.0));
+  (void)control_.follow(0);
+  move(310, 90);
+  EXPECT_NEAR(shown(center()).x, 310.0, 1e-9);
+  EXPECT_EQ(center_of(view_.lenses[1].shape, Vec3(0.0)), other);
+  const std::vector<Vec3> circle = outline_of(view_.lenses[0], camera_);
+  ASSERT_GT(circle.size(), 12U);
+  EXPECT_EQ(circle.front(), circle.back());
+  for (const Vec3& x : circle) {
+    EXPECT_NEAR(glm::distance(x, center()), radius(), 1e-12);
+    EXPECT_NEAR(glm::dot(x - center(), camera_.axes[2]), 0.0, 1e-12);
+  }
+  EXPECT_TRUE(outline_of(new_screen_lens(model_), camera_).empty());
+}
+
 TEST_F(LensControlTest, AClickLeavesItAndTheKeyTakesItUpAgain) {
   move(250, 120);
   (void)run(Command::kLens);

@@ -1,0 +1,143 @@
+// A user with nothing but a mouse: the tooth, two planes, a lens, a length, all saved; and a window that is
+// opened from the session has them again.
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "apps/grid/grid_model.h"
+#include "apps/grid/grid_modes.h"
+#include "apps/grid/open_verb.h"
+#include "common/app/cli/command_line.h"
+#include "common/app/cli/window_touch.h"
+#include "common/app/window/panel.h"
+#include "common/app/window/window.h"
+#include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
+
+namespace palpate::test {
+namespace {
+
+class GridWindow : public ExplorerTest {
+ protected:
+  GridWindow() : ExplorerTest("grid") {
+    const PictureArea area = layout(kWidth, kHeight, kTextHeight).picture;
+    middle_ = {area.left + 0.5 * area.width, 0.5 * area.height, 0.0};
+  }
+  void SetUp() override {
+    if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+    PALPATE_NEED_DATA(tooth, "grid/tooth/tooth.nhdr");
+    for (const auto& file : std::filesystem::directory_iterator(tooth.parent_path()))
+      std::filesystem::copy(file, folder_.path(file.path().filename().string()));
+  }
+
+  /// What the command line says, in a window.
+  WindowResult open(const std::vector<std::string>& arguments, const std::string& picture) {
+    const ParsedCommand parsed = parse_command_line(explorer_, arguments);
+    Progress progress;
+    InterruptGuard interrupt(progress, "grid");
+    Console console("grid", false, true);
+    const VerbContext context{explorer_, progress, interrupt, console, "grid"};
+    WindowOptions window{.program = "grid",
+                         .width = kWidth,
+                         .height = kHeight,
+                         .picture_folder = folder_.path(),
+                         .touch = window_touch(grid_modes(), parsed.options, context),
+                         // Frames of some length: between two events the servo has time to answer.
+                         .stop_requested =
+                             [] {
+                               std::this_thread::sleep_for(std::chrono::milliseconds(8));
+                               return false;
+                             },
+                         .script = script_};
+    window.frames = next_ + 20;
+    if (const char* folder = std::getenv("PALPATE_PICTURES"))
+      window.screenshot = std::filesystem::path(folder) / ("grid_window_" + picture + ".png");
+    GridModel model(parsed.options, "grid");
+    return run_window(model, window);
+  }
+
+  void at(InputEvent event) { script_.push_back({next_ += 2, std::move(event)}); }
+  void move(double x, double y) { at({.kind = InputKind::kMove, .x = x, .y = y}); }
+  void click(double x, double y) {
+    move(x, y);
+    at({.kind = InputKind::kPress});
+    at({.kind = InputKind::kRelease});
+    next_ += 6;
+  }
+  /// From the middle of the picture, and on by as much again.
+  void drag(double dx, double dy) {
+    constexpr int kSteps = 12;
+    move(middle_.x, middle_.y);
+    at({.kind = InputKind::kPress});
+    for (int i = 1; i <= kSteps; ++i) move(middle_.x + dx * i / kSteps, middle_.y + dy * i / kSteps);
+    at({.kind = InputKind::kRelease});
+    next_ += 6;
+  }
+  void scroll(double notches) {
+    move(285.0, 500.0);  // over no list or slider
+    for (int i = 0; i < 3; ++i) at({.kind = InputKind::kWheel, .y = notches});
+    next_ += 10;
+  }
+
+  static constexpr int kWidth = 900, kHeight = 800;
+  static constexpr float kTextHeight = 14.0F;
+  const Explorer explorer_{.name = "grid", .kind = FieldKind::kScalar, .verbs = {open_verb({})}};
+  Vec3 middle_{0.0};
+  std::vector<ScriptedEvent> script_;
+  int next_ = 4;
+};
+
+// Places in the panel [pixels] as pictures of this window show them.
+TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
+  const std::string tooth = folder_.path("tooth.nhdr").string();
+  click(90.0, 145.0);  // the list of modes
+  click(60.0, 188.0);  // its plane-widget
+  drag(40.0, -30.0);   // the sphere of the first plane
+  click(40.0, 316.0);  // + plane
+  click(60.0, 518.0);  // Mark by clicks
+  click(middle_.x - 40.0, middle_.y + 60.0);
+  click(middle_.x + 30.0, middle_.y + 80.0);
+  click(60.0, 518.0);  // Stop marking
+  scroll(-30.0);
+  click(37.0, 533.0);  // + lens
+  move(middle_.x - 60.0, middle_.y + 40.0);
+  click(middle_.x - 60.0, middle_.y + 50.0);
+  scroll(-30.0);
+  click(73.0, 720.0);  // Save session
+  const WindowResult made = open({tooth}, "made");
+  ASSERT_TRUE(made.view.volume);
+  const VolumeView& volume = *made.view.volume;
+  ASSERT_EQ(volume.cuts.size(), 2U);
+  EXPECT_LT(glm::dot(volume.cuts[0].kept.outward, Vec3(0.0, 0.0, 1.0)), 0.999) << "it was turned";
+  ASSERT_EQ(volume.lenses.size(), 1U);
+  const Vec3 lens = center_of(volume.lenses[0].shape, Vec3(0.0));
+  const PictureArea area = layout(kWidth, kHeight, kTextHeight).picture;
+  const Vec3 seen =
+      project(made.view.camera, lens, static_cast<int>(area.width), static_cast<int>(area.height));
+  EXPECT_NEAR(seen.x + area.left, middle_.x - 60.0, 1.0) << "where it was left";
+  EXPECT_NEAR(seen.y + area.top, middle_.y + 50.0, 1.0);
+  ASSERT_EQ(made.message.rfind("saved ", 0), 0U) << made.message;
+
+  // A window of the session, in which nothing is done but to save it again.
+  const std::filesystem::path saved = folder_.path("tooth.palpate.toml"), first = folder_.path("first.toml");
+  std::filesystem::rename(saved, first);
+  script_.clear();
+  next_ = 4;
+  scroll(-60.0);
+  click(73.0, 720.0);
+  const WindowResult again = open({"open", "--session", first.string()}, "again");
+  EXPECT_EQ(read_file(saved), read_file(first));
+  EXPECT_NE(read_file(first).find("annotation = 'length:"), std::string::npos);
+  ASSERT_TRUE(again.view.volume);
+  EXPECT_EQ(again.view.volume->cuts, volume.cuts);
+  ASSERT_EQ(again.view.volume->lenses.size(), 1U);
+  EXPECT_EQ(center_of(again.view.volume->lenses[0].shape, Vec3(0.0)), lens);
+  EXPECT_EQ(again.view.camera.axes, made.view.camera.axes);
+}
+
+}  // namespace
+}  // namespace palpate::test
