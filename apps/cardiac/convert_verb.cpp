@@ -207,7 +207,8 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Options& op
       if (array.association == Association::kPoint)
         columns.push_back({array.name, cells.values(array), static_cast<std::size_t>(array.components)});
     files.push_back(step_file(options.out, step));
-    write_mesh(files.back(), cells.mesh().points, cells.mesh().tets, columns, options.common.force);
+    write_mesh(files.back(), cells.mesh().points, cells.mesh().tets, columns, options.common.force,
+               task.input.file()->long_axis);
     collection.write("<DataSet timestep=\"" + exact_number(task.times.empty() ? 0.0 : task.times[step]) +
                      "\" file=\"" + files.back().filename().string() + "\"/>\n");
   }

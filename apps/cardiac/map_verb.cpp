@@ -128,7 +128,7 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
     for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
     std::vector<MeshColumn> columns{{probe.name(), values}};
     if (probe.name() != "depth") columns.push_back({"depth", depths});
-    write_mesh(options.out, points, mesh.cells(), columns, options.common.force);
+    write_mesh(options.out, points, mesh.cells(), columns, options.common.force, heart->heart().axis);
     context.interrupt.keep(options.out);
   }
   console.print(summary_text(summary));

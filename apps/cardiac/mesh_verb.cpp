@@ -103,6 +103,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   std::optional<HeartChoice> choice;
   if (!fibre_choices(input.arrays()).empty()) {
     choice = input.heart_choice();
+    choice->constant_cells = false;  // points is where the output has them
     for (const std::string& name : choice->arrays())
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -154,7 +155,8 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   }
   summary.seconds_report = watch.seconds();
   if (!options.out.empty()) {
-    write_mesh(options.out, mesh.points, mesh.tets, mesh.columns, options.common.force);
+    write_mesh(options.out, mesh.points, mesh.tets, mesh.columns, options.common.force,
+               input.file()->long_axis);
     context.interrupt.keep(options.out);
   }
   console.print(summary_text(summary));

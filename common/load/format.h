@@ -22,7 +22,7 @@ enum class Format : std::uint8_t {
   kMrtrixImage,  ///< .mif, .mih
   kEx,           ///< .exnode, .exelem: finite element models of CMISS and OpenCMISS
   kCarp,         ///< openCARP: .pts, .elem, .lon
-  kTetgen,       ///< TetGen and Chaste: .node, .ele, .ortho, .axi, .bases
+  kTetgen,       ///< TetGen and Chaste: .node, .ele, .face, .ortho, .axi, .bases
   kTck,          ///< MRtrix tracks
   kTrk,          ///< TrackVis
   kTrx,          ///< tractograms as a folder or zip file

@@ -33,6 +33,8 @@ struct LoadRequest {
   std::optional<DiffusionRequest> diffusion;
   int refine = 0;      ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
   std::string series;  ///< DICOM: a series of the folder by its number there or its UID; empty: the only one
+  /// TetGen: which markers of a .face file mean the inner and the outer surface, "1,4/2"; empty: by shape.
+  std::string surface_markers;
 };
 
 struct LoadLimits {
@@ -65,6 +67,9 @@ struct FileInfo {
   double exact_volume = 0.0;       ///< of a model of curved elements, by quadrature; 0: not known
   std::optional<Vec3> long_axis;   ///< of a heart, from apex to base, where the file's coordinates have one
 };
+
+/// The field data of a VTK file that hold FileInfo::long_axis: three numbers.
+inline constexpr const char* kLongAxisArray = "long_axis";
 
 /// An open input with its helper program. Movable; closing it ends the helper.
 class Source {

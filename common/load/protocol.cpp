@@ -76,6 +76,8 @@ std::string encode(const RequestMessage& request) {
     message["files"] = json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
+    if (!open->request.surface_markers.empty())
+      message["surface_markers"] = text_from_bytes(open->request.surface_markers);
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
     if (open->request.refine > 0) message["refine"] = open->request.refine;
     if (open->request.raw) message["raw"] = encode_raw(*open->request.raw);
@@ -103,6 +105,8 @@ RequestMessage decode_request(std::string_view text) {
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("series")) open.request.series = string_at(message, "series");
+    if (message.contains("surface_markers"))
+      open.request.surface_markers = string_at(message, "surface_markers");
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
     if (message.contains("refine")) {
       const std::uint64_t refine = count_at(message, "refine");

@@ -2,7 +2,7 @@
 ///
 /// Requests
 ///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
-///   "refine": n?, "series": text?}
+///   "refine": n?, "series": text?, "surface_markers": text?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}

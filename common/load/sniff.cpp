@@ -106,7 +106,8 @@ bool looks_like_ex(std::string_view text) {
 /// Meshes whose files are bare numbers: the ending says which, the first character that it is text.
 std::optional<Format> bare_mesh(std::string_view trimmed, std::string_view ending) {
   static constexpr std::array<std::string_view, 3> kCarp{".pts", ".elem", ".lon"};
-  static constexpr std::array<std::string_view, 5> kTetgen{".node", ".ele", ".ortho", ".axi", ".bases"};
+  static constexpr std::array<std::string_view, 6> kTetgen{".node",  ".ele", ".face",
+                                                           ".ortho", ".axi", ".bases"};
   if (trimmed.empty()) return {};
   const char first = trimmed.front();
   if (first != '#' && std::isdigit(static_cast<unsigned char>(first)) == 0) return {};

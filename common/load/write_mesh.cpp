@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/load/load.h"
 #include "common/load/vtp_appendix.h"
 #include "common/load/write_tractogram.h"
 
@@ -17,16 +18,22 @@ constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
 
 /// VTK XML, UnstructuredGrid, raw appended data.
 void write_vtu(OutputFile& file, std::span<const Vec3> points,
-               std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns) {
+               std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
+               const std::optional<Vec3>& long_axis) {
   const std::uint64_t per_point = points.size() * sizeof(double);
   const std::uint64_t per_cell = cells.size() * sizeof(std::int64_t);
   VtpAppendix appendix;
   std::string head =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(points.size()) + "\" NumberOfCells=\"" + std::to_string(cells.size()) +
-      "\">\n<PointData>\n";
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  if (long_axis)
+    head += std::string("<FieldData>\n<DataArray type=\"Float64\" Name=\"") + kLongAxisArray +
+            "\" NumberOfComponents=\"3\" NumberOfTuples=\"1\" format=\"ascii\">" +
+            exact_number(long_axis->x) + " " + exact_number(long_axis->y) + " " + exact_number(long_axis->z) +
+            "</DataArray>\n</FieldData>\n";
+  head += "<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOfCells=\"" +
+          std::to_string(cells.size()) + "\">\n<PointData>\n";
   for (const MeshColumn& column : columns)
     head += appendix.declare("Float64", column.name, static_cast<int>(column.components),
                              column.components * per_point);
@@ -80,13 +87,13 @@ void check_mesh_output(const std::filesystem::path& path, bool overwrite) {
 
 void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
                 std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
-                bool overwrite) {
+                bool overwrite, const std::optional<Vec3>& long_axis) {
   check_mesh_output(path, overwrite);
   for (const MeshColumn& column : columns)
     PALPATE_CHECK(column.values.size() == column.components * points.size());
   OutputFile file(path, overwrite);
   if (lower_ending(path) == ".vtu") {
-    write_vtu(file, points, cells, columns);
+    write_vtu(file, points, cells, columns, long_axis);
   } else {
     write_csv(file, points, columns);
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,9 +28,10 @@ void check_mesh_output(const std::filesystem::path& path, bool overwrite);
 
 /// .vtu is VTK XML with raw appended data; .csv has the header x,y,z and the names of the columns, several
 /// numbers a point as name_1, name_2, ….
+/// @param long_axis of a heart, from apex to base: .vtu keeps it as the field data kLongAxisArray.
 /// @throws Error as check_mesh_output(); (work failed) where the disk refuses.
 void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
                 std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
-                bool overwrite);
+                bool overwrite, const std::optional<Vec3>& long_axis = {});
 
 }  // namespace palpate

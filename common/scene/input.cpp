@@ -138,6 +138,7 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
 void Input::open_files(Progress* progress) {
   LoadRequest request{.files = spec_.files, .solution = spec_.solution, .refine = spec_.refine};
   request.series = spec_.series;
+  request.surface_markers = spec_.surface_markers;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {
     (void)parse_tensor_words(spec_.tensor);  // a misspelt option is refused first
@@ -210,7 +211,9 @@ TensorSource Input::tensor_source() const {
 
 HeartChoice Input::heart_choice() const {
   check_volume();
-  return choose_heart(arrays_, spec_.field, file_name());
+  HeartChoice choice = choose_heart(arrays_, spec_.field, file_name());
+  choice.constant_cells = spec_.constant_cells;
+  return choice;
 }
 
 std::string Input::field_label() const {
@@ -332,6 +335,9 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   if (progress) progress->begin("finding fibres and layers", 0);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers);
   heart.axis = file()->long_axis;
+  if (heart.axis)
+    heart.notes.push_back("long axis from apex to base as the file has it: " + short_number(heart.axis->x) +
+                          ", " + short_number(heart.axis->y) + ", " + short_number(heart.axis->z));
   if (scalar)
     heart.value = make_scalar_field(heart.fibres->grid(), blocks.front(), *scalar, file_name(), threads);
   seconds_field_ = watch.seconds();

@@ -45,6 +45,8 @@ struct InputSpec {
   TensorWords tensor;  ///< how tensors are read and fitted
   int refine = 0;      ///< LoadRequest::refine
   std::string series;  ///< LoadRequest::series
+  bool constant_cells = false;  ///< HeartChoice::constant_cells
+  std::string surface_markers;  ///< LoadRequest::surface_markers
 };
 
 /// A time step and whether it is the very one that was asked for.

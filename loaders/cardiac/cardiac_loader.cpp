@@ -61,7 +61,7 @@ class CardiacLoader : public Loader {
         info.units = "coordinates in mm";
         break;
       default:
-        mesh_ = read_tetgen(find_tetgen_files(named), info.notes);
+        mesh_ = read_tetgen(find_tetgen_files(named), request.surface_markers, info.notes);
         break;
     }
     if (mesh_.cell_count() == 0) throw input_error({named.front(), "", "holds no element"});

@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
+#include "loaders/cardiac/marked_faces.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
 
@@ -131,7 +132,10 @@ TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
   TetgenFiles files;
   for (const std::string& file : named) {
     const std::string ending = ending_of(file);
-    std::string* part = ending == ".node" ? &files.node : ending == ".ele" ? &files.ele : &files.directions;
+    std::string* part = ending == ".node"   ? &files.node
+                        : ending == ".ele"  ? &files.ele
+                        : ending == ".face" ? &files.face
+                                            : &files.directions;
     if (!part->empty()) throw input_error({file, "", "plays the same part as " + *part, "one of them"});
     *part = file;
   }
@@ -141,6 +145,7 @@ TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
   for (const std::string& stem : stems) {
     if (files.node.empty()) files.node = sibling(stem + ".ele", ".node");
     if (files.ele.empty()) files.ele = sibling(stem + ".ele", ".ele");
+    if (files.face.empty()) files.face = sibling(stem + ".ele", ".face");
   }
   if (files.node.empty())
     throw input_error({any, "", "has no .node file beside it", stem_of(any) + ".node", "name it too"});
@@ -155,7 +160,8 @@ TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
   return files;
 }
 
-DataSet read_tetgen(const TetgenFiles& files, std::vector<std::string>& notes) {
+DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers,
+                    std::vector<std::string>& notes) {
   const Nodes nodes = read_nodes(files.node);
   std::vector<std::vector<double>> attributes;
   UnstructuredTopology topology = read_elements(files.ele, nodes, attributes);
@@ -181,6 +187,12 @@ DataSet read_tetgen(const TetgenFiles& files, std::vector<std::string>& notes) {
     if (directions.missing > 0)
       notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");
     notes.push_back("fibres from " + files.directions);
+  }
+  if (!files.face.empty()) {
+    add_marked_surfaces(files.face, nodes.first, surface_markers, mesh, notes);
+  } else if (!surface_markers.empty()) {
+    throw usage_error("--surface-markers " + surface_markers + ": there is no .face file beside " +
+                      files.ele);
   }
   add_attributes(nodes.attributes, Association::kPoint, mesh);
   add_attributes(attributes, Association::kCell, mesh);

@@ -1,4 +1,5 @@
-/// Meshes of TetGen, Chaste and CardioMechanics: .node and .ele, fibre directions in .ortho, .axi or .bases.
+/// Meshes of TetGen, Chaste and CardioMechanics: .node and .ele, triangles of surfaces in .face, fibre
+/// directions in .ortho, .axi or .bases.
 ///
 /// A .bases file (CardioMechanics of the Karlsruhe Institute of Technology, user manual, "Fiber Orientation
 /// File") begins with the counts of elements and of places in an element, centroid first, then its quadrature
@@ -16,6 +17,7 @@ namespace palpate {
 struct TetgenFiles {
   std::string node;
   std::string ele;
+  std::string face;        ///< triangles, perhaps with markers; may be empty
   std::string directions;  ///< .ortho, .bases (fibre, sheet, normal) or .axi (fibre); may be empty
 };
 
@@ -27,8 +29,10 @@ struct TetgenFiles {
 /// Tetrahedra of 4 or 10 nodes, numbered from 0 or 1 as the first node is. Node attributes become point
 /// arrays "attribute 1" …, element attributes cell arrays of that name; directions cell arrays "fibre",
 /// "sheet", "normal". Which edge a fifth to tenth node halves is taken from where it lies.
-/// @param notes gets what is to be said.
-/// @throws Error (bad input) naming file and line.
-[[nodiscard]] DataSet read_tetgen(const TetgenFiles& files, std::vector<std::string>& notes);
+/// Marked triangles become the point array "surface" (marked_faces.h).
+/// @param surface_markers LoadRequest::surface_markers. @param notes gets what is to be said.
+/// @throws Error (bad input) naming file and line, (usage) for markers that are none.
+[[nodiscard]] DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers,
+                                  std::vector<std::string>& notes);
 
 }  // namespace palpate

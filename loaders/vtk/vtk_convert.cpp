@@ -11,6 +11,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
@@ -25,6 +26,7 @@
 #include <vtkStructuredGrid.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 
 #include "common/base/error.h"
 
@@ -401,6 +403,15 @@ std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const s
     if (!volumes.empty()) notes->insert(notes->end(), flat_left_out.begin(), flat_left_out.end());
   }
   return volumes.empty() ? flats : volumes;
+}
+
+std::optional<Vec3> long_axis_of(vtkDataSet* data) {
+  vtkDataArray* const array = data->GetFieldData()->GetArray(kLongAxisArray);
+  if (array == nullptr || array->GetNumberOfValues() != 3) return std::nullopt;
+  Vec3 axis{0.0};
+  for (int i = 0; i < 3; ++i) axis[i] = array->GetVariantValue(i).ToDouble();
+  if (!is_finite(axis) || !(glm::length(axis) > 0.0)) return std::nullopt;
+  return axis;
 }
 
 BlockInfo describe_block(vtkDataSet* data, const std::string& name) {

@@ -1,6 +1,7 @@
 /// VTK data sets as the project's DataSet. Arrays are not copied: they keep the VTK object alive.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct VtkBlock {
 [[nodiscard]] std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves,
                                                   const std::string& kind, const std::string& file,
                                                   std::vector<std::string>* notes);
+
+/// The field data kLongAxisArray of a block: a finite direction; nothing where there is none.
+[[nodiscard]] std::optional<Vec3> long_axis_of(vtkDataSet* data);
 
 /// What the block holds, its arrays included.
 [[nodiscard]] BlockInfo describe_block(vtkDataSet* data, const std::string& name);

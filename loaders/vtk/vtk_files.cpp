@@ -189,6 +189,7 @@ class VtkFiles : public Loader {
                static_cast<std::size_t>(array.on_points ? about.point_count : about.cell_count)});
         }
       }
+      if (!info.long_axis) info.long_axis = long_axis_of(block.data);
       info.blocks.push_back(std::move(about));
     }
   }

@@ -130,6 +130,46 @@ TEST_F(Cardiac, OpensMeshesWhoseFibresLieInTheirCells) {
   EXPECT_GT(map["bands"].size(), 5U);
 }
 
+TEST_F(Cardiac, LeavesDirectionsConstantInTheirCellsWhereThatIsAskedFor) {
+  PALPATE_NEED_DATA(mesh, "cardiac/chaste-ellipsoid/ellipsoid_8225_elements_quad.ele");
+  const auto note_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command{"info", mesh.string()};
+    command.insert(command.end(), options.begin(), options.end());
+    return json(command)["notes"].dump();
+  };
+  EXPECT_NE(note_of({}).find("brought to the points"), std::string::npos);
+  EXPECT_NE(note_of({"--cell-directions", "constant"}).find("hold all over their cell"), std::string::npos);
+  EXPECT_EQ(run({"info", mesh.string(), "--cell-directions", "x"}).exit_code, 2);
+  const auto lines = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> command{"trace",   mesh.string(), "--seeds", "random:5",
+                                     "--layer", "0.5",         "--out",   name};
+    command.insert(command.end(), options.begin(), options.end());
+    (void)json(command);
+    return read_file(folder_.path(name));
+  };
+  const std::string constant = lines("constant.csv", {"--cell-directions", "constant"});
+  EXPECT_NE(constant, lines("recovered.csv", {}));
+  // A session says it as the option does.
+  const auto session = folder_.write("heart.palpate.toml",
+                                     "format = 1\nprogram = \"cardiac\"\n[scene]\n"
+                                     "cell-directions = \"constant\"\n");
+  EXPECT_EQ(constant, lines("session.csv", {"--session", session.string()}));
+}
+
+// Markers of a .face file say what is inside and outside where nothing else does.
+TEST_F(Cardiac, TakesSurfacesFromMarkedTriangles) {
+  (void)folder_.write("one.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  (void)folder_.write("one.ele", "1 4 0\n0 0 1 2 3\n");
+  (void)folder_.write("one.axi", "1\n1 0 0\n");
+  (void)folder_.write("one.face", "2 1\n0 0 1 2 4\n1 1 2 3 9\n");
+  EXPECT_TRUE(json({"info", "one.node"})["no_layers"].is_string());
+  EXPECT_EQ(json({"info", "one.node", "--surface-markers", "4/9"})["no_layers"], nullptr);
+  EXPECT_EQ(json({"trace", "one.node", "--surface-markers", "4/9", "--layer", "0.3", "--seeds",
+                  "point:0.2,0.2,0.3", "--out", "lines.csv"})["lines"],
+            2);
+  EXPECT_EQ(run({"info", "one.node", "--surface-markers", "4/8"}).exit_code, 2);
+}
+
 // A potential that rises with x and with time; the value at the tetrahedron's middle is known.
 TEST_F(Cardiac, ShowsAPotentialOverTimeAndOnTheWall) {
   (void)folder_.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");

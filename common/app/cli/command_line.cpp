@@ -162,7 +162,7 @@ class VerbParser {
           "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
           "NAME", group);
     if (kind == FieldKind::kScalar) add_raw_options(scene_options_, input.raw);
-    if (kind == FieldKind::kFibre) add_refine_option(scene_options_, input);
+    if (kind == FieldKind::kFibre) add_heart_input_options(scene_options_, input);
     if (kind == FieldKind::kTensor) add_tensor_input_options(scene_options_, input.tensor);
     if (kind == FieldKind::kScalar || kind == FieldKind::kTensor) {
       scene("--series", input.series,

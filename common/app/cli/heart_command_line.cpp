@@ -1,6 +1,17 @@
 #include "common/app/cli/heart_command_line.h"
 
 namespace palpate {
+namespace {
+
+void add_refine_option(SceneOptions& options, InputOptions& input) {
+  constexpr int kFinest = 64;
+  options
+      .add("--refine", input.refine, "cells along each axis of a curved element (EX); default 4, mesh: 8",
+           "N", "Input")
+      ->check(CLI::Range(1, kFinest));
+}
+
+}  // namespace
 
 void add_fibre_options(SceneOptions& options, TracingOptions& tracing, HeartOptions& heart) {
   const char* group = "Fibres";
@@ -76,12 +87,20 @@ void add_mesher_options(SceneOptions& options, HeartOptions& heart) {
       ->check(CLI::NonNegativeNumber);
 }
 
-void add_refine_option(SceneOptions& options, InputOptions& input) {
-  constexpr int kFinest = 64;
+void add_heart_input_options(SceneOptions& options, InputOptions& input) {
+  add_refine_option(options, input);
   options
-      .add("--refine", input.refine, "cells along each axis of a curved element (EX); default 4, mesh: 8",
-           "N", "Input")
-      ->check(CLI::Range(1, kFinest));
+      .add("--cell-directions", input.cell_directions,
+           "directions of cells (.lon, .ortho, .bases): recovered (default) brings their outer products to "
+           "the "
+           "points, constant leaves them as they are all over their cell",
+           "recovered|constant", "Input")
+      ->check(CLI::IsMember({"recovered", "constant"}));
+  options.add(
+      "--surface-markers", input.surface_markers,
+      "markers of a .face file on the inner and on the outer surface, as 1,4/2; default: by the shape of "
+      "what has one marker",
+      "I,…/O,…", "Input");
 }
 
 void add_series_options(SceneOptions& options, SeriesOptions& series) {

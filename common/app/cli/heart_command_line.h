@@ -18,8 +18,9 @@ void add_angle_options(SceneOptions& options, HeartOptions& heart);
 /// What fills a wall with tetrahedra. Binds the options to `heart`, which outlives `options`.
 void add_mesher_options(SceneOptions& options, HeartOptions& heart);
 
-/// How finely curved elements are sampled. Binds the option to `input`, which outlives `options`.
-void add_refine_option(SceneOptions& options, InputOptions& input);
+/// How finely curved elements are sampled, what directions of cells are taken as, and which triangles of a
+/// file are surfaces. Binds the options to `input`, which outlives `options`.
+void add_heart_input_options(SceneOptions& options, InputOptions& input);
 
 /// Which scalar over time, and where. Binds the options to `series`, which outlives `options`.
 void add_series_options(SceneOptions& options, SeriesOptions& series);

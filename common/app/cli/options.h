@@ -37,6 +37,8 @@ struct InputOptions {
   RawWords raw;        ///< --raw-size and its like
   TensorWords tensor;  ///< --bval, --tensor-order and their like
   std::string series;  ///< LoadRequest::series
+  std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
+  std::string surface_markers;                ///< LoadRequest::surface_markers
 };
 
 /// Where lines start and how they are traced.

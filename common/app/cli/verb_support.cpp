@@ -22,8 +22,18 @@ StopRule stop_plane(const std::string& text) {
 }  // namespace
 
 InputSpec input_spec(const InputOptions& options, FieldKind kind) {
-  return {options.files, options.solution, options.example, options.field,  options.time,
-          kind,          options.raw,      options.tensor,  options.refine, options.series};
+  return {.files = options.files,
+          .solution = options.solution,
+          .example = options.example,
+          .field = options.field,
+          .time = options.time,
+          .kind = kind,
+          .raw = options.raw,
+          .tensor = options.tensor,
+          .refine = options.refine,
+          .series = options.series,
+          .constant_cells = options.cell_directions == "constant",
+          .surface_markers = options.surface_markers};
 }
 
 bool list_examples(const Options& options, const VerbContext& context) {

@@ -40,6 +40,18 @@ bool is_direction(const ArrayInfo& array) {
   return array.components == 3 && (array.type == ScalarType::kFloat32 || array.type == ScalarType::kFloat64);
 }
 
+const char* note_on_directions(const TensorField& fibres, const HeartChoice& choice) {
+  if (fibres.constant_in_cells())
+    return "directions of cells hold all over their cell: fibres turn at its faces, where lines lose their "
+           "order "
+           "of accuracy; at points volume-weighted mean of their outer products";
+  if (choice.fibre.association == Association::kCell)
+    return "directions of cells brought to the points: volume-weighted mean of their outer products";
+  return choice.constant_cells
+             ? "directions of points interpolated: there are none of cells to be constant in"
+             : "directions of points interpolated by their outer products";
+}
+
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
 void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
                 const std::string& file, int threads, Heart& heart) {
@@ -125,9 +137,12 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   if (grid->tets->zero_volume_count() == grid->tets->cells().size())
     throw input_error({file, "", "has no cell with a volume", "tetrahedra that fill the wall"});
   const auto directions = [&](const DirectionChoice& from) {
-    return make_tensor_field(
-        grid, mesh, {.array = from.array, .order = TensorOrder::kAxis, .association = from.association}, file,
-        threads);
+    return make_tensor_field(grid, mesh,
+                             {.array = from.array,
+                              .order = TensorOrder::kAxis,
+                              .association = from.association,
+                              .constant_cells = choice.constant_cells},
+                             file, threads);
   };
   Heart heart;
   heart.fibres = directions(choice.fibre);
@@ -137,10 +152,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
         counted(folded, "face") +
         " with both tetrahedra on one side: these overlap, and a place in both belongs to either");
   if (joined > 0) heart.notes.push_back(counted(joined, "point") + " at the place of another one: joined");
-  if (choice.fibre.association == Association::kCell) {
-    heart.notes.emplace_back(
-        "directions of cells brought to the points: volume-weighted mean of their outer products");
-  }
+  heart.notes.emplace_back(note_on_directions(*heart.fibres, choice));
   if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
   try {
     add_layers(grid, mesh, choice, file, threads, heart);

@@ -2,7 +2,8 @@
 ///
 /// Directions have no sign: what is interpolated are the components of their outer products, and a direction
 /// is the major eigenvector of that (Ikits 2006, sec. 8.2). Directions of cells are brought to the points as
-/// outer products, too (their volume-weighted mean), so that signs leave no trace there either.
+/// outer products, too (their volume-weighted mean), so that signs leave no trace there either; or they hold
+/// all over their cell, as they were given.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +29,10 @@ struct DirectionChoice {
 /// Which arrays make a heart.
 struct HeartChoice {
   DirectionChoice fibre;
-  DirectionChoice sheet;  ///< no array: none is known
-  std::string layer;      ///< point array that rises through the wall; empty: from Laplace's equation
-  bool surface = false;   ///< the file says which points lie on the inner and the outer surface
+  DirectionChoice sheet;        ///< no array: none is known
+  std::string layer;            ///< point array that rises through the wall; empty: from Laplace's equation
+  bool surface = false;         ///< the file says which points lie on the inner and the outer surface
+  bool constant_cells = false;  ///< directions of cells hold all over their cell: TensorChoice
 
   /// All that are to be read.
   [[nodiscard]] std::vector<std::string> arrays() const;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
@@ -151,6 +152,7 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     TetPoint at;
     if (!mesh.locate(x, start, at)) return {};
     hint.cell = at.cell;
+    if (constant_in_cells()) return sample_of(cells_[grid_->source_cell[static_cast<std::size_t>(at.cell)]]);
     const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(at.cell)];
     for (int i = 0; i < 4; ++i) mean.add(at.b[i], stored(tet[static_cast<std::size_t>(i)]));
   }
@@ -214,6 +216,12 @@ class TensorFieldBuilder {
     }
     survey(*field, choice.order == TensorOrder::kAxis);
     if (logarithms) take_logarithms(*field);
+    if (choice.constant_cells && choice.association == Association::kCell && field->grid_->tets) {
+      PALPATE_CHECK(!logarithms);
+      field->cells_.reserve(array.tuples);
+      for (std::size_t cell = 0; cell < array.tuples; ++cell)
+        field->cells_.push_back(read_tensor(array, cell, choice.order));
+    }
     return field;
   }
 

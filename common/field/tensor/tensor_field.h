@@ -49,6 +49,8 @@ struct TensorChoice {
   TensorInterpolation interpolation = TensorInterpolation::kComponents;
   /// Tensors of cells are brought to the points: the volume-weighted mean of the cells around each.
   Association association = Association::kPoint;
+  /// Tensors of cells hold all over their cell instead, on tetrahedra; values() are the mean all the same.
+  bool constant_cells = false;
 };
 
 /// A tensor sample; `value` is zero unless `status` is kOk, and never to be used then.
@@ -74,6 +76,8 @@ class TensorField {
   [[nodiscard]] const LocalFrame& frame() const noexcept;
   [[nodiscard]] const FieldNotes& notes() const noexcept { return notes_; }
   [[nodiscard]] TensorInterpolation interpolation() const noexcept { return interpolation_; }
+  /// Samples are those of their cell in the data, and jump at its faces; values() are their mean at points.
+  [[nodiscard]] bool constant_in_cells() const noexcept { return !cells_.empty(); }
   /// What is interpolated, six numbers as TensorOrder::kRows at each point of grid(): tensors, or their
   /// logarithms. NaN where there is no tensor.
   [[nodiscard]] std::variant<std::span<const float>, std::span<const double>> values() const noexcept;
@@ -98,6 +102,7 @@ class TensorField {
   TensorInterpolation interpolation_ = TensorInterpolation::kComponents;
   /// kRows, in X; of logarithms, where these are interpolated. NaN where there is no tensor.
   std::variant<std::vector<float>, std::vector<double>> values_;
+  std::vector<Six> cells_;  ///< of each cell of the data, as `values_`; empty: these are interpolated
   double largest_trace_ = 0.0;
   double typical_trace_ = 0.0;
   std::size_t negative_tensors_ = 0;
