@@ -3,7 +3,7 @@
 // [0, 1] from the middle of the first entry to that of the last one, but for half a texel at either end.
 const int kMostLenses = 8;
 const int kMostPlanes = 32;
-const int kMostCuts = 8;
+const int kMostCuts = 256;
 
 // A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
 // voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.

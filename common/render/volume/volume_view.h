@@ -21,7 +21,7 @@ struct CuttingPlane {
 
   bool operator==(const CuttingPlane&) const = default;
 };
-inline constexpr std::size_t kMostCuts = 8;  ///< of one picture
+inline constexpr std::size_t kMostCuts = 256;  ///< of one picture
 
 /// What is saved on all that lies outside lenses, where there are some (context_picture.h; Ikits 2006, sec.
 /// 5.7.3).

@@ -133,6 +133,22 @@ TEST(LensPicture, AgreesWithTheReferenceWherePlanesCut) {
   EXPECT_LT(worst_difference(cut, picture.draw(view, camera_of(view))), 0.5 / 255.0);
 }
 
+// Many planes leave what one polyhedron of as many faces leaves: a ball, nearly.
+TEST(LensPicture, AgreesWithTheReferenceWhereManyPlanesCut) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < kMostCuts; ++i) {
+    const Vec3 n = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+    view.cuts.push_back({.kept = {n, 0.7}});
+  }
+  expect_agreement(picture, view, camera_of(view), "as many planes as there may be");
+  const FloatImage many = picture.draw(view, camera_of(view));
+  view.cuts.clear();
+  EXPECT_GT(worst_difference(many, picture.draw(view, camera_of(view))), 0.1) << "they cut";
+}
+
 // Pictures while one plane moves, with what is kept of the one before and cast anew.
 class MovingPlane : public testing::Test {
  protected:
