@@ -117,18 +117,22 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.error_max = layer.fibres.error_max;
     state.seconds_trace = layer.fibres.seconds;
   }
-  LayerColors colors = color_layer(input, heart, layer, with.heart, threads);
+  const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;
+  LayerColors colors = color_layer(input, heart, layer, with.heart, threads, colored);
   state.lines = layer.lines;
   state.surfaces = {surface_of(layer, colors, settings.contours)};
   if (!settings.lens_array.empty()) {
     with.heart.angle = settings.lens_array;
-    const LayerColors inside = color_layer(input, heart, layer, with.heart, threads);
+    const LineArray* const seen =
+        before != nullptr && before->color_lens ? before->color_lens->style.array.get() : nullptr;
+    const LayerColors inside = color_layer(input, heart, layer, with.heart, threads, seen);
     state.surfaces.front().lens_values = inside.values;
     state.color_lens = lens_of(options.heart).value_or(ColorLens());
     state.color_lens->style = inside.style;
   }
   state.color_array = colors.style.array;
   state.style = std::move(colors.style);
+  state.style->range = range_of(options.heart);
 
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
@@ -159,6 +163,9 @@ void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/,
   add_option(session, "axis", options.heart.axis);
   add_option(session, "cut", options.heart.cut);
   if (settings.contours > 0.0) add_option(session, "contour-spacing", exact_number(settings.contours));
+  if (view.style.range)
+    add_option(session, "range",
+               exact_number(view.style.range->lower) + "," + exact_number(view.style.range->upper));
   if (view.color_lens) {
     const Vec3& x = view.color_lens->center;
     add_option(session, "lens",

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/series_range.h"
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 #include "common/base/error.h"
@@ -33,17 +34,6 @@ bool is_own_word(const std::string& angle) {
   for (int i = 0; i < kWallAngleCount; ++i)
     if (name_of(static_cast<WallAngle>(i)) == angle) return true;
   return angle == "gap" || angle == "depth";
-}
-
-/// As stored, at the points of its mesh.
-std::vector<double> point_values(const ScalarField& field) {
-  std::vector<double> values(field.tet_mesh()->points().size());
-  std::visit(
-      [&](const auto& stored) {
-        for (std::size_t p = 0; p < values.size(); ++p) values[p] = static_cast<double>(stored[p]);
-      },
-      field.values().values);
-  return values;
 }
 
 /// Of a ball.
@@ -131,11 +121,11 @@ std::vector<double> AngleProbe::map() const {
   return point_values(options_.angle == "depth" ? *heart_->heart().layer : *value_);
 }
 
-std::vector<float> values_at(const AngleProbe& probe, const std::vector<Vec3>& places, int threads) {
-  std::vector<float> values(places.size());
+std::vector<double> values_at(const AngleProbe& probe, const std::vector<Vec3>& places, int threads) {
+  std::vector<double> values(places.size());
   parallel_for(places.size(), threads, [&](std::size_t begin, std::size_t end) {
     CellHint hint;
-    for (std::size_t p = begin; p < end; ++p) values[p] = static_cast<float>(probe.at(places[p], hint));
+    for (std::size_t p = begin; p < end; ++p) values[p] = probe.at(places[p], hint);
   });
   return values;
 }
@@ -164,6 +154,15 @@ std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line
   return values;
 }
 
+IsosurfaceMesh layer_mesh(const LayeredHeart& heart, double depth, Progress* progress) {
+  const ScalarField& depths = *heart.heart().layer;
+  if (!(depth >= depths.lowest() && depth <= depths.highest()))
+    throw usage_error("--layer " + short_number(depth) + ": the layers go from " +
+                      short_number(depths.lowest()) + " to " + short_number(depths.highest()));
+  if (progress) progress->begin("drawing the layer", 0);
+  return make_isosurface_mesh(depths, depth, kMostTriangles, progress);
+}
+
 LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& options, Progress* progress) {
   const ScalarField& depths = *heart.heart().layer;
   const double diagonal = depths.diagonal();
@@ -184,40 +183,52 @@ LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& opti
                    progress);
   if (plane) cut_lines(*plane, layer.fibres.lines);
   layer.lines = std::make_shared<const std::vector<Line>>(std::exchange(layer.fibres.lines, {}));
-  if (progress) progress->begin("drawing the layer", 0);
-  IsosurfaceMesh mesh = make_isosurface_mesh(depths, layer.depth, kMostTriangles, progress);
+  IsosurfaceMesh mesh = layer_mesh(heart, layer.depth, progress);
   if (plane) cut_surface(*plane, mesh);
   layer.mesh = std::make_shared<const IsosurfaceMesh>(std::move(mesh));
   return layer;
 }
 
 LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
-                        const LayerGeometry& layer, const HeartOptions& options, int threads) {
+                        const LayerGeometry& layer, const HeartOptions& options, int threads,
+                        const LineArray* before) {
+  auto array = std::make_shared<LineArray>();
   std::shared_ptr<const ScalarField> value;
   if (!is_own_word(options.angle)) {
     const ScalarChoice choice = choose_scalar(input.arrays(), options.angle, input.title());
     const std::vector<DataSet> blocks = input.read({choice.array});
-    value = make_scalar_field(heart->heart().fibres->grid(), blocks.front(), choice, input.title(), threads);
+    const auto& grid = heart->heart().fibres->grid();
+    value = make_scalar_field(grid, blocks.front(), choice, input.title(), threads);
+    const bool same = before != nullptr && before->name == options.angle;
+    array->range = series_range(input, choice, *value, grid, same ? before->range : std::nullopt, threads);
   }
   const AngleProbe probe(heart, options, value);
   LayerColors colors;
-  auto array = std::make_shared<LineArray>();
   array->name = probe.name();
   array->unit = probe.unit();
   const std::vector<double> along = angles_along(probe, *layer.lines, threads);
   array->values.assign(along.begin(), along.end());
-  colors.style.color_by = ColorBy::kArray;
-  colors.style.array = std::move(array);
   if (probe.is_angle()) {
     constexpr double kRightAngle = 90.0;
-    colors.style.range = ValueRange{-kRightAngle, kRightAngle};
+    array->range = ValueRange{-kRightAngle, kRightAngle};
     colors.style.color_map = ColorMap::kDiverging;
   }
+  colors.style.color_by = ColorBy::kArray;
+  colors.style.array = std::move(array);
   constexpr double kThin = 1.6;
   colors.style.width = kThin;
   colors.style.halo = false;
-  colors.values = std::make_shared<const std::vector<float>>(values_at(probe, layer.mesh->points, threads));
+  const std::vector<double> on_mesh = values_at(probe, layer.mesh->points, threads);
+  colors.values = std::make_shared<const std::vector<float>>(on_mesh.begin(), on_mesh.end());
   return colors;
+}
+
+std::optional<ValueRange> range_of(const HeartOptions& options) {
+  if (options.range.empty()) return std::nullopt;
+  const char* const grammar = "--range takes the lowest and the highest value of the colours: lower,upper";
+  const std::vector<double> ends = parse_numbers(options.range, 2, grammar);
+  if (!(ends[0] < ends[1])) throw usage_error(grammar);
+  return ValueRange{ends[0], ends[1]};
 }
 
 std::optional<ColorLens> lens_of(const HeartOptions& options) {
@@ -246,6 +257,7 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
     view.surfaces.front().lens_values = other.values;
   }
   view.style = std::move(colors.style);
+  view.style.range = range_of(options.heart);
   view.bounds = depths.bounds();
   view.lines = scene.layer.lines;
   view.title = input.title();

@@ -77,9 +77,9 @@ class AngleProbe {
 [[nodiscard]] std::vector<double> angles_along(const AngleProbe& probe, const std::vector<Line>& lines,
                                                int threads);
 
-/// The same at places in data coordinates, in single precision.
-[[nodiscard]] std::vector<float> values_at(const AngleProbe& probe, const std::vector<Vec3>& places,
-                                           int threads);
+/// The same at places in data coordinates.
+[[nodiscard]] std::vector<double> values_at(const AngleProbe& probe, const std::vector<Vec3>& places,
+                                            int threads);
 
 /// A layer as lines and triangles, whatever colours them.
 struct LayerGeometry {
@@ -88,6 +88,9 @@ struct LayerGeometry {
   std::shared_ptr<const std::vector<Line>> lines;  ///< cut
   std::shared_ptr<const IsosurfaceMesh> mesh;      ///< cut
 };
+
+/// The triangles of a layer. @throws Error (usage) where it is none of the wall's; Cancelled.
+[[nodiscard]] IsosurfaceMesh layer_mesh(const LayeredHeart& heart, double depth, Progress* progress);
 
 /// @param settings of tracing; zeros and empty words stand for the view's own defaults.
 /// @throws Error, Cancelled.
@@ -101,9 +104,15 @@ struct LayerColors {
 };
 
 /// @param options which angle or scalar; that of the file is read at the input's time step.
+/// @param before what coloured this heart at another time step; the range of all steps goes on from it
+/// (series_range.h). Null: nothing.
 /// @throws Error, Cancelled.
 [[nodiscard]] LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
-                                      const LayerGeometry& layer, const HeartOptions& options, int threads);
+                                      const LayerGeometry& layer, const HeartOptions& options, int threads,
+                                      const LineArray* before = nullptr);
+
+/// `--range`; none where it is not given. @throws Error (usage).
+[[nodiscard]] std::optional<ValueRange> range_of(const HeartOptions& options);
 
 /// @param contours distance of lines of equal value; 0: none.
 [[nodiscard]] SurfaceView surface_of(const LayerGeometry& layer, const LayerColors& colors, double contours);

@@ -42,6 +42,10 @@ int main(int argc, char** argv) {
               {{"cardiac map heart.exelem.gz --angle helix --out helix.vtu", "as a mesh for ParaView"},
                {"cardiac map mesh.pts --angle sheet --convention bayer --axis 0,0,1 --out sheet.csv",
                 "by another convention, with the long axis stated"},
+               {"cardiac map mesh.pts activation.dat --angle activation --layer 0.9 --contour-spacing 5 "
+                "--out "
+                "isochrones.vtp",
+                "isochrones, 5 ms apart; --contours 10,20,30 names them"},
                {"cardiac map heart.exelem.gz --angle gap --json", "where fibres are undefined, in numbers"}}),
           series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
                         "a potential over time at a place; --at again for another one"},

@@ -1,9 +1,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "apps/cardiac/contour_output.h"
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
 #include "common/app/cli/json_output.h"
@@ -79,6 +81,9 @@ std::string summary_text(const MapSummary& summary) {
                      (summary.convention.empty() ? "" : " angle (" + summary.convention + ")") + " at " +
                      counted(summary.points, "point");
   text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
+  if (summary.layer)
+    text += "  contours   " + counted(summary.lines, "line") + " of equal value at depth " +
+            short_number(*summary.layer) + "\n";
   if (!summary.convention.empty())
     text += "  axis       " + short_number(summary.axis.x) + ", " + short_number(summary.axis.y) + ", " +
             short_number(summary.axis.z) + ", from apex to base\n";
@@ -96,7 +101,15 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty() && !options.common.json)
     throw usage_error("map needs an output: try --out helix.vtu (or --json to get the means alone)");
-  if (!options.out.empty()) check_mesh_output(options.out, options.common.force);
+  const bool as_lines = wants_contours(options.heart);
+  if (as_lines && options.out.empty()) throw usage_error("--contours are written: try --out contours.vtp");
+  if (!as_lines && !options.heart.layer.empty())
+    throw usage_error("--layer: the map is of the whole wall; --contours V,V,... writes lines of one layer");
+  if (as_lines) {
+    check_line_output(options.out, options.common.force);
+  } else if (!options.out.empty()) {
+    check_mesh_output(options.out, options.common.force);
+  }
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
   const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
@@ -121,7 +134,13 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
   summary.bands = bands_of(values, depths, layer, probe.is_angle());
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   summary.seconds_map = watch.seconds();
-  if (!options.out.empty()) {
+  if (as_lines) {
+    const LayerContours contours = make_layer_contours(*heart, probe, options, &context.progress);
+    summary.lines = contours.lines.size();
+    summary.layer = contours.depth;
+    write_lines(options.out, contours.lines, options.common.force, std::span(&contours.values, 1));
+    context.interrupt.keep(options.out);
+  } else if (!options.out.empty()) {
     const TetMesh& mesh = *layer.tet_mesh();
     std::vector<Vec3> points;
     points.reserve(values.size());
@@ -140,8 +159,11 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
 
 Verb map_angles_verb(std::vector<UsageExample> examples) {
   return {.name = "map",
-          .summary = "write angles of fibres and sheets as a mesh, and say how they turn through the wall",
-          .groups = {.angle = true, .out = true},
+          .summary =
+              "write angles of fibres and sheets as a mesh, or lines of equal value on a layer, and say how "
+              "they turn "
+              "through the wall",
+          .groups = {.layer = true, .angle = true, .contours = true, .out = true},
           .examples = std::move(examples),
           .run = run_map};
 }

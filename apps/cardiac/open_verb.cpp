@@ -30,6 +30,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
            [](const Options& options) {
              (void)layer_of(options.heart);
              (void)parse_cut(options.heart.cut);
+             (void)range_of(options.heart);
            },
        .use = [](const Input&, const Options&) { return SceneUse{.tracing = true}; },
        .model = [](const Options& options,

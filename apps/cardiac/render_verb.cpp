@@ -24,6 +24,7 @@ const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& o
 void check(const Options& options) {
   (void)layer_of(options.heart);
   (void)parse_cut(options.heart.cut);
+  (void)range_of(options.heart);
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
   if (!options.path.empty()) (void)read_probe_path(options.path.string());

@@ -64,19 +64,30 @@ bool is_logarithmic(const LineStyle& style) noexcept {
   }
 }
 
-ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
-  if (style.range) return *style.range;
-  const bool logarithmic = is_logarithmic(style);
-  std::vector<double> values = line_values(lines, style);
-  std::erase_if(values, [&](double v) { return !std::isfinite(v) || (logarithmic && v <= 0.0); });
-  if (values.empty()) return {};
-
+std::optional<ValueRange> usual_range(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return std::nullopt;
   const auto quantile = [&](double part) {
     const std::ptrdiff_t n = std::lround(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + n, values.end());
     return values[static_cast<std::size_t>(n)];
   };
-  ValueRange range{quantile(kTail), quantile(1.0 - kTail)};
+  const double lower = quantile(kTail);
+  return ValueRange{lower, quantile(1.0 - kTail)};
+}
+
+ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
+  if (style.range) return *style.range;
+  const bool logarithmic = is_logarithmic(style);
+  std::optional<ValueRange> found;
+  if (style.color_by == ColorBy::kArray && style.array) found = style.array->range;
+  if (!found) {
+    std::vector<double> values = line_values(lines, style);
+    if (logarithmic) std::erase_if(values, [](double v) { return v <= 0.0; });
+    found = usual_range(std::move(values));
+  }
+  if (!found || (logarithmic && !(found->upper > 0.0))) return {};
+  ValueRange range = *found;
   // What differs by no more than numbers of single precision do is one value: its noise has no colours.
   constexpr double kSame = 16.0 * std::numeric_limits<float>::epsilon();
   const double most = std::max(std::abs(range.lower), std::abs(range.upper));

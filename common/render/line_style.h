@@ -41,7 +41,8 @@ struct ValueRange {
 struct LineArray {
   std::string name;
   std::string unit;
-  std::vector<float> values;  ///< of all points, line after line
+  std::vector<float> values;        ///< of all points, line after line
+  std::optional<ValueRange> range;  ///< that colours have unless it is chosen; none: that of the values
 };
 
 struct LineStyle {
@@ -71,9 +72,13 @@ struct UnitNames {
 [[nodiscard]] ColorMap color_map_of(const LineStyle& style) noexcept;
 [[nodiscard]] bool is_logarithmic(const LineStyle& style) noexcept;
 
-/// The range that colours spread over: 0.5 % to 99.5 % of the values by count, so that a few outliers
-/// do not take all colours; symmetrical about zero for a diverging map; positive for a logarithmic one.
-/// {0, 1} where there is nothing finite to go by.
+/// 0.5 % to 99.5 % of the finite values by count, so that a few outliers do not take all colours; none where
+/// there is none.
+[[nodiscard]] std::optional<ValueRange> usual_range(std::vector<double> values);
+
+/// The range that colours spread over: that of the style or its array, else usual_range() of the values;
+/// symmetrical about zero for a diverging map; positive for a logarithmic one. {0, 1} where there is nothing
+/// finite to go by.
 [[nodiscard]] ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style);
 
 /// "speed [m/s]"; the unit is left out where it is not known.

@@ -52,6 +52,31 @@ TEST_F(CardiacWave, TravelsOverTheVentricleInTime) {
   EXPECT_EQ(run({"info", "--example", "wave", "--time", "900", "--json"}).exit_code, 2);
 }
 
+TEST_F(CardiacWave, HasIsochronesThatAreReachedAtTheirTime) {
+  const Json map = json({"map", "--example", "wave", "--angle", "activation", "--layer", "0.9", "--contours",
+                         "90,140", "--out", "isochrones.csv"});
+  EXPECT_GE(map["lines"].get<int>(), 2);
+  EXPECT_EQ(map["layer"], 0.9);
+  std::ifstream file(folder_.path("isochrones.csv"));
+  std::string row;
+  std::getline(file, row);
+  ASSERT_EQ(row, "line,seed,point,x,y,z,time,arc,speed,error,termination,value");
+  std::vector<double> wanted;
+  while (std::getline(file, row)) wanted.push_back(std::stod(row.substr(row.rfind(',') + 1)));
+  ASSERT_GT(wanted.size(), 100U);
+  const Json there =
+      json({"series", "--example", "wave", "--value", "activation", "--along", "isochrones.csv"});
+  ASSERT_EQ(there["places"].size(), wanted.size());
+  for (std::size_t p = 0; p < wanted.size(); ++p) {
+    EXPECT_NEAR(there["places"][p]["values"][0].get<double>(), wanted[p], 1e-3);
+  }
+  EXPECT_EQ(run({"map", "--example", "ventricle", "--angle", "gap", "--contours", "7", "--out", "no.vtp"})
+                .exit_code,
+            1);
+  EXPECT_EQ(run({"map", "--example", "ventricle", "--layer", "0.5", "--out", "no.vtu"}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("no.vtp")));
+}
+
 TEST_F(CardiacWave, IsWrittenForOpenCarpAndReadBack) {
   const Json written = json({"convert", "--example", "wave", "--out", "wave.pts"});
   EXPECT_EQ(written["times"], 81);

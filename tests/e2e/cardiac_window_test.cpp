@@ -9,6 +9,7 @@
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cardiac_modes.h"
 #include "common/app/window/panel.h"
+#include "common/app/window/shown_scene.h"
 #include "common/app/window/window.h"
 #include "tests/e2e/explorer_test.h"
 
@@ -87,6 +88,58 @@ TEST_F(CardiacWindow, ShowsTheLayerThatTheHandIsOnAndProbeRepeatsIt) {
   for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
   ASSERT_GT(numbers.size(), 6U);
   EXPECT_NEAR(glm::distance(Vec3{numbers[4], numbers[5], numbers[6]}, result.probe.proxy), 0.0, 1e-9);
+}
+
+/// What the window asks of the program, without a window.
+class CardiacColors : public ::testing::Test {
+ protected:
+  CardiacColors() {
+    options_.common.threads = 1;
+    options_.input.example = "wave";
+    options_.tracing.seeds = "random:30";
+    options_.heart.angle = "potential";
+  }
+  /// At a time step; nothing: at the start.
+  ValueRange range_at(CardiacModel& model, std::optional<std::size_t> step) {
+    Progress progress;
+    if (step) settings_.time_step = *step;
+    const SceneState state = step ? model.update(settings_, progress) : model.start(progress);
+    settings_ = state.settings;
+    SceneView view;
+    show_scene(state, !step, view);
+    return value_range(*view.lines, view.style);
+  }
+
+  Options options_;
+  SceneSettings settings_;
+};
+
+TEST_F(CardiacColors, KeepTheirRangeWhileTheSeriesPlays) {
+  CardiacModel model(options_, "cardiac");
+  const ValueRange first = range_at(model, std::nullopt);
+  EXPECT_LT(first.lower, -75.0) << "at rest, as all is at the start";
+  EXPECT_GT(first.upper, 0.0) << "excited, as nothing is yet";
+  for (const std::size_t step : {3U, 20U, 40U, 60U, 80U, 0U}) EXPECT_EQ(range_at(model, step), first) << step;
+}
+
+TEST_F(CardiacColors, HaveTheRangeThatIsAskedFor) {
+  options_.heart.range = "0.25,0.5";
+  options_.heart.angle = "depth";
+  options_.input.example = "ventricle";
+  CardiacModel model(options_, "cardiac");
+  EXPECT_EQ(range_at(model, std::nullopt), (ValueRange{0.25, 0.5}));
+}
+
+TEST_F(CardiacColors, OfAnglesGoAllTheWayRoundAlsoComingBackToThem) {
+  options_.heart.angle = "helix";
+  options_.input.example = "ventricle";
+  CardiacModel model(options_, "cardiac");
+  const ValueRange all{-90.0, 90.0};
+  EXPECT_EQ(range_at(model, std::nullopt), all);
+  settings_.color_array = "depth";
+  EXPECT_FALSE(range_at(model, 0) == all);
+  settings_.color_array = "helix";
+  EXPECT_EQ(range_at(model, 0), all);
 }
 
 }  // namespace

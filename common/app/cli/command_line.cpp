@@ -91,6 +91,7 @@ class VerbParser {
     if (verb.groups.fibres) add_fibre_options(scene_options_, options_.tracing, options_.heart);
     if (verb.groups.layer) add_layer_option(scene_options_, options_.heart);
     if (verb.groups.angle) add_angle_options(scene_options_, options_.heart);
+    if (verb.groups.contours) add_contour_options(scene_options_, options_.heart);
     if (verb.groups.series) add_series_options(scene_options_, options_.series);
     if (verb.groups.plot) add_plot_option(scene_options_, options_.series);
     if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);

@@ -59,6 +59,10 @@ void add_layer_look(SceneOptions& options, HeartOptions& heart) {
   const char* group = "View";
   options.add("--cut", heart.cut, "leave out what lies beyond the plane n.x = d", "nx,ny,nz,d", group);
   add_contour_spacing(options, heart);
+  options.add("--range", heart.range,
+              "what colours spread over; default: of angles -90,90, of a scalar that changes in time its "
+              "usual values at five steps and all that were shown, else those in the picture",
+              "LOWER,UPPER", group);
   options.add("--lens", heart.lens, "a ball in which the layer shows another angle or scalar",
               "sphere:x,y,z,r", group);
   options.add("--lens-angle", heart.lens_angle, "which one, as --angle; default helix", "NAME", group);
@@ -71,6 +75,13 @@ void add_contour_spacing(SceneOptions& options, HeartOptions& heart) {
            "activation",
            "D", "View")
       ->check(CLI::NonNegativeNumber);
+}
+
+void add_contour_options(SceneOptions& options, HeartOptions& heart) {
+  options.add("--contours", heart.contour_values,
+              "lines of equal value on the layer, written to a .vtp, .tck, .trk or .csv", "V,V,...",
+              "Angles");
+  add_contour_spacing(options, heart);
 }
 
 void add_mesher_options(SceneOptions& options, HeartOptions& heart) {

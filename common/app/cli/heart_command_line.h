@@ -26,8 +26,10 @@ void add_heart_input_options(SceneOptions& options, InputOptions& input);
 void add_series_options(SceneOptions& options, SeriesOptions& series);
 /// How a layer is drawn. Binds as above.
 void add_layer_look(SceneOptions& options, HeartOptions& heart);
-/// Lines of equal value alone. Binds as above.
+/// Lines of equal value by their distance alone. Binds as above.
 void add_contour_spacing(SceneOptions& options, HeartOptions& heart);
+/// Lines of equal value that are written. Binds as above.
+void add_contour_options(SceneOptions& options, HeartOptions& heart);
 /// Which scalar is plotted over time at the probe. Binds as above.
 void add_plot_option(SceneOptions& options, SeriesOptions& series);
 

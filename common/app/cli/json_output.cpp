@@ -377,6 +377,8 @@ std::string map_json(const MapSummary& summary) {
                   {"points", summary.points},
                   {"undefined", summary.undefined},
                   {"bands", bands},
+                  {"lines", summary.lines},
+                  {"layer", summary.layer ? Json(*summary.layer) : Json(nullptr)},
                   {"seconds_load", summary.seconds_load},
                   {"seconds_map", summary.seconds_map},
                   {"version", version()}});

@@ -138,6 +138,8 @@ struct HeartOptions {
   std::string convention = "streeter";  ///< name_of(AngleConvention)
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
   double contours = 0.0;                ///< distance of lines of equal value on a layer; 0: none
+  std::string contour_values;           ///< v,v,...: lines of equal value on a layer, to be written
+  std::string range;                    ///< lower,upper: what colours spread over; empty: found
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;

@@ -210,6 +210,8 @@ struct MapSummary {
   std::size_t points = 0;
   std::size_t undefined = 0;
   std::vector<Band> bands;
+  std::size_t lines = 0;        ///< of equal value
+  std::optional<double> layer;  ///< on which they are; none: none are written
   double seconds_load = 0.0;
   double seconds_map = 0.0;
 };

@@ -237,6 +237,8 @@ void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
     style.range =
         automatic ? std::nullopt : std::optional(state.picture.automatic_range.value_or(ValueRange{}));
   }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("of the usual values; of a scalar that changes in time the same at all its steps");
   if (style.range) {
     ValueRange range = *style.range;
     std::array<double, 2> ends{range.lower, range.upper};

@@ -73,13 +73,15 @@ void show_lens(const SceneState& scene, bool new_input, SceneView& view) {
 }
 
 // Colours by `array`, or where there is none by a quantity of the lines.
-void color_lines(const std::shared_ptr<const LineArray>& array, LineStyle& style) {
+void color_lines(const SceneState& scene, LineStyle& style) {
+  const std::shared_ptr<const LineArray>& array = scene.color_array;
   const bool by_array = style.color_by == ColorBy::kArray;
   const bool same = by_array && array && style.array && style.array->name == array->name;
   if (!same && (array || by_array)) {
     style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
     style.range.reset();
     style.logarithmic.reset();
+    if (scene.style) style.color_map = scene.style->color_map;
   }
   style.array = array;
 }
@@ -90,7 +92,7 @@ void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
   view.lines = scene.lines;
   view.surfaces = scene.surfaces;
   show_lens(scene, new_input, view);
-  color_lines(scene.color_array, view.style);
+  color_lines(scene, view.style);
   view.bounds = scene.info->bounds;
   view.outline = scene.info->outline;
   view.units = scene.info->units;
