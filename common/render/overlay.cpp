@@ -423,7 +423,12 @@ void draw_notes(const Pen& pen, const SceneView& view, int width, int height) {
     if (!at) continue;
     const ImVec2 size = Pen::size_of(note.words);
     const float left = at->x + 0.8F * em;
-    const float top = free_top(taken, left, at->y + 0.5F * em, {size.x + 0.6F * em, size.y + 0.5F * em});
+    // Right of a line, on the side from which it leans away.
+    const auto a = place_of(view, note.points.front(), width, height);
+    const auto b = place_of(view, note.points.back(), width, height);
+    const bool falls = note.points.size() == 2 && a && b && (b->x - a->x) * (b->y - a->y) > 0.0F;
+    const float wanted = falls ? at->y - 0.5F * em - size.y : at->y + 0.5F * em;
+    const float top = free_top(taken, left, wanted, {size.x + 0.6F * em, size.y + 0.5F * em});
     pen.label(left, top, note.words);
   }
 }
