@@ -333,7 +333,9 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
-  Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers);
+  LayerCache cache(file_name(), source_ ? spec_.layer_caching : LayerCaching::kOff);
+  Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
+  heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
   heart.axis = file()->long_axis;
   if (heart.axis)
     heart.notes.push_back("long axis from apex to base as the file has it: " + short_number(heart.axis->x) +

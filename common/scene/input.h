@@ -20,6 +20,7 @@
 #include "common/field/tensor/tensor_source.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
+#include "common/scene/layer_cache.h"
 #include "common/scene/tensor_image.h"
 
 namespace palpate {
@@ -46,6 +47,7 @@ struct InputSpec {
   int refine = 0;      ///< LoadRequest::refine
   std::string series;  ///< LoadRequest::series
   bool constant_cells = false;  ///< HeartChoice::constant_cells
+  LayerCaching layer_caching = LayerCaching::kOff;
   std::string surface_markers;  ///< LoadRequest::surface_markers
 };
 

@@ -107,6 +107,13 @@ void add_heart_input_options(SceneOptions& options, InputOptions& input) {
            "points, constant leaves them as they are all over their cell",
            "recovered|constant", "Input")
       ->check(CLI::IsMember({"recovered", "constant"}));
+  options
+      .add("--layer-cache", input.layer_cache,
+           "keep solved layers in NAME.palpate.layers beside the file for the next opening: auto (default, "
+           "where they "
+           "took more than half a second), always, off",
+           "auto|always|off", "Input")
+      ->check(CLI::IsMember({"auto", "always", "off"}));
   options.add(
       "--surface-markers", input.surface_markers,
       "markers of a .face file on the inner and on the outer surface, as 1,4/2; default: by the shape of "

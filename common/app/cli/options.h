@@ -38,6 +38,7 @@ struct InputOptions {
   TensorWords tensor;  ///< --bval, --tensor-order and their like
   std::string series;  ///< LoadRequest::series
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
+  std::string layer_cache = "auto";           ///< layer_caching_from_name()
   std::string surface_markers;                ///< LoadRequest::surface_markers
 };
 

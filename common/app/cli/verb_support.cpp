@@ -33,6 +33,7 @@ InputSpec input_spec(const InputOptions& options, FieldKind kind) {
           .refine = options.refine,
           .series = options.series,
           .constant_cells = options.cell_directions == "constant",
+          .layer_caching = layer_caching_from_name(options.layer_cache),
           .surface_markers = options.surface_markers};
 }
 

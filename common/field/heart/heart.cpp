@@ -6,13 +6,13 @@
 #include <span>
 #include <utility>
 
+#include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/mesh_quality.h"
 #include "common/field/heart/same_points.h"
-#include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -54,17 +54,22 @@ const char* note_on_directions(const TensorField& fibres, const HeartChoice& cho
 
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
 void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
-                const std::string& file, int threads, Heart& heart) {
+                const std::string& file, int threads, KeptLayers* kept, Heart& heart) {
   if (!choice.layer.empty()) {
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
   } else {
-    WallLayer layer = make_wall_layer(*grid, mesh, file, threads);
+    std::optional<WallLayer> layer = kept != nullptr ? kept->find(mesh) : std::nullopt;
+    if (!layer) {
+      const Stopwatch watch;
+      layer = make_wall_layer(*grid, mesh, file, threads);
+      if (kept != nullptr) kept->keep(mesh, *layer, watch.seconds());
+    }
     DataSet with = mesh;
-    with.arrays = {std::move(layer.array)};
+    with.arrays = {std::move(layer->array)};
     heart.layer = make_scalar_field(grid, with, {.array = kLayerArray}, file, threads);
     heart.notes.emplace_back("layers by Laplace's equation from the inner to the outer surface");
-    heart.notes.insert(heart.notes.end(), layer.notes.begin(), layer.notes.end());
+    heart.notes.insert(heart.notes.end(), layer->notes.begin(), layer->notes.end());
   }
   if (!(heart.layer->local_range() > 0.0))
     throw input_error({file, "", "has layers that are all the same", "a depth that rises through the wall"});
@@ -126,7 +131,7 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
 }
 
 Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::string& file, int threads,
-                 LayersNeeded layers) {
+                 LayersNeeded layers, KeptLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
@@ -155,7 +160,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   heart.notes.emplace_back(note_on_directions(*heart.fibres, choice));
   if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
   try {
-    add_layers(grid, mesh, choice, file, threads, heart);
+    add_layers(grid, mesh, choice, file, threads, kept, heart);
   } catch (const Error& error) {
     if (layers == LayersNeeded::kAlways || error.code() == ExitCode::kInterrupted) throw;
     heart.layer = nullptr;

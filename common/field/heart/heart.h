@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/layer/wall_layer.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_choice.h"
@@ -61,10 +62,12 @@ struct Heart {
 enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible };
 
 /// Points at the very same place count as one (same_points.h).
+/// @param kept where layers are looked for before they are solved, and kept when they were; null: nowhere.
 /// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without a volume, and as
 /// make_field_grid(); where layers are needed also for meshes without an inner and an outer surface that come
 /// without layers, and (work failed) as make_wall_layer().
 [[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
-                               int threads = 0, LayersNeeded layers = LayersNeeded::kAlways);
+                               int threads = 0, LayersNeeded layers = LayersNeeded::kAlways,
+                               KeptLayers* kept = nullptr);
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 /// A scalar that rises from the inner surface of a wall to the outer one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,20 @@ struct WallLayer {
   std::vector<std::string> notes;  ///< which surfaces, how well it was solved
   int iterations = 0;
   double residual = 0.0;  ///< |b - A u| / |b| at the end
+};
+
+/// Layers that were solved before, such as those in a file (scene/layer_cache.h).
+class KeptLayers {
+ public:
+  KeptLayers() = default;
+  virtual ~KeptLayers() = default;
+  KeptLayers(const KeptLayers&) = delete;
+  KeptLayers& operator=(const KeptLayers&) = delete;
+
+  /// Those of a mesh with the very same cells and surfaces; nothing where there are none.
+  virtual std::optional<WallLayer> find(const DataSet& mesh) = 0;
+  /// @param seconds that solving took.
+  virtual void keep(const DataSet& mesh, const WallLayer& layer, double seconds) = 0;
 };
 
 /// Solves Laplace's equation in the tetrahedra of `mesh` (as make_field_grid() splits it) with u = 0 on the
