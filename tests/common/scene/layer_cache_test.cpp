@@ -114,14 +114,20 @@ TEST_F(LayerCacheTest, NothingIsKeptWhereThatIsNotWorthItOrNotWanted) {
   EXPECT_FALSE(LayerCache(input(), LayerCaching::kOff).find(mesh));
 }
 
-// No folder to write to: said, and the heart opens all the same.
+// No folder to write to, or one that should not be: said, and the heart opens all the same. Root may write to
+// the latter.
 TEST_F(LayerCacheTest, AFolderThatCannotBeWrittenIsSaid) {
   const DataSet mesh = wall();
-  LayerCache cache("/proc/heart.pts", LayerCaching::kAlways);
-  EXPECT_FALSE(cache.find(mesh));
-  cache.keep(mesh, solved(mesh), 9.0);
-  ASSERT_EQ(cache.notes().size(), 1U);
-  EXPECT_NE(cache.notes().front().find("not kept"), std::string::npos) << cache.notes().front();
+  std::filesystem::create_directory(folder_.path("shut"));
+  std::filesystem::permissions(folder_.path("shut"), std::filesystem::perms(0555));
+  for (const auto& file : {std::filesystem::path("/proc/heart.pts"), folder_.path("shut/heart.pts")}) {
+    LayerCache cache(file, LayerCaching::kAlways);
+    EXPECT_FALSE(cache.find(mesh));
+    cache.keep(mesh, solved(mesh), 9.0);
+    ASSERT_EQ(cache.notes().size(), 1U);
+    EXPECT_NE(cache.notes().front().find("not kept"), std::string::npos) << cache.notes().front();
+    EXPECT_FALSE(std::filesystem::exists(cache.file()));
+  }
 }
 
 // A heart is the same whether its layers were solved or taken.
