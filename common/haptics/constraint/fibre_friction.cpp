@@ -31,6 +31,7 @@ void FibreFriction::update(const Vec3& probe, const UpdateBudget& budget, LinkUp
   link.state = HoldState::kHeld;
   link.jacobian = Mat3{0.0};  // stuck
   bool rests = false;
+  double stretch = 0.0;  // before this update [m]
   for (int step = 0; step < kMostDragSteps && !rests; ++step) {
     const FibreSample here = walk_.sample();
     if (here.status != SampleStatus::kOk || here.normal == Vec3{0.0}) {
@@ -50,10 +51,12 @@ void FibreFriction::update(const Vec3& probe, const UpdateBudget& budget, LinkUp
       rests = true;
       break;
     }
+    if (stretch == 0.0) stretch = length;
     const Vec3 towards = r * (to_metres / length), u = workspace.turned(towards);
     const Vec3 n = link.frame[0];
     const Mat3 in_layer = Mat3{1.0} - glm::outerProduct(n, n);
-    link.jacobian = in_layer - (threshold_ / length) * (in_layer - glm::outerProduct(u, u));
+    // Of all strides together: they follow one straight line as far as the layer is flat.
+    link.jacobian = in_layer - (threshold_ / stretch) * (in_layer - glm::outerProduct(u, u));
     if (!walk_.move(towards * (std::min(go, kDragStride) / to_metres), work)) break;
   }
   if (!rests) link.state = HoldState::kFellBack;
