@@ -255,6 +255,10 @@ Sniffed sniff(const FileHead& head) {
     }
     return {{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
   }
+  if (head.ending == ".toml" && text.find("format = ") != std::string_view::npos &&
+      text.find("program = ") != std::string_view::npos) {
+    return {{}, "a session", "open it with --session THIS"};
+  }
   if (is_gzip(text)) return {{}, "a gzip file", "unpack it first"};
   if (looks_like_ensight(text)) return {Format::kEnsight, "", ""};
   if (text.find("FoamFile") != std::string_view::npos && text.find("controlDict") != std::string_view::npos) {

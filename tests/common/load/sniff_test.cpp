@@ -75,6 +75,14 @@ TEST(Sniff, OthersAreDescribed) {
   }
 }
 
+TEST(Sniff, ASessionIsToldFromData) {
+  const std::string session = "format = 1\nprogram = 'grid'\n\n[scene]\nexample = 'shells'\n";
+  const Sniffed result = sniffed(session, ".toml");
+  EXPECT_FALSE(result.format);
+  EXPECT_EQ(result.found, "a session");
+  EXPECT_NE(result.remedy.find("--session"), std::string::npos);
+}
+
 // gzip, made with Python: "NRRD0004\n" and 344 zeros with NIfTI's mark.
 TEST(FindFormat, LooksIntoGzipFilesForNiftiAndNamesWhatElseTheyHold) {
   const test::TempFolder folder;
