@@ -190,5 +190,30 @@ TEST_F(CardiacFormats, DamagedSeriesFilesAreNamed) {
     expect_refused(folder_.write("heart.vtu.series", text).string(), text.substr(0, 40));
 }
 
+// What `cardiac mesh` writes of the long axis is taken from any VTK file that says it; what is no direction
+// is not.
+TEST_F(CardiacFormats, LongAxesOfVtkFilesAreTakenIfTheyAreDirections) {
+  const std::string plain = read_file(folder_.path(step("heart.vtu", 0.0)));
+  const auto axis_of = [&](const std::string& numbers, int components) {
+    std::string text = plain;
+    text.insert(text.find("<Piece"),
+                "<FieldData><DataArray type=\"Float64\" Name=\"long_axis\" NumberOfTuples=\"1\" "
+                "NumberOfComponents=\"" +
+                    std::to_string(components) + "\" format=\"ascii\">" + numbers +
+                    "</DataArray></FieldData>");
+    (void)folder_.write("heart.vtu", text);
+    const ProgramResult result = run({"map", "heart.vtu", "--json"});
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << numbers << ": " << result.err;
+    return result.exit_code == 0 ? Json::parse(result.out)["axis"].dump() : "";
+  };
+  EXPECT_EQ(axis_of("0 0 4", 3), "[0.0,0.0,1.0]");
+  (void)folder_.write("heart.vtu", plain);
+  const ProgramResult without = run({"map", "heart.vtu", "--json"});
+  const std::string own = without.exit_code == 0 ? Json::parse(without.out)["axis"].dump() : "";
+  for (const auto& [numbers, components] : std::vector<std::pair<std::string, int>>{
+           {"0 0 0", 3}, {"nan 0 0", 3}, {"inf 1 0", 3}, {"1 2", 2}, {"1", 1}})
+    EXPECT_EQ(axis_of(numbers, components), own) << numbers;
+}
+
 }  // namespace
 }  // namespace palpate::test
