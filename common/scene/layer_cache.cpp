@@ -57,7 +57,7 @@ std::string key_of(const DataSet& mesh) {
 }
 
 /// Takes a line off the front of `text`; nothing where it has no end.
-std::optional<std::string_view> line_of(std::string_view& text) {
+std::optional<std::string_view> take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return std::nullopt;
   const std::string_view line = text.substr(0, end);
@@ -70,14 +70,14 @@ std::optional<WallLayer> decode(std::string_view text, const std::string& key, s
   if (text.size() < kDigest) return std::nullopt;
   const std::string_view body = text.substr(0, text.size() - kDigest);
   std::string_view rest = body;
-  if (line_of(rest) != kVersion || line_of(rest) != key) return std::nullopt;
+  if (take_line(rest) != kVersion || take_line(rest) != key) return std::nullopt;
   if (sha256_of(body) != text.substr(body.size())) return std::nullopt;
   WallLayer layer;
-  const auto iterations = line_of(rest), residual = line_of(rest);
+  const auto iterations = take_line(rest), residual = take_line(rest);
   if (!iterations || !residual) return std::nullopt;
   layer.iterations = static_cast<int>(number(*iterations).value_or(0.0));
   layer.residual = number(*residual).value_or(0.0);
-  for (auto note = line_of(rest); note != ""; note = line_of(rest)) {
+  for (auto note = take_line(rest); note != ""; note = take_line(rest)) {
     if (!note) return std::nullopt;
     layer.notes.emplace_back(*note);
   }

@@ -26,16 +26,16 @@ constexpr double kFlat = 0.99;       // of a part's area, that its normals add u
 
 using Triple = std::array<std::int64_t, 3>;
 
-struct Face {
+struct MarkedFace {
   Triple corners{};  ///< rising
   std::int64_t marker = 0;
   std::size_t line = 0;
   bool found = false;  ///< it is one of an element
 };
 
-struct Faces {
+struct FacesOfFile {
   bool marked = false;
-  std::vector<Face> faces;  ///< those on a surface
+  std::vector<MarkedFace> faces;  ///< those on a surface
 };
 
 /// The numbers of a row. @throws Error (bad input) for what is no whole number.
@@ -54,11 +54,11 @@ std::vector<std::int64_t> row_of(TextLines& lines, std::size_t read, std::size_t
   return row;
 }
 
-Faces read_faces(const std::string& file, std::int64_t first_node, std::size_t nodes) {
+FacesOfFile read_faces(const std::string& file, std::int64_t first_node, std::size_t nodes) {
   constexpr std::size_t kLeastBytes = 8;  // "0 1 2 3\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of faces", kLeastBytes);
-  Faces out;
+  FacesOfFile out;
   out.marked = lines.integer("0 or 1 for boundary markers,", 0, 1) == 1;
   const std::size_t tail = out.marked ? 1 : 0;
   std::int64_t first = 0;
@@ -81,7 +81,7 @@ Faces read_faces(const std::string& file, std::int64_t first_node, std::size_t n
       if (row[n] < first_node || row[n] > last)
         lines.refuse("has \"" + std::to_string(row[n]) + "\"",
                      "a node of the face, " + std::to_string(first_node) + " to " + std::to_string(last));
-    Face face{.marker = out.marked ? row[1 + used] : 0, .line = lines.line_number()};
+    MarkedFace face{.marker = out.marked ? row[1 + used] : 0, .line = lines.line_number()};
     for (std::size_t n = 0; n < 3; ++n) face.corners[n] = row[1 + n] - first_node;
     std::sort(face.corners.begin(), face.corners.end());
     if (face.marker != 0) out.faces.push_back(face);
@@ -99,9 +99,9 @@ struct Part {
   [[nodiscard]] bool flat() const { return symmetric_eigenvalues(normals)[0] > kFlat * kFlat * area; }
 };
 
-std::map<std::int64_t, Part> parts_of(const std::vector<Face>& faces, const DataArray& positions) {
+std::map<std::int64_t, Part> parts_of(const std::vector<MarkedFace>& faces, const DataArray& positions) {
   std::map<std::int64_t, Part> parts;
-  for (const Face& face : faces) {
+  for (const MarkedFace& face : faces) {
     std::array<Vec3, 3> x{};
     for (std::size_t n = 0; n < 3; ++n)
       for (int axis = 0; axis < 3; ++axis)
@@ -183,13 +183,13 @@ class NodeMarks {
   /// @param cell 4 or 10 nodes in VTK's order. @param opposite the corner that is not of the face.
   void mark(std::span<const std::int64_t> cell, std::size_t opposite, bool inner) {
     /// The edges that the fifth to tenth node halve.
-    constexpr std::array<std::array<std::size_t, 2>, 6> kEdges{
+    constexpr std::array<std::array<std::size_t, 2>, 6> kHalved{
         {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
     std::vector<bool>& marks = inner ? inner_ : outer_;
     for (std::size_t n = 0; n < 4; ++n)
       if (n != opposite) marks[static_cast<std::size_t>(cell[n])] = true;
     for (std::size_t e = 0; 4 + e < cell.size(); ++e)
-      if (kEdges[e][0] != opposite && kEdges[e][1] != opposite)
+      if (kHalved[e][0] != opposite && kHalved[e][1] != opposite)
         marks[static_cast<std::size_t>(cell[4 + e])] = true;
   }
   /// The array "surface". @param both gets how many points are on both.
@@ -213,7 +213,7 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
                          DataSet& mesh, std::vector<std::string>& notes) {
   const auto& cells = std::get<UnstructuredTopology>(mesh.topology);
   const std::size_t nodes = mesh.point_count();
-  Faces read = read_faces(file, first_node, nodes);
+  FacesOfFile read = read_faces(file, first_node, nodes);
   const std::map<std::int64_t, Part> parts = parts_of(read.faces, cells.positions);
   if (markers.empty() && parts.size() < 2) {
     notes.push_back(file + " has no markers that tell surfaces apart");
@@ -226,8 +226,8 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
     return;
   }
 
-  std::vector<Face>& faces = read.faces;
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+  std::vector<MarkedFace>& faces = read.faces;
+  std::sort(faces.begin(), faces.end(), [](const MarkedFace& a, const MarkedFace& b) {
     return a.corners != b.corners ? a.corners < b.corners : a.line < b.line;
   });
   NodeMarks marks(nodes);
@@ -241,7 +241,7 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
         if (n != opposite) corners[to++] = cell[n];
       std::sort(corners.begin(), corners.end());
       auto face = std::lower_bound(faces.begin(), faces.end(), corners,
-                                   [](const Face& a, const Triple& b) { return a.corners < b; });
+                                   [](const MarkedFace& a, const Triple& b) { return a.corners < b; });
       for (; face != faces.end() && face->corners == corners; ++face) {
         face->found = true;
         const bool inner = meaning.inner.count(face->marker) > 0;
@@ -249,8 +249,8 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
       }
     }
   }
-  const Face* lost = nullptr;
-  for (const Face& face : faces)
+  const MarkedFace* lost = nullptr;
+  for (const MarkedFace& face : faces)
     if (!face.found && (lost == nullptr || face.line < lost->line)) lost = &face;
   if (lost != nullptr) {
     std::string names;
