@@ -17,7 +17,7 @@ constexpr std::size_t kMostValues = 1000;
 /// Of the largest coordinate: a place is never more exact.
 constexpr double kRounding = 0x1p-44;
 /// Directions have no sign: an angle of 90 degrees is one of -90.
-constexpr double kHalfTurn = 180.0;
+constexpr double kPeriodOfAngles = 180.0;
 
 std::vector<double> values_of(const HeartOptions& options, double lowest, double highest) {
   if (!options.contour_values.empty()) return parse_contours(options.contour_values);
@@ -27,13 +27,13 @@ std::vector<double> values_of(const HeartOptions& options, double lowest, double
                       std::to_string(kMostValues) + " values from " + short_number(lowest) + " to " +
                       short_number(highest));
   std::vector<double> values;
-  for (double n = first; n <= last; n += 1.0) values.push_back(n * options.contours);
+  for (int n = 0; first + n <= last; ++n) values.push_back((first + n) * options.contours);
   return values;
 }
 
 /// From a value of an angle or another one.
 double apart(double value, double from, bool angle) {
-  return angle ? std::remainder(value - from, kHalfTurn) : value - from;
+  return angle ? std::remainder(value - from, kPeriodOfAngles) : value - from;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ LayerContours make_layer_contours(const LayeredHeart& heart, const AngleProbe& p
   const Vec3 farthest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
   const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
   const bool angle = probe.is_angle();
-  const double most = angle ? 0.5 * kHalfTurn : std::numeric_limits<double>::infinity();
+  const double most = angle ? 0.5 * kPeriodOfAngles : std::numeric_limits<double>::infinity();
   std::vector<double> above(found.size());
   CellHint hint;
   if (out.lowest <= out.highest) {

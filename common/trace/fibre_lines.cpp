@@ -76,7 +76,8 @@ class Tracer {
       SearchWork work{.limit = kSearchWork};
       SurfacePath path{.at = at.x, .cell = at.cell};
       SurfaceLevels levels{{level_}, 1};
-      const int crossed = length > 0.0 ? search_.advance(path, at.x + go, levels, work) : 0;
+      // A seed that is on the layer to rounding need not come to its other side.
+      const int crossed = length > rounding_ ? search_.advance(path, at.x + go, levels, work) : 0;
       if (crossed >= 0) {
         at = {path.at, path.cell};
         SurfacePoint on{at.x, level_, at.cell};

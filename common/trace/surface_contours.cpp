@@ -10,15 +10,15 @@
 namespace palpate {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNoCrossing = 0xffffffffU;
 
 /// A crossing with those that lie beside it along the line: one in each triangle at its edge.
 struct Crossing {
   EdgePoint at;
-  std::array<std::uint32_t, 2> beside{kNone, kNone};
+  std::array<std::uint32_t, 2> beside{kNoCrossing, kNoCrossing};
   bool taken = false;
 
-  void join(std::uint32_t other) noexcept { (beside[0] == kNone ? beside[0] : beside[1]) = other; }
+  void join(std::uint32_t other) noexcept { (beside[0] == kNoCrossing ? beside[0] : beside[1]) = other; }
 };
 
 class Contours {
@@ -27,15 +27,15 @@ class Contours {
 
   /// The crossings of a triangle with corners on both sides are two, and joined.
   void add(const std::array<std::uint32_t, 3>& triangle) {
-    std::array<std::uint32_t, 2> ends{kNone, kNone};
+    std::array<std::uint32_t, 2> ends{kNoCrossing, kNoCrossing};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = triangle[i], b = triangle[(i + 1) % 3];
       if ((above_[a] >= 0.0) == (above_[b] >= 0.0)) continue;
-      (ends[0] == kNone ? ends[0] : ends[1]) = above_[a] < 0.0 ? crossing(a, b) : crossing(b, a);
+      (ends[0] == kNoCrossing ? ends[0] : ends[1]) = above_[a] < 0.0 ? crossing(a, b) : crossing(b, a);
     }
-    if (ends[1] == kNone) return;
+    if (ends[1] == kNoCrossing) return;
     // An edge of more than two triangles, which no layer has, would join more.
-    if (crossings_[ends[0]].beside[1] != kNone || crossings_[ends[1]].beside[1] != kNone) return;
+    if (crossings_[ends[0]].beside[1] != kNoCrossing || crossings_[ends[1]].beside[1] != kNoCrossing) return;
     crossings_[ends[0]].join(ends[1]);
     crossings_[ends[1]].join(ends[0]);
   }
@@ -44,7 +44,7 @@ class Contours {
   [[nodiscard]] std::vector<SurfaceContour> lines() {
     std::vector<SurfaceContour> lines;
     for (std::uint32_t c = 0; c < crossings_.size(); ++c)
-      if (!crossings_[c].taken && crossings_[c].beside[1] == kNone) lines.push_back(follow(c));
+      if (!crossings_[c].taken && crossings_[c].beside[1] == kNoCrossing) lines.push_back(follow(c));
     for (std::uint32_t c = 0; c < crossings_.size(); ++c) {
       if (crossings_[c].taken) continue;
       lines.push_back(follow(c));
@@ -70,13 +70,13 @@ class Contours {
 
   SurfaceContour follow(std::uint32_t from) {
     SurfaceContour line;
-    for (std::uint32_t at = from; at != kNone;) {
+    for (std::uint32_t at = from; at != kNoCrossing;) {
       Crossing& here = crossings_[at];
       here.taken = true;
       line.push_back(here.at);
-      std::uint32_t next = kNone;
+      std::uint32_t next = kNoCrossing;
       for (const std::uint32_t beside : here.beside)
-        if (next == kNone && beside != kNone && !crossings_[beside].taken) next = beside;
+        if (next == kNoCrossing && beside != kNoCrossing && !crossings_[beside].taken) next = beside;
       at = next;
     }
     return line;

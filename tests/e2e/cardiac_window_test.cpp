@@ -1,9 +1,13 @@
 // A hand in the window of cardiac, led by mouse and wheel alone: the layer that is shown is the one that it
 // is on, and the verb `probe` repeats its run to the bit.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/cardiac/cardiac_model.h"
@@ -12,9 +16,17 @@
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/window.h"
 #include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
 
 namespace palpate::test {
 namespace {
+
+double distance_to(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double square = glm::dot(along, along);
+  const double part = square > 0.0 ? std::clamp(glm::dot(x - a, along) / square, 0.0, 1.0) : 0.0;
+  return glm::distance(x, a + part * along);
+}
 
 class CardiacWindow : public ExplorerTest {
  protected:
@@ -88,6 +100,141 @@ TEST_F(CardiacWindow, ShowsTheLayerThatTheHandIsOnAndProbeRepeatsIt) {
   for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
   ASSERT_GT(numbers.size(), 6U);
   EXPECT_NEAR(glm::distance(Vec3{numbers[4], numbers[5], numbers[6]}, result.probe.proxy), 0.0, 1e-9);
+}
+
+/// The measured ventricles of a dog, from the file to a fibre under the hand, by the mouse alone.
+class CardiacDog : public CardiacWindow {
+ protected:
+  void SetUp() override {
+    CardiacWindow::SetUp();
+    PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
+    for (const char* name : {"heart.exnode.gz", "heart.exelem.gz"})
+      std::filesystem::copy_file(nodes.parent_path() / name, folder_.path(name));
+    options_.input.example.clear();
+    options_.input.files = {folder_.path("heart.exnode.gz")};
+    options_.tracing.seeds = "random:200";
+    window_.touch.recorded.values.clear();
+    window_.touch.choice.mode = 2;  // friction: another one is chosen below
+    // The servo has the time between two frames that a user would give it.
+    window_.stop_requested = [] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(8));
+      return false;
+    };
+    constexpr float kTextHeight = 14.0F;
+    area_ = layout(kWidth, kHeight, kTextHeight).picture;
+  }
+
+  void move(int frame, double x, double y) { at(frame, {.kind = InputKind::kMove, .x = x, .y = y}); }
+  void button(int frame, InputKind kind) { at(frame, {.kind = kind, .button = MouseButton::kLeft}); }
+  void click(int frame, double x, double y) {
+    move(frame, x, y);
+    button(frame + 2, InputKind::kPress);
+    button(frame + 4, InputKind::kRelease);
+  }
+  /// Chooses the mode and asks for the probe in the panel, and presses on the wall.
+  /// @param mode its place in the list.
+  void grab_by_mouse(double mode) {
+    constexpr double kColumn = 73.0, kGrab = 136.0, kMode = 162.0, kFirst = 188.0, kItem = 20.0;  // [pixels]
+    click(1, kColumn, kMode);
+    click(10, kColumn, kFirst + kItem * mode);
+    click(20, kColumn, kGrab);
+    move(30, area_.left + kStartX * area_.width, area_.top + kStartY * area_.height);
+    button(34, InputKind::kPress);
+  }
+  static constexpr int kGrabbed = 60;  // frame
+  static constexpr double kStartX = 0.45, kStartY = 0.5;
+
+  PictureArea area_;
+};
+
+TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
+  grab_by_mouse(0.0);  // fiber
+  window_.touch.record.clear();
+  const WindowResult start = run_until(kGrabbed);
+  ASSERT_TRUE(start.probe.held) << start.message;
+  ASSERT_EQ(start.probe.state, HoldState::kHeld);
+  EXPECT_NEAR(start.settings.layer, 0.875, 1e-12) << "the outermost layer that is felt";
+
+  // The fibre there, traced by another method, and where it is seen.
+  const Vec3& seed = start.probe.proxy;
+  std::ostringstream place;
+  place.precision(17);
+  place << "point:" << seed.x << "," << seed.y << "," << seed.z;
+  (void)json({"trace", "heart.exnode.gz", "--layer", "0.875", "--seeds", place.str(), "--max-length", "50",
+              "--direction", "forward", "--out", "fibre.csv"});
+  std::vector<Vec3> fibre;
+  std::istringstream rows(read_file(folder_.path("fibre.csv")));
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    std::istringstream fields(row);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
+    fibre.emplace_back(numbers[3], numbers[4], numbers[5]);
+  }
+  ASSERT_GT(fibre.size(), 20U);
+
+  // The hand goes along it, to either side of it in turn by less than it takes to the next fibre.
+  // A quick hand: far enough at once that the plane of the view would lead it through several layers.
+  constexpr int kSteps = 20, kRest = 8;
+  constexpr double kAside = 3.0;  // [pixels]
+  for (int n = 1; n <= kSteps; ++n) {
+    const std::size_t i = (fibre.size() - 1) * static_cast<std::size_t>(n) / kSteps;
+    const Vec3 shown =
+        project(start.view.camera, fibre[i], static_cast<int>(area_.width), static_cast<int>(area_.height));
+    const double aside = kAside * std::sin(2.0 * n);
+    move(kGrabbed + kRest * n, area_.left + shown.x + 0.7 * aside, area_.top + shown.y + 0.7 * aside);
+  }
+  window_.touch.record = folder_.path("run.txt");
+  const WindowResult result = run_until(kGrabbed + kRest * kSteps + 40);
+  EXPECT_EQ(result.probe.state, HoldState::kHeld);
+  EXPECT_EQ(result.probe.popped, 0) << "it stays on its layer, around the wall";
+  EXPECT_NEAR(result.settings.layer, 0.875, 1e-12);
+  EXPECT_LT(glm::distance(result.probe.proxy, fibre.back()), 3.0)
+      << "[mm]; 50 along the fibre from where it began";
+
+  // Every place that was felt is on the fibre, by the log of the same run.
+  const Json summary = json({"probe", "heart.exnode.gz", "--replay", "run.txt", "--out", "log.csv"});
+  EXPECT_NE(summary["replay"].get<std::string>().find("identical"), std::string::npos) << summary["replay"];
+  std::istringstream log(read_file(folder_.path("log.csv")));
+  double farthest = 0.0;
+  int held = 0;
+  while (std::getline(log, row)) {
+    if (row.find(",held,") == std::string::npos) continue;
+    std::istringstream fields(row);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
+    const Vec3 felt{numbers[4], numbers[5], numbers[6]};
+    double nearest = HUGE_VAL;
+    for (std::size_t i = 1; i < fibre.size(); ++i)
+      nearest = std::min(nearest, distance_to(felt, fibre[i - 1], fibre[i]));
+    farthest = std::max(farthest, nearest);
+    ++held;
+  }
+  EXPECT_GT(held, 500);
+  EXPECT_LT(farthest, 0.5) << "[mm], of a heart of 100 mm; the mouse was three pixels, 0.6 mm, beside it";
+}
+
+TEST_F(CardiacDog, KeepsItsLayerUnderTheMouseAroundTheWall) {
+  grab_by_mouse(1.0);  // layer
+  // To the contour of the heart on the right in a few large steps, each of which the plane of the view would
+  // take off the layer.
+  constexpr int kSteps = 6, kRest = 12;
+  constexpr double kEndX = 0.71;
+  double x = 0.0;
+  const double y = area_.top + kStartY * area_.height;
+  for (int n = 1; n <= kSteps; ++n) {
+    x = area_.left + (kStartX + (kEndX - kStartX) * n / kSteps) * area_.width;
+    move(kGrabbed + kRest * n, x, y);
+  }
+  const WindowResult result = run_until(kGrabbed + kRest * (kSteps + 2));
+  EXPECT_EQ(result.probe.state, HoldState::kHeld);
+  EXPECT_EQ(result.probe.popped, 0);
+  EXPECT_NEAR(result.settings.layer, 0.875, 1e-12);
+  EXPECT_LT(result.probe.stretch, 0.2) << "[mm]: nothing pulls it off the wall";
+  const Vec3 shown = project(result.view.camera, result.probe.proxy, static_cast<int>(area_.width),
+                             static_cast<int>(area_.height));
+  EXPECT_LT(std::hypot(area_.left + shown.x - x, area_.top + shown.y - y), 1.0) << "[pixels]";
 }
 
 /// What the window asks of the program, without a window.

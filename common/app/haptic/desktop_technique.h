@@ -1,6 +1,6 @@
 /// A mouse moves the probe in the plane of the view, its wheel along the view, both along one axis if locked
-/// (probe_mouse.h). While a line or surface holds the proxy the probe is moved from the proxy's depth, so
-/// that what is followed may lead away from the viewer.
+/// (probe_mouse.h). While a line holds the proxy the probe is moved from the proxy's depth, so that what is
+/// followed may lead away from the viewer; along surfaces it is led by whoever knows them (surface_drag.h).
 #pragma once
 
 #include "common/app/haptic/interaction_technique.h"

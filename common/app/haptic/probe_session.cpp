@@ -10,6 +10,7 @@
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
+#include "common/app/haptic/surface_drag.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -184,7 +185,17 @@ void ProbeSession::hold(double time, const Vec3& position) {
 
 void ProbeSession::lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept {
   const bool held = readout_.held && readout_.state == HoldState::kHeld;
-  (void)technique_->take(event, {camera, size, held ? std::optional(readout_.proxy) : std::nullopt});
+  const Vec3 before = intent().probe;
+  if (!technique_->take(event, {camera, size, held ? std::optional(readout_.proxy) : std::nullopt})) return;
+  const FeltLevels felt = felt_levels();
+  if (!held || !felt.field || intent().axis || !std::holds_alternative<MouseDrag>(event)) return;
+  CellHint hint;
+  const ScalarSample value = felt.field->sample(readout_.proxy, hint);
+  const auto level = felt_level(felt, value.value);
+  if (value.status != SampleStatus::kOk || !level) return;
+  const Vec3 moved = intent().probe;
+  const auto along = dragged_along({*felt.field, *level, readout_.proxy}, camera, before, moved);
+  if (along) technique_->put(*along);
 }
 
 /// The hands of the immersive technique have hold of the probe while they are there.
@@ -314,7 +325,13 @@ void ProbeSession::take(const HandStep& step) {
     return;
   }
   const Workspace workspace = this->workspace();
-  const Vec3 proxy = workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[0] : step.probe);
+  // What the hand is pulled by is the last proxy; those before it lie on the way. A flow's line is followed
+  // by the first one, which a drag leaves behind; on a heart's layer the groove is what is followed.
+  const bool heart = open_.tensor && open_.scalar && !open_.field;
+  const auto last = static_cast<std::size_t>(std::max(step.chain.links, 1)) - 1;
+  const std::size_t shown = heart ? last : 0;
+  const Vec3 proxy =
+      workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[shown] : step.probe);
   const double force = glm::length(step.force);
   const bool on_line = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
   if (step.chain.jumped) {
@@ -349,8 +366,6 @@ void ProbeSession::take(const HandStep& step) {
   readout_.residual = step.chain.residual / workspace.scale();
   readout_.force = force;
   constexpr double kMillimetres = 1e3;
-  // What the hand is pulled by is the last proxy; those before it lie on the way.
-  const auto last = static_cast<std::size_t>(step.chain.links) - 1;
   readout_.stretch =
       step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;
 }

@@ -53,7 +53,8 @@ void remove(Isovalues& isovalues, int index) {
 }
 
 /// A slider each, and the buttons that add and remove one.
-Isovalues edit_values(const FeltLevels& felt) {
+/// @param what "isosurface", or the "layer" of a heart.
+Isovalues edit_values(const FeltLevels& felt, const std::string& what) {
   Isovalues isovalues = felt.isovalues;
   const double lowest = felt.field->lowest(), highest = felt.field->highest();
   int removed = -1;
@@ -64,7 +65,7 @@ Isovalues edit_values(const FeltLevels& felt) {
     ImGui::SameLine();
     if (isovalues.count > 1) {
       if (ImGui::SmallButton("x")) removed = i;
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("remove this isosurface");
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("remove this %s", what.c_str());
     } else {
       ImGui::TextUnformatted("isovalue");
     }
@@ -72,7 +73,7 @@ Isovalues edit_values(const FeltLevels& felt) {
     if (!std::isfinite(value)) value = felt.isovalues.value[static_cast<std::size_t>(i)];
   }
   if (removed >= 0) remove(isovalues, removed);
-  if (isovalues.count < Isovalues::kMax && ImGui::SmallButton("+ isosurface")) {
+  if (isovalues.count < Isovalues::kMax && ImGui::SmallButton(("+ " + what).c_str())) {
     isovalues = with_another(isovalues, lowest, highest);
   }
   return isovalues;
@@ -120,9 +121,10 @@ void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, cons
                       std::optional<double> fraction, const std::string& mode, bool flow) {
   if (!felt.field) return;
   draw_histogram(made.histogram.get(), *felt.field, felt.isovalues, fraction);
-  if (const Isovalues edited = edit_values(felt); !(edited == felt.isovalues)) settings.isovalues = edited;
   // The layers of a heart hold as such.
   const bool chosen = mode == kIsosurfaceMode;
+  const Isovalues edited = edit_values(felt, chosen ? "isosurface" : "layer");
+  if (!(edited == felt.isovalues)) settings.isovalues = edited;
   if (chosen) choose_hold(settings);
   if (distance_slider("lets through at", settings.depth, kLeastMillimetres, kMostMillimetres)) {
     settings.snap_distance = std::min(settings.snap_distance, settings.depth);

@@ -246,7 +246,8 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
         waiting_ = !waiting_;
         if (!waiting_) return "let go";
         return session_.has_tensors() ? "drag along a tract to draw it, or click to take the probe"
-                                      : "click on a line to grab the probe there";
+               : session_.has_flow()  ? "click on a line to grab the probe there"
+                                      : "press on what is felt and drag along it, or click to take the probe";
       }
       grab(area, view, time);
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +

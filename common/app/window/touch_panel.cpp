@@ -86,8 +86,9 @@ void choose_file(std::string& file, float width) {
   }
 }
 
-void choose_looks(TouchChoice& choice, float half, bool flow, bool surfaces) {
-  if (surfaces) ImGui::Checkbox("show isosurface", &choice.show_surface);
+/// @param surfaces words for those that are felt; null: none are.
+void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfaces) {
+  if (surfaces != nullptr) ImGui::Checkbox(surfaces, &choice.show_surface);
   if (!flow) {
     ImGui::Checkbox("path", &choice.show_path);
     return;
@@ -164,7 +165,9 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
                    session.modes()[choice.mode].name, session.has_flow());
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
-  choose_looks(choice, half, session.has_flow(), felt.field != nullptr);
+  const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
+  const char* const surfaces = layers ? "show felt layers" : "show isosurface";
+  choose_looks(choice, half, session.has_flow(), felt.field ? surfaces : nullptr);
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
   if (const std::string note = session.stiffness_note(); !note.empty())

@@ -2,6 +2,7 @@
 /// goes over to a neighbouring layer where the probe crosses that (Ikits 2006, sec. 8.2, p_s).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "common/haptics/constraint/isosurface.h"
@@ -15,10 +16,16 @@ class LayerConstraint final : public Constraint {
                   const Isovalues& layers)
       : surface_(std::move(depth), workspace, layers) {}
 
+  /// A layer catches what comes as near as this, whatever the snap distance [m]: a hand that is put on it by
+  /// sight is there to rounding, and on whichever side.
+  static constexpr double kTouch = 5e-5;
+
   /// Takes isovalues, depth and snap distance from `settings.isosurface`, and not how it holds.
   void apply(const ChainSettings& settings) noexcept override {
     ChainSettings as_layer = settings;
-    as_layer.isosurface.hold = IsosurfaceHold::kLayer;
+    IsosurfaceSettings& surface = as_layer.isosurface;
+    surface.hold = IsosurfaceHold::kLayer;
+    surface.snap_distance = std::min(std::max(surface.snap_distance, kTouch), surface.depth);
     surface_.apply(as_layer);
   }
   void reset() noexcept override { surface_.reset(); }

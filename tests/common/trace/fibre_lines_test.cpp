@@ -124,6 +124,20 @@ TEST(FibreLines, LinesDoNotDependOnThreadsNorOnSigns) {
   }
 }
 
+TEST(FibreLines, GoOnFromAPlaceThatIsOnTheLayerAlready) {
+  const auto heart = heart_of({.wall = 2, .along = 24, .around = 48});
+  const FibreLineResult first = trace_fibres(*heart, std::vector{Ventricle().position({0.65, 1.2, 0.3})},
+                                             {.layer = 0.4, .max_length = 30.0, .backward = false});
+  ASSERT_EQ(first.lines.size(), 1U);
+  std::vector<Vec3> seeds;
+  for (const LinePoint& point : first.lines[0].points) seeds.push_back(point.position);
+  ASSERT_GT(seeds.size(), 10U);
+  const FibreLineResult again = trace_fibres(*heart, seeds, {.layer = 0.4, .max_length = 1.0});
+  EXPECT_TRUE(again.outside_seeds.empty());
+  for (const Line& line : again.lines)
+    EXPECT_LT(glm::distance(line.points.front().position, seeds[line.seed]), 1e-9);
+}
+
 TEST(FibreLines, EndAtTheRimAndSayWhatLiesOutside) {
   const Ventricle shape;
   const auto heart = heart_of({.wall = 2, .along = 24, .around = 48});
