@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kNoCrossing = 0xffffffffU;
 
 /// A crossing with those that lie beside it along the line: one in each triangle at its edge.
-struct Crossing {
+struct CrossedEdge {
   EdgePoint at;
   std::array<std::uint32_t, 2> beside{kNoCrossing, kNoCrossing};
   bool taken = false;
@@ -71,7 +71,7 @@ class Contours {
   SurfaceContour follow(std::uint32_t from) {
     SurfaceContour line;
     for (std::uint32_t at = from; at != kNoCrossing;) {
-      Crossing& here = crossings_[at];
+      CrossedEdge& here = crossings_[at];
       here.taken = true;
       line.push_back(here.at);
       std::uint32_t next = kNoCrossing;
@@ -84,7 +84,7 @@ class Contours {
 
   const IsosurfaceMesh& mesh_;
   std::span<const double> above_;
-  std::vector<Crossing> crossings_;
+  std::vector<CrossedEdge> crossings_;
   std::unordered_map<std::uint64_t, std::uint32_t> of_edge_;
 };
 
