@@ -10,12 +10,11 @@
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/haptics/proxy_chain.h"
+#include "common/math/units.h"
 #include "common/scene/session.h"
 
 namespace palpate {
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 /// From how many links on a chain is under the passivity controller.
 double links_to_control(const std::string& passivity) {

@@ -12,11 +12,10 @@
 #include "common/haptics/constraint/grid_axis.h"
 #include "common/haptics/widget/plane_widget_link.h"
 #include "common/haptics/widget/widget_text.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 /// A node, the axes and the spacings of a grid, workspace.
 struct Lattice {

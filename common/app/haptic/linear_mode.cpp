@@ -12,11 +12,11 @@
 #include "common/base/text.h"
 #include "common/haptics/constraint/linear.h"
 #include "common/haptics/scalar_frame.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kMetresPerMillimetre = 1e-3;
 constexpr char kBetweenAxes = '/';
 
 /// Values that fall lead out of what is dense: that is the side on which a unilateral axis is free.
