@@ -130,7 +130,7 @@ std::string LensControl::run(Command command, const PictureArea& area, const Cam
   }
   if (view.lenses.empty()) view.lenses.push_back(new_lens(model, camera.focal_point, bounds));
   view.shown = true;
-  const std::string words = follow(view.lenses.size() - 1);
+  std::string words = follow(view.lenses.size() - 1);
   if (area.contains(x_, y_)) follow_mouse(area, camera, view.lenses[*followed_]);
   return words;
 }
