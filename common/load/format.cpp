@@ -15,7 +15,7 @@ std::string_view name_of(Format format) noexcept {
                                                                      "openCARP",        "TetGen",
                                                                      "MRtrix tracks",   "TrackVis tracks",
                                                                      "TRX tracks",      "DICOM",
-                                                                     "raw voxels"};
+                                                                     "OpenVDB",         "raw voxels"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -45,6 +45,8 @@ std::string_view helper_of(Format format) noexcept {
       return "palpate-load-tract";
     case Format::kDicom:
       return "palpate-load-dicom";
+    case Format::kVdb:
+      return "palpate-load-vdb";
     case Format::kRaw:
       return "palpate-load-raw";
     default:

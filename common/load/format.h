@@ -27,9 +27,10 @@ enum class Format : std::uint8_t {
   kTrk,          ///< TrackVis
   kTrx,          ///< tractograms as a folder or zip file
   kDicom,        ///< a series of slices, in files of one folder
+  kVdb,          ///< OpenVDB: sparse grids
   kRaw           ///< voxels without a header: never found by content
 };
-inline constexpr int kFormatCount = 21;
+inline constexpr int kFormatCount = 22;
 
 /// "legacy VTK", as `info` shows it.
 [[nodiscard]] std::string_view name_of(Format format) noexcept;

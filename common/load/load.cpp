@@ -25,6 +25,7 @@ constexpr std::uint64_t kMemoryFactor = 32;
 /// A reader's time: start-up on a loaded machine, and the slowest reading that still makes sense.
 constexpr double kBaseSeconds = 8.0;
 constexpr double kSecondsPerByte = 1.0 / 2e6;
+constexpr double kSecondsToFill = 60.0;  ///< the box of a sparse grid: 20 GB
 
 std::uint64_t size_of(const std::filesystem::path& path) {
   std::error_code error;
@@ -71,12 +72,18 @@ std::uint64_t machine_memory() {
                                : ~std::uint64_t{0};
 }
 
-LoadLimits resolve(LoadLimits limits, std::uint64_t bytes) {
+LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, Format format) {
   if (limits.memory_bytes == 0) {
-    const std::uint64_t wanted = kBaseMemory + kMemoryFactor * std::min(bytes, std::uint64_t{1} << 50);
-    limits.memory_bytes = std::max(kBaseMemory, std::min(wanted, machine_memory() / 4 * 3));
+    const std::uint64_t most = machine_memory() / 4 * 3;
+    // A sparse grid takes as much as its box, whatever its file does; its reader looks first.
+    const std::uint64_t wanted =
+        format == Format::kVdb ? most : kBaseMemory + kMemoryFactor * std::min(bytes, std::uint64_t{1} << 50);
+    limits.memory_bytes = std::max(kBaseMemory, std::min(wanted, most));
   }
-  if (limits.seconds <= 0.0) limits.seconds = kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes);
+  if (limits.seconds <= 0.0) {
+    limits.seconds = kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes);
+    if (format == Format::kVdb) limits.seconds += kSecondsToFill;
+  }
   return limits;
 }
 
@@ -158,7 +165,7 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
     throw usage_error(state->file + ": its reader " + state->helper +
                       " is not installed; build that target or install palpate again");
   }
-  state->limits = resolve(limits, input_bytes(request, format));
+  state->limits = resolve(limits, input_bytes(request, format), format);
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });

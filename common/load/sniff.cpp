@@ -29,7 +29,8 @@ constexpr const char* kReadableFolder =
 constexpr std::array kPositions{"positions.3.float16", "positions.3.float32", "positions.3.float64"};
 
 constexpr const char* kReadable =
-    "a VTK, NRRD, NIfTI, DICOM, MetaImage, MRtrix, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, openCARP or "
+    "a VTK, NRRD, NIfTI, DICOM, MetaImage, MRtrix, OpenVDB, PLOT3D, EnSight, Exodus II, OpenFOAM, EX, "
+    "openCARP or "
     "TetGen "
     "file, or "
     "tracts (.tck, .trk, .trx)";
@@ -220,6 +221,7 @@ Sniffed sniff(const FileHead& head) {
   if (starts_with(text, "\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark of UTF-8
   if (starts_with(text, "# vtk DataFile")) return {Format::kLegacyVtk, "", ""};
   if (starts_with(text, "NRRD000")) return {Format::kNrrd, "", ""};
+  if (starts_with(text, std::string_view(" BDV\0\0\0\0", 8))) return {Format::kVdb, "", ""};
   if (starts_with(text, "mrtrix image")) return {Format::kMrtrixImage, "", ""};
   if (starts_with(text, "mrtrix tracks")) return {Format::kTck, "", ""};
   if (starts_with(text, std::string_view("TRACK\0", 6))) return {Format::kTrk, "", ""};

@@ -34,6 +34,7 @@ TEST(Sniff, FormatsAreFoundByContentWhateverTheEnding) {
       {std::string("\x1c\2\0\0n+2\0\r\n\x1a\n", 12), Format::kNifti},
       {"ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_CHAR\n", Format::kMetaImage},
       {std::string(128, '\0') + "DICM", Format::kDicom},
+      {std::string(" BDV\0\0\0\0\xe0\0\0\0", 12), Format::kVdb},
       {"mrtrix image\ndim: 2,2,2\n", Format::kMrtrixImage},
       {"mrtrix tracks\ndatatype: Float32LE\n", Format::kTck},
       {std::string("TRACK\0", 6) + std::string(994, '\0'), Format::kTrk},

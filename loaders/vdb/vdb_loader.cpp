@@ -1,0 +1,252 @@
+#include "loaders/vdb/vdb_loader.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+#include <sys/resource.h>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/load/sniff.h"
+#include "common/load/volume_block.h"
+
+namespace palpate {
+namespace {
+
+template <typename T>
+constexpr ScalarType scalar_type() {
+  if constexpr (std::is_same_v<T, float>) return ScalarType::kFloat32;
+  if constexpr (std::is_same_v<T, double>) return ScalarType::kFloat64;
+  if constexpr (std::is_same_v<T, std::int32_t>) return ScalarType::kInt32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return ScalarType::kInt64;
+  return ScalarType::kUint8;  // bool
+}
+
+// Calls f(const Grid&) with the grid as what it is; false where it is none of those that are read.
+template <typename F>
+bool with_grid(const openvdb::GridBase& grid, F f) {
+  using Read =
+      openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid, openvdb::Int64Grid,
+                        openvdb::BoolGrid, openvdb::Vec3SGrid, openvdb::Vec3DGrid>;
+  return grid.apply<Read>(f);
+}
+
+// Where the grids of a file end, which openvdb::io::File keeps to itself.
+class Ends : private openvdb::io::Archive {
+ public:
+  // Nothing where the file ends amid the head of a grid. @throws openvdb::Exception and others where heads
+  // make no sense.
+  static std::optional<std::int64_t> last(const std::string& file) {
+    Ends archive;
+    std::ifstream in(file, std::ios::binary);
+    archive.readHeader(in);
+    archive.setFormatVersion(in);  // what descriptors hold depends on it
+    openvdb::MetaMap().readMeta(in);
+    if (!in) return {};
+    std::int64_t last = in.tellg();
+    for (std::int32_t left = readGridCount(in); left > 0; --left) {
+      openvdb::io::GridDescriptor grid;
+      (void)grid.read(in);
+      if (!in) return {};
+      // Never back: a file whose grids lead to one another would be read for ever.
+      if (grid.getEndPos() <= last) throw openvdb::IoError("has grids that overlap");
+      last = grid.getEndPos();
+      grid.seekToEnd(in);
+    }
+    if (!in) return {};
+    return last;
+  }
+};
+
+Vec3 vec(const openvdb::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
+
+class VdbLoader : public Loader {
+ public:
+  FileInfo open(const LoadRequest& request, Format) override {
+    file_ = request.files.front().string();
+    if (request.files.size() > 1)
+      throw input_error({request.files[1].string(), "", "is a second OpenVDB file", "one file"});
+    openvdb::initialize();
+    FileInfo info;
+    info.format = name_of(Format::kVdb);
+    try {
+      check_ends();
+      openvdb::io::File file(file_);
+      file.setCopyMaxBytes(0);
+      file.open(false);
+      const openvdb::GridPtrVecPtr grids = file.getGrids();
+      for (const openvdb::GridBase::Ptr& grid : *grids) take(grid, info.notes);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw damaged(error.what());
+    }
+    if (grids_.empty()) {
+      throw input_error({file_, "",
+                         "holds no grid with voxels" + (info.notes.empty() ? "" : ": " + info.notes.front()),
+                         "numbers or vectors of three on a grid with a linear transform"});
+    }
+    place();
+    info.blocks.push_back(describe_image(topology_, described(*grids_.front())));
+    for (std::size_t i = 1; i < grids_.size(); ++i)
+      info.blocks.front().arrays.push_back(described(*grids_[i]));
+    return info;
+  }
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
+    DataSet block;
+    block.topology = topology_;
+    for (const openvdb::GridBase::Ptr& grid : grids_) {
+      const ArrayInfo info = described(*grid);
+      if (std::find(names.begin(), names.end(), info.name) != names.end())
+        block.arrays.push_back(dense(*grid, info));
+    }
+    std::vector<DataSet> blocks;
+    blocks.push_back(std::move(block));
+    return blocks;
+  }
+
+ private:
+  [[nodiscard]] Error damaged(const std::string& what) const {
+    return input_error({file_, "", "OpenVDB cannot read it: " + what, "", "the file may be damaged"});
+  }
+
+  void check_ends() const {
+    const std::uint64_t there = read_head(file_, 0).file_size;
+    const std::optional<std::int64_t> end = Ends::last(file_);
+    if (!end) throw input_error({file_, "", "ends amid the head of a grid", "", "the file may be truncated"});
+    if (static_cast<std::uint64_t>(*end) > there) {
+      throw input_error({file_, "", "has " + std::to_string(there) + " bytes",
+                         std::to_string(*end) + " for its grids", "the file may be truncated"});
+    }
+  }
+
+  // Keeps the grid where it can be read beside those that are there, else says why not.
+  void take(const openvdb::GridBase::Ptr& grid, std::vector<std::string>& notes) {
+    const std::string name = "grid \"" + grid->getName() + "\" ";
+    const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+    const auto leave = [&](const std::string& why) { notes.push_back(name + why + ", and is left out"); };
+    if (!with_grid(*grid, [](const auto&) {})) return leave("holds " + grid->valueType());
+    if (box.empty()) return leave("has no active voxel");
+    if (!grid->transform().isLinear()) return leave("has a transform that is not linear (a frustum)");
+    if (grid->getGridClass() == openvdb::GRID_STAGGERED)
+      return leave("is staggered: its components lie on faces of voxels");
+    if (!grids_.empty() && grid->transform() != grids_.front()->transform())
+      return leave("lies on another lattice than grid \"" + grids_.front()->getName() + "\"");
+    const bool known = std::any_of(grids_.begin(), grids_.end(), [&](const auto& other) {
+      return name_of_array(*other) == name_of_array(*grid);
+    });
+    if (known) return leave("has the name of another one");
+    if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
+      notes.push_back(name + "is a level set: distances from its surface, below 0 inside");
+    box_.expand(box);
+    grids_.push_back(grid);
+  }
+
+  // Where the voxels of the box lie; refuses what is too large for this machine.
+  void place() {
+    // In double: corners of hostile boxes are 2^32 apart.
+    double count = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+      count *= 1.0 + static_cast<double>(box_.max()[axis]) - static_cast<double>(box_.min()[axis]);
+    rlimit limit{};
+    ::getrlimit(RLIMIT_AS, &limit);
+    double bytes = 0.0;
+    for (const auto& grid : grids_) bytes = std::max(bytes, count * static_cast<double>(tuple_bytes(*grid)));
+    // The numbers are there twice, here and on their way.
+    if (2.0 * bytes > static_cast<double>(limit.rlim_cur) || count > 1e15) {
+      const auto& low = box_.min();
+      const auto& high = box_.max();
+      const auto side = [&](int axis) {
+        return std::to_string(std::int64_t{high[axis]} - std::int64_t{low[axis]} + 1);
+      };
+      throw input_error({file_, "",
+                         "has active voxels in a box of " + side(0) + " x " + side(1) + " x " + side(2) +
+                             ", more than this machine's memory holds",
+                         "", "cut or resample it"});
+    }
+    const openvdb::math::Transform& transform = grids_.front()->transform();
+    const openvdb::Vec3d origin = transform.indexToWorld(box_.min());
+    topology_.origin = vec(origin);
+    for (int axis = 0; axis < 3; ++axis) {
+      topology_.points[axis] = box_.max()[axis] - box_.min()[axis] + 1;
+      openvdb::Vec3d step(0.0);
+      step[axis] = 1.0;
+      topology_.axes[axis] = vec(transform.indexToWorld(step) - transform.indexToWorld(openvdb::Vec3d(0.0)));
+    }
+  }
+
+  static std::string name_of_array(const openvdb::GridBase& grid) {
+    return grid.getName().empty() ? "values" : grid.getName();
+  }
+
+  static std::size_t tuple_bytes(const openvdb::GridBase& grid) {
+    std::size_t bytes = 0;
+    (void)with_grid(grid, [&](const auto& g) {
+      using Value = typename std::decay_t<decltype(g)>::ValueType;
+      bytes = sizeof(Value);
+    });
+    return bytes;
+  }
+
+  [[nodiscard]] ArrayInfo described(const openvdb::GridBase& grid) const {
+    ArrayInfo info{.name = name_of_array(grid),
+                   .association = Association::kPoint,
+                   .components = 1,
+                   .type = ScalarType::kFloat32,
+                   .tuples = 1};
+    for (int axis = 0; axis < 3; ++axis) info.tuples *= static_cast<std::size_t>(topology_.points[axis]);
+    (void)with_grid(grid, [&](const auto& g) {
+      using Value = typename std::decay_t<decltype(g)>::ValueType;
+      if constexpr (openvdb::VecTraits<Value>::IsVec) {
+        info.components = openvdb::VecTraits<Value>::Size;
+        info.type = scalar_type<typename Value::ValueType>();
+      } else {
+        info.type = scalar_type<Value>();
+      }
+    });
+    return info;
+  }
+
+  [[nodiscard]] DataArray dense(const openvdb::GridBase& grid, const ArrayInfo& info) const {
+    DataArray array;
+    array.name = info.name;
+    array.type = info.type;
+    array.components = info.components;
+    array.tuples = info.tuples;
+    const auto bytes = std::make_shared<std::vector<std::byte>>(info.tuples * tuple_bytes(grid));
+    (void)with_grid(grid, [&](const auto& g) {
+      using Value = typename std::decay_t<decltype(g)>::ValueType;
+      static_assert(sizeof(bool) == 1);
+      openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> to(box_,
+                                                                 reinterpret_cast<Value*>(bytes->data()));
+      openvdb::tools::copyToDense(g, to);
+    });
+    array.bytes = std::as_const(*bytes);
+    array.owner = bytes;
+    return array;
+  }
+
+  std::string file_;
+  std::vector<openvdb::GridBase::Ptr> grids_;  ///< on one lattice
+  openvdb::CoordBBox box_;                     ///< of all that is active
+  UniformTopology topology_;
+};
+
+}  // namespace
+
+std::unique_ptr<Loader> make_vdb_loader() { return std::make_unique<VdbLoader>(); }
+
+}  // namespace palpate

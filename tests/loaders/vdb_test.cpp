@@ -1,0 +1,200 @@
+// Files that OpenVDB itself has written, read through the helper program.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kSide = 20;
+const openvdb::CoordBBox kBox({-3, 5, 7}, {-4 + kSide, 4 + kSide, 6 + kSide});
+
+float value_at(int x, int y, int z) { return std::sin(0.3F * x) + std::cos(0.2F * y) * 0.1F * z; }
+
+// A ball of values in kBox, sheared, turned and moved.
+openvdb::FloatGrid::Ptr ball() {
+  openvdb::initialize();
+  auto grid = openvdb::FloatGrid::create(-9.0F);
+  grid->setName("ball");
+  auto voxels = grid->getAccessor();
+  const Vec3 middle = 0.5 * Vec3(kSide - 1);
+  for (int z = 0; z < kSide; ++z) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        // Touches each face of the box.
+        if (glm::distance(Vec3(x, y, z), middle) < 0.5 * kSide + 0.6)
+          voxels.setValue(kBox.min() + openvdb::Coord(x, y, z), value_at(x, y, z));
+      }
+    }
+  }
+  openvdb::Mat4d place = openvdb::Mat4d::identity();
+  place.setRow(0, {0.5, 0.1, 0.0, 0.0});  // rows: where the axes go
+  place.setRow(1, {0.0, 2.0, 0.0, 0.0});
+  place.setRow(2, {0.0, 0.3, 1.5, 0.0});
+  place.setRow(3, {10.0, 20.0, 30.0, 1.0});
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(place));
+  return grid;
+}
+
+std::filesystem::path write(const test::TempFolder& folder, const std::string& name,
+                            const openvdb::GridCPtrVec& grids) {
+  const auto file = folder.path(name);
+  openvdb::io::File(file.string()).write(grids);
+  return file;
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    Source source = Source::open({{file}, {}});
+    std::vector<std::string> names;
+    for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+    (void)source.read(names);
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    EXPECT_EQ(error.code(), ExitCode::kBadInput) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    EXPECT_NE(line.find(file.string()), std::string::npos) << line;
+    return line;
+  }
+  return {};
+}
+
+TEST(Vdb, AGridComesBackAsItsVoxelsWithItsBackgroundAroundThemAtItsPlace) {
+  const test::TempFolder folder;
+  Source source = Source::open({{write(folder, "a.vdb", {ball()})}, {}});
+  EXPECT_EQ(source.info().format, "OpenVDB");
+  EXPECT_EQ(source.info().loader, "palpate-load-vdb");
+  const DataSet block = source.read({"ball"}).at(0);
+  const auto& topology = std::get<UniformTopology>(block.topology);
+  ASSERT_EQ(topology.points, Index3(kSide));
+  const Vec3 row[3] = {{0.5, 0.1, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.3, 1.5}};
+  for (int a = 0; a < 3; ++a) EXPECT_LT(glm::distance(topology.axes[a], row[a]), 1e-13);
+  const Vec3 origin = -3.0 * row[0] + 5.0 * row[1] + 7.0 * row[2] + Vec3(10.0, 20.0, 30.0);
+  EXPECT_LT(glm::distance(topology.origin, origin), 1e-12);
+  ASSERT_EQ(block.arrays.at(0).type, ScalarType::kFloat32);
+  const Vec3 middle = 0.5 * Vec3(kSide - 1);
+  std::size_t p = 0;
+  for (int z = 0; z < kSide; ++z) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x, ++p) {
+        const bool inside = glm::distance(Vec3(x, y, z), middle) < 0.5 * kSide + 0.6;
+        ASSERT_EQ(block.arrays[0].at(p), inside ? value_at(x, y, z) : -9.0F) << x << " " << y << " " << z;
+      }
+    }
+  }
+}
+
+TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndTheOthersNamed) {
+  const test::TempFolder folder;
+  const auto first = ball();
+  auto wind = openvdb::Vec3SGrid::create();
+  wind->setName("wind");
+  wind->setTransform(first->transform().copy());
+  wind->tree().setValue(kBox.min() + openvdb::Coord(0, 0, kSide + 4), {1.0F, 2.0F, 3.0F});
+  auto mask = openvdb::BoolGrid::create();
+  mask->setName("mask");
+  mask->setTransform(first->transform().copy());
+  mask->tree().setValue(kBox.min(), true);
+  auto coarse = openvdb::DoubleGrid::create();
+  coarse->setName("coarse");
+  coarse->tree().setValue({0, 0, 0}, 1.0);
+  auto faces = openvdb::Vec3SGrid::create();
+  faces->setName("faces");
+  faces->setTransform(first->transform().copy());
+  faces->setGridClass(openvdb::GRID_STAGGERED);
+  faces->tree().setValue({0, 0, 0}, {1.0F, 2.0F, 3.0F});
+  auto none = openvdb::Int32Grid::create();
+  none->setName("none");
+  Source source = Source::open({{write(folder, "a.vdb", {first, wind, mask, coarse, faces, none})}, {}});
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"ball", "mask", "wind"}));
+  std::string notes;
+  for (const std::string& note : source.info().notes) notes += note + "\n";
+  for (const char* said :
+       {"\"coarse\" lies on another lattice", "\"faces\" is staggered", "\"none\" has no active voxel"})
+    EXPECT_NE(notes.find(said), std::string::npos) << notes;
+
+  const DataSet block = source.read({"wind", "mask"}).at(0);
+  EXPECT_EQ(std::get<UniformTopology>(block.topology).points, Index3(kSide, kSide, kSide + 5));
+  const DataArray* vectors = block.find("wind", Association::kPoint);
+  ASSERT_EQ(vectors->components, 3);
+  const auto there = static_cast<std::size_t>(kSide * kSide * (kSide + 4));
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(vectors->at(there, c), c + 1.0);
+    EXPECT_EQ(vectors->at(there - 1, c), 0.0);
+  }
+  const DataArray* marked = block.find("mask", Association::kPoint);
+  EXPECT_EQ(marked->type, ScalarType::kUint8);
+  EXPECT_EQ(marked->at(0), 1.0);
+  EXPECT_EQ(marked->at(1), 0.0);
+}
+
+TEST(Vdb, HalvesPackingsAndLevelSetsAreRead) {
+  const test::TempFolder folder;
+  const auto grid = ball();
+  grid->setSaveFloatAsHalf(true);
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (const int packing : std::initializer_list<int>{
+           openvdb::io::COMPRESS_NONE, openvdb::io::COMPRESS_ZIP, openvdb::io::COMPRESS_BLOSC,
+           openvdb::io::COMPRESS_ACTIVE_MASK | openvdb::io::COMPRESS_ZIP}) {
+    const auto file = folder.path("p" + std::to_string(packing) + ".vdb");
+    openvdb::io::File out(file.string());
+    out.setCompression(static_cast<std::uint32_t>(packing));
+    out.write(openvdb::GridCPtrVec{grid});
+    out.close();
+    Source source = Source::open({{file}, {}});
+    EXPECT_NE(source.info().notes.at(0).find("level set"), std::string::npos);
+    const DataSet block = source.read({"ball"}).at(0);
+    const std::size_t at = kSide / 2 + kSide * (kSide / 2 + kSide * 3);
+    EXPECT_NEAR(block.arrays.at(0).at(at), value_at(kSide / 2, kSide / 2, 3), 1e-3) << packing;
+  }
+}
+
+TEST(Vdb, WhatHasNoLinearPlaceOrNoVoxelIsRefused) {
+  const test::TempFolder folder;
+  const auto grid = ball();
+  grid->setTransform(openvdb::math::Transform::createFrustumTransform(
+      openvdb::BBoxd({0.0, 0.0, 0.0}, {10.0, 10.0, 10.0}), 0.5, 10.0));
+  EXPECT_NE(refusal(write(folder, "frustum.vdb", {grid})).find("not linear"), std::string::npos);
+  EXPECT_NE(refusal(write(folder, "empty.vdb", {openvdb::FloatGrid::create()})).find("no active voxel"),
+            std::string::npos);
+  // Two voxels far apart are a small file of a box that nothing holds.
+  const auto apart = openvdb::FloatGrid::create();
+  apart->tree().setValue(openvdb::Coord(-2000000000), 1.0F);
+  apart->tree().setValue(openvdb::Coord(2000000000), 1.0F);
+  EXPECT_NE(refusal(write(folder, "apart.vdb", {apart})).find("4000000001 x 4000000001 x 4000000001"),
+            std::string::npos);
+}
+
+TEST(Vdb, FilesCutOffAreRefusedAndDamagedOnesDoNoMoreThanFail) {
+  const test::TempFolder folder;
+  const std::string whole = test::read_file(write(folder, "a.vdb", {ball()}));
+  const auto damaged = [&](const std::string& content) {
+    return refusal(folder.write("damaged.vdb", content));
+  };
+  for (const std::size_t size : {std::size_t{12}, std::size_t{30}, std::size_t{100}, whole.size() / 4,
+                                 whole.size() / 2, whole.size() - 1})
+    EXPECT_FALSE(damaged(whole.substr(0, size)).empty()) << size;
+  std::mt19937 random{7};
+  for (int round = 0; round < 6; ++round) {
+    std::string content = whole;
+    for (int flip = 0; flip < 1 + 3 * round; ++flip)
+      content[8 + random() % (content.size() - 8)] = static_cast<char>(random());
+    (void)damaged(content);  // a changed value may well be fine
+  }
+  std::string noise = whole;
+  for (std::size_t i = 8; i < noise.size(); ++i) noise[i] = static_cast<char>(random());
+  EXPECT_FALSE(damaged(noise).empty());
+}
+
+}  // namespace
+}  // namespace palpate
