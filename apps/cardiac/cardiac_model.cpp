@@ -11,6 +11,7 @@
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/scalar_choice.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -168,11 +169,10 @@ void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/,
                exact_number(view.style.range->lower) + "," + exact_number(view.style.range->upper));
   if (view.color_lens) {
     const Vec3& x = view.color_lens->center;
-    add_option(session, "lens",
-               "sphere:" + exact_number(x.x) + "," + exact_number(x.y) + "," + exact_number(x.z) + "," +
-                   exact_number(view.color_lens->radius));
+    add_option(session, "lens", "sphere:" + exact_text(x) + "," + exact_number(view.color_lens->radius));
     add_option(session, "lens-angle", settings.lens_array);
   }
+  describe_projection(session, view);
   describe_camera(session, view);
 }
 

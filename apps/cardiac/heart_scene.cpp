@@ -268,7 +268,7 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   view.units = units_of(input);
   const Projection projection =
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
-  view.camera = make_camera(view.bounds, camera_angles(options.view.camera), aspect, projection);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection);
   return scene;
 }
 

@@ -13,6 +13,7 @@
 #include "common/base/csv_reader.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/math/vec_text.h"
 #include "common/scene/seeds.h"
 #include "common/scene/time_series.h"
 
@@ -55,8 +56,7 @@ void write_csv(const std::filesystem::path& path, const SeriesSummary& summary, 
   for (std::size_t t = 0; t < summary.times.size(); ++t) {
     for (std::size_t p = 0; p < summary.places.size(); ++p) {
       const Vec3& x = summary.places[p];
-      file.write(exact_number(summary.times[t]) + "," + std::to_string(p) + "," + exact_number(x.x) + "," +
-                 exact_number(x.y) + "," + exact_number(x.z) + "," +
+      file.write(exact_number(summary.times[t]) + "," + std::to_string(p) + "," + exact_text(x) + "," +
                  number_or_nothing(summary.values[t * summary.places.size() + p]) + "\n");
     }
   }

@@ -183,6 +183,7 @@ void DtmriModel::describe_session(Session& session, const InputSpec& spec, const
                lens == volume.lenses.end() ? options.volume.focus : transfer_words(*lens->transfer));
     describe_rays(session, volume);
   }
+  describe_projection(session, view);
   describe_camera(session, view);
 }
 

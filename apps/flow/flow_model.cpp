@@ -145,7 +145,7 @@ void FlowModel::describe_session(Session& session, const InputSpec& /*spec*/, co
   add_option(session, "tolerance", exact_number(settings.tolerance));
   if (settings.step > 0.0) add_option(session, "step", exact_number(settings.step));
   if (settings.max_length > 0.0) add_option(session, "max-length", exact_number(settings.max_length));
-  add_option(session, "camera", camera_text(view.camera, view.bounds, kSessionAspect));
+  describe_camera(session, view);
   add_option(session, "color",
              settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);
   add_option(session, "scalar", options.touch.scalar);

@@ -64,6 +64,7 @@ void GridModel::describe_session(Session& session, const InputSpec& spec, const 
     }
     add_option(session, "contours", contours_text(planes.contours));
   }
+  describe_projection(session, view);
   describe_camera(session, view);
 }
 

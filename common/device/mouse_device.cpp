@@ -25,7 +25,9 @@ void MouseDevice::let_go() noexcept {
 
 bool MouseDevice::read(double now, DeviceSample& sample) noexcept {
   Target fresh;
+  bool anew = false;
   if (targets_.read(fresh)) {
+    anew = target_.grabbed && fresh.grabs != target_.grabs;
     if (fresh.grabs != target_.grabs) {
       start_ = fresh.position;
       interval_ = kShortest;
@@ -36,7 +38,7 @@ bool MouseDevice::read(double now, DeviceSample& sample) noexcept {
     start_time_ = now;
     target_ = fresh;
   }
-  if (!target_.grabbed) return false;
+  if (!target_.grabbed || anew) return false;
   sample = {now, position_at(now), target_.buttons};  // a mouse at rest is no stale one
   return true;
 }

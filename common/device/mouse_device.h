@@ -25,7 +25,8 @@ class MouseDevice final : public Device {
 
   // Window thread, wait-free. `time` [s] is of any steady clock, the same for all calls.
 
-  /// Takes hold: samples begin at `position` at once.
+  /// Takes hold: samples begin at `position` at once. Where it was held already the hand is off the probe for
+  /// a step, so that nothing is pulled along.
   void grab(double time, const Vec3& position, std::uint32_t buttons) noexcept;
   /// Where the hand is to be, once a frame while it is held, moved or not; nothing while it is not.
   void move(double time, const Vec3& target, std::uint32_t buttons) noexcept;

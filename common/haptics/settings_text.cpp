@@ -7,6 +7,7 @@
 #include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/haptics/widget/widget_text.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -37,9 +38,7 @@ bool read_value(std::string_view text, int& value) noexcept {
 }
 
 /// "1,0.5,2"
-std::string value_text(const Vec3& value) {
-  return exact_number(value.x) + "," + exact_number(value.y) + "," + exact_number(value.z);
-}
+std::string value_text(const Vec3& value) { return exact_text(value); }
 
 bool read_value(std::string_view text, Vec3& value) {
   const std::vector<std::string_view> words = split(text, ',');

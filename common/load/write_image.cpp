@@ -15,6 +15,7 @@
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/field/tensor/image_axes.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -133,9 +134,7 @@ std::string nifti_header(const UniformTopology& topology, ImageContent content) 
   return header.text();
 }
 
-std::string vector_text(const Vec3& v) {
-  return "(" + exact_number(v.x) + "," + exact_number(v.y) + "," + exact_number(v.z) + ")";
-}
+std::string vector_text(const Vec3& v) { return "(" + exact_text(v) + ")"; }
 
 std::string nrrd_header(const UniformTopology& topology, ImageContent content) {
   const bool scalar = content == ImageContent::kScalar;

@@ -10,6 +10,7 @@
 #include "common/load/load.h"
 #include "common/load/vtp_appendix.h"
 #include "common/load/write_tractogram.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -68,7 +69,7 @@ void write_csv(OutputFile& file, std::span<const Vec3> points, std::span<const M
   }
   file.write(row + "\n");
   for (std::size_t p = 0; p < points.size(); ++p) {
-    row = exact_number(points[p].x) + "," + exact_number(points[p].y) + "," + exact_number(points[p].z);
+    row = exact_text(points[p]);
     for (const MeshColumn& column : columns)
       for (std::size_t c = 0; c < column.components; ++c)
         (row += ',') += exact_number(column.values[column.components * p + c]);

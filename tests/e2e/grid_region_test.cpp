@@ -87,6 +87,25 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   EXPECT_EQ(std::vector<double>({box[0], box[1], box[2], box[4], box[5]}),
             std::vector<double>({-0.5, -0.5, -0.5, 0.5, 0.5}));
   EXPECT_NEAR(box_after(probe)[3], 0.72, 0.005) << "where the hand was as it let go";
+  // Away from all faces the button takes the view: the same pull moves its middle the other way, by whole
+  // voxels of that axis alone.
+  std::vector<std::string> away = with_teeth;
+  away[8] = "-0.9,-0.9,-0.9,0.99,0.9,0.9";
+  away.insert(away.end(), {"--focal", "0.1,0.2,0.3"});
+  const ProgramResult moved = run(away);
+  ASSERT_EQ(moved.exit_code, 0) << moved.err;
+  const auto focal = Json::parse(moved.out).at("focal").get<std::vector<double>>();
+  ASSERT_EQ(focal.size(), 3U);
+  const double steps = (0.1 - focal[0]) / spacing;
+  EXPECT_NEAR(steps, std::round(steps), 1e-9);
+  EXPECT_NEAR(steps, std::floor((0.72 - from) / spacing), 1.0);
+  EXPECT_EQ(focal[1], 0.2);
+  EXPECT_EQ(focal[2], 0.3);
+  EXPECT_EQ(box_after(away), std::vector<double>({-0.9, -0.9, -0.9, 0.99, 0.9, 0.9}));
+  // At a face it does not.
+  with_teeth.insert(with_teeth.end(), {"--focal", "0.1,0.2,0.3"});
+  EXPECT_EQ(Json::parse(run(with_teeth).out).at("focal").get<std::vector<double>>(),
+            std::vector<double>({0.1, 0.2, 0.3}));
   // Other modes know no box; what is none is refused.
   EXPECT_EQ(run({"probe", "--example", "shells", "--path", "hand.csv", "--box", "1,2", "--json"}).exit_code,
             2);

@@ -12,6 +12,7 @@
 #include "apps/grid/grid_modes.h"
 #include "apps/grid/open_verb.h"
 #include "common/app/cli/command_line.h"
+#include "common/app/cli/line_view.h"
 #include "common/app/cli/window_touch.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/window.h"
@@ -44,6 +45,8 @@ class GridWindow : public ExplorerTest {
     WindowOptions window{.program = "grid",
                          .width = kWidth,
                          .height = kHeight,
+                         .angles = camera_angles(parsed.options.view.camera),
+                         .focal_point = focal_point_of(parsed.options.view),
                          .picture_folder = folder_.path(),
                          .touch = window_touch(grid_modes(), parsed.options, context),
                          // Frames of some length: between two events the servo has time to answer.
@@ -137,6 +140,30 @@ TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
   ASSERT_EQ(again.view.volume->lenses.size(), 1U);
   EXPECT_EQ(center_of(again.view.volume->lenses[0].shape, Vec3(0.0)), lens);
   EXPECT_EQ(again.view.camera.axes, made.view.camera.axes);
+}
+
+// The button held on the grid carries the scene along one axis; let go, view and hand stay where they are.
+TEST_F(GridWindow, TheHandCarriesTheViewAlongOneAxisOfTheGrid) {
+  const std::string tooth = folder_.path("tooth.nhdr").string();
+  move(middle_.x, middle_.y);
+  at({.kind = InputKind::kKeyDown, .key = 'G'});
+  next_ += 10;
+  at({.kind = InputKind::kPress});
+  for (int i = 1; i <= 20; ++i) move(middle_.x, middle_.y - 5.0 * i);
+  at({.kind = InputKind::kRelease});
+  next_ += 20;
+  const WindowResult result =
+      open({tooth, "--camera", "0,0,0,1", "--focal", "51.2,46.2,80.3", "--grid-teeth", "1"}, "carried");
+  const Vec3 taken{51.2, 46.2, 80.3};
+  const Vec3 moved = result.view.camera.focal_point - taken;
+  EXPECT_EQ(moved.x, 0.0);
+  EXPECT_EQ(moved.y, 0.0);
+  // Up is +z, and the tooth's voxels are one unit high; the scene has gone up with the hand.
+  EXPECT_LT(moved.z, -5.0);
+  EXPECT_NEAR(moved.z, std::round(moved.z), 1e-9);
+  // The hand is on the place that it had taken hold of, within the stretch of a tooth.
+  ASSERT_TRUE(result.probe.held);
+  EXPECT_LT(glm::distance(result.probe.probe, taken), 15.0);
 }
 
 }  // namespace

@@ -111,6 +111,7 @@ class VerbParser {
     if (verb.groups.measure) add_measure();
     if (verb.groups.slice) add_slice();
     if (verb.groups.part) add_part();
+    if (verb.groups.focal) add_focal_option(scene_options_, options_.view);
     if (verb.groups.turn) add_turn();
   }
 

@@ -58,6 +58,7 @@ struct VerbGroups {
   bool measure = false;  ///< --measure
   bool slice = false;    ///< --plane and how a slice is written
   bool part = false;     ///< --box of a volume
+  bool focal = false;    ///< --focal without `view`: of a view that a hand moves over a haptic grid
   bool turn = false;     ///< --tracts and --turn
 };
 

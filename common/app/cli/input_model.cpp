@@ -4,6 +4,7 @@
 
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 
@@ -30,9 +31,14 @@ SceneState begin_state(const Input& input, const SceneSettings& settings) {
 }
 
 void describe_camera(Session& session, const SceneView& view) {
+  const Vec3& focal = view.camera.focal_point;
+  add_option(session, "camera", camera_text(view.camera, view.bounds, kSessionAspect));
+  if (focal != view.bounds.center()) add_option(session, "focal", exact_text(focal));
+}
+
+void describe_projection(Session& session, const SceneView& view) {
   const bool parallel = view.camera.projection == Projection::kOrthographic;
   add_option(session, "projection", parallel ? "orthographic" : "perspective");
-  add_option(session, "camera", camera_text(view.camera, view.bounds, kSessionAspect));
 }
 
 void describe_rays(Session& session, const VolumeView& volume) {

@@ -26,8 +26,9 @@ namespace palpate {
 /// A scene of `input` without lines, with its notes and the seconds that loading took.
 [[nodiscard]] SceneState begin_state(const Input& input, const SceneSettings& settings);
 
-/// Camera and projection as a session's options.
+/// The camera as a session's options, and how it projects where that can be chosen.
 void describe_camera(Session& session, const SceneView& view);
+void describe_projection(Session& session, const SceneView& view);
 /// The lenses of a volume, and how its rays are cast.
 void describe_rays(Session& session, const VolumeView& volume);
 

@@ -527,6 +527,7 @@ std::string probe_json(const ProbeSummary& summary) {
     if (const auto& box = summary.box) {
       json["box"] = {box->lower.x, box->lower.y, box->lower.z, box->upper.x, box->upper.y, box->upper.z};
     }
+    if (summary.focal_point) json["focal"] = vec_json(*summary.focal_point);
   }
   if (summary.mode == kPlaneWidgetMode) {
     Json& planes = json["planes"] = Json::array();

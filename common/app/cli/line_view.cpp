@@ -27,6 +27,18 @@ CameraAngles camera_angles(const std::string& text) {
   return angles;
 }
 
+std::optional<Vec3> focal_point_of(const ViewOptions& options) {
+  if (options.focal.empty()) return std::nullopt;
+  const auto v = parse_numbers(options.focal, 3, "--focal takes a place x,y,z of the data, such as 10,20,0");
+  return Vec3{v[0], v[1], v[2]};
+}
+
+Camera camera_of(const ViewOptions& options, const Box& bounds, double aspect, Projection projection) {
+  Camera camera = make_camera(bounds, camera_angles(options.camera), aspect, projection);
+  camera.focal_point = focal_point_of(options).value_or(camera.focal_point);
+  return camera;
+}
+
 std::string camera_text(const Camera& camera, const Box& bounds, double aspect) {
   const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
   // The inverse of make_camera(): the axis towards the viewer gives azimuth and elevation, what is left is
@@ -55,7 +67,7 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = make_camera(view.bounds, camera_angles(options.view.camera), aspect);
+  view.camera = camera_of(options.view, view.bounds, aspect);
   return view;
 }
 

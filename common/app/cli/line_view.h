@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,15 @@ inline constexpr double kViewDiagonals = 1.0;
 /// @throws Error (usage).
 [[nodiscard]] CameraAngles camera_angles(const std::string& text);
 
-/// The angles of a camera that looks at the box, as `--camera` writes them; panning is not part of them.
+/// What `--focal` says; none where it says nothing. @throws Error (usage).
+[[nodiscard]] std::optional<Vec3> focal_point_of(const ViewOptions& options);
+
+/// The camera that `--camera` and `--focal` name, before `bounds`. @throws Error (usage).
+[[nodiscard]] Camera camera_of(const ViewOptions& options, const Box& bounds, double aspect,
+                               Projection projection = Projection::kPerspective);
+
+/// The angles of a camera that looks at the box, as `--camera` writes them; the focal point is not part of
+/// them.
 [[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
 
 /// A scene of `lines` seen by the camera that `options` name.

@@ -74,6 +74,7 @@ struct TractTracingOptions {
 /// How it is looked at.
 struct ViewOptions {
   std::string camera;            ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
+  std::string focal;             ///< x,y,z in the middle of the picture; empty: the middle of what is shown
   std::string color;             ///< array that colours the lines; empty: speed
   double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
   double play_rate = 5.0;        ///< time steps a second

@@ -105,7 +105,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   const PictureSize size = parse_size(options.size);
-  (void)camera_angles(options.view.camera);
+  (void)camera_of(options.view, Box{}, 1.0);
   const StereoView stereo = stereo_of(options.view);
   check_head(options, eye_aspect(stereo.mode, size.width, size.height));
   if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {

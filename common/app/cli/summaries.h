@@ -111,8 +111,9 @@ struct ProbeSummary {
   PlanePoses planes;            ///< of the plane widget at the end, data coordinates
   std::vector<Vec4> landmarks;  ///< of the grid: n, d with n.x = d
   std::optional<Box> box;  ///< of interest, where the hand has left it on a haptic grid, data coordinates
-  std::string tract;       ///< where the way of the proxy was saved; empty: nowhere
-  std::size_t tracts = 0;  ///< in it
+  std::optional<Vec3> focal_point;  ///< of the view that the hand has moved over the grid
+  std::string tract;                ///< where the way of the proxy was saved; empty: nowhere
+  std::size_t tracts = 0;           ///< in it
   std::size_t steps = 0;
   ChainSettings settings;
   DeviceLimits limits;

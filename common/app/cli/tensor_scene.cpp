@@ -149,8 +149,8 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Op
     view.subtitle = view.subtitle.empty() ? count : count + ", " + view.subtitle;
   }
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = make_camera(
-      view.bounds, camera_angles(options.view.camera), aspect,
+  view.camera = camera_of(
+      options.view, view.bounds, aspect,
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
   view.tensors = std::move(parts.tensors);
   view.tracts = std::move(parts.tracts);

@@ -21,6 +21,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
   const CameraAngles angles = camera_angles(options.view.camera);
+  const std::optional<Vec3> focal_point = focal_point_of(options.view);
   const StereoView stereo = stereo_of(options.view);
   verb.check(options);
   const bool felt = !verb.modes.empty();
@@ -42,6 +43,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .program = context.explorer.name,
       .frame_budget = options.view.frame_budget > 0.0 ? options.view.frame_budget : kFrameBudget,
       .angles = angles,
+      .focal_point = focal_point,
       .command_line = context.command_line,
       .version = version_text(context.explorer.name),
       .touch = std::move(touch),

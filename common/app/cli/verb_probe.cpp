@@ -7,6 +7,7 @@
 
 #include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/json_output.h"
+#include "common/app/cli/line_view.h"
 #include "common/app/cli/probe_log.h"
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/slice_plane.h"
@@ -20,6 +21,7 @@
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/linear_mode.h"
+#include "common/app/haptic/view_hold.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
@@ -30,6 +32,7 @@
 #include "common/haptics/constraint/layer.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/load/write_lines.h"
+#include "common/math/vec_text.h"
 #include "common/scene/plan.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"
@@ -94,6 +97,7 @@ std::string summary_text(const ProbeSummary& summary) {
             exact_number(plane.z) + "," + exact_number(plane.w) + "\n";
   }
   if (summary.box) text += "  box        " + box_text(*summary.box) + "\n";
+  if (summary.focal_point) text += "  focal      " + exact_text(*summary.focal_point) + "\n";
   for (const Vec4& plane : summary.landmarks) {
     text += "  landmark   " + short_number(plane.x) + "," + short_number(plane.y) + "," +
             short_number(plane.z) + "," + short_number(plane.w) + "\n";
@@ -131,6 +135,9 @@ class ProbeRun {
     bounds_ = bounds;
   }
 
+  /// The button takes hold of the view where it is at no face: of summary.focal_point.
+  void hold_view() { holds_view_ = true; }
+
   /// Takes one step by `step`, and its time. @param row what stands in the log for where the probe was.
   template <class Step>
   void take(const PathRow& row, const Step& make_step) {
@@ -139,7 +146,7 @@ class ProbeRun {
     const double microseconds = thread_microseconds() - before;
     if (log_) log_->add(row, step, microseconds);
     if (pen_ != nullptr) draw(row, step);
-    if (box_reach_ > 0.0) size_box(row, step);
+    if (box_reach_ > 0.0 || holds_view_) lead_by_grid(row, step);
     times_.push_back(static_cast<float>(microseconds));
     ++summary_.states[static_cast<std::size_t>(step.state)];
     if (step.state == HoldState::kFault && first_fault_ == 0) {
@@ -173,10 +180,14 @@ class ProbeRun {
     pen_->add(row.time, proxy, glm::length(step.force));
   }
 
-  void size_box(const PathRow& row, const HandStep& step) {
+  void lead_by_grid(const PathRow& row, const HandStep& step) {
     if (step.state != HoldState::kHeld && step.state != HoldState::kFellBack) return;
     const Vec3 proxy = ProbeLog::in_data(step.chain.proxy(step.probe), row, step, workspace_);
-    box_hold_.follow((step.buttons & 1U) != 0, proxy, box_reach_, bounds_, *summary_.box);
+    const bool pressed = (step.buttons & 1U) != 0;
+    if (box_reach_ > 0.0) box_hold_.follow(pressed, proxy, box_reach_, bounds_, *summary_.box);
+    if (!holds_view_) return;
+    if (const auto left = view_hold_.follow(pressed && !box_hold_.held(), proxy))
+      *summary_.focal_point += *left;
   }
 
   ProbeSummary& summary_;
@@ -185,6 +196,8 @@ class ProbeRun {
   std::optional<ProbeLog> log_;
   TractPen* pen_ = nullptr;
   BoxHold box_hold_;
+  ViewHold view_hold_;
+  bool holds_view_ = false;
   double box_reach_ = 0.0;  ///< [data units]; 0: there is no box
   Box bounds_;
   std::vector<float> times_;
@@ -370,6 +383,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
     simulated->limits = summary.limits;
   }
   (void)touch_settings(options.touch);
+  (void)focal_point_of(options.view);
   std::vector<PathRow> path;
   std::vector<TrackedHands> hands;
   WorkbenchGeometry bench;
@@ -432,6 +446,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (mode.name == kGridMode && !options.slice.box.empty()) {
     summary.box = parse_box(options.slice.box, "--box");
     run.hold_box(summary.settings.grid_axis.threshold / workspace.scale(), felt.bounds);
+  }
+  if (mode.name == kGridMode) {
+    summary.focal_point = focal_point_of(options.view).value_or(felt.bounds.center());
+    run.hold_view();
   }
   if (recording) {
     // The fields of all examples have the same label.
@@ -509,14 +527,19 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 
 Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   const bool has_grid = std::ranges::any_of(modes, [](const HapticMode& m) { return m.name == kGridMode; });
-  return {
-      .name = "probe",
-      .summary = "follow a recorded path of the probe and log proxies and forces",
-      .groups = {.touch = true, .path = true, .hand = true, .replay = true, .out = true, .part = has_grid},
-      .examples = std::move(examples),
-      .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
-        return run_probe(modes, options, context);
-      }};
+  return {.name = "probe",
+          .summary = "follow a recorded path of the probe and log proxies and forces",
+          .groups = {.touch = true,
+                     .path = true,
+                     .hand = true,
+                     .replay = true,
+                     .out = true,
+                     .part = has_grid,
+                     .focal = has_grid},
+          .examples = std::move(examples),
+          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+            return run_probe(modes, options, context);
+          }};
 }
 
 }  // namespace palpate

@@ -164,9 +164,18 @@ void add_tract_look(SceneOptions& options, TractLook& tracts) {
 
 }  // namespace
 
+void add_focal_option(SceneOptions& options, ViewOptions& view) {
+  options.add(
+      "--focal", view.focal,
+      "place of the data in the middle of the picture, about which the view turns; default: the middle "
+      "of what is shown. On a haptic grid the button takes hold of the view, away from faces of --box",
+      "x,y,z", kGroup);
+}
+
 void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
   options.add("--camera", bound.view.camera, "direction of view in degrees, and zoom",
               "azimuth,elevation,roll,zoom", kGroup);
+  add_focal_option(options, bound.view);
   options
       .add("--frame-budget", bound.view.frame_budget,
            "milliseconds that a picture may take while something moves: samples along rays are given up "

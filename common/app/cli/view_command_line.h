@@ -7,6 +7,8 @@
 
 namespace palpate {
 
+/// --focal alone.
+void add_focal_option(SceneOptions& options, ViewOptions& view);
 /// Binds the options to parts of `bound`, which outlives `options`. @param kind of the explorer's fields.
 void add_view_options(SceneOptions& options, Options& bound, FieldKind kind);
 

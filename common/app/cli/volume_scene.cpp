@@ -156,8 +156,8 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
   view.subtitle = view.volume_label + ", " + std::to_string(image->points.x) + " x " +
                   std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = make_camera(
-      view.bounds, camera_angles(options.view.camera), aspect,
+  view.camera = camera_of(
+      options.view, view.bounds, aspect,
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
   VolumeView volume;
   volume.transfer = color_transfer_of(options.volume.transfer, *image, options.common.threads);

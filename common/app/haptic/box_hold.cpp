@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/base/text.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -19,13 +19,7 @@ double distance_to(BoxFace face, const Box& box, const Vec3& x) noexcept {
 
 }  // namespace
 
-std::string box_text(const Box& box) {
-  std::string text;
-  for (const Vec3& corner : {box.lower, box.upper}) {
-    for (int axis = 0; axis < 3; ++axis) text += (text.empty() ? "" : ",") + exact_number(corner[axis]);
-  }
-  return text;
-}
+std::string box_text(const Box& box) { return exact_text(box.lower) + "," + exact_text(box.upper); }
 
 void move_face(BoxFace face, double to, const Box& bounds, Box& box) noexcept {
   const int axis = static_cast<int>(face / 2);

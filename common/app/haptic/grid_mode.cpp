@@ -13,6 +13,7 @@
 #include "common/haptics/widget/plane_widget_link.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/math/units.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -207,9 +208,7 @@ std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSett
       {"grid-notch", exact_number(settings.notch / kMetresPerMillimetre)},
       {"grid-teeth", exact_number(settings.teeth)}};
   const Vec3& h = settings.spacing;
-  if (h.x > 0.0 && h.y > 0.0 && h.z > 0.0)
-    options.emplace_back("grid-spacing",
-                         exact_number(h.x) + "," + exact_number(h.y) + "," + exact_number(h.z));
+  if (h.x > 0.0 && h.y > 0.0 && h.z > 0.0) options.emplace_back("grid-spacing", exact_text(h));
   if (settings.marks.count > 0) options.emplace_back("grid-marks", text_of(settings.marks));
   return options;
 }

@@ -255,6 +255,10 @@ void ProbeSession::let_go() noexcept {
   if (mouse_->grabbed()) mouse_->let_go();
 }
 
+void ProbeSession::shift_hand(double time, const Vec3& by) {
+  if (mouse_->grabbed() && by_mouse()) hold(time, intent().probe + by);
+}
+
 void ProbeSession::force_off() noexcept {
   if (servo_) servo_->force_off();
 }

@@ -93,6 +93,8 @@ class ProbeSession {
   void lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept;
   [[nodiscard]] const HandsIntent& intent() const noexcept { return technique_->intent(); }
   void let_go() noexcept;
+  /// Takes the hand off the probe and on again where it is now, moved by `by`: its view has been moved.
+  void shift_hand(double time, const Vec3& by);
   /// Whether the mode waits for a button, which takes hold of planes or, on a haptic grid, of the faces of a
   /// box.
   [[nodiscard]] bool takes_hold() const noexcept;

@@ -132,6 +132,9 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     if (state.touch != nullptr && state.touch->planes()) {
       row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
       row("drag a plane's ring", "move the plane; along an axis on that alone");
+    } else if (state.touch != nullptr && state.touch->takes_hold()) {
+      row("drag with the probe",
+          "on the grid: carry the view along it, or the face of a region that it is at");
     }
     if (state.touch != nullptr && state.touch->scalar() && !state.touch->has_flow())
       row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");

@@ -253,6 +253,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +
              (session_.has_flow()      ? "K keeps the line, G lets go"
               : session_.has_tensors() ? "K keeps the tract, G lets go"
+              : session_.takes_hold()  ? "its button takes hold, G lets go"
                                        : "G lets go");
     case Command::kForceOff:
       session_.force_off();

@@ -15,6 +15,7 @@
 #include <imgui.h>
 
 #include "common/app/haptic/probe_picture.h"
+#include "common/app/haptic/view_hold.h"
 #include "common/app/window/background_job.h"
 #include "common/app/window/color_lens_control.h"
 #include "common/app/window/event_text.h"
@@ -61,7 +62,8 @@ class Window {
         files_(options.picture_folder, options.program),
         glfw_(options),
         view_(options.view),
-        region_control_(options.region) {
+        region_control_(options.region),
+        focal_point_(options.focal_point) {
     GLFWwindow* const window = glfw_.get();
     glfwSwapInterval(scripted() ? 0 : 1);
     float scale = 1.0F;
@@ -314,6 +316,8 @@ class Window {
       view_.camera = make_camera(view_.bounds, options_.angles,
                                  eye_aspect(view_.stereo.mode, parts.picture.width, parts.picture.height),
                                  view_.camera.projection);
+      // Of the first view alone: a reset shows all there is.
+      view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
       needs_camera_ = false;
     }
     state_.scene = scene_ ? &*scene_ : nullptr;
@@ -360,7 +364,7 @@ class Window {
     if (actions.lens) say(lens_control_.follow(*actions.lens), false);
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
-    size_region();
+    lead_by_grid();
     follow_edits();
     // Surfaces are solid: they would hide what is in a lens.
     const bool lenses =
@@ -410,12 +414,16 @@ class Window {
     cut_planes_ = poses;
   }
 
-  /// The hand on a haptic grid takes hold of the faces of the region of interest.
-  void size_region() {
-    if (!has_region()) return;
+  /// The hand on a haptic grid takes hold of the faces of the region of interest, or else of the view.
+  void lead_by_grid() {
     const bool holds = touch_->holds_on_grid();
-    region_control_.follow_hand(holds, touch_->readout().proxy, holds ? touch_->box_reach() : 0.0,
-                                view_.bounds);
+    const Vec3& hand = touch_->readout().proxy;
+    if (has_region())
+      region_control_.follow_hand(holds, hand, holds ? touch_->box_reach() : 0.0, view_.bounds);
+    const std::optional<Vec3> left = view_hold_.follow(holds && !region_control_.dragging(), hand);
+    if (!left) return;
+    view_.camera.focal_point += *left;
+    touch_->shift_hand(glfwGetTime(), *left);
   }
 
   // Panels first: what happens over them is not for the camera.
@@ -671,6 +679,14 @@ class Window {
   /// isosurfaces felt, which they would bury.
   [[nodiscard]] SceneView with_focus() const {
     SceneView picture = view_;
+    if (const Vec3 moved = view_hold_.moved(); moved != Vec3{0.0}) {
+      // The hand is drawn on the place of the scene that it has taken hold of.
+      picture.camera.focal_point += moved;
+      if (picture.probe) {
+        picture.probe->probe += moved;
+        picture.probe->proxy += moved;
+      }
+    }
     const bool hand = touch_->readout().held || !touch_->kept().entries().empty();
     // Those on a layer are its grain.
     const bool on_layer = scene_ && scene_->info->layers;
@@ -736,6 +752,8 @@ class Window {
   ColorLensControl color_lens_control_;
   PlaneImageControl plane_image_control_;
   RegionControl region_control_;
+  std::optional<Vec3> focal_point_;  ///< of the first camera
+  ViewHold view_hold_;
   ViewEdits view_edits_;
   PlanePoses cut_planes_;  // those of the hand for which the first cuts stand
   std::optional<InputFiles> to_open_;

@@ -27,6 +27,7 @@ struct WindowOptions {
   SceneView view;
   double frame_budget = kFrameBudget;          ///< [ms] that a picture may take while something moves
   CameraAngles angles;                         ///< the first view, and that of a reset
+  std::optional<Vec3> focal_point;             ///< of the first view; none: the middle of what is shown
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
   std::vector<InputFiles> recent;              ///< offered for opening, newest first

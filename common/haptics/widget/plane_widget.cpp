@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -31,7 +32,9 @@ Quaternion quaternion(const PlanePose& pose) noexcept {
 }
 
 void set_turn(PlanePose& pose, const Quaternion& q) noexcept {
-  const Quaternion unit = glm::normalize(q);
+  // One that is of unit length to rounding keeps its bits, so that what is saved comes back as it was.
+  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  const Quaternion unit = std::abs(glm::dot(q, q) - 1.0) <= kRounding ? q : glm::normalize(q);
   pose.turn = {unit.x, unit.y, unit.z, unit.w};
 }
 
@@ -320,7 +323,12 @@ void PlaneWidget::blend(const Vec3& x) noexcept {
 
 void PlaneWidget::tell() noexcept {
   WidgetNews news{poses_, state_, current_, holding_, settings_.edit};
-  for (PlanePose& pose : news.poses.pose) pose.center /= scale_;
+  for (std::size_t i = 0; i < news.poses.pose.size(); ++i) {
+    // Where it has been put, to the bit, as long as it is there.
+    const Vec3& put = settings_.poses.pose[i].center;
+    Vec3& center = news.poses.pose[i].center;
+    center = center == put * scale_ ? put : center / scale_;
+  }
   news_->write(news);
 }
 

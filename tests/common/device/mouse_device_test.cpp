@@ -51,13 +51,20 @@ TEST(MouseDevice, MovesInAStraightLineOverOneIntervalOfTheWindow) {
 }
 
 // A new grab somewhere else is no motion from where the last one ended.
-TEST(MouseDevice, StartsANewHoldWhereItIs) {
+// Otherwise the leap would be a motion, and a fast one.
+TEST(MouseDevice, StartsANewHoldWhereItIsAfterAStepWithoutAHand) {
   MouseDevice mouse;
-  mouse.grab(0.0, {0, 0, 0}, 0);
+  mouse.grab(0.0, {0, 0, 0}, 1);
   EXPECT_EQ(read_at(mouse, 0.0), Vec3(0.0));
+  mouse.grab(0.01, {0.1, 0, 0}, 0);
+  DeviceSample sample;
+  EXPECT_FALSE(mouse.read(kTick, sample));
+  EXPECT_EQ(read_at(mouse, 2 * kTick), Vec3(0.1, 0.0, 0.0));
+  // Let go and taken again between two steps.
   mouse.let_go();
   mouse.grab(0.1, {1, 1, 1}, 0);
-  EXPECT_EQ(read_at(mouse, 0.1), Vec3(1.0));
+  EXPECT_FALSE(mouse.read(3 * kTick, sample));
+  EXPECT_EQ(read_at(mouse, 4 * kTick), Vec3(1.0));
 }
 
 // Irregular frames, targets that wander and sometimes jump far: each tick stays between the position before

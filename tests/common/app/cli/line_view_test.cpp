@@ -39,6 +39,21 @@ TEST(CameraText, IsTheInverseOfMakeCamera) {
   }
 }
 
+TEST(CameraOf, LooksAtTheFocalPointAndElseAtTheMiddle) {
+  ViewOptions options{.camera = "30,20,0,2"};
+  const Camera whole = camera_of(options, kBox, 1.5);
+  EXPECT_EQ(whole, make_camera(kBox, camera_angles("30,20,0,2"), 1.5));
+  options.focal = "0.5,-1,1e-3";
+  Camera moved = camera_of(options, kBox, 1.5);
+  EXPECT_EQ(moved.focal_point, Vec3(0.5, -1.0, 1e-3));
+  moved.focal_point = whole.focal_point;
+  EXPECT_EQ(moved, whole);
+  for (const char* text : {"1,2", "1,2,3,4", "a,b,c", "nan,0,0", "1,2,inf"}) {
+    options.focal = text;
+    EXPECT_THROW((void)camera_of(options, kBox, 1.5), Error) << text;
+  }
+}
+
 // A block with flat sides and 4 x 4 x 4 cells: its outline is the twelve edges of the box, four pieces each,
 // and none of the diagonals of the tetrahedra on its sides.
 TEST(DomainOutline, IsTheSharpEdgesOfATetrahedralDomain) {

@@ -252,6 +252,21 @@ TEST(PlaneWidget, TakesPlanesThatAreTypedIn) {
   EXPECT_NEAR(bench.widget().pose(0).center.y, 0.01, 1e-15);
 }
 
+// A session that is opened and saved again is the same to the bit.
+TEST(PlaneWidget, TellsPlanesThatNobodyMovesAsTheyWerePut) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 1000; ++trial) {
+    ChainSettings settings;
+    settings.plane_widget.poses.count = 1;
+    PlanePose& put = settings.plane_widget.poses.pose[0];
+    const Vec3 normal = glm::normalize(Vec3{uniform(random), uniform(random), uniform(random)});
+    put = turned_to({.center = 100.0 * Vec3{uniform(random), uniform(random), uniform(random)}}, normal);
+    Bench bench(settings, Mat3{1.0}, 0.25 / (1.0 + std::abs(uniform(random))));
+    EXPECT_EQ(bench.news().poses, settings.plane_widget.poses) << trial;
+  }
+}
+
 TEST(PlaneWidget, StepAllocatesNothing) {
   Bench bench(15.0);
   const AllocationGuard guard;

@@ -15,9 +15,11 @@ class Bench {
  public:
   explicit Bench(double detent = 0.0, const Mat3& data_axes = Mat3{1.0})
       : Bench(with_detent(detent), data_axes) {}
-  explicit Bench(const ChainSettings& settings, const Mat3& data_axes = Mat3{1.0}) : settings_(settings) {
+  /// @param scale metres per data unit.
+  explicit Bench(const ChainSettings& settings, const Mat3& data_axes = Mat3{1.0}, double scale = 1.0)
+      : settings_(settings) {
     std::vector<std::unique_ptr<Constraint>> links;
-    widget_ = std::make_shared<PlaneWidget>(1.0, data_axes, PlanePose{}, news_);
+    widget_ = std::make_shared<PlaneWidget>(scale, data_axes, PlanePose{}, news_);
     for (int place = 0; place < PlaneWidget::kLinks; ++place)
       links.push_back(std::make_unique<PlaneWidgetLink>(widget_, place));
     chain_ = std::make_unique<ProxyChain>(std::move(links), settings_);
@@ -41,6 +43,10 @@ class Bench {
   ProxyChain& chain() { return *chain_; }
   PlaneWidget& widget() { return *widget_; }
   ChainSettings& settings() { return settings_; }
+  WidgetNews news() {
+    (void)news_->read(last_news_);
+    return last_news_;
+  }
 
  private:
   [[nodiscard]] static ChainSettings with_detent(double detent) {
@@ -54,6 +60,7 @@ class Bench {
   std::shared_ptr<PlaneWidget> widget_;
   std::unique_ptr<ProxyChain> chain_;
   Vec3 hand_{0.2};
+  WidgetNews last_news_;
 };
 
 }  // namespace palpate::test
