@@ -4,6 +4,7 @@
 
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
+#include "common/app/haptic/texture_link.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/force_field/force_field.h"
@@ -11,19 +12,23 @@
 namespace palpate {
 namespace {
 
-/// A chain of `link` alone.
-HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene) {
+/// A chain of `link` alone, or with a texture.
+/// @param surface the same link, where only that has the texture.
+HapticChain single(std::unique_ptr<Constraint> link, const HapticScene& scene,
+                   const IsosurfaceConstraint* surface = nullptr) {
   std::vector<std::unique_ptr<Constraint>> links;
   links.push_back(std::move(link));
   HapticChain made;
+  made.noise = add_texture(links, scene, surface);
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }
 
 HapticChain make_isosurface(const HapticScene& scene) {
   const Isovalues otherwise{{otsu_threshold(*scene.scalar)}, 1};
-  HapticChain made =
-      single(std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise), scene);
+  auto surface = std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise);
+  const IsosurfaceConstraint* const its = surface.get();
+  HapticChain made = single(std::move(surface), scene, its);
   made.surfaces_of = scene.scalar;
   made.isovalues = otherwise;
   return made;

@@ -16,6 +16,7 @@
 #include "common/haptics/constraint/plane_widget_settings.h"
 #include "common/haptics/constraint/shape_settings.h"
 #include "common/haptics/constraint/streamline_settings.h"
+#include "common/haptics/constraint/texture_settings.h"
 #include "common/haptics/constraint/tick_settings.h"
 #include "common/haptics/force_field/force_field_settings.h"
 #include "common/haptics/passivity_settings.h"
@@ -34,6 +35,7 @@ struct ChainSettings {
   PlaneWidgetSettings plane_widget;
   IsosurfaceSettings isosurface;
   LinearSettings linear;
+  TextureSettings texture;
   AnisotropySettings anisotropy;
   FibreSettings fibre;
   ForceFieldSettings force_field;
@@ -45,7 +47,7 @@ struct ChainSettings {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
            passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
            grid_axis.valid() && plane_widget.valid() && isosurface.valid() && linear.valid() &&
-           anisotropy.valid() && fibre.valid() && force_field.valid();
+           texture.valid() && anisotropy.valid() && fibre.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -62,6 +64,7 @@ struct ChainSettings {
     PlaneWidgetSettings::each(self.plane_widget, visit);
     IsosurfaceSettings::each(self.isosurface, visit);
     LinearSettings::each(self.linear, visit);
+    TextureSettings::each(self.texture, visit);
     AnisotropySettings::each(self.anisotropy, visit);
     FibreSettings::each(self.fibre, visit);
     ForceFieldSettings::each(self.force_field, visit);

@@ -178,6 +178,7 @@ struct TouchOptions {
   LinearWords linear;                    ///< mode linear
   GridWords grid;                        ///< mode grid
   PlaneWords planes;                     ///< mode plane-widget
+  std::string noise_texture = "off";     ///< grammar of texture_settings()
   double field_force = 1.0;              ///< [N] of the force-field modes
   double field_damping = 5.0;            ///< [N s/m], likewise
   std::string density_curve;             ///< haptic transfer function; empty: straight

@@ -23,6 +23,7 @@ ProbeLog::ProbeLog(OutputFile& file, const Workspace& workspace, int links, cons
     if (measured.scalar->lowest() <= measured.scalar->highest())
       histogram_ = value_histogram(*measured.scalar);
   }
+  if (measured.noise != nullptr) header += ",noise";
   file_.write(header + "\n");
 }
 
@@ -53,6 +54,10 @@ void ProbeLog::add(const PathRow& row, const HandStep& step, double microseconds
     const double local = sample.value * measured_.scalar->value_scale();
     (line_ += ',') += exact_number(there ? sample.value : NAN);
     (line_ += ',') += exact_number(there ? part_below(histogram_, local) : NAN);
+  }
+  if (measured_.noise != nullptr) {
+    const ScalarSample sample = measured_.noise->sample(proxy, noise_hint_);
+    (line_ += ',') += exact_number(sample.status == SampleStatus::kOk ? sample.value : NAN);
   }
   line_ += '\n';
   file_.write(line_);

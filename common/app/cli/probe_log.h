@@ -19,6 +19,7 @@ class ProbeLog {
   struct Measured {
     const TensorField* tensors = nullptr;  ///< force, cl, cp, cs and fa
     const ScalarField* scalar = nullptr;   ///< value, and below: the part of all values that are lower
+    const ScalarField* noise = nullptr;    ///< noise, as a part of the range of the values
   };
   ProbeLog(OutputFile& file, const Workspace& workspace, int links, const Measured& measured);
 
@@ -37,7 +38,7 @@ class ProbeLog {
   int links_;
   Measured measured_;
   ValueHistogram histogram_;  ///< of the scalar, local values
-  CellHint hint_;
+  CellHint hint_, noise_hint_;
   std::string line_;
 };
 

@@ -147,6 +147,14 @@ void add_grid(SceneOptions& options, GridWords& grid) {
               kGroup);
 }
 
+void add_texture_option(SceneOptions& options, TouchOptions& touch) {
+  options.add(
+      "--noise-texture", touch.noise_texture,
+      "isosurface, density, linear: noise of the data felt as a grain: off (default), on, or its size in "
+      "mm by the noise as a part of the range of the values; on: 0.001:0,0.02:2",
+      "off|on|NOISE:MM,NOISE:MM[,...][,smooth]", kGroup);
+}
+
 void add_planes(SceneOptions& options, PlaneWords& planes) {
   options.add("--planes", planes.planes,
               "plane-widget: up to four planes to begin with: nx,ny,nz,d each, or three points, or centre "
@@ -216,6 +224,7 @@ void add_touch_options(SceneOptions& options, TouchOptions& touch, FieldKind kin
   add_linear(options, touch, kind);
   add_force_fields(options, touch);
   if (kind != FieldKind::kScalar) return;
+  add_texture_option(options, touch);
   add_grid(options, touch.grid);
   add_planes(options, touch.planes);
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/app/haptic/haptic_mode.h"
+#include "common/app/haptic/texture_link.h"
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/haptics/proxy_chain.h"
@@ -77,6 +78,7 @@ ChainSettings touch_settings(const TouchOptions& options) {
                     .most_friction = kMetresPerMillimetre * options.most_friction};
   settings.ticks.stiffness = options.tick_stiffness;
   settings.linear = linear_settings(options.linear);
+  settings.texture = texture_settings(options.noise_texture);
   settings.grid_axis = grid_settings(options.grid);
   settings.plane_widget = plane_settings(options.planes);
   settings.force_field.strength = options.field_force;
@@ -135,7 +137,7 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
 
 void check_replay_options(const Options& options) {
   if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 42> kRecorded{"anisotropy-curve",
+  constexpr std::array<std::string_view, 43> kRecorded{"anisotropy-curve",
                                                        "grid-frame",
                                                        "grid-spacing",
                                                        "grid-marks",
@@ -176,7 +178,8 @@ void check_replay_options(const Options& options) {
                                                        "tau",
                                                        "kappa",
                                                        "measure",
-                                                       "friction"};
+                                                       "friction",
+                                                       "noise-texture"};
   for (const auto& [name, value] : options.given) {
     if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");

@@ -417,7 +417,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
   // Of a heart the tensors are its fibres, which no column tells of.
-  const ProbeLog::Measured logged{
+  ProbeLog::Measured logged{
       .tensors = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr,
       .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr};
   if (context.explorer.kind == FieldKind::kFibre && !recording) {
@@ -438,6 +438,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   if (!options.out.empty()) file.emplace(options.out, options.common.force);
   ProbeRun run(summary, workspace, context);
   std::shared_ptr<WidgetNewsBuffer> planes;
+  std::shared_ptr<const ScalarField> noise;  ///< that is felt
   std::optional<TractPen> pen;
   if (!options.tract.empty()) {
     pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
@@ -462,8 +463,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
       HapticChain made = build_chain(description, modes, open, options.common.threads);
       links = std::max(links, made.chain->size());
       planes = made.planes;
+      noise = made.noise;
       return std::move(made.chain);
     });
+    logged.noise = noise.get();
     if (file) run.log_to(*file, links, logged);
     follow_recording(replay, workspace, run, context.progress);
     if (!replay.recording().chains.empty()) {
@@ -480,6 +483,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   } else {
     HapticChain haptics = mode.make(
         {felt.field, workspace, summary.settings, options.common.threads, felt.scalar, felt.tensor});
+    noise = haptics.noise;
+    logged.noise = noise.get();
     if (file) run.log_to(*file, haptics.chain->size(), logged);
     planes = haptics.planes;
     summary.landmarks = haptics.landmarks;

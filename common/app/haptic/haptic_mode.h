@@ -26,7 +26,8 @@ struct HapticChain {
   std::shared_ptr<const ScalarField> surfaces_of = nullptr;
   Isovalues isovalues = {};
   std::shared_ptr<WidgetNewsBuffer> planes =
-      nullptr;                       ///< cutting planes that the hand moves; null where none
+      nullptr;  ///< cutting planes that the hand moves; null where none
+  std::shared_ptr<const ScalarField> noise = nullptr;  ///< that is felt as a texture; null where none is
   std::vector<Vec4> landmarks = {};  ///< of a grid: planes n, d with n.x = d in data coordinates
 };
 

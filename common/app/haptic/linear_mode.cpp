@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/app/haptic/texture_link.h"
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/base/text.h"
@@ -75,6 +76,7 @@ HapticChain make_linear(const HapticScene& scene) {
   links.push_back(
       std::make_unique<LinearConstraint>(make_frame(scene), std::array{measures, measures, measures}));
   HapticChain made;
+  made.noise = add_texture(links, scene);
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }

@@ -19,7 +19,7 @@ std::string cell_text(const Field& field, const Vec3& x, const CellHint& hint) {
 
 }  // namespace
 
-void read_data(const NamedField& open, ReadoutHints& hints, ProbeReadout& readout) {
+void read_data(const NamedField& open, const ScalarField* noise, ReadoutHints& hints, ProbeReadout& readout) {
   readout.sampled = false;
   readout.tensor.reset();
   readout.scalar.reset();
@@ -29,6 +29,11 @@ void read_data(const NamedField& open, ReadoutHints& hints, ProbeReadout& readou
     const ScalarSample sample = open.scalar->sample(readout.proxy, hints.scalar);
     if (sample.status == SampleStatus::kOk) readout.scalar = sample.value;
     readout.scalar_name = open.scalar->name();
+  }
+  readout.noise.reset();
+  if (noise != nullptr) {
+    const ScalarSample sample = noise->sample(readout.proxy, hints.noise);
+    if (sample.status == SampleStatus::kOk) readout.noise = sample.value;
   }
   if (open.tensor) {
     const TensorSample sample = open.tensor->sample(readout.proxy, hints.field);

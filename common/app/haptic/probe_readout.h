@@ -25,7 +25,9 @@ struct ProbeReadout {
   std::optional<Mat3> tensor;    ///< at the proxy, of an image of tensors; none where there is none
   std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
   std::string scalar_name;       ///< empty where none is felt
-  int popped = 0;                ///< times that the hand has gone over to another line, or through a surface
+  std::optional<double>
+      noise;       ///< there, where it is felt as a texture, as a part of the range of the values
+  int popped = 0;  ///< times that the hand has gone over to another line, or through a surface
   double residual = 0.0;
   double force = 0.0;    ///< [N]
   double stretch = 0.0;  ///< [mm]
@@ -36,10 +38,10 @@ struct ProbeReadout {
 
 /// Cells that were sampled last.
 struct ReadoutHints {
-  CellHint field, scalar;
+  CellHint field, scalar, noise;
 };
 
-/// Samples what is open at `readout.proxy`.
-void read_data(const NamedField& open, ReadoutHints& hints, ProbeReadout& readout);
+/// Samples what is open at `readout.proxy`. @param noise that is felt there; null: none is.
+void read_data(const NamedField& open, const ScalarField* noise, ReadoutHints& hints, ProbeReadout& readout);
 
 }  // namespace palpate

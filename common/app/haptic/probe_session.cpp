@@ -166,6 +166,7 @@ void ProbeSession::follow_chain(const HapticChain& made) {
   if (made.followed) curve_.emplace(made.followed);
   surfaces_of_ = made.surfaces_of;
   chain_isovalues_ = made.isovalues;
+  noise_ = made.noise;
   planes_.follow(made.planes);
   felt_.clear();
 }
@@ -276,7 +277,8 @@ void ProbeSession::choose(const TouchChoice& choice) {
   if (choice.mode != before.mode || choice.ticks != before.ticks ||
       choice.settings.linear.rebuilds(before.settings.linear) ||
       choice.settings.grid_axis.rebuilds(before.settings.grid_axis) ||
-      choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline) {
+      choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline ||
+      choice.settings.texture.by_noise != before.settings.texture.by_noise) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
     servo_->set_settings(chain_settings());
@@ -312,7 +314,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
     // What is let go stays in the picture until the next line is caught.
     if (curve_->drawn()) last_drawn_ = curve_->drawn();
   }
-  if (readout_.held) read_data(open_, hints_, readout_);
+  if (readout_.held) read_data(open_, noise_.get(), hints_, readout_);
   ask_local(camera);
   surfaces_->request(choice_.show_surface ? felt_levels() : FeltLevels{});
   describe(view);

@@ -234,6 +234,7 @@ class ProbeSession {
   std::optional<TractDrawing> drawing_;             ///< where there are tensors
   std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, replayed_isovalues_;
+  std::shared_ptr<const ScalarField> noise_;  ///< felt as a texture: HapticChain
   HandPlanes planes_;
   bool pressed_ = false;
   AnnotationList notes_;

@@ -1,6 +1,7 @@
 #include "common/app/haptic/touch_choice.h"
 
 #include "common/app/haptic/linear_mode.h"
+#include "common/app/haptic/texture_link.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 
@@ -45,6 +46,7 @@ std::vector<std::pair<std::string, std::string>> touch_options_of(const TouchCho
   }
   if (!isovalues.empty()) options.emplace_back("isovalue", isovalues);
   if (surface.along_streamline) options.emplace_back("along-streamline", "true");
+  if (settings.texture.by_noise) options.emplace_back("noise-texture", texture_words(settings.texture));
   for (auto& option : linear_options(settings.linear)) options.push_back(std::move(option));
   if (choice.ticks) {
     const double interval = settings.ticks.interval;

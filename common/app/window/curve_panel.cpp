@@ -99,6 +99,17 @@ void edit_anisotropy(AnisotropySettings& settings) {
 
 }  // namespace
 
+void edit_texture(TextureSettings& settings, std::string_view mode, const ProbeSession& session) {
+  // Noise of an image hardly exceeds a tenth of the range of its values.
+  constexpr double kMostNoise = 0.1, kCoarsest = 0.005;
+  const bool textured = mode == kIsosurfaceMode || mode == "density" || mode == kLinearMode;
+  if (!textured || !session.scalar() || session.has_flow()) return;
+  ImGui::Checkbox("noise as a texture", &settings.by_noise);
+  if (!settings.by_noise) return;
+  draw_curve_editor({.name = "grain", .measure = "noise", .unit = "mm", .units = kMillimetres},
+                    {.high_measure = kMostNoise, .high_value = kCoarsest}, settings.grain);
+}
+
 void edit_curves(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
   if (mode == kLinearMode) edit_linear(choice.settings.linear, session);
   if (session.has_tensors()) edit_anisotropy(choice.settings.anisotropy);

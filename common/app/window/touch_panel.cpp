@@ -163,6 +163,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
                    session.modes()[choice.mode].name, session.has_flow());
+  edit_texture(choice.settings.texture, session.modes()[choice.mode].name, session);
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
@@ -237,6 +238,7 @@ float draw_probe_readout(const ProbeSession& session, const ValueHistogram* hist
     constexpr double kPercent = 100.0;
     if (histogram != nullptr)
       rows.add("values below", "%.1f %%", kPercent * part_below(*histogram, *readout.scalar));
+    if (readout.noise) rows.add("noise", "%.2f %% of the range", kPercent * *readout.noise);
   } else if (!readout.scalar_name.empty()) {
     rows.add(readout.scalar_name.c_str(), "none here");
   }

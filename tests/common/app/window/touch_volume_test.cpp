@@ -218,8 +218,8 @@ TEST_F(TouchVolume, TheHandOnAGridDragsAFaceOfTheRegion) {
 
 /// Annotations in mode isosurface [pixels]: the list of their kinds, an angle in it, and with one angle made
 /// the plane through it.
-constexpr double kKindX = 60.0, kKindY = 392.0, kAngleX = 33.0, kAngleY = 459.0, kMarkX = 60.0,
-                 kMarkY = 418.0, kPlaneX = 158.0, kPlaneY = 441.0;
+constexpr double kKindX = 60.0, kKindY = 417.0, kAngleX = 33.0, kAngleY = 484.0, kMarkX = 60.0,
+                 kMarkY = 443.0, kPlaneX = 158.0, kPlaneY = 466.0;
 
 TEST_F(TouchVolume, APlaneGoesThroughThreePointsThatTheMouseMarks) {
   click(next(), kKindX, kKindY);
