@@ -70,12 +70,13 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   CLI::App& doctor = *app.add_subcommand(
       "doctor", "permissions, firmware, rate, jitter and latency of a device, and what to do about them");
   add_common(doctor, o);
-  doctor.add_option("--device", o.device,
-                    std::string(kDevice) + "; default: the first one that is plugged in");
+  doctor.add_option("--device", o.device, std::string(kDevice) + "; default: all that are plugged in");
   doctor.add_option("--seconds", o.seconds, "of measurement; default 3")->check(CLI::Range(0.1, 3600.0));
   doctor.add_option("--patience", o.patience, "seconds in which it must become ready; default 30")
       ->check(CLI::Range(0.1, 3600.0));
-  doctor.footer("Examples:\n  workbench doctor\n  workbench doctor --device falcon:firmware=firmware.bin\n");
+  doctor.footer(
+      "Ends with 0 where every device that it found, or the one of --device, is ready, else with 1.\n"
+      "Examples:\n  workbench doctor\n  workbench doctor --device falcon:firmware=firmware.bin\n");
 
   CLI::App& monitor =
       *app.add_subcommand("monitor", "read-outs of a device as it is moved; it shows no force");

@@ -144,13 +144,42 @@ Json check_json(const LinkCheck& check) {
           {"uploads", check.status.uploads}};
 }
 
-/// The device that is asked for, or the first one that is plugged in, may be opened and has a driver.
-std::string device_to_check(const std::string& asked, const Survey& seen) {
-  if (!asked.empty()) return asked;
+/// The device that is asked for, or all that are plugged in, may be opened and have a driver; a driver works
+/// the first of its devices.
+std::vector<std::string> devices_to_check(const std::string& asked, const Survey& seen) {
+  if (!asked.empty()) return {asked};
+  std::vector<std::string> drivers;
   for (const FoundDevice& each : seen.devices) {
-    if (!each.driver.empty() && each.access == "ok") return each.driver;
+    const bool usable = !each.driver.empty() && each.access == "ok";
+    if (usable && std::find(drivers.begin(), drivers.end(), each.driver) == drivers.end()) {
+      drivers.push_back(each.driver);
+    }
   }
-  return {};
+  return drivers;
+}
+
+/// What stands in the way of each device on the buses and of each driver, a line each; the udev rules that
+/// help go into `rules`.
+std::vector<std::string> obstacles(const Survey& seen, Json& rules) {
+  std::vector<std::string> lines;
+  for (const FoundDevice& each : seen.devices) {
+    if (each.access == "denied") {
+      rules.push_back(udev_rule(each.id));
+      lines.push_back("the " + each.name +
+                      " may not be opened by you: put this line into /etc/udev/rules.d/70-palpate.rules, run "
+                      "`udevadm control --reload`, and plug it in anew:\n    " +
+                      udev_rule(each.id));
+    } else if (each.access != "ok") {
+      lines.push_back("the " + each.name + " at " + each.place + " cannot be opened (" + each.access +
+                      "): end other programs that use it, or plug it in anew");
+    } else if (each.driver.empty()) {
+      lines.push_back("the " + each.name + " at " + each.place + " cannot be used: " + each.note);
+    }
+  }
+  for (const DriverState& each : seen.drivers) {
+    if (!each.problem.empty()) lines.push_back("driver " + each.name + ": " + each.problem);
+  }
+  return lines;
 }
 
 std::string fixed(double value, int digits) {
@@ -198,36 +227,34 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   const Survey seen = survey(options.device);
   std::string text = devices_text(seen);
   Json json = devices_json(seen);
-  std::vector<std::string> advice;
-  Json rules = Json::array();
-  for (const FoundDevice& each : seen.devices) {
-    if (each.access != "denied") continue;
-    rules.push_back(udev_rule(each.id));
-    advice.push_back("the " + each.name +
-                     " may not be opened by you: put this line into /etc/udev/rules.d/70-palpate.rules, run "
-                     "`udevadm control --reload`, and plug it in anew:\n    " +
-                     udev_rule(each.id));
-  }
+  Json rules = Json::array(), checks = Json::array();
+  std::vector<std::string> advice = obstacles(seen, rules);
+  // Who asks for one device is told of the others, and answered for that one.
+  bool usable = !options.device.empty() || advice.empty();
   const bool real_time = request_real_time_priority(1);
   text += std::string("real-time priority is ") + (real_time ? "allowed\n" : "refused\n");
-  bool ready = false;
-  if (const std::string device = device_to_check(options.device, seen); !device.empty()) {
+  const std::vector<std::string> devices = devices_to_check(options.device, seen);
+  for (const std::string& device : devices) {
     const std::unique_ptr<DriverLink> link = open_link(device);
     context.progress.begin("working the device", 0);
     const LinkCheck check = check_link(*link, options.seconds, options.patience, context.progress);
-    ready = check.ready;
-    text += device + "\n" + check_text(check);
-    json["device"] = device;
-    json["check"] = check_json(check);
+    text += device + (check.ready ? "\n" : ": not ready\n") + check_text(check);
+    Json checked = check_json(check);
+    checked["device"] = device;
+    checks.push_back(std::move(checked));
     for (std::string& line : advice_on(check)) advice.push_back(std::move(line));
+    usable = usable && check.ready;
   }
   for (const std::string& line : advice) text += "- " + line + "\n";
-  if (ready && advice.empty()) text += "all is well\n";
+  if (usable && !devices.empty() && advice.empty()) text += "all is well\n";
+  json["checks"] = checks;
+  json["usable"] = usable;
   json["real_time_priority"] = real_time;
   json["udev_rules"] = rules;
   json["advice"] = advice;
   context.console.print(text);
   context.console.print_json(dumped(json));
+  if (!usable) throw work_error("not all that was found can be used; the lines above say what to do");
 }
 
 void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {

@@ -23,7 +23,9 @@ TEST_F(WorkbenchDevices, NamesWhatIsPluggedIn) {
 
 TEST_F(WorkbenchDevices, TheDoctorWaitsForHomingAndMeasures) {
   const Json seen = json({"doctor", "--device", "falcon_emulated", "--seconds", "1"});
-  const Json& check = seen["check"];
+  ASSERT_EQ(seen["checks"].size(), 1U);
+  const Json& check = seen["checks"][0];
+  EXPECT_EQ(seen["usable"], true);
   EXPECT_EQ(check["ready"], true);
   std::vector<std::string> phases;
   for (const Json& step : check["phases"]) phases.push_back(step["phase"]);
@@ -38,7 +40,8 @@ TEST_F(WorkbenchDevices, TheDoctorWaitsForHomingAndMeasures) {
 TEST_F(WorkbenchDevices, TheDoctorSaysWhatIsMissing) {
   const ProgramResult unloaded =
       run({"doctor", "--device", "falcon_emulated:loaded=0", "--seconds", "0.2", "--patience", "2"});
-  EXPECT_EQ(unloaded.exit_code, 0) << unloaded.err;
+  EXPECT_EQ(unloaded.exit_code, 1) << unloaded.err;
+  EXPECT_NE(unloaded.err.find("not all that was found can be used"), std::string::npos) << unloaded.err;
   EXPECT_NE(unloaded.out.find("needs_firmware"), std::string::npos) << unloaded.out;
   EXPECT_NE(unloaded.out.find("falcon:firmware=FILE"), std::string::npos) << unloaded.out;
 
@@ -46,11 +49,15 @@ TEST_F(WorkbenchDevices, TheDoctorSaysWhatIsMissing) {
   folder_.write("image.bin", std::string(1500, '\x5a'));
   const Json loaded =
       json({"doctor", "--device", "falcon_emulated:loaded=0,firmware=image.bin", "--seconds", "0.2"});
-  EXPECT_EQ(loaded["check"]["ready"], true);
-  EXPECT_GE(loaded["check"]["uploads"].get<int>(), 1);
+  EXPECT_EQ(loaded["checks"][0]["ready"], true);
+  EXPECT_GE(loaded["checks"][0]["uploads"].get<int>(), 1);
 
-  const Json absent = json({"doctor", "--device", "falcon_emulated:missing=1", "--patience", "0.3"});
-  EXPECT_EQ(absent["check"]["ready"], false);
+  const ProgramResult missing =
+      run({"doctor", "--device", "falcon_emulated:missing=1", "--patience", "0.3", "--json"});
+  EXPECT_EQ(missing.exit_code, 1);
+  const Json absent = Json::parse(missing.out);
+  EXPECT_EQ(absent["usable"], false);
+  EXPECT_EQ(absent["checks"][0]["ready"], false);
   EXPECT_NE(absent["advice"][0].get<std::string>().find("power supply"), std::string::npos);
 }
 
