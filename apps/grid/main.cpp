@@ -63,7 +63,9 @@ int main(int argc, char** argv) {
            clip_verb({{"grid clip tooth.nhdr --plane 0,1,0,45 --out cut.png",
                        "a picture without what lies where y > 45"},
                       {"grid clip head.nii.gz --box -40,-60,0,40,20,50 --out part.nii.gz",
-                       "a part of the volume, in its place"}}),
+                       "a part of the volume, in its place"},
+                      {"grid clip --session tooth.palpate.toml --out cut.nrrd",
+                       "what the planes of a window have left of its volume"}}),
            volume_report_verb(
                {{"grid report tooth.nhdr --out report",
                  "error of the picture against milliseconds a frame, and how well a hand places planes"},

@@ -228,6 +228,22 @@ TEST_F(GridCut, PartsAreWrittenInTheirPlacesAndOpenAgain) {
     EXPECT_EQ(info["blocks"][0]["bounds"]["lower"], Json({1.0, 2.0, 3.0})) << name;
     EXPECT_EQ(info["blocks"][0]["bounds"]["upper"], Json({2.0, 4.0, 9.0})) << name;
   }
+  // Shapes cut voxels as they cut pictures, from a session, too; lenses that show something are left aside.
+  const std::vector<std::string> cut{"clip",   "a_3x4x5_uint8.raw", "--raw-size", "3x4x5", "--raw-type",
+                                     "uint8",  "--raw-spacing",     "1,2,3",      "--out", "cut.nrrd",
+                                     "--force"};
+  const auto cut_by = [&](const std::vector<std::string>& shapes) {
+    std::vector<std::string> words = cut;
+    for (const std::string& shape : shapes) words.insert(words.end(), {"--lens", shape});
+    return json(words);
+  };
+  EXPECT_EQ(cut_by({"sphere:1,2,3,1.5,cut", "sphere:1,2,3,9"})["outside"], 3)
+      << "a voxel and those beside it in x";
+  EXPECT_EQ(cut_by({"sphere:1,2,3,1.5,cut", "halfspace:0,0,1,10,cut"})["outside"], 3 + 12);
+  EXPECT_EQ(cut_by({"sphere:1,2,3,1.5,cut", "halfspace:0,0,1,10,cut,off"})["outside"], 3);
+  std::vector<std::string> shown = cut;
+  shown.insert(shown.end(), {"--lens", "sphere:1,2,3,9"});
+  EXPECT_EQ(run(shown).exit_code, 2) << "nothing is cut";
   EXPECT_EQ(run({"clip", "--example", "voxel", "--out", "x.nrrd"}).exit_code, 2);
   EXPECT_EQ(run({"clip", "--example", "voxel", "--box", "1e9,0,0,2e9,1,1", "--out", "x.nrrd"}).exit_code, 2);
   EXPECT_EQ(run({"clip", "--example", "voxel", "--box", "1,2,3", "--out", "x.nrrd"}).exit_code, 2);

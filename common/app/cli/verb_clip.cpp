@@ -52,11 +52,30 @@ DataSet cropped(const DataSet& block, const Options& options) {
   return result;
 }
 
-/// Writes the part of the volume; what planes cut away gets its lowest value.
+/// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
+/// aside, and those on the screen.
+std::vector<ConvexShape> shapes_that_cut(const VolumeOptions& options, const Console& console) {
+  std::vector<ConvexShape> shapes;
+  for (const std::string& plane : options.clips) shapes.push_back(parse_beyond(plane, "--plane " + plane));
+  std::size_t aside = 0;
+  for (const std::string& text : options.lenses) {
+    const LensWords words = parse_lens(text);
+    const bool cuts = words.lens.cut && !words.off && !words.lens.screen;
+    if (cuts) shapes.push_back(words.lens.shape);
+    if (!cuts) ++aside;
+  }
+  if (aside > 0)
+    console.note(std::to_string(aside) + (aside == 1 ? " lens" : " lenses") +
+                 " left aside: voxels are cut by planes, and by shapes with ',cut'");
+  return shapes;
+}
+
+/// Writes the part of the volume; what planes and shapes cut away gets its lowest value.
 ExitCode write_part(const Options& options, const VerbContext& context) {
   check_image_output(options.out, options.common.force);
-  if (!options.volume.lenses.empty())
-    throw usage_error("--lens: is for pictures; planes and a box cut voxels");
+  const std::vector<ConvexShape> beyond = shapes_that_cut(options.volume, context.console);
+  if (options.slice.box.empty() && beyond.empty())
+    throw usage_error("clip needs something to cut voxels with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
   const DataSet block = cropped(load_volume_block(input, &context.progress), options);
@@ -73,9 +92,6 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
     highest = std::max(highest, values[i]);
   }
   if (lowest > highest) lowest = highest = 0.0F;
-  std::vector<ConvexShape> beyond;
-  for (const std::string& plane : options.volume.clips)
-    beyond.push_back(parse_beyond(plane, "--plane " + plane));
   const Index3 n = summary.lattice.points;
   std::size_t i = 0;
   for (int z = 0; z < n.z; ++z) {
