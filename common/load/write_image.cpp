@@ -103,7 +103,7 @@ constexpr int kFloat = 16;  ///< DT_FLOAT32 of nifti1.h
 constexpr int kRgb = 128;   ///< DT_RGB24
 
 /// The header of nifti1.h (348 bytes) with its 4 bytes of extension flags; the affine is the sform.
-std::string nifti_header(const UniformTopology& topology, ImageContent content) {
+std::string nifti_header(const UniformTopology& topology, ImageContent content, ImageSpace space) {
   const int volumes = content == ImageContent::kColor ? 1 : component_count(content);
   const bool rgb = content == ImageContent::kColor;
   Bytes header(352);
@@ -121,9 +121,10 @@ std::string nifti_header(const UniformTopology& topology, ImageContent content) 
     header.put(80 + 4 * axis, static_cast<float>(step));
   }
   header.put(108, 352.0F);
-  header.put(112, 1.0F);             // slope
-  header.put(123, char{2});          // millimetres
-  header.put(254, std::int16_t{1});  // sform: scanner space
+  header.put(112, 1.0F);  // slope
+  const bool patient = space == ImageSpace::kPatient;
+  header.put(123, static_cast<char>(patient ? 2 : 0));          // millimetres, or unknown
+  header.put(254, static_cast<std::int16_t>(patient ? 1 : 2));  // sform: scanner space, or that of some image
   for (int row = 0; row < 3; ++row) {
     const std::size_t at = 280 + 16 * static_cast<std::size_t>(row);
     for (int axis = 0; axis < 3; ++axis)
@@ -136,7 +137,8 @@ std::string nifti_header(const UniformTopology& topology, ImageContent content) 
 
 std::string vector_text(const Vec3& v) { return "(" + exact_text(v) + ")"; }
 
-std::string nrrd_header(const UniformTopology& topology, ImageContent content) {
+std::string nrrd_header(const UniformTopology& topology, ImageContent content, ImageSpace space) {
+  const bool patient = space == ImageSpace::kPatient;
   const bool scalar = content == ImageContent::kScalar;
   std::string kind, size;
   switch (content) {
@@ -154,15 +156,16 @@ std::string nrrd_header(const UniformTopology& topology, ImageContent content) {
   }
   std::string text = "NRRD0005\ntype: " + std::string(content == ImageContent::kColor ? "uint8" : "float") +
                      "\ndimension: " + (scalar ? "3" : "4") +
-                     "\nspace: right-anterior-superior\nsizes: " + size + std::to_string(topology.points.x) +
-                     " " + std::to_string(topology.points.y) + " " + std::to_string(topology.points.z) +
+                     (patient ? "\nspace: right-anterior-superior" : "\nspace dimension: 3") +
+                     "\nsizes: " + size + std::to_string(topology.points.x) + " " +
+                     std::to_string(topology.points.y) + " " + std::to_string(topology.points.z) +
                      "\nspace directions: " + (scalar ? "" : "none ") + vector_text(topology.axes[0]) + " " +
                      vector_text(topology.axes[1]) + " " + vector_text(topology.axes[2]) +
                      "\nkinds: " + kind + "space space space\n";
   // Tensors and directions are in the axes of the space.
   if (!scalar && content != ImageContent::kColor) text += "measurement frame: (1,0,0) (0,1,0) (0,0,1)\n";
-  return text + "endian: little\nencoding: raw\nspace units: \"mm\" \"mm\" \"mm\"\nspace origin: " +
-         vector_text(topology.origin) + "\n\n";
+  if (patient) text += "space units: \"mm\" \"mm\" \"mm\"\n";
+  return text + "endian: little\nencoding: raw\nspace origin: " + vector_text(topology.origin) + "\n\n";
 }
 
 float finite_or_zero(float value) noexcept { return std::isfinite(value) ? value : 0.0F; }
@@ -189,10 +192,10 @@ void to_convention(ImageContent content, const Mat3& axes_from_ras, ImageConvent
 }
 
 void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent content,
-                 std::span<const float> values, ImageConvention convention) {
+                 std::span<const float> values, ImageConvention convention, ImageSpace space) {
   const auto components = static_cast<std::size_t>(component_count(content));
   const std::size_t voxels = values.size() / components;
-  sink.write(nifti_header(topology, content));
+  sink.write(nifti_header(topology, content, space));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -216,8 +219,8 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
 }
 
 void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent content,
-                std::span<const float> values) {
-  sink.write(nrrd_header(topology, content));
+                std::span<const float> values, ImageSpace space) {
+  sink.write(nrrd_header(topology, content, space));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -319,7 +322,8 @@ void check_image_output(const std::filesystem::path& path, bool overwrite) {
 }
 
 void write_image(const std::filesystem::path& path, const UniformTopology& topology, ImageContent content,
-                 std::span<const float> values, ImageConvention convention, bool overwrite) {
+                 std::span<const float> values, ImageConvention convention, bool overwrite,
+                 ImageSpace space) {
   const std::size_t voxels = static_cast<std::size_t>(topology.points.x) *
                              static_cast<std::size_t>(topology.points.y) *
                              static_cast<std::size_t>(topology.points.z);
@@ -333,11 +337,11 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
                       ": too many voxels along an axis for NIfTI-1; take a name ending in .nrrd");
   Sink sink(path, overwrite, ending == Ending::kPackedNifti);
   if (ending == Ending::kNrrd) {
-    write_nrrd(sink, topology, content, values);
+    write_nrrd(sink, topology, content, values, space);
   } else if (ending == Ending::kVti) {
     write_vti(sink, topology, content, values);
   } else {
-    write_nifti(sink, topology, content, values, convention);
+    write_nifti(sink, topology, content, values, convention, space);
   }
   sink.finish();
 }

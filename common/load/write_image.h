@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-/// What the numbers of a voxel are, in the axes of the coordinates (RAS+ mm).
+/// What the numbers of a voxel are, in the axes of the coordinates.
 enum class ImageContent : std::uint8_t {
   kScalar,  ///< one number
   kVector,  ///< three: a direction
@@ -27,6 +27,12 @@ enum class ImageConvention : std::uint8_t {
   kFsl      ///< fsl_axes(); xx xy xz yy yz zz
 };
 
+/// What the coordinates of an image are known to be; VTK's files cannot say.
+enum class ImageSpace : std::uint8_t {
+  kPatient,  ///< RAS+ mm
+  kUnknown   ///< in no known units and orientation: NRRD and NIfTI files claim none of them
+};
+
 /// Checks that `path` has a known ending, may be written, and does not exist unless `overwrite`; call it
 /// before the work starts.
 /// @throws Error (usage, or work failed where the folder cannot be written).
@@ -37,6 +43,7 @@ void check_image_output(const std::filesystem::path& path, bool overwrite);
 /// @throws Error as check_image_output(); (work failed) where the disk refuses; (usage) where the image is
 /// too large for NIfTI-1 along an axis.
 void write_image(const std::filesystem::path& path, const UniformTopology& topology, ImageContent content,
-                 std::span<const float> values, ImageConvention convention, bool overwrite);
+                 std::span<const float> values, ImageConvention convention, bool overwrite,
+                 ImageSpace space = ImageSpace::kPatient);
 
 }  // namespace palpate

@@ -29,7 +29,7 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
   region.upper.x += 0.1 * image->bounds().size().x;
   const SavedFiles files(folder_.path(), "grid");
   for (const std::string ending : {".nrrd", ".vti", ".nii.gz"}) {
-    const auto cropped = files.save_region(*image, region, ending);
+    const auto cropped = files.save_region(*image, region, ending, ImageSpace::kUnknown);
     const auto clipped = "clip" + ending;
     const ProgramResult result =
         run({"clip", "--example", "shells", "--box", box_text(region), "--out", clipped});
@@ -38,7 +38,7 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
     EXPECT_FALSE(wanted.empty());
     EXPECT_EQ(bytes_of(cropped), wanted) << ending;
     // Never over a file that is there.
-    EXPECT_NE(files.save_region(*image, region, ending), cropped);
+    EXPECT_NE(files.save_region(*image, region, ending, ImageSpace::kUnknown), cropped);
   }
 }
 

@@ -109,7 +109,7 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
   context.progress.begin("writing " + options.out.filename().string(), 0);
   context.progress.check();
   write_image(options.out, summary.lattice, ImageContent::kScalar, values, ImageConvention::kMrtrix,
-              options.common.force);
+              options.common.force, space_of(input));
   context.interrupt.keep(options.out);
   summary.input = input.title();
   summary.field = input.field_label();

@@ -176,8 +176,7 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
   const ResampledImage slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
   context.progress.begin("writing " + options.out.filename().string(), 0);
   context.progress.check();
-  const FileInfo* file = input.file();
-  const bool anatomical = file != nullptr && file->anatomical;
+  const bool anatomical = space_of(input) == ImageSpace::kPatient;
   summary.right = direction_words(glm::normalize(summary.lattice.axes[0]), anatomical);
   summary.up = direction_words(glm::normalize(summary.lattice.axes[1]), anatomical);
   if (as_lines) {
@@ -198,7 +197,7 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
                {"Comment", "right: " + summary.right + "; up: " + summary.up}});
   } else {
     write_image(options.out, summary.lattice, ImageContent::kScalar, slice.values, ImageConvention::kMrtrix,
-                options.common.force);
+                options.common.force, space_of(input));
   }
   context.interrupt.keep(options.out);
   summary.input = input.title();

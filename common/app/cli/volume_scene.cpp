@@ -144,6 +144,11 @@ TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progres
   return volume;
 }
 
+ImageSpace space_of(const Input& input) {
+  const FileInfo* file = input.file();
+  return file != nullptr && file->anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
+}
+
 SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,
                             const Options& options, double aspect) {
   SceneView view;

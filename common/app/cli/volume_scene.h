@@ -6,6 +6,7 @@
 
 #include "common/app/cli/options.h"
 #include "common/base/progress.h"
+#include "common/load/write_image.h"
 #include "common/render/scene_view.h"
 #include "common/scene/input.h"
 
@@ -37,6 +38,9 @@ void check_volume_options(const VolumeOptions& options);
 /// Reads the same as one uniform block with one point array of one number: where a voxel is blanked, NaN.
 /// @throws Error, Cancelled.
 [[nodiscard]] DataSet load_volume_block(Input& input, Progress* progress);
+
+/// What is known of the coordinates of `input`, for images that are made of it.
+[[nodiscard]] ImageSpace space_of(const Input& input);
 
 /// The same voxels to be drawn and to be felt, read once.
 struct TangibleVolume {

@@ -58,7 +58,7 @@ std::filesystem::path SavedFiles::save_annotations(std::span<const Annotation> a
 }
 
 std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Box& region,
-                                              const std::string& ending) const {
+                                              const std::string& ending, ImageSpace space) const {
   const UniformTopology grid{.points = image.points, .origin = image.origin, .axes = image.axes};
   const auto part = points_in(grid, region);
   PALPATE_CHECK(part.has_value());
@@ -85,7 +85,8 @@ std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Bo
     if (!std::isfinite(value)) value = std::isfinite(lowest) ? lowest : 0.0F;
   }
   std::filesystem::path path = free_name("crop", ending);
-  write_image(path, part_of(grid, *part), ImageContent::kScalar, values, ImageConvention::kMrtrix, false);
+  write_image(path, part_of(grid, *part), ImageContent::kScalar, values, ImageConvention::kMrtrix, false,
+              space);
   return path;
 }
 

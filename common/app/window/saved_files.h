@@ -12,6 +12,7 @@
 #include "common/app/haptic/kept_lines.h"
 #include "common/field/color_transfer.h"
 #include "common/geometry/annotation.h"
+#include "common/load/write_image.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
 #include "common/render/volume/volume_image.h"
@@ -41,7 +42,7 @@ class SavedFiles {
   /// number that is free: in single precision, the lowest value where there is none, as `grid clip` does.
   /// @pre some are in it.
   [[nodiscard]] std::filesystem::path save_region(const VolumeImage& image, const Box& region,
-                                                  const std::string& ending) const;
+                                                  const std::string& ending, ImageSpace space) const;
   /// Saves a picture under the first number that is free.
   [[nodiscard]] std::filesystem::path save_picture(const Image& image,
                                                    const std::vector<PngText>& texts) const;

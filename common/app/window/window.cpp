@@ -358,7 +358,8 @@ class Window {
       attempt([&] { return files_.save_annotations(touch_->notes().entries(), actions.touch.save_notes); });
     if (!actions.region.crop.empty()) {
       attempt([&] {
-        return files_.save_region(*view_.volume->image, *region_control_.box(), actions.region.crop);
+        return files_.save_region(*view_.volume->image, *region_control_.box(), actions.region.crop,
+                                  view_.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown);
       });
     }
     if (actions.lens) say(lens_control_.follow(*actions.lens), false);

@@ -100,6 +100,30 @@ TEST(WriteImage, NumbersComeBackAndMissingOnesAreZero) {
   }
 }
 
+// Of coordinates whose orientation nobody knows nothing is claimed, and they stay.
+TEST(WriteImage, ClaimsNoPatientWhereNoneIsKnown) {
+  const TempFolder folder;
+  const std::vector<float> values(kVoxels, 1.0F);
+  for (const char* name : {"a.nrrd", "a.nii", "a.vti"}) {
+    for (const ImageSpace space : {ImageSpace::kPatient, ImageSpace::kUnknown}) {
+      write_image(folder.path(name), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
+                  true, space);
+      Input read = open(folder.path(name), FieldKind::kScalar);
+      if (name == std::string("a.nrrd")) {
+        EXPECT_EQ(read.file()->anatomical, space == ImageSpace::kPatient);
+      }
+      expect_same_grid(read.read({read.arrays().front().name}).front(), grid(false));
+    }
+  }
+  const std::string nrrd = read_file(folder.path("a.nrrd"));
+  EXPECT_EQ(nrrd.find("right"), std::string::npos);
+  EXPECT_EQ(nrrd.find("mm"), std::string::npos);
+  EXPECT_NE(nrrd.find("space dimension: 3"), std::string::npos);
+  const std::string nifti = read_file(folder.path("a.nii"));
+  EXPECT_EQ(nifti[123], 0) << "xyzt_units";
+  EXPECT_EQ(nifti[254], 2) << "sform_code";
+}
+
 TEST(WriteImage, ColoursAreBytes) {
   const TempFolder folder;
   std::vector<float> colors(3 * kVoxels, 0.0F);
