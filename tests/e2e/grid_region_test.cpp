@@ -102,6 +102,12 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   EXPECT_EQ(focal[1], 0.2);
   EXPECT_EQ(focal[2], 0.3);
   EXPECT_EQ(box_after(away), std::vector<double>({-0.9, -0.9, -0.9, 0.99, 0.9, 0.9}));
+  // So it does where the path ends with the button down.
+  folder_.write("pressed.csv", "t,x,y,z,b0\n0,0,0,0,1\n0.1,0,0,0.2,1\n0.2,0,0,0.4,1\n");
+  away[4] = "pressed.csv";
+  const auto pressed = Json::parse(run(away).out).at("focal").get<std::vector<double>>();
+  EXPECT_LT(pressed[2], 0.0);
+  EXPECT_EQ(pressed[0], 0.1);
   // At a face it does not.
   with_teeth.insert(with_teeth.end(), {"--focal", "0.1,0.2,0.3"});
   EXPECT_EQ(Json::parse(run(with_teeth).out).at("focal").get<std::vector<double>>(),

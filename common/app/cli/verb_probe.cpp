@@ -1,32 +1,19 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
-
-#include <time.h>
 
 #include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/line_view.h"
-#include "common/app/cli/probe_log.h"
+#include "common/app/cli/probe_run.h"
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/slice_plane.h"
-#include "common/app/cli/summaries.h"
 #include "common/app/cli/touch_options.h"
-#include "common/app/cli/verbs.h"
-#include "common/app/haptic/box_hold.h"
 #include "common/app/haptic/chain_description.h"
-#include "common/app/haptic/drawn_tract.h"
 #include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/grid_mode.h"
-#include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/linear_mode.h"
-#include "common/app/haptic/view_hold.h"
-#include "common/base/clock.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
-#include "common/device/probe_path.h"
-#include "common/device/replay_device.h"
 #include "common/field/field_grid.h"
 #include "common/field/scalar_threshold.h"
 #include "common/haptics/constraint/layer.h"
@@ -34,29 +21,11 @@
 #include "common/load/write_lines.h"
 #include "common/math/vec_text.h"
 #include "common/scene/plan.h"
-#include "common/servo/hand_step.h"
-#include "common/servo/replay_source.h"
 #include "common/servo/servo_loop.h"
 #include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
-
-constexpr std::size_t kStepsBetweenChecks = 4096;
-
-/// Processor time of this thread [us].
-double thread_microseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-/// The value below which `part` of the sorted ones lie.
-double percentile(const std::vector<float>& sorted, double part) {
-  if (sorted.empty()) return 0.0;
-  const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(std::llround(part * last))];
-}
 
 std::string summary_text(const ProbeSummary& summary) {
   std::string text = summary.input + ": " + counted(summary.steps, "step") + " in mode " + summary.mode;
@@ -117,172 +86,6 @@ std::string reason_of(ForceCut cut, const DeviceLimits& limits) {
            " m/s, the device's limit, and gets no force from there on";
   }
   return "a position that is not finite, or time that stands still or runs backwards";
-}
-
-/// Steps by hand, log and summary.
-class ProbeRun {
- public:
-  ProbeRun(ProbeSummary& summary, const Workspace& workspace, const VerbContext& context)
-      : summary_(summary), workspace_(workspace), context_(context) {}
-
-  void log_to(OutputFile& file, int links, const ProbeLog::Measured& measured) {
-    log_.emplace(file, workspace_, links, measured);
-  }
-  void draw_on(TractPen& pen) { pen_ = &pen; }
-  /// The button takes hold of the faces of summary.box. @param reach, bounds as of BoxHold.
-  void hold_box(double reach, const Box& bounds) {
-    box_reach_ = reach;
-    bounds_ = bounds;
-  }
-
-  /// The button takes hold of the view where it is at no face: of summary.focal_point.
-  void hold_view() { holds_view_ = true; }
-
-  /// Takes one step by `step`, and its time. @param row what stands in the log for where the probe was.
-  template <class Step>
-  void take(const PathRow& row, const Step& make_step) {
-    const double before = thread_microseconds();
-    const HandStep step = make_step();
-    const double microseconds = thread_microseconds() - before;
-    if (log_) log_->add(row, step, microseconds);
-    if (pen_ != nullptr) draw(row, step);
-    if (box_reach_ > 0.0 || holds_view_) lead_by_grid(row, step);
-    times_.push_back(static_cast<float>(microseconds));
-    ++summary_.states[static_cast<std::size_t>(step.state)];
-    if (step.state == HoldState::kFault && first_fault_ == 0) {
-      first_fault_ = summary_.steps + 1;
-      first_cut_ = step.cut;
-    }
-    summary_.max_force = std::max(summary_.max_force, glm::length(step.force));
-    summary_.max_residual = std::max(summary_.max_residual, step.chain.residual / workspace_.scale());
-    if (++summary_.steps % kStepsBetweenChecks == 0) context_.progress.check();
-    context_.progress.advance();
-  }
-
-  /// Counted from 1; 0: none.
-  [[nodiscard]] std::size_t first_fault() const noexcept { return first_fault_; }
-  [[nodiscard]] ForceCut first_cut() const noexcept { return first_cut_; }
-
-  void finish() {
-    summary_.seconds_probe = watch_.seconds();
-    std::sort(times_.begin(), times_.end());
-    summary_.us_p50 = percentile(times_, 0.5);
-    summary_.us_p99 = percentile(times_, 0.99);
-    summary_.us_max = percentile(times_, 1.0);
-  }
-
- private:
-  void draw(const PathRow& row, const HandStep& step) {
-    const bool held = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
-    if (!held || step.chain.jumped) pen_->lift();
-    if (!held) return;
-    const Vec3 proxy = ProbeLog::in_data(step.chain.proxy(step.probe), row, step, workspace_);
-    pen_->add(row.time, proxy, glm::length(step.force));
-  }
-
-  void lead_by_grid(const PathRow& row, const HandStep& step) {
-    if (step.state != HoldState::kHeld && step.state != HoldState::kFellBack) return;
-    const Vec3 proxy = ProbeLog::in_data(step.chain.proxy(step.probe), row, step, workspace_);
-    const bool pressed = (step.buttons & 1U) != 0;
-    if (box_reach_ > 0.0) box_hold_.follow(pressed, proxy, box_reach_, bounds_, *summary_.box);
-    if (!holds_view_) return;
-    if (const auto left = view_hold_.follow(pressed && !box_hold_.held(), proxy))
-      *summary_.focal_point += *left;
-  }
-
-  ProbeSummary& summary_;
-  const Workspace& workspace_;
-  const VerbContext& context_;
-  std::optional<ProbeLog> log_;
-  TractPen* pen_ = nullptr;
-  BoxHold box_hold_;
-  ViewHold view_hold_;
-  bool holds_view_ = false;
-  double box_reach_ = 0.0;  ///< [data units]; 0: there is no box
-  Box bounds_;
-  std::vector<float> times_;
-  std::size_t first_fault_ = 0;
-  ForceCut first_cut_ = ForceCut::kNone;
-  Stopwatch watch_;
-};
-
-/// One step a row of the path.
-void follow_path(const std::vector<PathRow>& path, HandStepper& stepper, const Workspace& workspace,
-                 ProbeRun& run, Progress& progress) {
-  progress.begin("probing", path.size());
-  for (const PathRow& row : path) {
-    HandInput hand{.time = row.time, .present = true};
-    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
-    run.take(row, [&] { return stepper.step(hand); });
-  }
-}
-
-/// One step a row of tracked hands; the other hand carries a cutting plane. Rows that do not see the stylus
-/// are steps at its last place.
-void follow_hands(const std::vector<TrackedHands>& rows, ImmersiveTechnique& technique,
-                  ChainSettings settings, WidgetNewsBuffer* planes, HandStepper& stepper,
-                  const Workspace& workspace, ProbeRun& run, Progress& progress) {
-  progress.begin("probing", rows.size());
-  CarriedPlanes carried;
-  std::optional<WidgetNews> told;
-  for (const TrackedHands& hands : rows) {
-    (void)technique.take(hands, {});
-    const HandsIntent& intent = technique.intent();
-    if (WidgetNews news; planes != nullptr && planes->read(news)) told = news;
-    if (const auto poses = carried.follow(intent, told)) {
-      settings.plane_widget.poses = *poses;
-      ++settings.plane_widget.edit;
-      stepper.apply(settings);
-    }
-    const PathRow row{hands.time, intent.probe, intent.acts ? 1U : 0U};
-    HandInput hand{.time = row.time, .present = true};
-    hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
-    run.take(row, [&] { return stepper.step(hand); });
-  }
-}
-
-/// A simulated hand that wants to be on the path: steps at the servo's rate, in simulated time, until the
-/// path ends.
-void follow_operator(const std::vector<PathRow>& path, const SimulatedDeviceOptions& simulated, double rate,
-                     HandStepper& stepper, const Workspace& workspace, ProbeRun& run, Progress& progress) {
-  constexpr double kLongest = 86'400.0;  // [s]
-  double start = HUGE_VAL, end = -HUGE_VAL;
-  for (const PathRow& row : path) {
-    if (!std::isfinite(row.time)) continue;
-    start = std::min(start, row.time);
-    end = std::max(end, row.time);
-  }
-  if (!(start <= end)) return;
-  if (!(end - start <= kLongest)) throw usage_error("--path: a simulated hand follows it for a day at most");
-  ReplayDevice leader(samples_of(path, workspace.scale()), stepper.limits());
-  SimulatedDevice device(simulated, leader);
-  progress.begin("probing", static_cast<std::size_t>(rate * (end - start)));
-  HandInput hand{.present = true};
-  for (std::size_t n = 0;; ++n) {
-    hand.time = start + static_cast<double>(n) / rate;
-    if (!device.read(hand.time, hand.sample)) return;
-    const PathRow row{hand.time, workspace.data_from_workspace(hand.sample.position), hand.sample.buttons};
-    run.take(row, [&] {
-      const HandStep step = stepper.step(hand);
-      device.command(step.force);
-      return step;
-    });
-  }
-}
-
-/// The steps of a recording, those without a hand left out of the log.
-void follow_recording(ReplaySource& replay, const Workspace& workspace, ProbeRun& run, Progress& progress) {
-  const std::vector<RecordedStep>& steps = replay.recording().steps;
-  progress.begin("replaying", steps.size());
-  for (const RecordedStep& recorded : steps) {
-    const HandInput& input = recorded.input;
-    if (!input.present) {
-      (void)replay.step();
-      continue;
-    }
-    const PathRow row{input.time, workspace.data_from_workspace(input.sample.position), input.sample.buttons};
-    run.take(row, [&] { return replay.step(); });
-  }
 }
 
 /// The field that the hand feels: the explorer's kind says which it is.
