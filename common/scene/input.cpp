@@ -333,7 +333,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
-  LayerCache cache(file_name(), source_ ? spec_.layer_caching : LayerCaching::kOff);
+  LayerCache cache(file_name(), source_ ? spec_.layer_caching : LayerCaching::kOff, threads);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
   heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
   heart.axis = file()->long_axis;

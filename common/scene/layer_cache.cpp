@@ -1,5 +1,6 @@
 #include "common/scene/layer_cache.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "common/base/mapped_file.h"
 #include "common/base/number_text.h"
 #include "common/base/output_file.h"
+#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/scene/sha256.h"
@@ -21,7 +23,7 @@ namespace palpate {
 namespace {
 
 /// Goes up with every change of how cells are split and layers are solved.
-constexpr const char* kVersion = "palpate layers 1";
+constexpr const char* kVersion = "palpate layers 2";
 constexpr double kWorthKeeping = 0.5;  // [s]
 constexpr std::size_t kDigest = 64;    // hexadecimal digits
 static_assert(std::endian::native == std::endian::little, "depths are kept as they lie in memory");
@@ -32,12 +34,19 @@ std::string_view bytes_of(std::span<const T> numbers) {
 }
 
 /// Of all that layers depend on.
-std::string key_of(const DataSet& mesh) {
-  // A digest of digests: no copy of the arrays is made, and none can flow over into the next one.
-  std::string digests = kVersion;
-  const auto add = [&digests](std::string_view bytes) { digests += "\n" + sha256_of(bytes); };
+std::string key_of(const DataSet& mesh, int threads) {
+  // A digest of digests: no copy of the arrays is made, none can flow over into the next one, and threads
+  // share pieces among them.
+  constexpr std::size_t kPiece = std::size_t{1} << 22;  // bytes; of any size, but that of the version
+  std::vector<std::string_view> pieces;
+  std::string kinds = kVersion;
+  const auto add = [&](std::string_view bytes) {
+    kinds += " " + std::to_string(bytes.size());
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), kPiece)))
+      pieces.push_back(bytes.substr(0, kPiece));
+  };
   const auto add_array = [&](const DataArray& array) {
-    digests += std::string("\n") + name_of(array.type);
+    kinds += std::string(" ") + name_of(array.type);
     add(bytes_of(array.bytes));
   };
   if (const auto* cells = std::get_if<UnstructuredTopology>(&mesh.topology)) {
@@ -47,13 +56,18 @@ std::string key_of(const DataSet& mesh) {
     add(bytes_of(std::span(cells->connectivity)));
   } else if (const auto* points = std::get_if<StructuredTopology>(&mesh.topology)) {
     add_array(points->positions);
-    for (int axis = 0; axis < 3; ++axis) digests += " " + std::to_string(points->points[axis]);
+    for (int axis = 0; axis < 3; ++axis) kinds += " " + std::to_string(points->points[axis]);
   } else {
     return {};  // an image has no wall
   }
   add(bytes_of(std::span(mesh.visible)));
   if (const DataArray* surface = mesh.find(kSurfaceArray, Association::kPoint)) add_array(*surface);
-  return sha256_of(digests);
+  std::vector<std::string> digests(pieces.size());
+  parallel_for(pieces.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) digests[n] = sha256_of(pieces[n]);
+  });
+  for (const std::string& digest : digests) kinds += "\n" + digest;
+  return sha256_of(kinds);
 }
 
 /// Takes a line off the front of `text`; nothing where it has no end.
@@ -106,7 +120,8 @@ LayerCaching layer_caching_from_name(const std::string& name) {
   throw usage_error("--layer-cache " + name + ": auto, always or off is expected");
 }
 
-LayerCache::LayerCache(const std::filesystem::path& input, LayerCaching caching) : caching_(caching) {
+LayerCache::LayerCache(const std::filesystem::path& input, LayerCaching caching, int threads)
+    : caching_(caching), threads_(threads) {
   std::filesystem::path stem = input.filename();
   if (stem.extension() == ".gz") stem.replace_extension();
   file_ = input.parent_path() / (stem.replace_extension().string() + ".palpate.layers");
@@ -116,7 +131,7 @@ std::optional<WallLayer> LayerCache::find(const DataSet& mesh) {
   std::error_code ignored;
   if (caching_ == LayerCaching::kOff || !std::filesystem::is_regular_file(file_, ignored))
     return std::nullopt;
-  const std::string key = key_of(mesh);
+  const std::string key = key_of(mesh, threads_);
   if (key.empty()) return std::nullopt;
   try {
     const MappedFile mapped(file_.string());
@@ -136,7 +151,7 @@ void LayerCache::keep(const DataSet& mesh, const WallLayer& layer, double second
                      " is read-only");
     return;
   }
-  const std::string key = key_of(mesh);
+  const std::string key = key_of(mesh, threads_);
   if (key.empty()) return;
   std::string text = std::string(kVersion) + "\n" + key + "\n";
   text += std::to_string(layer.iterations) + "\n" + exact_number(layer.residual) + "\n";

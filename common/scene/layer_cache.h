@@ -24,7 +24,8 @@ enum class LayerCaching : std::uint8_t { kAuto, kAlways, kOff };
 class LayerCache final : public KeptLayers {
  public:
   /// @param input the file that is opened: "heart.pts" keeps its layers in "heart.palpate.layers" beside it.
-  LayerCache(const std::filesystem::path& input, LayerCaching caching);
+  /// @param threads that compare meshes, as parallel_for().
+  LayerCache(const std::filesystem::path& input, LayerCaching caching, int threads = 0);
 
   std::optional<WallLayer> find(const DataSet& mesh) override;
   /// Where the folder cannot be written, nothing is kept and notes() says so.
@@ -37,6 +38,7 @@ class LayerCache final : public KeptLayers {
  private:
   std::filesystem::path file_;
   LayerCaching caching_;
+  int threads_;
   std::vector<std::string> notes_;
 };
 

@@ -29,8 +29,12 @@ bool start_glfw() {
   return kStarted;
 }
 
-GlfwWindow::GlfwWindow(const WindowOptions& options) {
+void require_glfw() {
   if (!start_glfw()) throw work_error(no_window("no display"));
+}
+
+GlfwWindow::GlfwWindow(const WindowOptions& options) {
+  require_glfw();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

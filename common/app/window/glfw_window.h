@@ -15,6 +15,9 @@ struct WindowOptions;
 /// Starts GLFW, once for the whole program. @return whether there is a display.
 [[nodiscard]] bool start_glfw();
 
+/// The same. @throws Error (work failed) where there is no display.
+void require_glfw();
+
 class GlfwWindow {
  public:
   /// Makes the context current.

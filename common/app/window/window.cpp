@@ -59,6 +59,7 @@ class Window {
   Window(WindowModel& model, const WindowOptions& options)
       : model_(model),
         options_(options),
+        job_(start_model(model)),
         files_(options.picture_folder, options.program),
         glfw_(options),
         view_(options.view),
@@ -78,8 +79,6 @@ class Window {
     state_.recent = options_.recent;
     state_.plotted = options_.plotted;
     state_.play_rate = options_.play_rate;
-    job_ = std::make_unique<BackgroundJob>([] { glfwPostEmptyEvent(); });
-    start_job(JobKind::kStart, [this](Progress& progress) { return model_.start(progress); });
   }
 
   WindowResult run() {
@@ -204,6 +203,14 @@ class Window {
   }
 
   // Jobs.
+
+  /// Reading begins before there is a window, which takes its own while.
+  static std::unique_ptr<BackgroundJob> start_model(WindowModel& model) {
+    require_glfw();
+    auto job = std::make_unique<BackgroundJob>([] { glfwPostEmptyEvent(); });
+    job->start([&model](Progress& progress) { return model.start(progress); });
+    return job;
+  }
 
   void start_job(JobKind kind, BackgroundJob::Work work) {
     job_kind_ = kind;
@@ -736,6 +743,8 @@ class Window {
 
   WindowModel& model_;
   const WindowOptions& options_;
+  std::unique_ptr<BackgroundJob> job_;  // uses nothing below it
+  JobKind job_kind_ = JobKind::kStart;
   SavedFiles files_;
   GlfwWindow glfw_;  // first in, last out: the others need its context
   std::unique_ptr<Gui> gui_;
@@ -767,8 +776,6 @@ class Window {
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;
   std::unique_ptr<TouchControl> touch_control_;
-  JobKind job_kind_ = JobKind::kStart;
-  std::unique_ptr<BackgroundJob> job_;  // last in, first out: its thread ends before what it uses
 };
 
 }  // namespace
