@@ -155,10 +155,19 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
 
 void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/, const Options& options,
                                     const SceneSettings& settings, const SceneView& view) const {
+  const InputOptions &input = options.input, usual;
+  if (input.refine > 0) add_option(session, "refine", std::to_string(input.refine));
+  if (input.cell_directions != usual.cell_directions)
+    add_option(session, "cell-directions", input.cell_directions);
+  if (input.layer_cache != usual.layer_cache) add_option(session, "layer-cache", input.layer_cache);
+  add_option(session, "surface-markers", input.surface_markers);
   add_option(session, "layer", exact_number(settings.layer));
   add_option(session, "seeds", settings.seeds);
   add_option(session, "seed", std::to_string(settings.random_seed));
   if (settings.max_length > 0.0) add_option(session, "max-length", exact_number(settings.max_length));
+  if (settings.step > 0.0) add_option(session, "step", exact_number(settings.step));
+  if (options.heart.least_gap != HeartOptions().least_gap)
+    add_option(session, "least-gap", exact_number(options.heart.least_gap));
   add_option(session, "angle", settings.color_array);
   add_option(session, "convention", options.heart.convention);
   add_option(session, "axis", options.heart.axis);

@@ -29,6 +29,9 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 std::string counted(std::uint64_t count, const std::string& noun) {
+  constexpr std::string_view kGreek = "hedron";
+  if (count != 1 && noun.ends_with(kGreek))
+    return std::to_string(count) + " " + noun.substr(0, noun.size() - 2) + "a";
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "common/base/error.h"
+#include "common/base/keep_beside.h"
 #include "common/base/mapped_file.h"
 #include "common/base/number_text.h"
 #include "common/base/output_file.h"
@@ -102,15 +103,6 @@ std::optional<WallLayer> decode(std::string_view text, const std::string& key, s
   return layer;
 }
 
-/// Whether the folder of `file` is meant to be written: root may write to what nobody should.
-bool may_be_written(const std::filesystem::path& file) {
-  using std::filesystem::perms;
-  std::error_code failed;
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  const perms bits = std::filesystem::status(folder, failed).permissions();
-  return !failed && (bits & (perms::owner_write | perms::group_write | perms::others_write)) != perms::none;
-}
-
 }  // namespace
 
 LayerCaching layer_caching_from_name(const std::string& name) {
@@ -146,7 +138,7 @@ std::optional<WallLayer> LayerCache::find(const DataSet& mesh) {
 
 void LayerCache::keep(const DataSet& mesh, const WallLayer& layer, double seconds) {
   if (caching_ == LayerCaching::kOff || (caching_ == LayerCaching::kAuto && seconds < kWorthKeeping)) return;
-  if (!may_be_written(file_)) {
+  if (!may_keep_beside(file_)) {
     notes_.push_back("layers not kept for the next opening: the folder of " + file_.string() +
                      " is read-only");
     return;

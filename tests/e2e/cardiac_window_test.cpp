@@ -15,6 +15,7 @@
 #include "common/app/window/panel.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/window.h"
+#include "common/scene/session.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
 
@@ -287,6 +288,77 @@ TEST_F(CardiacColors, OfAnglesGoAllTheWayRoundAlsoComingBackToThem) {
   EXPECT_FALSE(range_at(model, 0) == all);
   settings_.color_array = "helix";
   EXPECT_EQ(range_at(model, 0), all);
+}
+
+class CardiacSession : public ExplorerTest {
+ protected:
+  CardiacSession() : ExplorerTest("cardiac") {}
+};
+
+// What a command line says comes back from the session that its window saves.
+TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
+  PALPATE_NEED_DATA(mesh, "cardiac/chaste-ellipsoid/ellipsoid_8225_elements_quad.ele");
+  for (const auto& entry : std::filesystem::directory_iterator(mesh.parent_path()))
+    std::filesystem::copy(entry.path(), folder_.path());
+  const std::filesystem::path file = folder_.path(mesh.filename());
+  const std::vector<std::pair<std::string, std::string>> given{
+      {"refine", "6"},        {"cell-directions", "constant"}, {"layer-cache", "always"},
+      {"layer", "0.25"},      {"seeds", "random:3"},           {"step", "0.015625"},
+      {"least-gap", "0.125"}, {"angle", "transverse"},         {"contour-spacing", "10"},
+      {"range", "-30,30"}};
+  Options options;
+  options.common.threads = 1;
+  options.input.files = {file};
+  options.input.refine = 6;
+  options.input.cell_directions = "constant";
+  options.input.layer_cache = "always";
+  options.tracing.seeds = "random:3";
+  options.tracing.step = 0.015625;
+  options.heart.layer = "0.25";
+  options.heart.least_gap = 0.125;
+  options.heart.angle = "transverse";
+  options.heart.contours = 10.0;
+  options.heart.range = "-30,30";
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  SceneView view;
+  show_scene(state, true, view);
+  const Session saved = load_session(model.save_session(state.settings, view, {}));
+  for (const auto& option : given)
+    EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), option), saved.options.end())
+        << option.first;
+  const std::filesystem::path session = folder_.path(file.stem().string() + ".palpate.toml");
+  EXPECT_TRUE(std::filesystem::exists(session));
+  std::filesystem::remove(folder_.path(file.stem().string() + ".palpate.layers"));
+  const auto lines = [&](const std::string& name, const std::vector<std::string>& words) {
+    std::vector<std::string> command{"trace", file.string(), "--out", name};
+    command.insert(command.end(), words.begin(), words.end());
+    (void)json(command);
+    return read_file(folder_.path(name));
+  };
+  const std::string back = lines("back.csv", {"--session", session.string()});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path(file.stem().string() + ".palpate.layers")))
+      << "always kept, as the session has it";
+  EXPECT_EQ(back, lines("given.csv", {"--cell-directions", "constant", "--layer", "0.25", "--seeds",
+                                      "random:3", "--step", "0.015625", "--least-gap", "0.125"}));
+}
+
+TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {
+  Options options;
+  options.input.example = "ventricle";
+  options.input.surface_markers = "1,4/2";
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  SceneView view;
+  show_scene(state, true, view);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const Session saved = load_session(model.save_session(state.settings, view, {}));
+  std::filesystem::current_path(before);
+  const std::pair<std::string, std::string> markers{"surface-markers", "1,4/2"};
+  EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), markers), saved.options.end());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include <unistd.h>
+#include "common/base/keep_beside.h"
 
 namespace palpate {
 
@@ -18,8 +18,8 @@ std::string store_session(const Session& session, const InputSpec& spec) {
       (spec.files.empty() ? session.program + "-" + spec.example : spec.files.front().stem().string()) +
       ".palpate.toml";
   const auto beside = spec.files.empty() ? std::filesystem::path() : spec.files.front().parent_path();
-  const bool writable = access(beside.empty() ? "." : beside.c_str(), W_OK) == 0;
-  const std::filesystem::path path = writable ? beside / name : std::filesystem::path(name);
+  std::filesystem::path path = beside / name;
+  if (!may_keep_beside(path)) path = name;
   save_session(path, session);
   return path.string();
 }

@@ -66,9 +66,12 @@ void add_isosurface(SceneOptions& options, TouchOptions& touch, FieldKind kind) 
               "hold on to it (layer)",
               "wall|below|above|layer", kGroup);
   options.add("--depth", touch.depth,
-              "stretch in mm at which an isosurface lets the probe through; default 10", "MM", kGroup);
-  options.add("--snap", touch.snap,
-              "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", kGroup);
+              "pop-through distance: stretch in mm at which an isosurface lets the probe through; default 10",
+              "MM", kGroup);
+  options.add(
+      "--snap", touch.snap,
+      "snap-in distance in mm, within which a layer takes hold of the probe; default 0: by crossing it", "MM",
+      kGroup);
 }
 
 void add_force_fields(SceneOptions& options, TouchOptions& touch) {
@@ -193,9 +196,13 @@ void add_fibres(SceneOptions& options, TouchOptions& touch) {
   options.add("--isovalue", touch.isovalues,
               "depths of layers that are felt, up to eight; default: seven through the wall", "V[,V...]",
               kGroup);
-  options.add("--depth", touch.depth, "stretch in mm at which a layer lets go; default 10", "MM", kGroup);
-  options.add("--snap", touch.snap,
-              "distance in mm at which a layer catches the probe; default 0: by crossing it", "MM", kGroup);
+  options.add("--depth", touch.depth,
+              "pop-through distance: stretch in mm at which a layer lets the probe through; default 10", "MM",
+              kGroup);
+  options.add(
+      "--snap", touch.snap,
+      "snap-in distance in mm, within which a layer takes hold of the probe; default 0: by crossing it", "MM",
+      kGroup);
   options.add("--fibre-spacing", touch.fibre_spacing,
               "fiber, friction: stretch across a fibre in mm at which the next one catches; default 4", "MM",
               kGroup);

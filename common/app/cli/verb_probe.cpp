@@ -51,7 +51,7 @@ std::string summary_text(const ProbeSummary& summary) {
     for (int i = 0; i < surface.isovalues.count; ++i) {
       text += (i > 0 ? ", " : " ") + short_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
     }
-    text += "; lets through at " + short_number(1e3 * surface.depth) + " mm\n";
+    text += "; pop-through at " + short_number(1e3 * surface.depth) + " mm\n";
   }
   if (summary.mode == kLinearMode) {
     text += "  linear    ";

@@ -21,8 +21,8 @@ constexpr double kLeastMillimetres = 0.5, kMostMillimetres = 50.0;
 
 /// Bars over the range of the data, as roots, so that rare values show; a line at each isovalue. How far the
 /// isosurface is stands on it, so that no control below moves.
-void draw_histogram(const ValueHistogram* histogram, const ScalarField& field, const Isovalues& isovalues,
-                    std::optional<double> fraction) {
+void draw_histogram(const char* label, const ValueHistogram* histogram, const ScalarField& field,
+                    const Isovalues& isovalues, std::optional<double> fraction) {
   constexpr std::size_t kBars = 64;
   std::vector<float> bars(kBars, 0.0F);
   const std::size_t bins = histogram != nullptr ? histogram->counts.size() : 0;
@@ -33,7 +33,7 @@ void draw_histogram(const ValueHistogram* histogram, const ScalarField& field, c
   if (fraction) words = "isosurface " + std::to_string(std::lround(100.0 * *fraction)) + " %";
   for (float& bar : bars) bar = std::sqrt(bar);
   const ImVec2 size{ImGui::CalcItemWidth(), 2.2F * ImGui::GetFontSize()};
-  ImGui::PlotHistogram("values", bars.data(), static_cast<int>(kBars), 0, fraction ? words.c_str() : nullptr,
+  ImGui::PlotHistogram(label, bars.data(), static_cast<int>(kBars), 0, fraction ? words.c_str() : nullptr,
                        0.0F, FLT_MAX, size);
   const ImVec2 corner = ImGui::GetItemRectMin();
   const double range = field.highest() - field.lowest();
@@ -120,17 +120,25 @@ Isovalues with_another(const Isovalues& isovalues, double lowest, double highest
 void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, const FeltSurfaces::Made& made,
                       std::optional<double> fraction, const std::string& mode, bool flow) {
   if (!felt.field) return;
-  draw_histogram(made.histogram.get(), *felt.field, felt.isovalues, fraction);
   // The layers of a heart hold as such.
   const bool chosen = mode == kIsosurfaceMode;
+  draw_histogram(chosen ? "histogram" : "depths", made.histogram.get(), *felt.field, felt.isovalues,
+                 fraction);
   const Isovalues edited = edit_values(felt, chosen ? "isosurface" : "layer");
   if (!(edited == felt.isovalues)) settings.isovalues = edited;
   if (chosen) choose_hold(settings);
-  if (distance_slider("lets through at", settings.depth, kLeastMillimetres, kMostMillimetres)) {
+  if (distance_slider("pop-through", settings.depth, kLeastMillimetres, kMostMillimetres)) {
     settings.snap_distance = std::min(settings.snap_distance, settings.depth);
   }
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("pop-through distance: stretch at which a %s lets the probe through to the next one",
+                      chosen ? "surface" : "layer");
   if (!chosen || settings.hold == IsosurfaceHold::kLayer) {
-    (void)distance_slider("catches from", settings.snap_distance, 0.0, kMillimetres * settings.depth);
+    (void)distance_slider("snap-in", settings.snap_distance, 0.0, kMillimetres * settings.depth);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "snap-in distance: how near the probe comes to a layer before that holds it; 0: it "
+          "has to cross it");
   }
   if (flow) ImGui::Checkbox("along a streamline", &settings.along_streamline);
   if (!made.problem.empty()) ImGui::TextWrapped("%s", made.problem.c_str());

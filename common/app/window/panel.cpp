@@ -184,14 +184,15 @@ void draw_layer(PanelState& state, const SceneState& scene) {
   draw_seeds(state);
   choose_plotted(state, info);
   double spacing = settings.contours;
-  if (ImGui::InputDouble("lines every", &spacing, 0.0, 0.0, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue) &&
+  if (ImGui::InputDouble("contour spacing", &spacing, 0.0, 0.0, "%.4g",
+                         ImGuiInputTextFlags_EnterReturnsTrue) &&
       std::isfinite(spacing)) {
     settings.contours = std::max(spacing, 0.0);
   }
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("lines where what colours the layer is a multiple of this: isochrones; 0: none");
   const char* kNothing = "nothing";
-  if (ImGui::BeginCombo("in a lens (L)",
+  if (ImGui::BeginCombo("inside lens (L)",
                         settings.lens_array.empty() ? kNothing : settings.lens_array.c_str())) {
     if (ImGui::Selectable(kNothing, settings.lens_array.empty())) settings.lens_array.clear();
     for (const std::string& name : info.color_arrays)

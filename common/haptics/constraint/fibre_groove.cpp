@@ -38,7 +38,9 @@ void FibreGroove::update(const Vec3& probe, const UpdateBudget& budget, LinkUpda
     Vec3 r = asked.position - walk_.point().position;
     r -= glm::dot(r, here.normal) * here.normal;
     const double certainty = fibre_certainty(here.gap) * fade(here.tangential / kLying);
-    if (certainty == 0.0) {  // no groove: as far as the layer's proxy
+    // One narrower than the proxy comes to rest is none: as far as the layer's proxy. So rounding has no say
+    // in which way a fibre that stands on the layer lies in it.
+    if (spacing_ * certainty <= kSettled) {
       link.jacobian = Mat3{1.0} - glm::outerProduct(here.normal, here.normal);
       link.kappa = Vec3{0.0};
       const double length = glm::length(r) * to_metres;

@@ -139,10 +139,10 @@ ContractSubject friction() {
   subject.off_feature = [](const Vec3& probe, const LinkUpdate& link) {
     return std::max(off_layer(link), glm::distance(Vec2(probe), Vec2(link.proxy)) - kTau);
   };
-  // Turned, they stand on it but for rounding, and rounding says which way the groove before it goes.
-  subject.movable = false;
-  // What is left undragged.
+  // What is left undragged, behind the groove and behind the friction. Turned by a rotation, fibres stand on
+  // the layer but for rounding, which says no way in it: a groove narrower than that is none.
   subject.feature_error = 2e-9;
+  subject.moved_error = 2e-9;
   return subject;
 }
 
