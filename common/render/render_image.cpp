@@ -42,6 +42,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
   }
   result.image = renderer.read();
   result.coarser_voxels = renderer.coarser_voxels();
+  result.bricks = renderer.bricks();
   result.gpu = gpu_objects();
   return result;
 }

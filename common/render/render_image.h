@@ -16,6 +16,7 @@ struct RenderedImage {
   std::vector<double> frame_ms;          ///< of the repeated frames, by the clock
   FrameQuality quality;                  ///< that the budget left
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
+  BrickShare bricks;                     ///< likewise
   std::string renderer;                  ///< the OpenGL driver
   std::vector<GpuObject> gpu;            ///< what was compiled and allocated
 };

@@ -122,6 +122,7 @@ struct SceneRenderer::State {
   LineSet lines, outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
+  bool draws_volume = false;  // in the last picture
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
@@ -319,7 +320,7 @@ struct SceneRenderer::State {
 
   void update_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
-    volume->update(*view.volume, frame);
+    volume->update(*view.volume, frame, block);
   }
 
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.
@@ -335,7 +336,8 @@ struct SceneRenderer::State {
   void draw_over_still_part(const SceneView& view, const LineDraw& base, float unit,
                             const ViewTransform& transform, double tract_milliseconds) {
     const bool other_path = view.probe && update_probe(view);
-    const bool other = other_path || !still || !same_still_part(*still, view);
+    const bool lacks = volume && draws_volume && !volume->bricks().complete();
+    const bool other = other_path || lacks || !still || !same_still_part(*still, view);
     const bool has_tracts = other ? begin_tracts(view, tract_milliseconds) : view.tracts.has_value();
     // What shines lies over the tracts, and transparent ones are shown when there are enough of them: these
     // grow unseen.
@@ -384,6 +386,7 @@ struct SceneRenderer::State {
     if (target.resize(width, height, resolution)) still.reset();
     update_geometry(view);
     update_colors(view);
+    draws_volume = shows_volume(view);
 
     const double aspect = static_cast<double>(width) / height;
     const ViewTransform transform = view_transform(view.camera, frame, reach, aspect);
@@ -456,7 +459,13 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   s.stereo->compose();
 }
 
-bool SceneRenderer::complete() const noexcept { return !state_->tracts || state_->progress.complete(); }
+bool SceneRenderer::complete() const noexcept {
+  return (!state_->tracts || state_->progress.complete()) && bricks().complete();
+}
+
+BrickShare SceneRenderer::bricks() const noexcept {
+  return state_->draws_volume && state_->volume ? state_->volume->bricks() : BrickShare{};
+}
 
 TractShare SceneRenderer::tract_share() const noexcept {
   const State& s = *state_;

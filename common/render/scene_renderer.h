@@ -40,12 +40,13 @@ class SceneRenderer {
   /// @throws Error (usage) for a size that cannot be drawn.
   void draw(const SceneView& view, int width, int height, double resolution = 1.0,
             double tract_milliseconds = HUGE_VAL, const std::function<bool()>& stop_tracts = {});
-  /// Whether the last picture shows all tracts that there is room for.
+  /// Whether the last picture shows all tracts that there is room for, and all bricks of a volume.
   [[nodiscard]] bool complete() const noexcept;
   /// What the last picture shows of the tracts.
   [[nodiscard]] TractShare tract_share() const noexcept;
   /// As VolumePass, of the last picture.
   [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
+  [[nodiscard]] BrickShare bricks() const noexcept;
   [[nodiscard]] bool made_slabs() const noexcept;
   bool prepare_slabs(std::size_t cut);
   void forget_slabs();

@@ -6,16 +6,17 @@ layout(binding = 0) uniform sampler3D voxels;  // of the volume, or the pool of 
 layout(binding = 11) uniform sampler3D brick_index;  // xyz: voxel of the pool at which the brick begins; w: see below
 
 // Number at g, trilinear; beyond the points that of the nearest place. With b the brick, p where it begins in the pool,
-//   b = floor(g / cells),   pool coordinate of g = p + g - b cells
+//   b = floor(g / cells),   pool coordinate of g = p + (g - b cells) / s,   s = 8 where a coarse brick stands in, else 1
 // neighbours share the points between them. The last brick owns the upper end. Places keep clear of the brick's faces by
 // so little that texture units with weights in steps of 1/256 are one step off at most, and enough that no voxel of
 // another brick gets a weight: it may be NaN.
 float number_at(vec3 g) {
-  const float kCells = float(BRICKED), kLower = 1.0 / 1024.0, kUpper = 1.0 / 480.0;
+  const float kCells = float(BRICKED), kLower = 1.0 / 1024.0, kUpper = 1.0 / 480.0, kCoarse = 8.0;
   vec3 brick = clamp(floor(g / kCells), vec3(0.0), vec3(textureSize(brick_index, 0) - 1));
   vec3 cells = min(vec3(kCells), max(volume.points.xyz - 1.0, vec3(1.0)));
-  vec3 inside = clamp(g - kCells * brick, vec3(kLower), cells - kUpper);
   vec4 place = texelFetch(brick_index, ivec3(brick), 0);
+  float scale = place.w < -3.4e38 ? 1.0 / kCoarse : 1.0;  // a coarse brick stands in
+  vec3 inside = clamp((g - kCells * brick) * scale, vec3(kLower), ceil(cells * scale) - kUpper);
   float number = texture(voxels, (place.xyz + inside + 0.5) / vec3(textureSize(voxels, 0))).x;
   return isinf(place.w) ? number : place.w;  // not in the pool: a number that stands for all of the brick
 }

@@ -328,6 +328,9 @@ std::string render_json(const RenderSummary& summary) {
             {"seconds_trace", summary.seconds_trace},
             {"renderer", summary.renderer},
             {"version", version()}};
+  if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
+    json["bricks"] = {
+        {"held", bricks.held}, {"wanted", bricks.wanted}, {"all", bricks.all}, {"bytes", bricks.bytes}};
   if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
   add_plan(json, summary.plan, summary.measured);
   return text_of(json);

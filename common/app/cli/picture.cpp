@@ -144,6 +144,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
   summary.renderer = rendered.renderer;
   summary.quality = rendered.quality;
+  summary.bricks = rendered.bricks;
   context.progress.check();
   write_png(options.out, rendered.image,
             {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});
@@ -157,6 +158,11 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   console.print(summary.input + ": " + drawn.what + " -> " + summary.output + " (" +
                 std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
+  if (const BrickShare& bricks = rendered.bricks; bricks.all > 0) {
+    console.print("  bricks: " + std::to_string(bricks.held) + " of the " + std::to_string(bricks.all) +
+                  " of the volume are looked up and held, in a pool of " +
+                  std::to_string(bricks.bytes >> 20U) + " MB\n");
+  }
   if (const auto& n = rendered.coarser_voxels) {
     console.note("drawn from " + std::to_string(n->x) + " x " + std::to_string(n->y) + " x " +
                  std::to_string(n->z) +

@@ -15,6 +15,7 @@
 #include "common/haptics/constraint.h"
 #include "common/render/frame_budget.h"
 #include "common/render/gl/gpu_objects.h"
+#include "common/render/volume/volume_view.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
@@ -274,6 +275,7 @@ struct RenderSummary {
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
   std::string renderer;
+  BrickShare bricks;           ///< of a volume that is stored in bricks
   std::vector<GpuObject> gpu;  ///< with --explain
   Needs plan;
   std::vector<MeasuredCost> measured;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "common/base/clock.h"
@@ -17,6 +18,8 @@ constexpr double kLensRest = 0.3;
 constexpr double kSlabRest = 5.0;
 // So long may panels wait while pictures are made that nobody waits for [s].
 constexpr double kPrepareSlice = 0.05;
+// Of a volume in bricks, for one picture: some 10 ms [bytes].
+constexpr std::uint64_t kBrickUpload = std::uint64_t{8} << 20;
 
 }  // namespace
 
@@ -27,6 +30,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
   budget_.show(volume, volume && !view.volume->lenses.empty());
   const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
   view = with_quality(std::move(view), quality);
+  if (view.volume) view.volume->storage.upload = kBrickUpload;
   if (dirty_ || width != width_ || height != height_ || !same_picture(view, shown_) ||
       quality.resolution != figures_.quality.resolution || !renderer_.complete()) {
     const bool patient = !moving && moment.interrupted;
@@ -36,6 +40,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     figures_.milliseconds = renderer_.finish();
     figures_.tracts = renderer_.tract_share();
     figures_.coarser_voxels = renderer_.coarser_voxels();
+    figures_.bricks = renderer_.bricks();
     if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(figures_.milliseconds);

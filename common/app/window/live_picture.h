@@ -19,6 +19,7 @@ struct PictureFigures {
   double frames_per_second = 0.0;
   FrameQuality quality;
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
+  BrickShare bricks;                     ///< likewise
   TractShare tracts;
 };
 

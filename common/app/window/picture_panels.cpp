@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "common/app/window/keys.h"
@@ -67,6 +68,11 @@ std::string frame_text(const PanelState& state) {
   give_up(quality.resolution, "resolution");
   if (const auto& n = state.picture.coarser_voxels) {
     std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n->x, n->y, n->z);
+    text += part.data();
+  }
+  if (const BrickShare& bricks = state.picture.bricks; bricks.all > 0) {
+    std::snprintf(part.data(), part.size(), "bricks: %zu of %zu, %zu in all, %.0f MB, ", bricks.held,
+                  bricks.wanted, bricks.all, std::ldexp(static_cast<double>(bricks.bytes), -20));
     text += part.data();
   }
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)

@@ -69,7 +69,7 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   frame_ = frame;
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);
-  textures_.update(view_, &whole);
+  textures_.update(view_, {}, &whole);
   if (std::vector<std::string> defines = textures_.shader_defines(); defines != defines_) {
     unlit_.reset();
     shaded_.reset();

@@ -197,7 +197,7 @@ struct VolumePass::State {
 VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
 VolumePass::~VolumePass() = default;
 
-void VolumePass::update(const VolumeView& asked, const SceneFrame& frame) {
+void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const FrameBlock& block) {
   PALPATE_CHECK(asked.image != nullptr);
   PALPATE_CHECK(asked.samples_per_voxel > 0.0 && std::isfinite(asked.samples_per_voxel));
   for (const Lens& lens : asked.lenses) {
@@ -206,7 +206,9 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame) {
   State& s = *state_;
   VolumeView view = asked;
   view.storage = storage_of_whole(asked);
-  s.textures.update(view);
+  const std::uint64_t voxels = s.textures.changes();
+  s.textures.update(view, make_brick_sight(block, frame));
+  if (s.textures.changes() != voxels) s.slabs.reset();
   view.storage = asked.storage;
   view.image = s.textures.image();
   s.asked = asked.image;
@@ -294,6 +296,8 @@ std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
   if (drawn == nullptr || drawn == state_->asked) return std::nullopt;
   return drawn->points;
 }
+
+BrickShare VolumePass::bricks() const noexcept { return state_->textures.bricks_held(); }
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }
 

@@ -31,8 +31,11 @@ class VolumePass {
   /// lengths are.
   /// @pre asked.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
   /// least two table entries, and lengths a multiple of kLengthGroup.
+  /// @param block of the picture that draw() is to make: a volume in bricks holds those that it looks up.
   /// @throws Error as VolumeTextures::update().
-  void update(const VolumeView& asked, const SceneFrame& frame);
+  void update(const VolumeView& asked, const SceneFrame& frame, const FrameBlock& block);
+  /// How many bricks there are for the picture: where some of them lack, the same one drawn again has more.
+  [[nodiscard]] BrickShare bricks() const noexcept;
 
   /// Draws over the framebuffer that is bound, with the one shader that this needs, behind none of what it
   /// holds but in front of it as far as the depths say: with associated colours, without writing depth. Needs

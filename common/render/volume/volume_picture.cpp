@@ -37,7 +37,7 @@ struct VolumePicture::State {
         view_transform(camera, frame, view.image->bounds(), static_cast<double>(width) / height);
     block = make_frame_block(camera, transform, palette_of(Background::kDark), false, width, height);
     frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
-    pass->update(view, frame);
+    pass->update(view, frame, block);
   }
 
   void draw() {
@@ -113,6 +113,8 @@ bool VolumePicture::prepare_slabs(std::size_t cut) {
   glFinish();
   return more;
 }
+
+BrickShare VolumePicture::bricks() const { return state_->pass->bricks(); }
 
 VolumePass::Cost VolumePicture::cost() const { return state_->pass->cost(); }
 

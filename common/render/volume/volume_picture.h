@@ -40,6 +40,7 @@ class VolumePicture {
   double draw_again();
   /// As VolumePass, after one of the above. Waits for what is drawn.
   bool prepare_slabs(std::size_t cut);
+  [[nodiscard]] BrickShare bricks() const;
   [[nodiscard]] VolumePass::Cost cost() const;
 
  private:

@@ -44,6 +44,12 @@ GlTexture upload_colors(const VolumeImage& image) {
   return texture;
 }
 
+bool fits_whole(const VolumeImage& image, std::uint64_t memory) {
+  const Index3 n = image.points;
+  return std::max({n.x, n.y, n.z}) <= largest_volume_texture() &&
+         (memory == 0 || image.bytes.size() <= memory);
+}
+
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MB"; }
 
 }  // namespace
@@ -54,7 +60,7 @@ bool VolumeTextures::TableKey::operator==(const TableKey& other) const {
          lengths == other.lengths;
 }
 
-void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other) {
+void VolumeTextures::update(const VolumeView& view, const BrickSight& sight, const VolumeTextures* other) {
   PALPATE_CHECK(view.image != nullptr);
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
   if (other != nullptr) tiles_.share_program(other->tiles_);
@@ -62,7 +68,7 @@ void VolumeTextures::update(const VolumeView& view, const VolumeTextures* other)
   if (other != nullptr && other->image_ == view.image) {
     share_voxels(*other);
   } else {
-    place_voxels(drawn);
+    place_voxels(drawn, sight);
   }
   drawn.image = image_;
   update_colors(drawn);
@@ -100,21 +106,19 @@ void VolumeTextures::share_voxels(const VolumeTextures& other) {
   voxels_ = other.voxels_;
   bricks_ = other.bricks_;
   placed_ = {};
+  changes_ = other.changes_;
   cost_.voxel_bytes = 0;
 }
 
-void VolumeTextures::place_voxels(VolumeView view) {
+BrickShare VolumeTextures::bricks_held() const noexcept { return bricks_ ? bricks_->share() : BrickShare{}; }
+
+void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sight) {
   PlaceKey wanted{.image = view.image, .storage = view.storage, .transfers = {}, .cuts = {}};
-  const int largest = largest_volume_texture();
-  const auto is_whole = [&](const VolumeImage& image) {
-    const Index3 n = image.points;
-    return std::max({n.x, n.y, n.z}) <= largest &&
-           (view.storage.memory == 0 || image.bytes.size() <= view.storage.memory);
-  };
   const bool may_cut = !view.image->colors;
-  const bool whole = !may_cut || (view.storage.brick_cells == 0 && is_whole(*view.image));
+  const bool whole =
+      !may_cut || (view.storage.brick_cells == 0 && fits_whole(*view.image, view.storage.memory));
   if (!whole) {
-    // What bricks that are seen depend on.
+    // What bricks that are needed depend on.
     for (const ColorTransfer* transfer : transfers_of(view)) wanted.transfers.push_back(*transfer);
     wanted.step = step_lengths(view).longest;
     wanted.opacity_length = opacity_length_of(view);
@@ -122,21 +126,36 @@ void VolumeTextures::place_voxels(VolumeView view) {
     wanted.blended = blends_values(view);
     if (shows_planes(view)) wanted.cuts = view.cuts;
   }
-  if (wanted == placed_) return;
-  if (wanted.image != placed_.image) levels_.clear();
-  placed_ = {};
-
-  if (whole) {
-    check_size(*view.image, largest);
-    take_image(view.image, brick_ranges(*view.image));
-    bricks_.reset();
-    voxels_.reset();
-    voxels_ = std::make_shared<const GlTexture>(upload_whole(*image_));
-    cost_.voxel_bytes = image_->bytes.size();
-    placed_ = std::move(wanted);
-    return;
+  if (wanted != placed_) {
+    if (wanted.image != placed_.image) levels_.clear();
+    for (Level& level : levels_) level.needed.clear();
+    placed_ = {};
+    sight_.reset();
+    if (whole) {
+      check_size(*view.image, largest_volume_texture());
+      place_whole(view.image, brick_ranges(*view.image));
+    }
   }
-  // The finest level that fits.
+  if (!whole && !(sight_ == sight && lenses_ == view.lenses)) place_bricks(view, sight);
+  placed_ = std::move(wanted);
+}
+
+void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges) {
+  if (image_ == image && voxels_) return;
+  bricks_.reset();
+  voxels_.reset();
+  voxels_ = std::make_shared<const GlTexture>(upload_whole(*image));
+  cost_.voxel_bytes = image->bytes.size();
+  ++changes_;
+  take_image(image, ranges);
+}
+
+// The finest level of which all that the picture looks up fits.
+void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
+  const int largest = largest_volume_texture();
+  const int cells = view.storage.brick_cells > 0 ? view.storage.brick_cells : kPoolBrickCells;
+  const bool coarse = view.storage.upload > 0;
+  lenses_ = view.lenses;
   for (std::size_t level = 0;; ++level) {
     if (level == levels_.size()) {
       auto image = level == 0 ? view.image : coarse_image(*levels_.back().image, 1);
@@ -145,34 +164,37 @@ void VolumeTextures::place_voxels(VolumeView view) {
                           " of memory hold a volume, however coarse");
       }
       BrickRanges ranges = brick_ranges(*image);
-      levels_.push_back({std::move(image), std::move(ranges)});
+      levels_.push_back({std::move(image), std::move(ranges), {}});
     }
-    const Level& at = levels_[level];
+    Level& at = levels_[level];
     view.image = at.image;
-    if (level > 0 && is_whole(*at.image)) {
-      bricks_.reset();
-      voxels_.reset();
-      voxels_ = std::make_shared<const GlTexture>(upload_whole(*at.image));
-      cost_.voxel_bytes = at.image->bytes.size();
-    } else {
-      const int cells = view.storage.brick_cells > 0 ? view.storage.brick_cells : kPoolBrickCells;
-      const BrickLayout layout = brick_layout(*at.image, cells);
-      const std::vector<bool> needed = needed_bricks(view, at.ranges, layout);
-      const auto count = static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true));
-      const std::uint64_t bytes = bricked_bytes(count, layout, at.image->type, largest);
-      if (bytes == std::numeric_limits<std::uint64_t>::max() ||
-          (view.storage.memory > 0 && bytes > view.storage.memory))
-        continue;
-      voxels_.reset();
-      if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells) {
-        bricks_.reset();
-        bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges);
-      }
-      bricks_->hold(needed, view.storage.memory);
-      cost_.voxel_bytes = bricks_->bytes();
+    if (level > 0 && fits_whole(*at.image, view.storage.memory)) {
+      place_whole(at.image, at.ranges);
+      sight_ = sight;
+      return;
     }
+    const BrickLayout layout = brick_layout(*at.image, cells);
+    if (at.needed.empty()) at.needed = needed_bricks(view, at.ranges, layout);
+    const std::vector<std::size_t> wanted = bricks_in_sight(view, at.needed, layout, sight);
+    const auto count = static_cast<std::size_t>(std::count(at.needed.begin(), at.needed.end(), true));
+    const std::size_t places = wanted.size() + (coarse ? coarse_places(count, layout) : 0);
+    const std::uint64_t bytes = bricked_bytes(places, layout, at.image->type, largest);
+    if (bytes == std::numeric_limits<std::uint64_t>::max() ||
+        (view.storage.memory > 0 && bytes > view.storage.memory))
+      continue;
+    voxels_.reset();
+    if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells || bricks_->coarse() != coarse) {
+      bricks_.reset();
+      bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges, coarse);
+      ++changes_;
+    }
+    const std::uint64_t before = bricks_->uploads();
+    bricks_->hold(at.needed, wanted, view.storage);
+    changes_ += bricks_->uploads() != before ? 1 : 0;
+    cost_.voxel_bytes = bricks_->bytes();
     take_image(at.image, at.ranges);
-    placed_ = std::move(wanted);
+    sight_.reset();
+    if (bricks_->share().complete()) sight_ = sight;
     return;
   }
 }

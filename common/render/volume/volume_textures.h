@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/render/gl/object.h"
+#include "common/render/volume/brick_demand.h"
 #include "common/render/volume/brick_map.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
@@ -26,7 +28,8 @@ class VolumeTextures {
   /// given.
   /// @param other whose voxels on the GPU are these, too, where it has the same image, and whose program for
   /// tiles is; null: none.
-  void update(const VolumeView& view, const VolumeTextures* other = nullptr);
+  /// @param sight from where the picture is taken, which of a volume in bricks holds what it looks up.
+  void update(const VolumeView& view, const BrickSight& sight, const VolumeTextures* other = nullptr);
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
@@ -42,6 +45,11 @@ class VolumeTextures {
   [[nodiscard]] const Index3& bricks() const noexcept { return ranges_.bricks; }  ///< an axis
   [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
   [[nodiscard]] const TilePass& tiles() const noexcept { return tiles_; }
+
+  /// Of a volume in bricks.
+  [[nodiscard]] BrickShare bricks_held() const noexcept;
+  /// How often other voxels were uploaded: what was drawn before is no longer what would be.
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
 
   struct Cost {
     std::uint64_t voxel_bytes = 0, table_bytes = 0, brick_bytes = 0;
@@ -75,9 +83,12 @@ class VolumeTextures {
   struct Level {
     std::shared_ptr<const VolumeImage> image;
     BrickRanges ranges;
+    std::vector<bool> needed;  ///< bricks, by `placed_`; empty: not asked for yet
   };
   void share_voxels(const VolumeTextures& other);
-  void place_voxels(VolumeView view);
+  void place_voxels(const VolumeView& view, const BrickSight& sight);
+  void place_bricks(VolumeView view, const BrickSight& sight);
+  void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
@@ -85,6 +96,9 @@ class VolumeTextures {
   std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
   std::shared_ptr<VoxelBricks> bricks_;
   PlaceKey placed_;
+  std::optional<BrickSight> sight_;  ///< for which all that is looked up is there
+  std::vector<Lens> lenses_;         ///< likewise
+  std::uint64_t changes_ = 0;
   std::vector<Level> levels_;  ///< of volumes in bricks, as far as they were asked for
   GlTexture colors_, tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;

@@ -47,13 +47,27 @@ struct PlaneImages {
 inline constexpr std::size_t kMostContours = 16;  ///< of one picture
 
 /// Where voxels stand on the GPU. Volumes that do not fit are stored in bricks (voxel_bricks.h), those that
-/// are seen alone, and from coarser voxels where these are too many; volumes with colours as a whole.
+/// the picture looks up alone, and from coarser voxels where these are too many; volumes with colours as a
+/// whole.
 struct VoxelStorage {
   std::uint64_t memory = 0;  ///< that voxels may take [bytes]; 0: no bound
   /// Cells of bricks an axis, a multiple of kBrickCells; 0: the usual ones, and bricks only where need be.
   int brick_cells = 0;
+  /// Of bricks that may be uploaded for one picture [bytes], one of them in any case; coarse ones stand in
+  /// for those that are not there yet, and the same picture drawn again has more. 0: all that it looks up.
+  std::uint64_t upload = 0;
 
   bool operator==(const VoxelStorage&) const = default;
+};
+
+/// How many bricks of a volume are there for a picture; zeros where it stands as a whole.
+struct BrickShare {
+  std::size_t held = 0;     ///< of those that the picture looks up
+  std::size_t wanted = 0;   ///< that it looks up
+  std::size_t all = 0;      ///< of the volume
+  std::uint64_t bytes = 0;  ///< of the pool and the index
+
+  [[nodiscard]] bool complete() const noexcept { return held == wanted; }
 };
 
 struct VolumeView {

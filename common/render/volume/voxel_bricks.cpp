@@ -121,6 +121,45 @@ bool meets_planes(const VolumeView& view, std::size_t brick, const BrickLayout& 
   });
 }
 
+// Points of a coarse brick, an axis.
+Index3 coarse_points(const BrickLayout& layout) {
+  return (layout.points - 1 + kBrickCells - 1) / kBrickCells + 1;
+}
+
+// Mean of the finite ones of the numbers about a point, as far as the next coarse points are halfway; every
+// other one. Points beyond the volume are its last ones.
+double mean_about(const VolumeImage& image, const Index3& point) {
+  constexpr int kHalf = kBrickCells / 2, kStep = 2;
+  const Index3 last = image.points - 1;
+  const Index3 middle = glm::min(point, last);
+  const Index3 from = glm::max(middle - kHalf, Index3(0)), to = glm::min(middle + kHalf, last);
+  double sum = 0.0;
+  int count = 0;
+  for (int z = from.z; z <= to.z; z += kStep) {
+    for (int y = from.y; y <= to.y; y += kStep) {
+      for (int x = from.x; x <= to.x; x += kStep) {
+        const double number = image.number(index_of({x, y, z}, image.points));
+        if (!std::isfinite(number)) continue;
+        sum += number;
+        ++count;
+      }
+    }
+  }
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+void put_number(std::byte* to, ScalarType type, double number) {
+  if (type == ScalarType::kUint8) {
+    *to = static_cast<std::byte>(std::lround(number));
+  } else if (type == ScalarType::kUint16) {
+    const auto value = static_cast<std::uint16_t>(std::lround(number));
+    std::memcpy(to, &value, sizeof(value));
+  } else {
+    const auto value = static_cast<float>(number);
+    std::memcpy(to, &value, sizeof(value));
+  }
+}
+
 }  // namespace
 
 BrickLayout brick_layout(const VolumeImage& image, int cells) {
@@ -150,6 +189,11 @@ std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& range
   return needed;
 }
 
+std::size_t coarse_places(std::size_t bricks, const BrickLayout& layout) {
+  const std::size_t each = product(layout.points / coarse_points(layout));
+  return (bricks + each - 1) / each;
+}
+
 Index3 pool_size(std::size_t count, const BrickLayout& layout, int largest) {
   PALPATE_CHECK(count > 0);
   const Index3 most = Index3(largest) / layout.points;
@@ -169,8 +213,12 @@ std::uint64_t bricked_bytes(std::size_t count, const BrickLayout& layout, Scalar
 }
 
 VoxelBricks::VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout,
-                         const BrickRanges& ranges)
-    : image_(std::move(image)), layout_(layout) {
+                         const BrickRanges& ranges, bool coarse)
+    : image_(std::move(image)),
+      layout_(layout),
+      coarse_(coarse),
+      coarse_points_(coarse_points(layout)),
+      coarse_rows_(layout.points / coarse_points_) {
   const double unit = largest_number(image_->type);
   for (const Range& range : joined_ranges(ranges, layout)) {
     // Infinite numbers show nothing, as NaN does; in the index they would mean the pool.
@@ -179,34 +227,53 @@ VoxelBricks::VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLa
                               : static_cast<float>(static_cast<double>(range.lowest) / unit));
   }
   slots_.assign(stand_ins_.size(), -1);
+  coarse_numbers_.assign(stand_ins_.size(), -1);
+  looked_up_.assign(stand_ins_.size(), 0);
+  share_.all = slots_.size();
   index_ = make_texture(GL_TEXTURE_3D, "index of bricks");
   const Index3 n = layout.bricks;
   glTextureStorage3D(index_.name(), 1, GL_RGBA32F, n.x, n.y, n.z);
   set_sampling(index_, GL_NEAREST, GL_CLAMP_TO_EDGE);
 }
 
-void VoxelBricks::make_pool(std::size_t count, std::uint64_t memory) {
+void VoxelBricks::make_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory) {
   const int largest = largest_volume_texture();
-  const auto size_for = [&](std::size_t bricks) {
-    return bricked_bytes(bricks, layout_, image_->type, largest);
+  const auto fits = [&](std::size_t places) {
+    const std::uint64_t bytes = bricked_bytes(places, layout_, image_->type, largest);
+    return bytes < std::numeric_limits<std::uint64_t>::max() && (memory == 0 || bytes <= memory);
   };
+  const auto coarse_for = [&](std::size_t bricks) { return coarse_ ? coarse_places(bricks, layout_) : 0; };
   // Some room, for functions that are dragged.
-  const std::size_t roomy = std::min(count + count / 4, slots_.size());
-  const std::uint64_t wanted = size_for(roomy);
-  const bool fits = wanted < std::numeric_limits<std::uint64_t>::max() && (memory == 0 || wanted <= memory);
-  pool_bricks_ = pool_size(fits ? roomy : count, layout_, largest);
+  const std::size_t roomy = std::min(needed + needed / 4, slots_.size());
+  coarse_room_ = fits(roomy + coarse_for(roomy)) ? roomy : needed;
+  const std::size_t coarse = coarse_for(coarse_room_);
+  // As many as the memory has room for: what was looked up before may be again.
+  std::size_t fine = std::max<std::size_t>(wanted, 1), too_many = coarse_room_ + 1;
+  while (fine + 1 < too_many) {
+    const std::size_t middle = fine + (too_many - fine) / 2;
+    (fits(middle + coarse) ? fine : too_many) = middle;
+  }
+  pool_bricks_ = pool_size(fine + coarse, layout_, largest);
   PALPATE_CHECK(pool_bricks_.x > 0);
   bytes_ = index_bytes(layout_) + pool_bytes(pool_bricks_, layout_, image_->type);
   PALPATE_CHECK(memory == 0 || bytes_ <= memory);
   pool_.reset();
   pool_ = make_voxel_texture(pool_bricks_ * layout_.points, image_->type, "voxels in bricks");
   std::fill(slots_.begin(), slots_.end(), -1);
-  free_.resize(product(pool_bricks_));
+  std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
+  coarse_held_ = 0;
+  first_coarse_ = product(pool_bricks_) - coarse;
+  free_.resize(first_coarse_);
   for (std::size_t i = 0; i < free_.size(); ++i) free_[i] = static_cast<int>(free_.size() - 1 - i);
-  held_ = 0;
 }
 
 Index3 VoxelBricks::place_of(std::size_t slot) const { return layout_.points * at_index(slot, pool_bricks_); }
+
+Index3 VoxelBricks::coarse_place_of(std::size_t brick) const {
+  const auto number = static_cast<std::size_t>(coarse_numbers_[brick]);
+  const std::size_t each = product(coarse_rows_);
+  return place_of(first_coarse_ + number / each) + coarse_points_ * at_index(number % each, coarse_rows_);
+}
 
 void VoxelBricks::upload(std::size_t brick, std::size_t slot) {
   const Index3 first = first_point(brick, layout_), last = image_->points - 1, size = layout_.points;
@@ -230,43 +297,100 @@ void VoxelBricks::upload(std::size_t brick, std::size_t slot) {
   ++uploads_;
 }
 
-void VoxelBricks::hold(const std::vector<bool>& needed, std::uint64_t memory) {
-  PALPATE_CHECK(needed.size() == slots_.size());
-  const auto count = static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true));
-  const auto places = pool_ ? product(pool_bricks_) : 0;
-  if (!pool_ || count > places || (memory > 0 && bytes_ > memory))
-    make_pool(std::max<std::size_t>(count, 1), memory);
-  std::size_t leaving = 0;
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (needed[i] && slots_[i] < 0) {
-      // Those that are not needed stay until their place is.
-      while (free_.empty()) {
-        if (slots_[leaving] >= 0 && !needed[leaving]) {
-          free_.push_back(std::exchange(slots_[leaving], -1));
-          --held_;
-        }
-        ++leaving;
-      }
-      slots_[i] = free_.back();
-      free_.pop_back();
-      ++held_;
-      upload(i, static_cast<std::size_t>(slots_[i]));
-    }
+void VoxelBricks::hold_coarse(const std::vector<bool>& needed) {
+  std::size_t lacking = 0;
+  for (std::size_t i = 0; i < needed.size(); ++i) lacking += needed[i] && coarse_numbers_[i] < 0 ? 1 : 0;
+  if (coarse_held_ + lacking > coarse_room_) {
+    std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
+    coarse_held_ = 0;
   }
-  write_index();
+  const std::size_t bytes = byte_size(image_->type);
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i] || coarse_numbers_[i] >= 0) continue;
+    coarse_numbers_[i] = static_cast<int>(coarse_held_++);
+    scratch_.resize(product(coarse_points_) * bytes);
+    std::byte* to = scratch_.data();
+    const Index3 first = first_point(i, layout_);
+    for (int z = 0; z < coarse_points_.z; ++z) {
+      for (int y = 0; y < coarse_points_.y; ++y) {
+        for (int x = 0; x < coarse_points_.x; ++x, to += bytes)
+          put_number(to, image_->type, mean_about(*image_, first + kBrickCells * Index3(x, y, z)));
+      }
+    }
+    upload_voxels(pool_, coarse_place_of(i), coarse_points_, image_->type, scratch_.data());
+  }
 }
 
-void VoxelBricks::write_index() {
+// Empties as many places as are asked for, those that were looked up the longest ago first, and none of the
+// picture's own.
+void VoxelBricks::find_room(std::size_t places) {
+  if (free_.size() >= places) return;
+  std::vector<std::size_t> leaving;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i] >= 0 && looked_up_[i] < pictures_) leaving.push_back(i);
+  }
+  std::sort(leaving.begin(), leaving.end(), [&](std::size_t a, std::size_t b) {
+    return looked_up_[a] != looked_up_[b] ? looked_up_[a] < looked_up_[b] : a < b;
+  });
+  for (const std::size_t i : leaving) {
+    if (free_.size() >= places) return;
+    free_.push_back(std::exchange(slots_[i], -1));
+  }
+}
+
+void VoxelBricks::hold(const std::vector<bool>& needed, const std::vector<std::size_t>& wanted,
+                       const VoxelStorage& storage) {
+  PALPATE_CHECK(needed.size() == slots_.size());
+  const auto count = static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true));
+  if (!pool_ || wanted.size() > first_coarse_ || count > coarse_room_ ||
+      (storage.memory > 0 && bytes_ > storage.memory))
+    make_pool(count, wanted.size(), storage.memory);
+  ++pictures_;
+  if (coarse_) hold_coarse(needed);
+  for (const std::size_t i : wanted) looked_up_[i] = pictures_;
+  share_.held = 0;
+  std::vector<std::size_t> lacking;
+  for (const std::size_t i : wanted) {
+    if (slots_[i] >= 0) {
+      ++share_.held;
+    } else {
+      lacking.push_back(i);
+    }
+  }
+  if (coarse_ && storage.upload > 0) {
+    const std::uint64_t each = product(layout_.points) * byte_size(image_->type);
+    lacking.resize(std::min(lacking.size(), std::max<std::size_t>(1, storage.upload / each)));
+  }
+  find_room(lacking.size());
+  for (const std::size_t i : lacking) {
+    slots_[i] = free_.back();
+    free_.pop_back();
+    upload(i, static_cast<std::size_t>(slots_[i]));
+  }
+  share_.held += lacking.size();
+  share_.wanted = wanted.size();
+  share_.bytes = bytes_;
+  write_index(needed);
+}
+
+void VoxelBricks::write_index(const std::vector<bool>& needed) {
+  constexpr float kPool = std::numeric_limits<float>::infinity();
   std::vector<glm::vec4> index(slots_.size());
+  std::size_t held = 0;
   for (std::size_t i = 0; i < index.size(); ++i) {
-    index[i] = slots_[i] < 0 ? glm::vec4(0.0F, 0.0F, 0.0F, stand_ins_[i])
-                             : glm::vec4(Vec3f(place_of(static_cast<std::size_t>(slots_[i]))),
-                                         std::numeric_limits<float>::infinity());
+    if (slots_[i] >= 0) {
+      index[i] = glm::vec4(Vec3f(place_of(static_cast<std::size_t>(slots_[i]))), kPool);
+      ++held;
+    } else if (needed[i] && coarse_numbers_[i] >= 0) {
+      index[i] = glm::vec4(Vec3f(coarse_place_of(i)), -kPool);
+    } else {
+      index[i] = glm::vec4(0.0F, 0.0F, 0.0F, stand_ins_[i]);
+    }
   }
   const Index3 n = layout_.bricks;
   glTextureSubImage3D(index_.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_FLOAT, index.data());
   label_object(GpuObject::Kind::kTexture, pool_.name(),
-               "voxels in bricks, " + std::to_string(held_) + " of " + std::to_string(slots_.size()));
+               "voxels in bricks, " + std::to_string(held) + " of " + std::to_string(slots_.size()));
 }
 
 void VoxelBricks::bind() const {

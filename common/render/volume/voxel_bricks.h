@@ -9,9 +9,11 @@
 /// (derived anew: eq. 5.1 of the reference counts shared layers twice).
 ///
 /// A brick need not stand in the pool where all its numbers are the same, and where nothing is seen of it: a
-/// number of its range then stands for all of it. Where lenses blend values with coarser ones, all others are
-/// there. What is seen depends on the transfer functions alone, not
-/// on the view.
+/// number of its range then stands for all of it. Where lenses blend values with coarser ones, all others
+/// are needed. Of those that are needed, the ones that a picture looks up are paged in (brick_demand.h), in
+/// the place of those that were looked up the longest ago. Where a picture may go without some of them, every
+/// needed brick has a coarse one in the same pool, with means about every kBrickCells-th point: a 300th of
+/// its voxels, that meet those of their neighbours at the faces.
 #pragma once
 
 #include <cstddef>
@@ -42,6 +44,9 @@ struct BrickLayout {
 [[nodiscard]] std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,
                                               const BrickLayout& layout);
 
+/// Places of a pool that coarse bricks for so many bricks take.
+[[nodiscard]] std::size_t coarse_places(std::size_t bricks, const BrickLayout& layout);
+
 /// Bricks an axis of a pool for `count` of them, as small as may be.
 /// @pre count > 0. @param largest side of a texture [voxels].
 /// @return zeros where no pool is large enough.
@@ -54,37 +59,54 @@ struct BrickLayout {
 /// The pool and the index. Needs the context current in which it was made.
 class VoxelBricks {
  public:
-  /// @param ranges brick_ranges(*image).
-  VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout, const BrickRanges& ranges);
+  /// @param ranges brick_ranges(*image). @param coarse whether coarse bricks stand in for those that are not
+  /// there: what hold() may leave out.
+  VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout, const BrickRanges& ranges,
+              bool coarse);
 
-  /// Uploads those of the needed bricks that are not there, in place of others.
-  /// @param needed one for each brick; @pre bricked_bytes() of their number <= memory, or memory is 0: no
-  /// bound.
-  void hold(const std::vector<bool>& needed, std::uint64_t memory);
+  /// Uploads those of the bricks that a picture looks up that are not there, in place of those that were
+  /// looked up the longest ago.
+  /// @param needed one for each brick. @param wanted of these, the most urgent one first.
+  /// @param storage its memory bounds the pool: @pre bricked_bytes() of the places of wanted and coarse
+  /// bricks
+  /// <= memory, or memory is 0. Its upload bounds what is uploaded of `wanted`, where there are coarse
+  /// bricks.
+  void hold(const std::vector<bool>& needed, const std::vector<std::size_t>& wanted,
+            const VoxelStorage& storage);
 
   /// Binds the pool as the voxels, and the index (shaders/volume/voxels.glsl).
   void bind() const;
   [[nodiscard]] const BrickLayout& layout() const noexcept { return layout_; }
-  [[nodiscard]] std::size_t held() const noexcept { return held_; }  ///< bricks in the pool
+  [[nodiscard]] bool coarse() const noexcept { return coarse_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
+  [[nodiscard]] const BrickShare& share() const noexcept { return share_; }  ///< of the last hold()
   [[nodiscard]] std::uint64_t uploads() const noexcept { return uploads_; }  ///< of bricks, so far
 
  private:
-  void make_pool(std::size_t count, std::uint64_t memory);
+  void make_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory);
+  void find_room(std::size_t places);
   void upload(std::size_t brick, std::size_t slot);
-  void write_index();
+  void hold_coarse(const std::vector<bool>& needed);
+  void write_index(const std::vector<bool>& needed);
   [[nodiscard]] Index3 place_of(std::size_t slot) const;
+  [[nodiscard]] Index3 coarse_place_of(std::size_t brick) const;
 
   std::shared_ptr<const VolumeImage> image_;
   BrickLayout layout_;
-  std::vector<float> stand_ins_;  ///< for each brick the number that stands for it, as textures give it
-  std::vector<int> slots_;        ///< for each brick its place in the pool; -1: none
-  std::vector<int> free_;         ///< places
+  bool coarse_;
+  Index3 coarse_points_{2}, coarse_rows_{1};  ///< of a coarse brick; of these in a place
+  std::vector<float> stand_ins_;     ///< for each brick the number that stands for it, as textures give it
+  std::vector<int> slots_;           ///< for each brick its place in the pool; -1: none
+  std::vector<int> coarse_numbers_;  ///< likewise its number among the coarse ones
+  std::vector<std::uint64_t> looked_up_;  ///< for each brick the last picture that did
+  std::vector<int> free_;                 ///< places
   Index3 pool_bricks_{0};
+  std::size_t first_coarse_ = 0;  ///< place from which on there are coarse ones
+  std::size_t coarse_room_ = 0, coarse_held_ = 0;
   GlTexture pool_, index_;
   std::vector<std::byte> scratch_;
-  std::size_t held_ = 0;
-  std::uint64_t bytes_ = 0, uploads_ = 0;
+  std::uint64_t bytes_ = 0, uploads_ = 0, pictures_ = 0;
+  BrickShare share_;
 };
 
 }  // namespace palpate
