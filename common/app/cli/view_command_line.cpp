@@ -89,13 +89,13 @@ void add_volume(SceneOptions& options, VolumeOptions& volume) {
   add_lenses(options, volume, "the same inside lenses; without it the denser half of what is seen outside");
   add_rays(options, volume);
   options
-      .add(
-          "--gpu-memory", volume.gpu_memory,
-          "memory of the graphics card that voxels may take: a volume that needs more is stored in bricks, "
-          "of "
-          "which those are left out that show nothing, and from means of 2^n voxels where they are still too "
-          "many; default: all of it",
-          "MB", kGroup)
+      .add("--gpu-memory", volume.gpu_memory,
+           "memory of the graphics card that voxels may take: a volume that needs more is stored in bricks, "
+           "of "
+           "which those are held that the view looks up and that show something, at the finest of its means "
+           "of 2^n voxels at which they fit; in the window they come bit by bit, lenses first; default: all "
+           "of it",
+           "MB", kGroup)
       ->check(CLI::Range(0.001, 1e9));
 }
 
