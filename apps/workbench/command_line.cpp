@@ -61,7 +61,8 @@ void add_kind(CLI::App& verb, WorkbenchOptions& o) {
 /// Verbs of devices in the hand.
 void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   constexpr const char* kDevice =
-      "driver and its options: falcon[:firmware=FILE], spacemouse[:invert=LETTERS]";
+      "driver and its options: falcon[:firmware=FILE][,button=N|none][,enable=pedal], "
+      "spacemouse[:invert=LETTERS], pedal";
   CLI::App& devices = *app.add_subcommand("devices", "devices that are plugged in, and drivers for them");
   add_common(devices, o);
   devices.add_option("--device", o.device, kDevice);
@@ -76,7 +77,8 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
       ->check(CLI::Range(0.1, 3600.0));
   doctor.footer(
       "Ends with 0 where every device that it found, or the one of --device, is ready, else with 1.\n"
-      "Examples:\n  workbench doctor\n  workbench doctor --device falcon:firmware=firmware.bin\n");
+      "Examples:\n  workbench doctor\n  workbench doctor --device "
+      "falcon:firmware=firmware.bin,enable=pedal\n");
 
   CLI::App& monitor =
       *app.add_subcommand("monitor", "read-outs of a device as it is moved; it shows no force");

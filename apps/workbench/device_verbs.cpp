@@ -235,15 +235,23 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   text += std::string("real-time priority is ") + (real_time ? "allowed\n" : "refused\n");
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
-    const std::unique_ptr<DriverLink> link = open_link(device);
-    context.progress.begin("working the device", 0);
-    const LinkCheck check = check_link(*link, options.seconds, options.patience, context.progress);
-    text += device + (check.ready ? "\n" : ": not ready\n") + check_text(check);
-    Json checked = check_json(check);
-    checked["device"] = device;
-    checks.push_back(std::move(checked));
-    for (std::string& line : advice_on(check)) advice.push_back(std::move(line));
-    usable = usable && check.ready;
+    const DeviceText named = parse_device(device);
+    const OpenedDevice opened = open_device(named);
+    const auto work = [&](DriverLink& link, const std::string& name) {
+      context.progress.begin("working the device", 0);
+      const LinkCheck check = check_link(link, options.seconds, options.patience, context.progress);
+      text += name + (check.ready ? "\n" : ": not ready\n") + check_text(check);
+      Json checked = check_json(check);
+      checked["device"] = name;
+      checks.push_back(std::move(checked));
+      for (std::string& line : advice_on(check)) advice.push_back(std::move(line));
+      usable = usable && check.ready;
+    };
+    work(*opened.link, device);
+    if (opened.enabling.link) work(*opened.enabling.link, named.enable);
+    if (const std::string held = description_of(opened.enabling, named); !held.empty()) {
+      text += "  force       only " + held + "\n";
+    }
   }
   for (const std::string& line : advice) text += "- " + line + "\n";
   if (usable && !devices.empty() && advice.empty()) text += "all is well\n";
@@ -258,7 +266,7 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
 }
 
 void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const std::unique_ptr<DriverLink> link = open_link(options.device);
+  const std::unique_ptr<DriverLink> link = open_device(parse_device(options.device)).link;
   const std::int64_t start = monotonic_ns();
   const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
   Json samples = Json::array();

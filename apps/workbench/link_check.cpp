@@ -45,13 +45,14 @@ LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress
   check.status = link.status();
   check.advice = link.advice();
   check.place = link.place();
+  check.positions = link.atoms().has_position;
   return check;
 }
 
 std::vector<std::string> advice_on(const LinkCheck& check) {
   std::vector<std::string> advice;
   if (!check.advice.empty()) advice.push_back(check.advice);
-  if (!check.ready) return advice;
+  if (!check.ready || !check.positions) return advice;
   constexpr double kSlow = 400.0;  // [Hz] stiff walls buzz
   constexpr double kUneven = 5.0;  // [ms]
   if (check.rate() < kSlow && check.status.rounds > 0) {

@@ -23,6 +23,7 @@ struct LinkCheck {
   LinkStatus status;
   std::string advice;
   std::string place;
+  bool positions = false;  ///< it has a position, so its rate and evenness are felt
 
   [[nodiscard]] double rate() const noexcept {
     return measured > 0.0 ? static_cast<double>(intervals.count()) / measured : 0.0;

@@ -136,6 +136,21 @@ InteractionGeometry interaction_of(const Section& s) {
   if (s.has("rotation")) out.rotation = s.rotation();
   if (s.has("gain")) out.gain = s.number("gain");
   if (!(out.gain > 0.0)) s.refuse_at("gain", short_number(out.gain), "a number above zero");
+  if (s.has("enabling_button")) {
+    constexpr std::int64_t kMost = InteractionGeometry::kButtons - 1;
+    const toml::node& said = s.at("enabling_button");
+    const std::int64_t button = said.value_exact<std::int64_t>().value_or(-1);
+    const bool none = said.value_exact<std::string>() == "none";
+    if (!none && (button < 0 || button > kMost))
+      s.refuse_at("enabling_button", "another value", "a button from 0 to 31 or \"none\"");
+    out.enabling_button = none ? InteractionGeometry::kNoButton : static_cast<int>(button);
+  }
+  if (s.has("enabling_device")) {
+    out.enabling_device = s.at("enabling_device").value_exact<std::string>().value_or("");
+    if (out.enabling_device.empty() || out.enabling_button == InteractionGeometry::kNoButton)
+      s.refuse_at("enabling_device", "'" + out.enabling_device + "'",
+                  "the name of a driver, with a button that is not \"none\"");
+  }
   return out;
 }
 
@@ -321,7 +336,7 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
       refuse(path, line_of(*node), "'screen' is no section", "[screen], or [[screen]] for each of several");
     }
   }
-  section("interaction", {"technique", "middle", "rotation", "gain"},
+  section("interaction", {"technique", "middle", "rotation", "gain", "enabling_button", "enabling_device"},
           [&](const Section& s) { out.interaction = interaction_of(s); });
   return out;
 }

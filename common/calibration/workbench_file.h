@@ -35,6 +35,8 @@
 ///   middle = [x, y, z]             # immersive: where the middle of the data is, in the tracker's frame
 ///   rotation = [w, x, y, z]        # optional: turns the tracker's axes into those of the data
 ///   gain = 2.0                     # optional: metres of the workspace for a metre of the hand, > 0
+///   enabling_button = 2            # optional: the dead-man switch of a device that shows force; "none"
+///   enabling_device = "pedal"      # optional: the driver of another device that has this button
 ///
 /// Other sections belong to others and are left alone.
 #pragma once
@@ -76,6 +78,10 @@ struct InteractionGeometry {
   Vec3 middle{0.0};                   ///< [m] in the tracker's frame
   Quat rotation{1.0, 0.0, 0.0, 0.0};  ///< R
   double gain = 1.0;
+  std::optional<int> enabling_button;  ///< kNoButton, or below kButtons; nothing: not named
+  std::string enabling_device;         ///< empty: the device itself
+
+  static constexpr int kNoButton = -1, kButtons = 32;  ///< as of DeviceLimits
 };
 
 struct WorkbenchGeometry {

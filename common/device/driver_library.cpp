@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -71,7 +72,7 @@ DriverModule& open_new(const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& driver_names() {
-  static const std::vector<std::string> kNames{"falcon", "spacemouse"};
+  static const std::vector<std::string> kNames{"falcon", "pedal", "spacemouse"};
   return kNames;
 }
 
@@ -84,28 +85,64 @@ DriverModule& open_driver(const std::string& name) {
   return *module;
 }
 
+std::optional<int> enabling_button_of(std::string_view text) noexcept {
+  if (text == "none") return DeviceLimits::kNoButton;
+  int button = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), button);
+  const bool whole = fault == std::errc() && end == text.data() + text.size();
+  return whole && button >= 0 && button < DeviceLimits::kButtons ? std::optional(button) : std::nullopt;
+}
+
 DeviceText parse_device(std::string_view text) {
   const std::size_t colon = text.find(':');
-  DeviceText device{.name = std::string(text.substr(0, colon)), .options = {}};
+  DeviceText device{.name = std::string(text.substr(0, colon)), .options = {}, .button = {}, .enable = {}};
   if (colon == std::string_view::npos) return device;
+  const std::string said = "--device " + std::string(text) + ": ";
   for (const std::string_view item : split(text.substr(colon + 1), ',')) {
     const std::size_t equals = item.find('=');
     if (equals == 0 || equals == std::string_view::npos) {
-      throw usage_error("--device " + std::string(text) + ": OPTION=VALUE is expected, found '" +
-                        std::string(item) + "'");
+      throw usage_error(said + "OPTION=VALUE is expected, found '" + std::string(item) + "'");
     }
-    device.options.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    const std::string_view name = item.substr(0, equals), value = item.substr(equals + 1);
+    if (name == "button") {
+      device.button = enabling_button_of(value);
+      if (!device.button) {
+        throw usage_error(said + "a button from 0 to 31 or none is expected, found '" + std::string(value) +
+                          "'");
+      }
+    } else if (name == "enable") {
+      device.enable = value;
+      if (device.enable.empty()) throw usage_error(said + "enable takes a driver, such as pedal");
+    } else {
+      device.options.emplace_back(name, value);
+    }
+  }
+  if (!device.enable.empty() && device.button == DeviceLimits::kNoButton) {
+    throw usage_error(said + "button=none and enable=" + device.enable + " contradict each other");
   }
   return device;
 }
 
-std::unique_ptr<DriverLink> open_link(const std::string& device) {
-  const DeviceText parsed = parse_device(device);
-  DriverModule& module = open_driver(parsed.name);
-  std::string error;
-  std::unique_ptr<DriverLink> link = module.make_link(parsed.options, error);
-  if (!link) throw usage_error("--device " + device + ": " + error);
-  return link;
+OpenedDevice open_device(const DeviceText& device) {
+  const auto link_to = [](const std::string& name, const DriverOptions& options) {
+    std::string error;
+    std::unique_ptr<DriverLink> link = open_driver(name).make_link(options, error);
+    if (!link) throw usage_error("device " + name + ": " + error);
+    return link;
+  };
+  OpenedDevice opened{.link = link_to(device.name, device.options), .enabling = {}};
+  if (!device.enable.empty()) {
+    opened.enabling = {.button = device.button.value_or(0), .link = link_to(device.enable, {})};
+  } else {
+    opened.enabling.button = device.button.value_or(opened.link->limits().enabling_button);
+  }
+  return opened;
+}
+
+std::string description_of(const EnablingSwitch& enabling, const DeviceText& device) {
+  if (enabling.button == DeviceLimits::kNoButton) return {};
+  return "while button " + std::to_string(enabling.button) + " of " +
+         (enabling.link ? device.enable : device.name) + " is held";
 }
 
 }  // namespace palpate

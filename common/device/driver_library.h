@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/device/driver_link.h"
+#include "common/device/enabling_switch.h"
 
 namespace palpate {
 
@@ -19,15 +21,30 @@ namespace palpate {
 /// which package is missing, or that it is of another build.
 [[nodiscard]] DriverModule& open_driver(const std::string& name);
 
-/// A device as the command line names it: `NAME[:OPTION=VALUE[,OPTION=VALUE…]]`.
+/// A device as the command line names it: `NAME[:OPTION=VALUE[,OPTION=VALUE…]]`. Two options are nobody's
+/// own, they say what the dead-man switch is: `button=N|none` and `enable=NAME`, another device.
 struct DeviceText {
   std::string name;
-  DriverOptions options;
+  DriverOptions options;      ///< for the driver
+  std::optional<int> button;  ///< DeviceLimits::kNoButton: `none`
+  std::string enable;         ///< empty: the device itself
 };
-/// @throws Error (usage) for an option without a name.
+/// @throws Error (usage) for an option without a name or value, a button that is none, or a switch that is
+/// named and not wanted.
 [[nodiscard]] DeviceText parse_device(std::string_view text);
+/// 0 to 31, or kNoButton for "none"; nothing for other texts.
+[[nodiscard]] std::optional<int> enabling_button_of(std::string_view text) noexcept;
 
-/// The link to a device of the command line. @throws Error as above, and what the driver says.
-[[nodiscard]] std::unique_ptr<DriverLink> open_link(const std::string& device);
+/// A device and its dead-man switch.
+struct OpenedDevice {
+  std::unique_ptr<DriverLink> link;
+  EnablingSwitch enabling;  ///< as asked for, else as the driver's limits have it
+};
+/// Opens the modules that are needed. Another device's button is its first one where none is named.
+/// @throws Error as above, and what the drivers say.
+[[nodiscard]] OpenedDevice open_device(const DeviceText& device);
+
+/// What holding the switch is: "while button 2 of the device is held"; empty where none is needed.
+[[nodiscard]] std::string description_of(const EnablingSwitch& enabling, const DeviceText& device);
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/servo/real_time.h"
+#include "common/servo/safety_rules.h"
 
 namespace palpate {
 namespace {
@@ -14,9 +15,22 @@ double now_seconds() noexcept { return 1e-9 * static_cast<double>(monotonic_ns()
 
 }  // namespace
 
-LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link) : link_(std::move(link)) {
+std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int button, double now) noexcept {
+  const DeviceLimits asked{.enabling_button = button};
+  const bool held = heard != nullptr && is_enabled(asked, heard->buttons, now - heard->time);
+  constexpr std::uint32_t kBit = 1U << static_cast<unsigned>(EnablingSwitch::kOtherBit);
+  return held ? buttons | kBit : buttons & ~kBit;
+}
+
+LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling)
+    : link_(std::move(link)) {
   PALPATE_CHECK(link_ != nullptr);
   limits_ = link_->limits();
+  if (enabling.link) {
+    switch_ = std::make_unique<LinkedDevice>(enabling.link);
+    switch_button_ = enabling.button;
+    limits_.enabling_button = enabling.sample_button();
+  }
   advice_ = link_->advice();
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -54,6 +68,11 @@ bool LinkedDevice::read_atoms(double now, DeviceAtoms& atoms) noexcept {
   if (atoms_.read(newest_)) seen_ = true;
   if (!seen_ || now - newest_.time > kKept) return false;
   atoms = newest_;
+  if (switch_) {
+    DeviceAtoms heard;
+    const bool any = switch_->read_atoms(now, heard);
+    atoms.buttons = with_switch(atoms.buttons, any ? &heard : nullptr, switch_button_, now);
+  }
   return true;
 }
 
@@ -75,8 +94,11 @@ LinkStatus LinkedDevice::status() const {
 }
 
 std::string LinkedDevice::advice() const {
-  const std::lock_guard lock(mutex_);
-  return advice_;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!advice_.empty() || !switch_) return advice_;
+  }
+  return switch_->advice();
 }
 
 }  // namespace palpate

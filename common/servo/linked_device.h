@@ -4,6 +4,9 @@
 /// Three lines of defence stand between a stalled program and a force that stays: a force that the servo has
 /// not renewed for kFreshFor is zero to the link, the watchdog's emergency_stop() too, and the link itself
 /// shows none without sense in its device's answers.
+///
+/// A dead-man switch on another device is a link on a thread of its own. Whether it is held goes into the
+/// samples as a button, by its own time stamp (with_switch()): what records and replays samples has it, too.
 #pragma once
 
 #include <atomic>
@@ -15,8 +18,15 @@
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
 #include "common/device/driver_link.h"
+#include "common/device/enabling_switch.h"
 
 namespace palpate {
+
+/// `buttons` with the bit EnablingSwitch::kOtherBit set while `button` of the other device is down and no
+/// older than kEnablingStale (safety_rules.h), else cleared. @param heard null: nothing is known of the
+/// other.
+[[nodiscard]] std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int button,
+                                        double now) noexcept;
 
 class LinkedDevice final : public Device {
  public:
@@ -25,8 +35,8 @@ class LinkedDevice final : public Device {
   /// the fault that it is.
   static constexpr double kKept = 0.25;
 
-  /// Starts the thread. @pre link is not null.
-  explicit LinkedDevice(std::shared_ptr<DriverLink> link);
+  /// Starts the thread, and one for a switch that is on another device. @pre link is not null.
+  explicit LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling = {});
   /// Leaves the device without force.
   ~LinkedDevice() override;
 
@@ -42,7 +52,7 @@ class LinkedDevice final : public Device {
   /// @name Any thread but the servo's
   /// @{
   [[nodiscard]] LinkStatus status() const;
-  /// What the user should know or do now; empty: nothing.
+  /// What the user should know or do now, about the device, else about its switch; empty: nothing.
   [[nodiscard]] std::string advice() const;
   /// @}
 
@@ -56,6 +66,8 @@ class LinkedDevice final : public Device {
 
   std::shared_ptr<DriverLink> link_;
   DeviceLimits limits_;
+  std::unique_ptr<LinkedDevice> switch_;  ///< the other device; null: none
+  int switch_button_ = DeviceLimits::kNoButton;
   TripleBuffer<DeviceAtoms> atoms_;
   TripleBuffer<Order> orders_;
   std::atomic<bool> stopped_{false};

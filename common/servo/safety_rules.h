@@ -65,8 +65,9 @@ inline constexpr int kForceCutCount = 13;
 /// False for NaN too.
 [[nodiscard]] bool within_reach(const DeviceLimits& limits, const Vec3& x) noexcept;
 
-/// An enabling button says nothing once it is this old [s].
-inline constexpr double kEnablingStale = 0.1;
+/// An enabling button says nothing once it is this old [s]: with the time that a force takes to fade out
+/// (DeviceLimits::fade_time) and some steps of the servo, less than 0.1 s from losing it to zero.
+inline constexpr double kEnablingStale = 0.040;
 /// Whether the enabling button is held, or none is needed. @param age [s] of `buttons`.
 [[nodiscard]] bool is_enabled(const DeviceLimits& limits, std::uint32_t buttons, double age) noexcept;
 

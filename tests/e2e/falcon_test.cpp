@@ -197,7 +197,7 @@ class FalconWindow : public ExplorerTest {
 TEST_F(FalconWindow, IsMovedByTheDeviceAndRepeatsToTheBit) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
   std::string maps;
-  const ProgramResult lived = open({"--device", "falcon_emulated"}, 4000, maps);
+  const ProgramResult lived = open({"--device", "falcon_emulated:button=none"}, 4000, maps);
   EXPECT_EQ(lived.exit_code, 130) << lived.err;
   EXPECT_NE(maps.find("palpate_driver_falcon_emulated.so"), std::string::npos);
   EXPECT_EQ(maps.find("libusb"), std::string::npos) << "only the module of a real bus needs it";
@@ -206,12 +206,29 @@ TEST_F(FalconWindow, IsMovedByTheDeviceAndRepeatsToTheBit) {
                                      [](const RecordedStep& step) { return step.input.present; });
   EXPECT_GT(present, 500);
   EXPECT_FALSE(recording.steps.front().input.present) << "before it was homed there was no hand";
+  EXPECT_EQ(recording.header.limits.enabling_button, DeviceLimits::kNoButton);
   EXPECT_LE(recording.header.limits.force_cap, 8.0);
   EXPECT_TRUE(recording.header.limits.latch_faults);
   const ProgramResult again = run({"probe", "--example", "tornado", "--replay", "run.txt", "--json"});
   const auto summary = nlohmann::json::parse(again.out, nullptr, false);
   ASSERT_TRUE(summary.is_object()) << again.err;
   EXPECT_EQ(summary["replay_differs"], false) << summary["replay"];
+}
+
+// The driver has a dead-man switch of its own; a workbench names another one. What it does to the force is
+// seen in dead_man_test.
+TEST_F(FalconWindow, SaysWhichSwitchLetsItShowForce) {
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
+  folder_.write("bench.toml", "[interaction]\nenabling_button = 3\n");
+  std::string maps;
+  for (const auto& [bench, button] : {std::pair{false, 2}, std::pair{true, 3}}) {
+    std::vector<std::string> arguments{"--device", "falcon_emulated"};
+    if (bench) arguments.insert(arguments.end(), {"--workbench", "bench.toml"});
+    const ProgramResult lived = open(arguments, 200, maps);
+    EXPECT_NE(lived.err.find("only while button " + std::to_string(button)), std::string::npos) << lived.err;
+    const Recording recording = read_recording(folder_.path("run.txt").string());
+    EXPECT_EQ(recording.header.limits.enabling_button, button);
+  }
 }
 
 // The reference of the whole scheme: who plugs nothing in carries nothing.

@@ -262,7 +262,9 @@ class VerbParser {
             "what moves the probe: mouse (default), replay:FILE.csv, a path with the header t,x,y,z, "
             "hands:FILE.csv, tracked hands at an immersive --workbench, "
             "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
-            "wander, or a real device by its driver: falcon[:firmware=FILE], spacemouse")
+            "wander, or a real device by its driver: "
+            "falcon[:firmware=FILE][,button=N|none][,enable=pedal], spacemouse; a Falcon shows force only "
+            "while its centre button, its button=N, or the pedal is held")
         ->type_name("D")
         ->group("Touch");
     add_rate();

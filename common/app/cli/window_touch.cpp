@@ -45,6 +45,24 @@ DeviceLimits linked_limits(const DriverLink& link, const DeviceLimits& asked) {
   return limits;
 }
 
+/// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own.
+void take_link(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
+  DeviceText text = parse_device(options.device);
+  const InteractionGeometry& bench = touch.workbench.interaction;
+  if (!text.button && text.enable.empty()) {
+    text.button = bench.enabling_button;
+    text.enable = bench.enabling_device;
+  }
+  OpenedDevice opened = open_device(text);
+  touch.link = std::move(opened.link);
+  touch.enabling = std::move(opened.enabling);
+  touch.limits = linked_limits(*touch.link, touch.limits);
+  touch.limits.enabling_button = touch.enabling.sample_button();
+  if (const std::string held = description_of(touch.enabling, text); !held.empty()) {
+    context.console.note("there is force only " + held);
+  }
+}
+
 /// Tracked hands and the workbench that they are at, where the workbench file asks for such.
 /// @throws Error (usage) where one of both is missing; (bad input).
 void take_workbench(const Options& options, ProbeSessionOptions& touch) {
@@ -104,8 +122,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
   } else if (options.device != "mouse" && touch.path.empty() && touch.hands.empty()) {
-    touch.link = open_link(options.device);
-    touch.limits = linked_limits(*touch.link, touch.limits);
+    take_link(options, context, touch);
   }
   if (!options.replay.empty()) {
     touch.replay = read_recording(options.replay.string());

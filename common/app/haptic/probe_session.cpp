@@ -121,7 +121,7 @@ Device& ProbeSession::device() {
     // The next picture says which way the view is.
     const Box& box = open_.bounds();
     const Box bounds{workspace.workspace_from_data(box.lower), workspace.workspace_from_data(box.upper)};
-    linked_ = std::make_unique<LinkedDevice>(options_.link);
+    linked_ = std::make_unique<LinkedDevice>(options_.link, options_.enabling);
     placed_ = std::make_unique<PlacedDevice>(*linked_, options_.limits, Placement{.middle = bounds.center()},
                                              bounds);
     return *placed_;

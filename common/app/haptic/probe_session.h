@@ -28,6 +28,7 @@
 #include "common/app/haptic/touch_choice.h"
 #include "common/app/haptic/tract_drawing.h"
 #include "common/device/driver_link.h"
+#include "common/device/enabling_switch.h"
 #include "common/device/mouse_device.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
@@ -58,6 +59,8 @@ struct ProbeSessionOptions {
   /// A real device, laid over the field as the view shows it; in place of mouse, path and simulation. None:
   /// null.
   std::shared_ptr<DriverLink> link;
+  /// Its dead-man switch; `limits` name its sample_button().
+  EnablingSwitch enabling;
   /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
   std::filesystem::path record;
   bool overwrite = false;

@@ -45,11 +45,13 @@ constexpr double kLastingCommand = 2048.0, kHeatingTime = 2.0;
 
 constexpr Vec3 kSeed{0.0, 0.0, 0.11};  // [m] where the search for the position starts after homing
 constexpr double kStale = 0.020;       // [s]
+constexpr int kCentre = 2;             // the button under the thumb, which a hand at rest holds down
 
 DeviceLimits limits_of(const FalconSettings& settings) {
   DeviceLimits limits = safe_limits(find_profile("falcon"));
   limits.force_cap = std::min(limits.force_cap, settings.force_cap);
   limits.stale_after = kStale;
+  limits.enabling_button = kCentre;
   return limits;
 }
 

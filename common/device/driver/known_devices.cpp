@@ -6,12 +6,22 @@
 namespace palpate {
 namespace {
 
-constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse";
+constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse", kPedalDriver = "pedal";
 constexpr std::string_view kUnloaded = "waits for its firmware, which its maker's software loads (fxload)";
 constexpr std::string_view kNotYet = "there is no driver for it yet";
 
 constexpr std::array kKnown{
     KnownDevice{{0x0403, 0xcb48}, "Novint Falcon", kFalconDriver, ""},
+    KnownDevice{{0x05f3, 0x042c}, "X-keys XK-3 foot switch", kPedalDriver, ""},
+    KnownDevice{{0x05f3, 0x00ff}, "VEC Infinity foot switch", kPedalDriver, ""},
+    KnownDevice{{0x0c45, 0x7403}, "PCsensor foot switch", kPedalDriver, ""},
+    KnownDevice{{0x0c45, 0x7404}, "PCsensor foot switch", kPedalDriver, ""},
+    KnownDevice{{0x413d, 0x2107}, "PCsensor foot switch", kPedalDriver, ""},
+    KnownDevice{{0x1a86, 0xe026}, "PCsensor foot switch", kPedalDriver, ""},
+    KnownDevice{{0x3553, 0xb001}, "PCsensor foot switch", kPedalDriver, ""},
+    KnownDevice{{0x0426, 0x3011}, "Scythe foot switch", kPedalDriver, ""},
+    KnownDevice{{0x055a, 0x0998}, "Scythe foot switch", kPedalDriver, ""},
+    KnownDevice{{0x5131, 0x2019}, "FS1-P foot switch", kPedalDriver, ""},
     KnownDevice{{0x046d, 0xc603}, "SpaceMouse Plus XT", kMouseDriver, ""},
     KnownDevice{{0x046d, 0xc605}, "CadMan", kMouseDriver, ""},
     KnownDevice{{0x046d, 0xc606}, "SpaceMouse Classic", kMouseDriver, ""},

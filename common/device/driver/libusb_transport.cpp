@@ -92,16 +92,16 @@ class LibusbConnection final : public UsbConnection {
 
   UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
                     double seconds) noexcept override {
-    const int done = libusb_control_transfer(handle_.get(), setup.request_type, setup.request, setup.value,
-                                             setup.index, const_cast<std::uint8_t*>(data.data()),
-                                             static_cast<std::uint16_t>(data.size()), milliseconds(seconds));
-    if (done < 0) return {status_of(done), 0};
-    return {UsbStatus::kOk, static_cast<std::size_t>(done)};
+    // libusb does not write to what it sends.
+    return transfer_control(setup, const_cast<std::uint8_t*>(data.data()), data.size(), seconds);
+  }
+
+  UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept override {
+    return transfer_control(setup, data.data(), data.size(), seconds);
   }
 
   UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
                   double seconds) noexcept override {
-    // libusb does not write to what it sends.
     return transfer(endpoint, const_cast<std::uint8_t*>(data.data()), data.size(), seconds);
   }
 
@@ -111,6 +111,15 @@ class LibusbConnection final : public UsbConnection {
   }
 
  private:
+  UsbResult transfer_control(const UsbControl& setup, std::uint8_t* data, std::size_t bytes,
+                             double seconds) noexcept {
+    const int done =
+        libusb_control_transfer(handle_.get(), setup.request_type, setup.request, setup.value, setup.index,
+                                data, static_cast<std::uint16_t>(bytes), milliseconds(seconds));
+    if (done < 0) return {status_of(done), 0};
+    return {UsbStatus::kOk, static_cast<std::size_t>(done)};
+  }
+
   UsbResult transfer(const UsbEndpoint& endpoint, std::uint8_t* data, std::size_t bytes,
                      double seconds) noexcept {
     int done = 0;

@@ -79,6 +79,8 @@ class UsbConnection {
   /// With data to the device, or none.
   virtual UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
                             double seconds) noexcept = 0;
+  /// With data from the device; `setup` has bit 7 of its type set.
+  virtual UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept = 0;
   /// One bulk or interrupt transfer.
   virtual UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
                           double seconds) noexcept = 0;

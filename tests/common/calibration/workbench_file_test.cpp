@@ -123,6 +123,22 @@ TEST_F(WorkbenchFileTest, SaysHowHandsWork) {
   names("[interaction]\nrotation = [2, 0, 0, 0]\n", "line 2", "length 2");
 }
 
+TEST_F(WorkbenchFileTest, NamesTheDeadManSwitch) {
+  const auto read = [this](const std::string& lines) {
+    write("[interaction]\n" + lines);
+    return read_workbench(path_).interaction;
+  };
+  EXPECT_FALSE(read("").enabling_button.has_value());
+  EXPECT_EQ(read("enabling_button = 3\n").enabling_button, 3);
+  EXPECT_EQ(read("enabling_button = \"none\"\n").enabling_button, InteractionGeometry::kNoButton);
+  EXPECT_EQ(read("enabling_device = \"pedal\"\n").enabling_device, "pedal");
+  for (const char* wrong :
+       {"enabling_button = 32", "enabling_button = -1", "enabling_button = \"two\"", "enabling_button = 1.5",
+        "enabling_device = 3", "enabling_device = \"pedal\"\nenabling_button = \"none\""}) {
+    EXPECT_THROW((void)read(wrong), Error) << wrong;
+  }
+}
+
 TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
   write("[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0, 0.5, 0]\n");
   ASSERT_EQ(read_workbench(path_).screens.size(), 1U);

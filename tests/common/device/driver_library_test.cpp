@@ -19,7 +19,7 @@ namespace {
 
 std::string refusal(const std::string& device) {
   try {
-    (void)open_link(device);
+    (void)open_device(parse_device(device));
   } catch (const Error& error) {
     return error.what();
   }
@@ -50,6 +50,20 @@ TEST_F(DriverLibrary, ReadsDevicesOfTheCommandLine) {
   EXPECT_THROW((void)parse_device("falcon:=3"), Error);
 }
 
+TEST_F(DriverLibrary, ReadsTheDeadManSwitch) {
+  EXPECT_FALSE(parse_device("falcon:gain=1").button.has_value());
+  EXPECT_EQ(parse_device("falcon:button=31").button, 31);
+  EXPECT_EQ(parse_device("falcon:button=none").button, DeviceLimits::kNoButton);
+  const DeviceText text = parse_device("falcon:enable=pedal,gain=3500,button=2");
+  EXPECT_EQ(text.enable, "pedal");
+  EXPECT_EQ(text.button, 2);
+  EXPECT_EQ(text.options, (DriverOptions{{"gain", "3500"}})) << "the driver need not know";
+  for (const char* wrong :
+       {"button=", "button=-1", "button=32", "button=1x", "enable=", "enable=pedal,button=none"}) {
+    EXPECT_THROW((void)parse_device("falcon:" + std::string(wrong)), Error) << wrong;
+  }
+}
+
 TEST_F(DriverLibrary, NamesWhatThereIs) {
   for (const char* name : {"nothing", "../../bin/flow", "", "falcon/../falcon", "Falcon"}) {
     EXPECT_NE(refusal(name).find("known are mouse"), std::string::npos) << name;
@@ -58,7 +72,7 @@ TEST_F(DriverLibrary, NamesWhatThereIs) {
 
 TEST_F(DriverLibrary, OpensAModuleThatIsAskedForAndWorksItsLink) {
   EXPECT_EQ(mapped().find("palpate_driver"), std::string::npos);
-  const std::unique_ptr<DriverLink> link = open_link("falcon_emulated:gain=3500");
+  const std::unique_ptr<DriverLink> link = open_device(parse_device("falcon_emulated:gain=3500")).link;
   ASSERT_TRUE(link);
   EXPECT_NE(mapped().find("palpate_driver_falcon_emulated.so"), std::string::npos);
   const auto start = std::chrono::steady_clock::now();
@@ -74,6 +88,21 @@ TEST_F(DriverLibrary, OpensAModuleThatIsAskedForAndWorksItsLink) {
   ASSERT_EQ(found.size(), 1U) << error;
   EXPECT_EQ(found[0].name, "Novint Falcon");
   EXPECT_EQ(found[0].driver, "falcon");
+}
+
+TEST_F(DriverLibrary, OpensTheSwitchWithTheDevice) {
+  const auto opened = [](const char* text) { return open_device(parse_device(text)).enabling; };
+  EXPECT_EQ(opened("falcon_emulated").button, 2) << "the driver's own";
+  EXPECT_EQ(opened("falcon_emulated").sample_button(), 2);
+  EXPECT_EQ(opened("falcon_emulated:button=1").sample_button(), 1);
+  EXPECT_EQ(opened("falcon_emulated:button=none").sample_button(), DeviceLimits::kNoButton);
+  const DeviceText other = parse_device("falcon_emulated:enable=falcon_emulated,button=3");
+  const OpenedDevice both = open_device(other);
+  ASSERT_TRUE(both.enabling.link);
+  EXPECT_EQ(both.enabling.button, 3);
+  EXPECT_EQ(both.enabling.sample_button(), EnablingSwitch::kOtherBit);
+  EXPECT_EQ(description_of(both.enabling, other), "while button 3 of falcon_emulated is held");
+  EXPECT_NE(refusal("falcon_emulated:enable=nothing").find("known are mouse"), std::string::npos);
 }
 
 TEST_F(DriverLibrary, SaysWhatADriverRefuses) {

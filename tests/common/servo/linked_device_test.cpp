@@ -136,6 +136,32 @@ TEST_F(LinkedDeviceTest, LeavesNoForceBehind) {
   EXPECT_EQ(link_->told(), Vec3{0.0});
 }
 
+// A dead-man switch on another device, worked by a thread of its own: a button of the samples, as long as
+// that device is heard.
+TEST_F(LinkedDeviceTest, CarriesTheSwitchOfAnotherDeviceInItsSamples) {
+  const auto pedal = std::make_shared<ScriptedLink>();
+  LinkedDevice device(link_, {.button = 1, .link = pedal});
+  ASSERT_EQ(device.limits().enabling_button, EnablingSwitch::kOtherBit);
+  constexpr std::uint32_t kBit = 1U << static_cast<unsigned>(EnablingSwitch::kOtherBit);
+  const auto buttons = [&](std::uint32_t of_pedal, double age) {
+    pedal->say({.time = now() - age, .buttons = of_pedal});
+    say({0.1, 0.2, 0.3});
+    DeviceSample sample;
+    return device.read(now(), sample) ? sample.buttons : 0U;
+  };
+  EXPECT_TRUE(comes([&] { return buttons(0b10, 0.0) == (3U | kBit); }));
+  EXPECT_TRUE(comes([&] { return buttons(0b01, 0.0) == 3U; })) << "another button of it";
+  EXPECT_TRUE(comes([&] { return buttons(0b10, 0.0) == (3U | kBit); }));
+  EXPECT_TRUE(comes([&] { return buttons(0b10, 0.1) == 3U; })) << "down, when it was heard last";
+  // The device goes on, its switch has fallen silent.
+  EXPECT_TRUE(comes([&] { return buttons(0b10, 0.0) == (3U | kBit); }));
+  EXPECT_TRUE(comes([&] {
+    say({0.1, 0.2, 0.3});
+    DeviceSample sample;
+    return device.read(now(), sample) && sample.buttons == 3U;
+  }));
+}
+
 class PlacedDeviceTest : public LinkedDeviceTest {
  protected:
   PlacedDeviceTest() {

@@ -86,9 +86,10 @@ TEST(SafetyRules, EnablingButtonCountsOnlyWhileItIsFresh) {
   EXPECT_TRUE(is_enabled(limits, 0b1000, 0.0));
   EXPECT_TRUE(is_enabled(limits, 0b1010, kEnablingStale));
   EXPECT_FALSE(is_enabled(limits, 0b0111, 0.0));
-  EXPECT_FALSE(is_enabled(limits, 0b1000, 0.101));
+  EXPECT_FALSE(is_enabled(limits, 0b1000, kEnablingStale + 0.001));
   EXPECT_FALSE(is_enabled(limits, 0b1000, kNan));
   EXPECT_TRUE(is_enabled({.enabling_button = 31}, 1U << 31U, 0.0));
+  EXPECT_LE(kEnablingStale + DeviceLimits{}.fade_time, 0.095) << "from losing it to zero, but the steps";
 }
 
 TEST(SafetyRules, EachCutHasItsName) {

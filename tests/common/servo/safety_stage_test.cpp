@@ -104,8 +104,9 @@ TEST(SafetyStage, FadesOutWhenTheEnablingButtonIsReleasedAndStartsAnewWhenItIsPr
   for (int i = 1; i <= 50; ++i) ASSERT_NEAR(step(0b01), 4.0 * (1.0 - 0.02 * i), 1e-12);
   EXPECT_EQ(step(0b00), 0.0);
   EXPECT_NEAR(step(0b10), 0.04, 1e-9) << "from the start of the ramp";
-  for (int i = 0; i < 200; ++i) (void)step(0b10, 0.099);
-  EXPECT_LT(step(0b10, 0.1001), 4.0) << "a button that is as old as that may have been released";
+  for (int i = 0; i < 200; ++i) (void)step(0b10, 0.99 * kEnablingStale);
+  EXPECT_LT(step(0b10, 1.01 * kEnablingStale), 4.0)
+      << "a button that is as old as that may have been released";
 }
 
 TEST(SafetyStage, NothingRevivesAForceThatIsFadingOut) {
@@ -240,7 +241,8 @@ TEST(SafetyStage, KeepsItsPromisesForAnyInput) {
   for (int i = 0; i < 400'000; ++i) {
     // Mostly an ordinary hand, so that forces have time to grow between the cuts.
     const bool calm = random() % 16 != 0;
-    ForceRequest request{.dt = 0.001 * unit(random), .age = 0.1 * unit(random), .speed = 2.0 * unit(random)};
+    ForceRequest request{
+        .dt = 0.001 * unit(random), .age = kEnablingStale * unit(random), .speed = 2.0 * unit(random)};
     request.force = calm ? Vec3{5.0, 5.0 * unit(random), unit(random) - 0.5}
                          : Vec3{hostile(random), hostile(random), hostile(random)};
     if (random() % 64 == 0) request.dt = hostile(random);

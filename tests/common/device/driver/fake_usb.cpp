@@ -30,6 +30,19 @@ class FakeUsb::Connection final : public UsbConnection {
     return {device_->control(bus_.now(), setup, data), data.size()};
   }
 
+  UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept override {
+    if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
+    if (bus_.happens(bus_.faults_.stall)) return {UsbStatus::kStall, 0};
+    if (bus_.happens(bus_.faults_.lost_read)) {
+      bus_.sleep(seconds);
+      return {UsbStatus::kTimeout, 0};
+    }
+    const std::size_t bytes = device_->answer(bus_.now(), setup, data);
+    if (bytes == 0) return {UsbStatus::kStall, 0};
+    bus_.spoil(data.first(bytes));
+    return {UsbStatus::kOk, bytes};
+  }
+
   UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
                   double seconds) noexcept override {
     if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
@@ -55,9 +68,8 @@ class FakeUsb::Connection final : public UsbConnection {
       std::size_t bytes = device_->read(bus_.now(), endpoint.address, data);
       if (bytes > 0 && bus_.happens(bus_.faults_.lost_read)) bytes = 0;
       if (bytes > 0) {
-        if (bus_.happens(bus_.faults_.corrupt_read)) {
-          data[bus_.random_() % bytes] ^= static_cast<std::uint8_t>(1U << (bus_.random_() % 8));
-        }
+        bus_.spoil(data.first(bytes));
+        if (bus_.happens(bus_.faults_.short_read)) bytes /= 2;
         return {UsbStatus::kOk, bytes};
       }
       if (bus_.now() >= until) return {UsbStatus::kTimeout, 0};
@@ -73,6 +85,11 @@ class FakeUsb::Connection final : public UsbConnection {
 
 bool FakeUsb::happens(double probability) {
   return probability > 0.0 && std::uniform_real_distribution<double>()(random_) < probability;
+}
+
+void FakeUsb::spoil(std::span<std::uint8_t> data) {
+  if (!happens(faults_.corrupt_read)) return;
+  data[random_() % data.size()] ^= static_cast<std::uint8_t>(1U << (random_() % 8));
 }
 
 FakeDevice* FakeUsb::transfer(const std::string& path, const std::shared_ptr<FakeDevice>& opened) {

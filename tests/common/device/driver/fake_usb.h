@@ -22,6 +22,10 @@ class FakeDevice {
   virtual void opened(double /*now*/) {}
   virtual void closed(double /*now*/) {}
   virtual UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) = 0;
+  /// A control transfer with data to the host; 0: it stalls.
+  virtual std::size_t answer(double /*now*/, const UsbControl& /*setup*/, std::span<std::uint8_t> /*data*/) {
+    return 0;
+  }
   virtual void write(double now, std::uint8_t endpoint, std::span<const std::uint8_t> data) = 0;
   /// What it has to say by `now`, as one packet; nothing: 0.
   virtual std::size_t read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) = 0;
@@ -33,6 +37,7 @@ struct CableFaults {
   double short_write = 0.0;   ///< half of it arrives
   double lost_read = 0.0;     ///< a packet to the host vanishes
   double corrupt_read = 0.0;  ///< one bit of it is flipped
+  double short_read = 0.0;    ///< half of a packet arrives
   double late_read = 0.0;     ///< it comes `lateness` later
   double stall = 0.0;         ///< the transfer is refused
   double timeout = 0.0;       ///< a write is not taken in time
@@ -70,6 +75,7 @@ class FakeUsb final : public UsbTransport {
   class Connection;
 
   [[nodiscard]] bool happens(double probability);
+  void spoil(std::span<std::uint8_t> data);  ///< flips a bit where that happens
   /// The device, or null where it is gone; counts a transfer.
   FakeDevice* transfer(const std::string& path, const std::shared_ptr<FakeDevice>& opened);
 

@@ -18,8 +18,10 @@
 #include <unistd.h>
 
 #include "common/device/driver/falcon_link.h"
+#include "common/device/driver/pedal_link.h"
 #include "common/servo/real_time.h"
 #include "tests/common/device/driver/falcon_emulator.h"
+#include "tests/common/device/driver/pedal_emulator.h"
 
 namespace palpate::test {
 namespace {
@@ -28,29 +30,38 @@ constexpr const char* kNode = "/dev/bus/usb/001/002";
 
 double now() { return 1e-9 * static_cast<double>(monotonic_ns()); }
 
+struct Described {
+  const char* vendor;
+  const char* product;
+  const char* descriptors;
+};
 // Device, configuration, one interface, two bulk endpoints of 64 bytes: as an FTDI bridge describes itself.
-constexpr const char* kDescriptors =
-    "1201000200000040030448cb000601020301"
-    "0902200001010080320904000002ffffff020705810240000007050202400000";
+constexpr Described kFalcon{"0403", "cb48",
+                            "1201000200000040030448cb000601020301"
+                            "0902200001010080320904000002ffffff020705810240000007050202400000"};
+// A boot keyboard with an interrupt endpoint of 8 bytes every 10 ms.
+constexpr Described kPedal{"0c45", "7403",
+                           "1201100100000008450c0374000101020001"
+                           "0902190001010080320904000001030101000705810308000a"};
 
 /// Answers the ioctls of usbfs for one device, on umockdev's thread.
 class UsbfsDevice {
  public:
-  explicit UsbfsDevice(FakeDevice& device) : device_(device) {
+  UsbfsDevice(FakeDevice& device, const Described& described) : device_(device) {
     testbed_ = umockdev_testbed_new();
     handler_ = umockdev_ioctl_base_new();
     g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&UsbfsDevice::answer), this);
     GError* error = nullptr;
     umockdev_testbed_attach_ioctl(testbed_, kNode, handler_, &error);
     EXPECT_EQ(error, nullptr);
-    const std::string described =
-        std::string("P: /devices/pci0000:00/usb1/1-2\nN: bus/usb/001/002\n") +
-        "E: BUSNUM=001\nE: DEVNUM=002\nE: DEVNAME=" + kNode +
-        "\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=1\nE: SUBSYSTEM=usb\n"
-        "A: busnum=1\\n\nA: devnum=2\\n\nA: bConfigurationValue=1\\n\nA: speed=12\\n\n"
-        "A: idVendor=0403\\n\nA: idProduct=cb48\\n\nH: descriptors=" +
-        kDescriptors + "\n";
-    umockdev_testbed_add_from_string(testbed_, described.c_str(), &error);
+    const std::string record = std::string("P: /devices/pci0000:00/usb1/1-2\nN: bus/usb/001/002\n") +
+                               "E: BUSNUM=001\nE: DEVNUM=002\nE: DEVNAME=" + kNode +
+                               "\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=1\nE: SUBSYSTEM=usb\n"
+                               "A: busnum=1\\n\nA: devnum=2\\n\nA: bConfigurationValue=1\\n\nA: speed=12\\n\n"
+                               "A: idVendor=" +
+                               described.vendor + "\\n\nA: idProduct=" + described.product +
+                               "\\n\nH: descriptors=" + described.descriptors + "\n";
+    umockdev_testbed_add_from_string(testbed_, record.c_str(), &error);
     EXPECT_EQ(error, nullptr) << (error != nullptr ? error->message : "");
   }
   ~UsbfsDevice() {
@@ -165,9 +176,17 @@ class UsbfsDevice {
     if (asked.type == USBDEVFS_URB_TYPE_CONTROL) {
       const guint8* const setup = urb.buffer->data;
       const auto word = [&](int at) { return static_cast<std::uint16_t>(setup[at] | (setup[at + 1] << 8)); };
-      const UsbStatus status = device_.control(
-          local(), {.request_type = setup[0], .request = setup[1], .value = word(2), .index = word(4)},
-          std::span<const std::uint8_t>(setup + 8, length - 8));
+      const UsbControl asking{
+          .request_type = setup[0], .request = setup[1], .value = word(2), .index = word(4)};
+      if ((setup[0] & 0x80U) != 0) {
+        std::vector<std::uint8_t> said(length - 8);
+        const std::size_t bytes = device_.answer(local(), asking, said);
+        if (bytes == 0) return finish(urb, -EPIPE, 0);
+        umockdev_ioctl_data_update(urb.buffer, 8, said.data(), static_cast<gint>(bytes));
+        return finish(urb, 0, static_cast<int>(bytes));
+      }
+      const UsbStatus status =
+          device_.control(local(), asking, std::span<const std::uint8_t>(setup + 8, length - 8));
       return finish(urb, status == UsbStatus::kOk ? 0 : -EPIPE, static_cast<int>(length - 8));
     }
     if ((asked.endpoint & 0x80U) == 0) {
@@ -226,7 +245,7 @@ class UsbfsDevice {
 class LibusbTransport : public ::testing::Test {
  protected:
   void SetUp() override {
-    usbfs_ = std::make_unique<UsbfsDevice>(falcon_);
+    usbfs_ = std::make_unique<UsbfsDevice>(falcon_, kFalcon);
     ASSERT_EQ(::access("/sys/devices/pci0000:00/usb1/1-2", F_OK), 0)
         << "run with LD_PRELOAD=libumockdev-preload.so.0";
     std::string error;
@@ -299,6 +318,38 @@ TEST_F(LibusbTransport, CarriesTheFalconFromOpeningToForcesAndUnplugging) {
   usbfs_->unplug();
   for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n) (void)link.round({0.0, 0.0, 1.0});
   EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
+}
+
+// A pedal that is held speaks up by itself every 8 ms, or is asked: either way over real libusb.
+TEST(LibusbPedal, IsHeardWhileItIsHeldAndReleasedWhenItIsPulledOut) {
+  for (const bool repeats : {true, false}) {
+    PedalEmulator pedal({.repeats = repeats});
+    UsbfsDevice usbfs(pedal, kPedal);
+    std::string error;
+    const std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+    ASSERT_TRUE(bus) << error;
+    PedalLink link(*bus);
+    const auto until_down = [&](std::uint32_t buttons) {
+      for (const double until = now() + 20.0; now() < until && link.atoms().buttons != buttons;) {
+        (void)link.round(Vec3{0.0});
+      }
+      return link.atoms().buttons == buttons;
+    };
+    for (int n = 0; n < 20; ++n) (void)link.round(Vec3{0.0});
+    EXPECT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
+    pedal.press(0b001);
+    EXPECT_TRUE(until_down(0b001));
+    const std::uint64_t before = link.status().rounds;
+    for (int n = 0; n < 20; ++n) (void)link.round(Vec3{0.0});
+    EXPECT_GE(link.status().rounds, before + 10);
+    if (!repeats) {
+      EXPECT_GT(pedal.asked(), 0);
+    }
+    usbfs.unplug();
+    EXPECT_TRUE(until_down(0));
+    for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n) (void)link.round(Vec3{0.0});
+    EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,143 @@
+#include "common/device/driver/pedal_link.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/device/driver/known_devices.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::string_view kPedal = "pedal";
+constexpr double kAnswerTime = 0.010;       // [s] that GET_REPORT may take
+constexpr double kSetUpTime = 0.1;          // [s]
+constexpr double kLookPause = 0.1;          // [s] between two looks at the bus
+constexpr std::size_t kLongestReport = 64;  // [bytes]
+
+// HID, class requests to the interface.
+constexpr std::uint8_t kOutToInterface = 0x21, kInFromInterface = 0xA1, kGetReport = 0x01, kSetIdle = 0x0A;
+constexpr std::uint16_t kInputReport = 0x0100;
+constexpr double kIdleUnit = 0.004;  // [s]
+
+PedalFormat format_of(UsbId id) noexcept {
+  constexpr UsbId kXk3{0x05f3, 0x042c}, kVec{0x05f3, 0x00ff};
+  if (id == kXk3) return PedalFormat::kXKeys;
+  return id == kVec ? PedalFormat::kInfinity : PedalFormat::kKeyboard;
+}
+
+}  // namespace
+
+std::string PedalLink::place() const { return path_.empty() ? path_ : "usb " + path_; }
+
+std::string PedalLink::advice() const {
+  if (status_.phase == LinkPhase::kAbsent) return "no foot switch is plugged in";
+  if (status_.phase != LinkPhase::kRefused) return {};
+  if (connection_) {
+    return "the foot switch neither repeats its reports nor answers: it cannot guard a hand; plug it in "
+           "directly, without a hub, or take another one";
+  }
+  if (refused_ == UsbStatus::kBusy) return "another program has the foot switch; end it";
+  return "the foot switch cannot be opened (" + std::string(name_of(refused_)) +
+         "); `workbench doctor` prints the rule that gives access to it";
+}
+
+bool PedalLink::round(const Vec3& /*force*/) noexcept {
+  if (!connection_) {
+    search();
+    return false;
+  }
+  if (listen()) return true;
+  if (!connection_) return release();
+  const double silence = transport_.now() - heard_;
+  if (silence > kDumb) status_.phase = LinkPhase::kRefused;
+  return silence > kSilence && atoms_.buttons != 0 && release();
+}
+
+bool PedalLink::listen() noexcept {
+  std::array<std::uint8_t, kLongestReport> report{};
+  const auto fails = [this](UsbStatus status) {
+    // That a pedal refuses to be asked is no fault, as long as it speaks by itself.
+    if (status != UsbStatus::kGone && (status == UsbStatus::kTimeout || ++misses_ < kMostMisses))
+      return false;
+    ++status_.faults;
+    connection_.reset();
+    return true;
+  };
+  const UsbResult said = connection_->read(reports_, report, kAskAfter);
+  if (said.ok()) return hear(std::span(report).first(std::min(said.bytes, report.size())));
+  if (fails(said.status)) return false;
+  const UsbResult answer = connection_->ask({.request_type = kInFromInterface,
+                                             .request = kGetReport,
+                                             .value = kInputReport,
+                                             .index = reports_.interface},
+                                            report, kAnswerTime);
+  if (answer.ok()) return hear(std::span(report).first(std::min(answer.bytes, report.size())));
+  if (answer.status == UsbStatus::kGone) (void)fails(answer.status);
+  ++status_.lost;
+  return false;
+}
+
+bool PedalLink::hear(std::span<const std::uint8_t> report) noexcept {
+  misses_ = 0;
+  const std::optional<std::uint32_t> pedals = pedals_of(format_, report);
+  if (!pedals) {
+    status_.dropped += report.size();
+    return release();
+  }
+  ++status_.rounds;
+  status_.phase = LinkPhase::kReady;
+  seen_released_ = seen_released_ || *pedals == 0;
+  heard_ = transport_.now();
+  atoms_.time = heard_;
+  atoms_.buttons = seen_released_ ? *pedals : 0;
+  return true;
+}
+
+bool PedalLink::release() noexcept {
+  if (!connection_) {
+    path_.clear();
+    status_.phase = LinkPhase::kAbsent;
+  }
+  atoms_.time = transport_.now();
+  atoms_.buttons = 0;
+  return true;
+}
+
+void PedalLink::search() noexcept {
+  const std::vector<UsbDevice> devices = transport_.devices();
+  status_.phase = LinkPhase::kAbsent;
+  for (const UsbDevice& device : devices) {
+    const KnownDevice* const known = find_known(device.id);
+    if (known == nullptr || known->driver != kPedal) continue;
+    // Of several interfaces the first has the pedals, others set them up.
+    const auto endpoint = std::find_if(device.endpoints.begin(), device.endpoints.end(),
+                                       [](const UsbEndpoint& e) { return e.interrupt && e.in(); });
+    if (endpoint == device.endpoints.end()) continue;
+    UsbOpened opened = transport_.open(device.path, endpoint->interface);
+    if (opened.status != UsbStatus::kOk) {
+      refused_ = opened.status;
+      status_.phase = LinkPhase::kRefused;
+      continue;  // there may be another one
+    }
+    connection_ = std::move(opened.connection);
+    reports_ = *endpoint;
+    format_ = format_of(device.id);
+    path_ = device.path;
+    misses_ = 0;
+    seen_released_ = false;
+    heard_ = transport_.now();
+    ++status_.opened;
+    status_.phase = LinkPhase::kLoading;
+    // A pedal that refuses is asked instead.
+    constexpr auto kUnits = static_cast<std::uint16_t>(kRepeat / kIdleUnit + 0.5);
+    (void)connection_->control({.request_type = kOutToInterface,
+                                .request = kSetIdle,
+                                .value = static_cast<std::uint16_t>(kUnits << 8U),
+                                .index = reports_.interface},
+                               {}, kSetUpTime);
+    return;
+  }
+  transport_.sleep(kLookPause);
+}
+
+}  // namespace palpate
