@@ -9,10 +9,10 @@ namespace palpate {
 namespace {
 
 constexpr std::string_view kPedal = "pedal";
-constexpr double kAnswerTime = 0.010;       // [s] that GET_REPORT may take
-constexpr double kSetUpTime = 0.1;          // [s]
-constexpr double kLookPause = 0.1;          // [s] between two looks at the bus
-constexpr std::size_t kLongestReport = 64;  // [bytes]
+constexpr double kAnswerTime = 0.010;    // [s] that GET_REPORT may take
+constexpr double kSetUpTime = 0.1;       // [s]
+constexpr double kPedalPause = 0.1;      // [s] between two looks at the bus
+constexpr std::size_t kPedalBytes = 64;  // [bytes]
 
 // HID, class requests to the interface.
 constexpr std::uint8_t kOutToInterface = 0x21, kInFromInterface = 0xA1, kGetReport = 0x01, kSetIdle = 0x0A;
@@ -54,7 +54,7 @@ bool PedalLink::round(const Vec3& /*force*/) noexcept {
 }
 
 bool PedalLink::listen() noexcept {
-  std::array<std::uint8_t, kLongestReport> report{};
+  std::array<std::uint8_t, kPedalBytes> report{};
   const auto fails = [this](UsbStatus status) {
     // That a pedal refuses to be asked is no fault, as long as it speaks by itself.
     if (status != UsbStatus::kGone && (status == UsbStatus::kTimeout || ++misses_ < kMostMisses))
@@ -137,7 +137,7 @@ void PedalLink::search() noexcept {
                                {}, kSetUpTime);
     return;
   }
-  transport_.sleep(kLookPause);
+  transport_.sleep(kPedalPause);
 }
 
 }  // namespace palpate
