@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <thread>
 #include <vector>
 
@@ -41,11 +42,22 @@ void run_pieces(std::size_t count, int threads, const std::function<void(std::si
   }
 }
 #else
+/// The calling thread's own, for as long as it lives: workers find the next loop where they were at the last
+/// one. From an arena that is gone they part only after many a yield, each of which costs a time slice where
+/// other programs run, and meanwhile a thread works alone.
+tbb::task_arena& arena_of(int threads) {
+  thread_local std::map<int, tbb::task_arena> arenas;
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
 void run_pieces(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
-                      [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+  // A loop within a loop waits for its own pieces alone: another one of the outer loop might want a lock that
+  // this one holds.
+  arena_of(threads).execute([&] {
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
+                        [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+    });
   });
 }
 #endif
