@@ -17,7 +17,6 @@ constexpr std::size_t kPedalBytes = 64;  // [bytes]
 // HID, class requests to the interface.
 constexpr std::uint8_t kOutToInterface = 0x21, kInFromInterface = 0xA1, kGetReport = 0x01, kSetIdle = 0x0A;
 constexpr std::uint16_t kInputReport = 0x0100;
-constexpr double kIdleUnit = 0.004;  // [s]
 
 PedalFormat format_of(UsbId id) noexcept {
   constexpr UsbId kXk3{0x05f3, 0x042c}, kVec{0x05f3, 0x00ff};
@@ -129,10 +128,9 @@ void PedalLink::search() noexcept {
     ++status_.opened;
     status_.phase = LinkPhase::kLoading;
     // A pedal that refuses is asked instead.
-    constexpr auto kUnits = static_cast<std::uint16_t>(kRepeat / kIdleUnit + 0.5);
     (void)connection_->control({.request_type = kOutToInterface,
                                 .request = kSetIdle,
-                                .value = static_cast<std::uint16_t>(kUnits << 8U),
+                                .value = static_cast<std::uint16_t>(kRepeatUnits << 8U),
                                 .index = reports_.interface},
                                {}, kSetUpTime);
     return;

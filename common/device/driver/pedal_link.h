@@ -19,11 +19,12 @@ namespace palpate {
 
 class PedalLink final : public DriverLink {
  public:
-  static constexpr double kRepeat = 0.008;    ///< [s] a multiple of 4 ms
-  static constexpr double kAskAfter = 0.012;  ///< [s]
-  static constexpr double kSilence = 0.035;   ///< [s] unheard for so long it is released
-  static constexpr double kDumb = 0.5;        ///< [s] unheard for so long it is of no use
-  static constexpr int kMostMisses = 5;       ///< transfers in a row that may fail
+  static constexpr unsigned kRepeatUnits = 2;              ///< of 4 ms, as SET_IDLE counts
+  static constexpr double kRepeat = 0.004 * kRepeatUnits;  ///< [s]
+  static constexpr double kAskAfter = 0.012;               ///< [s]
+  static constexpr double kSilence = 0.035;                ///< [s] unheard for so long it is released
+  static constexpr double kDumb = 0.5;                     ///< [s] unheard for so long it is of no use
+  static constexpr int kMostMisses = 5;                    ///< transfers in a row that may fail
 
   /// `transport` outlives this.
   explicit PedalLink(UsbTransport& transport) : transport_(transport) {}
