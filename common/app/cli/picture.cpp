@@ -10,6 +10,7 @@
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/haptic/probe_mouse.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -22,11 +23,6 @@ namespace {
 constexpr int kMostPixels = 8192;  // an edge of the picture: a driver may allow more, memory not
 constexpr int kOversampling = 3;   // samples along each edge of a pixel of the converged picture
 constexpr int kFramesForJson = 5;
-
-struct PictureSize {
-  int width = 0;
-  int height = 0;
-};
 
 PictureSize parse_size(const std::string& text) {
   PictureSize size;
