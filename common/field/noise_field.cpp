@@ -16,7 +16,7 @@ namespace {
 constexpr int kStep = 4;        // points from node to node
 constexpr int kMostNodes = 64;  // along an axis
 constexpr int kReach = 3;       // points about a node at which differences are taken
-constexpr int kSide = 2 * (kReach + 1) + 1;
+constexpr std::size_t kSide = 2 * (kReach + 1) + 1;
 constexpr std::size_t kLeast = 27;  // places by which a window can be judged
 
 /// Values about a node, and in their place what each difference leaves of them.
