@@ -14,20 +14,41 @@ constexpr std::uint8_t kFarthest = 255;
 
 std::size_t size_of(int n) { return static_cast<std::size_t>(n); }
 
-// For each of `count` numbers `stride` apart, the least of those at distance r plus r: one axis of a distance
-// by the largest axis needs the maximum of both instead.
-void spread_along(std::uint8_t* line, int count, std::size_t stride, std::vector<std::uint8_t>& scratch) {
-  scratch.resize(size_of(count));
-  for (int i = 0; i < count; ++i) scratch[size_of(i)] = line[stride * size_of(i)];
-  for (int i = 0; i < count; ++i) {
-    int least = scratch[size_of(i)];
-    // max(r, value at distance r) can only be less than `least` while r is.
-    for (int r = 1; r < least; ++r) {
-      if (i - r >= 0) least = std::min(least, std::max<int>(r, scratch[size_of(i - r)]));
-      if (i + r < count) least = std::min(least, std::max<int>(r, scratch[size_of(i + r)]));
-      if (i - r < 0 && i + r >= count) break;
+std::uint8_t one_more(std::uint8_t distance) {
+  return distance < kFarthest ? static_cast<std::uint8_t>(distance + 1) : kFarthest;
+}
+
+// One sweep of the distance by the largest axis, exact with a second one from the other end (Rosenfeld and
+// Pfaltz 1968): each brick is at most one further than those of the 26 around it that came before.
+// @param reversed from the last brick to the first
+void sweep(std::vector<std::uint8_t>& distances, const Index3& bricks, bool reversed) {
+  const std::size_t width = size_of(bricks.x);
+  // Least of the rows before, with a brick that is never nearest at each end.
+  std::vector<std::uint8_t> before(width + 2);
+  for (int k = 0; k < bricks.z; ++k) {
+    for (int j = 0; j < bricks.y; ++j) {
+      const int back = reversed ? 1 : -1;
+      const int y = reversed ? bricks.y - 1 - j : j, z = reversed ? bricks.z - 1 - k : k;
+      const auto row_at = [&](int row_y, int row_z) {
+        return distances.data() + width * (size_of(row_y) + size_of(bricks.y) * size_of(row_z));
+      };
+      std::fill(before.begin(), before.end(), kFarthest);
+      const auto take = [&](int row_y, int row_z) {
+        if (row_y < 0 || row_y >= bricks.y || row_z < 0 || row_z >= bricks.z) return;
+        const std::uint8_t* row = row_at(row_y, row_z);
+        for (std::size_t x = 0; x < width; ++x) before[x + 1] = std::min(before[x + 1], row[x]);
+      };
+      take(y + back, z);
+      for (int side = -1; side <= 1; ++side) take(y + side, z + back);
+      std::uint8_t* row = row_at(y, z);
+      for (std::size_t x = 0; x < width; ++x) {
+        row[x] = std::min(row[x], one_more(std::min({before[x], before[x + 1], before[x + 2]})));
+      }
+      for (std::size_t i = 1; i < width; ++i) {
+        const std::size_t x = reversed ? width - 1 - i : i;
+        row[x] = std::min(row[x], one_more(row[reversed ? x + 1 : x - 1]));
+      }
     }
-    line[stride * size_of(i)] = static_cast<std::uint8_t>(least);
   }
 }
 
@@ -92,26 +113,8 @@ std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges, std::span<c
     distances[i] = empty ? kFarthest : 0;
   }
 
-  const Index3 b = ranges.bricks;
-  std::vector<std::uint8_t> scratch;
-  for (int z = 0; z < b.z; ++z) {
-    for (int y = 0; y < b.y; ++y) {
-      spread_along(distances.data() + size_of(b.x) * (size_of(y) + size_of(b.y) * size_of(z)), b.x, 1,
-                   scratch);
-    }
-  }
-  for (int z = 0; z < b.z; ++z) {
-    for (int x = 0; x < b.x; ++x) {
-      spread_along(distances.data() + size_of(x) + size_of(b.x) * size_of(b.y) * size_of(z), b.y,
-                   size_of(b.x), scratch);
-    }
-  }
-  for (int y = 0; y < b.y; ++y) {
-    for (int x = 0; x < b.x; ++x) {
-      spread_along(distances.data() + size_of(x) + size_of(b.x) * size_of(y), b.z,
-                   size_of(b.x) * size_of(b.y), scratch);
-    }
-  }
+  sweep(distances, ranges.bricks, false);
+  sweep(distances, ranges.bricks, true);
   return distances;
 }
 
