@@ -8,14 +8,14 @@ int blended = -1;      // the lens that is being marched through; none: -1
 mat3 scene_from_grid;  // set with it
 
 void begin_blending(int lens) {
-  blended = lens >= 0 && lenses.circles[lens].w > 0.0 ? lens : -1;
+  blended = lens >= 0 && shapes.circles[lens].w > 0.0 ? lens : -1;
   if (blended >= 0) scene_from_grid = inverse(mat3(volume.grid_from_scene));
 }
 
 float blended_number(float own, vec3 g) {
   if (blended < 0) return own;
   vec3 x = scene_from_grid * (g - volume.grid_from_scene[3].xyz);
-  float s = (1.0 - border_place(blended, x)) / lenses.circles[blended].w;
+  float s = (1.0 - border_place(blended, x)) / shapes.circles[blended].w;
   vec3 points = vec3(textureSize(coarse_voxels, 0));
   vec3 coarse = g * (points - 1.0) / max(volume.points.xyz - 1.0, 1.0);
   float outside = texture(coarse_voxels, (coarse + 0.5) / points).x;

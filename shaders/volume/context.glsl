@@ -20,7 +20,7 @@ layout(location = 2) out vec2 kind;  // 1 where the ray meets a lens, else 0; t 
 
 void main() {
   Ray ray = pixel_ray();
-  vec2 inside[kMostLenses];
+  vec2 inside[kLensRoom];
   vec2 span = lens_span(ray, inside);
   kind = vec2(span.x < span.y ? 1.0 : 0.0, ray.to);
   vec4 seen[2] = vec4[2](vec4(0.0), vec4(0.0));
@@ -28,7 +28,7 @@ void main() {
   // Software rasterisers compute a step of a loop for rays that skip it, unless all of them end the loop.
   int last = span.x < span.y && parts[1].x < parts[1].y ? 1 : 0;
   for (int i = parts[0].x < parts[0].y ? 0 : 1; i <= last && seen[0].a <= volume.lengths.z; ++i)
-    march(ray, volume.parts[0], parts[i].x, parts[i].y, seen[i]);
+    march(ray, shapes.parts[0], parts[i].x, parts[i].y, seen[i]);
   front = seen[0];
   back = seen[1];
 }

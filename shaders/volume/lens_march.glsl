@@ -25,7 +25,7 @@ layout(location = 0) out vec4 color;  // associated
 
 void main() {
   Ray ray = pixel_ray();
-  vec2 inside[kMostLenses];
+  vec2 inside[kLensRoom];
   vec2 span = lens_span(ray, inside);
   int count = volume.counts.x;
   float t = ray.first, end = ray.last;
@@ -68,19 +68,19 @@ void main() {
         break;
       }
     }
-    bool seen = volume.parts[owner].w != 1.0;
+    bool seen = shapes.parts[owner].w != 1.0;
 #ifdef BLENDED
     begin_blending(owner - 1);
 #endif
 #ifdef MAGNIFIED
     if (seen && owner > 0 && magnifies(owner - 1)) {
-      march_magnified(ray, owner - 1, volume.parts[owner], t, stop, color);
+      march_magnified(ray, owner - 1, shapes.parts[owner], t, stop, color);
       seen = false;
     }
     float first = max(t, ray.first), last = min(stop, ray.last);
-    if (seen && first < last) march(ray, volume.parts[owner], first, last, color);
+    if (seen && first < last) march(ray, shapes.parts[owner], first, last, color);
 #else
-    if (seen) march(ray, volume.parts[owner], t, stop, color);
+    if (seen) march(ray, shapes.parts[owner], t, stop, color);
 #endif
     t = stop;
   }

@@ -6,12 +6,12 @@
 // Needs volume/volume_block.glsl and volume/lens_segments.glsl.
 const float kCore = 0.5;  // a
 
-bool magnifies(int i) { return lenses.centers[i].w > 1.0; }
+bool magnifies(int i) { return shapes.centers[i].w > 1.0; }
 
 // (1), in N.
 vec3 place_seen(int i, vec3 x) {
-  vec3 c = lenses.centers[i].xyz, away = x - c;
+  vec3 c = shapes.centers[i].xyz, away = x - c;
   float u = border_place(i, x);
-  float shrunk = 1.0 / lenses.centers[i].w, outer = clamp((u - kCore) / (1.0 - kCore), 0.0, 1.0);
+  float shrunk = 1.0 / shapes.centers[i].w, outer = clamp((u - kCore) / (1.0 - kCore), 0.0, 1.0);
   return c + away * (shrunk + (1.0 - shrunk) * outer * outer / u);
 }

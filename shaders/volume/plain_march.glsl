@@ -25,7 +25,7 @@ void main() {
   vec4 kept = enter_slab(ray, in_front);
   if (in_front) color = kept;
 #endif
-  march(ray, volume.parts[0], ray.first, ray.last, color);
+  march(ray, shapes.parts[0], ray.first, ray.last, color);
 #ifdef SLABS
   if (!in_front) color += (1.0 - color.a) * kept;
 #endif

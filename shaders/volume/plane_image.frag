@@ -27,11 +27,11 @@ layout(location = 0) out vec4 color;
 
 bool inside_lens(int i, vec3 x) {
   if (circle_place(i, 0.0) > 1.0) return false;
-  mat4 unit = lenses.unit_from_scene[i];
+  mat4 unit = shapes.unit_from_scene[i];
   if (unit[3][3] > 0.5 && length((unit * vec4(x, 1.0)).xyz) > 1.0) return false;
-  ivec2 range = lenses.faces[i].xy;
+  ivec2 range = shapes.faces[i].xy;
   for (int k = range.x; k < range.x + range.y; ++k) {
-    if (dot(lenses.planes[k].xyz, x) > lenses.planes[k].w) return false;
+    if (dot(shapes.planes[k].xyz, x) > shapes.planes[k].w) return false;
   }
   return true;
 }
@@ -40,7 +40,7 @@ void main() {
   int lens = 0;
   while (lens < volume.counts.x && !inside_lens(lens, place)) ++lens;
   bool in_lens = lens < volume.counts.x;
-  vec4 part = in_lens ? volume.parts[lens + 1] : volume.parts[0];
+  vec4 part = in_lens ? shapes.parts[lens + 1] : shapes.parts[0];
   vec3 x = in_lens && magnifies(lens) ? place_seen(lens, place) : place;
   vec3 g = (volume.grid_from_scene * vec4(x, 1.0)).xyz;
   float number = number_at(g);

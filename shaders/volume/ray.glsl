@@ -66,7 +66,7 @@ Ray pixel_ray() {
   ray.to = 1e30;
   if (has_opaque_depth) ray.to = opaque_distance(ray, texelFetch(opaque_depth, opaque_pixel(), 0).x, ray.to);
   for (int i = 0; i < volume.counts.y; ++i) {
-    float speed = dot(volume.cuts[i].xyz, ray.direction), room = volume.cuts[i].w - dot(volume.cuts[i].xyz, ray.origin);
+    float speed = dot(shapes.cuts[i].xyz, ray.direction), room = shapes.cuts[i].w - dot(shapes.cuts[i].xyz, ray.origin);
     if (speed > 0.0) ray.to = min(ray.to, room / speed);
     if (speed < 0.0) ray.from = max(ray.from, room / speed);
     if (speed == 0.0 && room < 0.0) ray.to = -1e30;

@@ -1,12 +1,6 @@
 // The volume, its tables and its bricks (common/render/volume/volume_block.h).
 // Grid coordinates g: whole numbers at the points. Table coordinate: of a number that the image stores, in
 // [0, 1] from the middle of the first entry to that of the last one, but for half a texel at either end.
-const int kMostLenses = 8;
-const int kMostPlanes = 32;
-const int kMostCuts = 256;
-
-// A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
-// voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.
 layout(std140, binding = 1) uniform Volume {
   mat4 grid_from_scene;
   vec4 lower;         // xyz: corner of the volume, g; w: number at the first entry of a table
@@ -14,11 +8,10 @@ layout(std140, binding = 1) uniform Volume {
   vec4 points;        // xyz: voxels an axis; w: table coordinate of the first entry
   vec4 bricks;        // xyz: bricks an axis; w: 1 leave out empty ones
   vec4 lengths;       // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end; w: 1 ask tiles
-  vec4 parts[1 + kMostLenses];  // the context, then the lenses
-  vec4 cuts[kMostCuts];         // outward unit normal, offset, N: what lies beyond is cut away
-  ivec4 counts;                 // x: lenses, y: cuts
+  ivec4 counts;       // x: lenses, y: cuts
 } volume;
 
+#include "volume/shape_block.glsl"
 #include "volume/voxels.glsl"
 layout(binding = 1) uniform sampler2DArray tables;   // associated colour and opacity: front entry, back entry, layer
 layout(binding = 2) uniform usampler3D empty_bricks; // distances in bricks, one map after another along z

@@ -65,7 +65,7 @@ struct LineInterval {
 /// The shape grown about center_of(); half-spaces have no size. @pre finite, factor > 0.
 [[nodiscard]] ConvexShape scaled(ConvexShape shape, double factor) noexcept;
 
-inline constexpr std::size_t kMostLenses = 8;
+inline constexpr std::size_t kMostLenses = 1024;    ///< of one picture
 inline constexpr std::size_t kMostHalfSpaces = 32;  ///< of one lens
 
 /// A circle on the screen, in heights of the picture from its middle: x to the right, y up.

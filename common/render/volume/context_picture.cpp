@@ -70,13 +70,17 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);
   textures_.update(view_, {}, &whole);
-  if (std::vector<std::string> defines = textures_.shader_defines(); defines != defines_) {
+  room_ = ShapeRoom::of(view_);
+  std::vector<std::string> defines = textures_.shader_defines();
+  defines.push_back(room_.shader_define());
+  if (defines != defines_) {
     unlit_.reset();
     shaded_.reset();
+    tiles_.reset();
     defines_ = std::move(defines);
   }
   volume_block_ = volume_shader::make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
-  lens_block_ = volume_shader::make_block_buffer(make_lens_block(view_, frame));
+  shape_block_ = make_buffer(make_shape_block(view_, frame, room_));
 }
 
 void ContextPicture::resize(int width, int height) {
@@ -143,7 +147,9 @@ void ContextPicture::draw_kinds(const FrameBlock& block) {
   use_blocks();
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, tile_framebuffer_.name());
   glViewport(0, 0, grid.columns, grid.rows);
-  if (!tiles_) tiles_ = compile_program("background/background.vert", "volume/context_tiles.frag");
+  if (!tiles_)
+    tiles_ =
+        compile_program("background/background.vert", "volume/context_tiles.frag", shader_files(), defines_);
   glUseProgram(tiles_.name());
   glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
   glUniform3f(volume_shader::kContextPixel, scale_, left_, bottom_);
@@ -153,7 +159,7 @@ void ContextPicture::draw_kinds(const FrameBlock& block) {
 
 void ContextPicture::use_blocks() const {
   glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, volume_block_.name());
-  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kLensBlock, lens_block_.name());
+  bind_shape_block(shape_block_, room_);
   textures_.bind(false);
   glBindVertexArray(no_vertices_.name());
   glDisable(GL_DEPTH_TEST);

@@ -17,6 +17,7 @@
 
 #include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
+#include "common/render/volume/shape_block.h"
 #include "common/render/volume/volume_textures.h"
 #include "common/render/volume/volume_view.h"
 
@@ -66,10 +67,11 @@ class ContextPicture {
   bool has_opaque_depth_ = false;
 
   VolumeTextures textures_;
-  std::vector<std::string> defines_;  ///< of `unlit_` and `shaded_`
+  std::vector<std::string> defines_;  ///< of all but `enlarged_`
+  ShapeRoom room_;
   GlProgram unlit_, shaded_, tiles_, enlarged_;
   GlVertexArray no_vertices_;
-  GlBuffer volume_block_, lens_block_;
+  GlBuffer volume_block_, shape_block_;
   int width_ = 0, height_ = 0;
   GlTexture front_, back_, kind_;
   GlFramebuffer framebuffer_;

@@ -9,8 +9,8 @@
 
 namespace palpate::volume_shader {
 
-// Uniform blocks.
-inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kLensBlock = 2;
+// Blocks.
+inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kShapeBlock = 2;
 
 // Textures. Those of slabs and of the context are never in one program.
 inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
@@ -12,19 +11,6 @@ namespace {
 
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
-
-enum class Content : std::uint8_t { kTransfer, kCut, kColored };
-
-glm::vec4 part_of(int transfer, double samples, bool shaded, Content content) {
-  return {transfer, samples, shaded ? 1.0F : 0.0F, static_cast<float>(content)};
-}
-
-glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& frame) {
-  const double offset = (h.offset - glm::dot(h.outward, frame.center)) * power_of_two(-frame.exponent);
-  return {Vec3f(h.outward), std::clamp(offset, -1e30, 1e30)};
-}
-
-Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
 
 }  // namespace
 
@@ -88,7 +74,7 @@ NumberRange table_range(const VolumeView& view) noexcept {
 }
 
 VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, const Index3& bricks) {
-  PALPATE_CHECK(view.image != nullptr && view.lenses.size() <= kMostLenses && view.cuts.size() <= kMostCuts);
+  PALPATE_CHECK(view.image != nullptr);
   const VolumeImage& image = *view.image;
   VolumeBlock block;
 
@@ -110,44 +96,9 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, c
   block.lengths = {steps.longest * to_scene / (steps.layers - 1), steps.layers,
                    view.stop_where_opaque ? kOpaque : 2.0F, asks_tiles(view) ? 1.0F : 0.0F};
 
-  block.parts[0] = part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored));
-  int transfers = 1;
-  for (std::size_t i = 0; i < view.lenses.size(); ++i) {
-    const Lens& lens = view.lenses[i];
-    const int transfer = lens.transfer ? transfers++ : 0;
-    block.parts[i + 1] = part_of(transfer, lens.samples_per_voxel, lens.shading,
-                                 lens.cut ? Content::kCut : content_of(lens.colored));
-  }
   block.counts.x = static_cast<int>(view.lenses.size());
-  for (const CuttingPlane& cut : view.cuts) {
-    if (cut.on) block.cuts[static_cast<std::size_t>(block.counts.y++)] = plane_in_scene(cut.kept, frame);
-  }
-  return block;
-}
-
-LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame) {
-  LensBlock block;
-  const double to_data = power_of_two(frame.exponent);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < view.lenses.size(); ++i) {
-    const ConvexShape& shape = view.lenses[i].shape;
-    PALPATE_CHECK(shape.half_spaces.size() <= kMostHalfSpaces);
-    block.unit_from_scene[i] = glm::mat4(0.0F);
-    if (shape.quadric) {
-      const Mat3 unit = shape.quadric->unit_from_data * to_data;
-      block.unit_from_scene[i] = glm::mat4(Mat4(unit));
-      block.unit_from_scene[i][3] = {Vec3f(unit * -frame.scene_from_data(shape.quadric->center)), 1.0F};
-    }
-    const double magnification = magnifies(view.lenses[i]) ? view.lenses[i].magnification : 1.0;
-    block.centers[i] = {Vec3f(frame.scene_from_data(center_of(shape, frame.center))), magnification};
-    block.faces[i] = {static_cast<int>(next), static_cast<int>(shape.half_spaces.size()), 0, 0};
-    const Lens& lens = view.lenses[i];
-    const ScreenCircle circle = lens.screen.value_or(ScreenCircle{.radius = 0.0});
-    block.circles[i] = {circle.x, circle.y, circle.radius, has_transition(lens) ? lens.transition : 0.0};
-    for (const ConvexShape::HalfSpace& h : shape.half_spaces) {
-      block.planes[next++] = plane_in_scene(h, frame);
-    }
-  }
+  block.counts.y = static_cast<int>(
+      std::count_if(view.cuts.begin(), view.cuts.end(), [](const CuttingPlane& cut) { return cut.on; }));
   return block;
 }
 

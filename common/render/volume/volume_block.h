@@ -1,5 +1,5 @@
-/// What the shaders of volumes are told, as they get it (shaders/volume/volume_block.glsl,
-/// lens_segments.glsl).
+/// What the shaders of volumes are told of a volume, its tables and its bricks, as they get it
+/// (shaders/volume/volume_block.glsl).
 #pragma once
 
 #include <array>
@@ -42,24 +42,11 @@ struct NumberRange {
 struct VolumeBlock {
   glm::mat4 grid_from_scene{1.0F};
   glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, lengths{1.0F};
-  std::array<glm::vec4, 1 + kMostLenses>
-      parts{};  ///< transfer function, samples a voxel, shaded, 1 cut away or 2 coloured
-  std::array<glm::vec4, kMostCuts> cuts{};  ///< outward unit normal, offset, N
-  glm::ivec4 counts{0};                     ///< lenses, planes that cut
+  glm::ivec4 counts{0};  ///< lenses, planes that cut
 };
 
-/// Laid out as a std140 uniform block, bound to 2.
-struct LensBlock {
-  std::array<glm::mat4, kMostLenses> unit_from_scene{};
-  std::array<glm::vec4, kMostLenses> centers{};  ///< middle, magnification
-  std::array<glm::ivec4, kMostLenses> faces{};
-  std::array<glm::vec4, kMostLenses * kMostHalfSpaces> planes{};
-  std::array<glm::vec4, kMostLenses> circles{};  ///< on the screen: middle, radius (0: none); transition
-};
-
-/// @param bricks an axis. @pre view.image is not null; at most kMostLenses lenses and kMostCuts planes.
+/// @param bricks an axis. @pre view.image is not null.
 [[nodiscard]] VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
                                             const Index3& bricks);
-[[nodiscard]] LensBlock make_lens_block(const VolumeView& view, const SceneFrame& frame);
 
 }  // namespace palpate

@@ -20,6 +20,7 @@
 #include "common/render/gl/program.h"
 #include "common/render/volume/context_picture.h"
 #include "common/render/volume/plane_image_pass.h"
+#include "common/render/volume/shape_block.h"
 #include "common/render/volume/slab_cache.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
@@ -51,9 +52,6 @@ const char* fragment_of(Reach reach, Variant variant) {
 
 bool over_context(Reach reach) { return reach == Reach::kLenses || reach == Reach::kBlendedLenses; }
 
-/// Whether the shader is told of lenses, be there none.
-bool knows_lenses(Variant variant) { return variant != Variant::kPlain && variant != Variant::kShaded; }
-
 Variant variant_of(const VolumeView& view) {
   if (has_magnified_parts(view))
     return has_colored_parts(view) ? Variant::kMagnifiedColored : Variant::kMagnified;
@@ -75,13 +73,14 @@ struct VolumePass::State {
   std::array<std::array<GlProgram, kFragments[0].size()>, kFragments.size()> programs;
   GlVertexArray no_vertices = make_vertex_array();
   VolumeTextures textures;
-  GlBuffer volume_block, lens_block;
+  GlBuffer volume_block, shape_block;
+  ShapeRoom room;
   Cost cost;
   std::unique_ptr<ContextPicture> context;  // where the context is drawn by itself
 
   PlaneImagePass planes;
   Variant variant = Variant::kPlain;
-  std::vector<std::string> defines;  // of all programs that look up voxels
+  std::vector<std::string> defines;  // of all programs
   SceneFrame frame;
   bool asks_tiles = true;
 
@@ -126,16 +125,21 @@ struct VolumePass::State {
     return true;
   }
 
+  [[nodiscard]] GlBuffer make_shapes(const VolumeView& view) const {
+    return make_buffer(make_shape_block(view, frame, room));
+  }
+
   // What all programs of the volume know.
-  void bind_volume(const GlBuffer& block) {
-    glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, block.name());
-    if (lens_block) glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kLensBlock, lens_block.name());
+  void bind_volume(const GlBuffer& volume, const GlBuffer& shapes) {
+    glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, volume.name());
+    bind_shape_block(shapes, room);
     textures.bind(colored());
   }
 
-  void bind(const GlProgram& program, const GlBuffer& block, std::uint32_t opaque_depth) {
+  void bind(const GlProgram& program, const GlBuffer& volume, const GlBuffer& shapes,
+            std::uint32_t opaque_depth) {
     glUseProgram(program.name());
-    bind_volume(block);
+    bind_volume(volume, shapes);
     glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
     glUniform1i(volume_shader::kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
     glDisable(GL_DEPTH_TEST);
@@ -158,7 +162,7 @@ struct VolumePass::State {
   void compile_slab_draw() {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
-    bind(program_of(Reach::kSlab), volume_block, drawn_depth);
+    bind(program_of(Reach::kSlab), volume_block, shape_block, drawn_depth);
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, 0, 0);
     glEnable(GL_BLEND);
@@ -171,10 +175,14 @@ struct VolumePass::State {
   // Casts a slab that is to be kept. Rays end at what was opaque when the first one was made: what has moved
   // since is cast anew in each picture.
   [[nodiscard]] SlabCache::DrawSlab caster() {
-    auto uncut = std::make_shared<GlBuffer>(
-        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks())));
+    struct Blocks {
+      GlBuffer volume, shapes;
+    };
+    auto uncut = std::make_shared<const Blocks>(
+        Blocks{volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks())),
+               make_shapes(slabs->uncut())});
     return [this, uncut](const SlabCache::Slab& slab) {
-      bind(program_of(Reach::kSlab), *uncut, slab.depth);
+      bind(program_of(Reach::kSlab), uncut->volume, uncut->shapes, slab.depth);
       set_slab(slab);
       glDisable(GL_BLEND);
       cast_rays();
@@ -189,7 +197,7 @@ struct VolumePass::State {
         slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth, caster());
     made_slabs = slabs->drawn() > before;
     cost.slab_bytes = slabs->bytes();
-    bind(program, volume_block, opaque_depth);
+    bind(program, volume_block, shape_block, opaque_depth);
     set_slab(slab);
   }
 };
@@ -212,7 +220,10 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   view.storage = asked.storage;
   view.image = s.textures.image();
   s.asked = asked.image;
-  if (std::vector<std::string> defines = s.textures.shader_defines(); defines != s.defines) {
+  s.room = ShapeRoom::of(view);
+  std::vector<std::string> defines = s.textures.shader_defines();
+  defines.push_back(s.room.shader_define());
+  if (defines != s.defines) {
     s.programs = {};
     s.planes = {};
     s.context.reset();
@@ -222,8 +233,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
   s.volume_block = volume_shader::make_block_buffer(make_volume_block(view, frame, s.textures.bricks()));
-  if (knows_lenses(s.variant) || shows_planes(view))
-    s.lens_block = volume_shader::make_block_buffer(make_lens_block(view, frame));
+  s.shape_block = s.make_shapes(view);
   s.shown = view;
   if (!draws_context_alone(view)) {
     s.context.reset();
@@ -251,7 +261,7 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
     const Reach reach = !s.context               ? Reach::kAll
                         : blends_values(s.shown) ? Reach::kBlendedLenses
                                                  : Reach::kLenses;
-    s.bind(s.program_of(reach), s.volume_block, opaque_depth);
+    s.bind(s.program_of(reach), s.volume_block, s.shape_block, opaque_depth);
     if (s.context) s.context->bind();
   }
   glEnable(GL_BLEND);
@@ -287,7 +297,7 @@ void VolumePass::draw_planes(const FrameBlock& block) {
   State& s = *state_;
   PALPATE_CHECK(s.textures.image() != nullptr);
   if (!shows_planes(s.shown)) return;
-  s.bind_volume(s.volume_block);
+  s.bind_volume(s.volume_block, s.shape_block);
   s.planes.draw(s.shown, s.frame, block, s.defines);
 }
 

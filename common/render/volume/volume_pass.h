@@ -29,8 +29,8 @@ class VolumePass {
 
   /// Uploads what `asked` changes: voxels when the image is another one, tables when transfer functions or
   /// lengths are.
-  /// @pre asked.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses; at
-  /// least two table entries, and lengths a multiple of kLengthGroup.
+  /// @pre asked.image is not null; samples a voxel are positive and finite; at most kMostLenses lenses and
+  /// kMostTransfers transfer functions; at least two table entries, and lengths a multiple of kLengthGroup.
   /// @param block of the picture that draw() is to make: a volume in bricks holds those that it looks up.
   /// @throws Error as VolumeTextures::update().
   void update(const VolumeView& asked, const SceneFrame& frame, const FrameBlock& block);

@@ -20,7 +20,9 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
 std::vector<const ColorTransfer*> transfers_of(const VolumeView& view) {
   std::vector<const ColorTransfer*> transfers{&view.transfer};
   for (const Lens& lens : view.lenses) {
-    if (lens.transfer) transfers.push_back(&*lens.transfer);
+    if (!lens.transfer) continue;
+    const auto same = [&](const ColorTransfer* other) { return *other == *lens.transfer; };
+    if (std::none_of(transfers.begin(), transfers.end(), same)) transfers.push_back(&*lens.transfer);
   }
   return transfers;
 }

@@ -21,7 +21,7 @@ struct CuttingPlane {
 
   bool operator==(const CuttingPlane&) const = default;
 };
-inline constexpr std::size_t kMostCuts = 256;  ///< of one picture
+inline constexpr std::size_t kMostCuts = 1024;  ///< of one picture
 
 /// What is saved on all that lies outside lenses, where there are some (context_picture.h; Ikits 2006, sec.
 /// 5.7.3).
@@ -80,7 +80,9 @@ struct VolumeView {
   bool shading = true;             ///< Phong, with gradients of the values as normals
   bool colored = false;            ///< as Lens::colored, outside lenses
   bool shown = true;
-  std::vector<Lens> lenses;        ///< the first wins; at most kMostLenses
+  /// The first wins; at most kMostLenses, with kMostTransfers transfer functions between them and the
+  /// context.
+  std::vector<Lens> lenses;
   std::vector<CuttingPlane> cuts;  ///< at most kMostCuts
   PlaneImages planes;
 
@@ -98,7 +100,9 @@ struct VolumeView {
 /// Whether both give the same picture; images count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
 
-/// The transfer functions of a view: that of the context, then those of lenses that have one.
+/// Each has tables of its own on the GPU.
+inline constexpr std::size_t kMostTransfers = 9;
+/// The transfer functions of a view, each once: that of the context, then others of lenses.
 [[nodiscard]] std::vector<const ColorTransfer*> transfers_of(const VolumeView& view);
 
 /// Whether some part takes its colours from the voxels; never where these have none.

@@ -1,0 +1,117 @@
+#include "common/render/volume/shape_block.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include <epoxy/gl.h>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "common/base/check.h"
+#include "common/math/power_of_two.h"
+#include "common/render/volume/volume_bindings.h"
+
+namespace palpate {
+namespace {
+
+enum class Content : std::uint8_t { kTransfer, kCut, kColored };
+
+glm::vec4 part_of(std::size_t transfer, double samples, bool shaded, Content content) {
+  return {transfer, samples, shaded ? 1.0F : 0.0F, static_cast<float>(content)};
+}
+
+glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& frame) {
+  const double offset = (h.offset - glm::dot(h.outward, frame.center)) * power_of_two(-frame.exponent);
+  return {Vec3f(h.outward), std::clamp(offset, -1e30, 1e30)};
+}
+
+Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
+
+std::vector<glm::vec4> parts_of(const VolumeView& view) {
+  const std::vector<const ColorTransfer*> transfers = transfers_of(view);
+  PALPATE_CHECK(transfers.size() <= kMostTransfers);
+  std::vector<glm::vec4> parts{part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored))};
+  for (const Lens& lens : view.lenses) {
+    const auto found = std::find_if(transfers.begin(), transfers.end(), [&](const ColorTransfer* transfer) {
+      return lens.transfer && *transfer == *lens.transfer;
+    });
+    const auto place = found == transfers.end() ? 0 : static_cast<std::size_t>(found - transfers.begin());
+    parts.push_back(part_of(place, lens.samples_per_voxel, lens.shading,
+                            lens.cut ? Content::kCut : content_of(lens.colored)));
+  }
+  return parts;
+}
+
+/// One array of the block after the other, each in the room that it has.
+class Arrays {
+ public:
+  template <class T>
+  void add(const std::vector<T>& values, std::size_t room) {
+    PALPATE_CHECK(values.size() <= room);
+    const auto bytes = std::as_bytes(std::span(values));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    bytes_.resize(bytes_.size() + (room - values.size()) * sizeof(T));
+  }
+  [[nodiscard]] std::vector<std::byte> bytes() && { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace
+
+ShapeRoom ShapeRoom::of(const VolumeView& view) {
+  std::size_t faces = 0;
+  for (const Lens& lens : view.lenses) faces += lens.shape.half_spaces.size();
+  const auto times = [](std::size_t count, std::size_t room) { return (count + room - 1) / room; };
+  return {std::bit_ceil(std::max({std::size_t{1}, times(view.lenses.size(), kLensRoom),
+                                  times(faces, kFaceRoom), times(view.cuts.size(), kCutRoom)}))};
+}
+
+std::vector<std::byte> make_shape_block(const VolumeView& view, const SceneFrame& frame, ShapeRoom room) {
+  PALPATE_CHECK(view.lenses.size() <= kMostLenses && view.cuts.size() <= kMostCuts);
+  std::vector<glm::vec4> cuts;
+  for (const CuttingPlane& cut : view.cuts) {
+    if (cut.on) cuts.push_back(plane_in_scene(cut.kept, frame));
+  }
+  const double to_data = power_of_two(frame.exponent);
+  std::vector<glm::mat4> units;
+  std::vector<glm::vec4> centers, planes, circles;
+  std::vector<glm::ivec4> faces;
+  for (const Lens& lens : view.lenses) {
+    const ConvexShape& shape = lens.shape;
+    PALPATE_CHECK(shape.half_spaces.size() <= kMostHalfSpaces);
+    units.emplace_back(0.0F);
+    if (shape.quadric) {
+      const Mat3 unit = shape.quadric->unit_from_data * to_data;
+      units.back() = glm::mat4(Mat4(unit));
+      units.back()[3] = {Vec3f(unit * -frame.scene_from_data(shape.quadric->center)), 1.0F};
+    }
+    const double magnification = magnifies(lens) ? lens.magnification : 1.0;
+    centers.emplace_back(Vec3f(frame.scene_from_data(center_of(shape, frame.center))), magnification);
+    faces.emplace_back(static_cast<int>(planes.size()), static_cast<int>(shape.half_spaces.size()), 0, 0);
+    const ScreenCircle circle = lens.screen.value_or(ScreenCircle{.radius = 0.0});
+    circles.emplace_back(circle.x, circle.y, circle.radius, has_transition(lens) ? lens.transition : 0.0);
+    for (const ConvexShape::HalfSpace& h : shape.half_spaces) planes.push_back(plane_in_scene(h, frame));
+  }
+  const std::size_t lenses = ShapeRoom::kLensRoom * room.times;
+  Arrays arrays;
+  arrays.add(parts_of(view), 1 + lenses);
+  arrays.add(cuts, ShapeRoom::kCutRoom * room.times);
+  arrays.add(units, lenses);
+  arrays.add(centers, lenses);
+  arrays.add(faces, lenses);
+  arrays.add(planes, ShapeRoom::kFaceRoom * room.times);
+  arrays.add(circles, lenses);
+  return std::move(arrays).bytes();
+}
+
+void bind_shape_block(const GlBuffer& block, ShapeRoom room) {
+  glBindBufferBase(room.stored() ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, volume_shader::kShapeBlock,
+                   block.name());
+}
+
+}  // namespace palpate

@@ -1,0 +1,25 @@
+// What the volume is divided by: its parts, planes that cut and the shapes of lenses, in the scene frame
+// (common/render/volume/shape_block.h). Arrays have ROOM times the room that few shapes need; beyond what fits any
+// driver's uniform blocks they are looked up in a storage buffer.
+#ifndef ROOM
+#define ROOM 1
+#endif
+const int kLensRoom = 8 * ROOM;
+const int kFaceRoom = 256 * ROOM;
+const int kCutRoom = 128 * ROOM;
+
+// A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
+// voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.
+#if ROOM > 2
+layout(std430, binding = 2) readonly buffer Shapes {
+#else
+layout(std140, binding = 2) uniform Shapes {
+#endif
+  vec4 parts[1 + kLensRoom];        // the context, then the lenses
+  vec4 cuts[kCutRoom];              // outward unit normal, offset, N: what lies beyond is cut away
+  mat4 unit_from_scene[kLensRoom];  // quadric: |x| <= 1; its last element is 1 where there is one, else 0
+  vec4 centers[kLensRoom];          // xyz: middle; w: magnification
+  ivec4 faces[kLensRoom];           // x: first plane, y: planes
+  vec4 planes[kFaceRoom];           // outward unit normal, offset
+  vec4 circles[kLensRoom];          // on the screen, in heights of the picture: xy middle, z radius, 0: none; w transition
+} shapes;
