@@ -8,6 +8,7 @@
 #endif
 #include "volume/volume_block.glsl"
 #include "volume/ray.glsl"
+#include "volume/slope.glsl"
 #ifdef SHADED
 #include "volume/surface.glsl"
 #endif

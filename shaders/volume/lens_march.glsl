@@ -5,6 +5,7 @@
 #include "include/shade.glsl"
 #include "volume/volume_block.glsl"
 #include "volume/ray.glsl"
+#include "volume/slope.glsl"
 #ifdef SLABS
 #include "volume/slab.glsl"
 #endif
@@ -23,17 +24,31 @@
 
 layout(location = 0) out vec4 color;  // associated
 
+#if defined(MAGNIFIED) || FIELDS > 1
+// Whether lens `i` may show something where the context has no volume.
+bool reaches_out(int i) {
+#if FIELDS > 1
+  if (volume.transfers[int(shapes.parts[i + 1].x)].x > 0) return true;
+#endif
+#ifdef MAGNIFIED
+  return magnifies(i);
+#else
+  return false;
+#endif
+}
+#endif
+
 void main() {
   Ray ray = pixel_ray();
   vec2 inside[kLensRoom];
   vec2 span = lens_span(ray, inside);
   int count = volume.counts.x;
   float t = ray.first, end = ray.last;
-#ifdef MAGNIFIED
-  // What is seen enlarged reaches as far as its lens, out of the volume, too.
+#if defined(MAGNIFIED) || FIELDS > 1
+  // What is seen enlarged reaches as far as its lens, out of the volume, too; another field as far as both.
   vec2 reach = ray.first < ray.last ? vec2(ray.first, ray.last) : vec2(1e30, -1e30);
   for (int i = 0; i < count; ++i) {
-    if (magnifies(i) && inside[i].x < inside[i].y) reach = vec2(min(reach.x, inside[i].x), max(reach.y, inside[i].y));
+    if (reaches_out(i) && inside[i].x < inside[i].y) reach = vec2(min(reach.x, inside[i].x), max(reach.y, inside[i].y));
   }
   t = max(reach.x, ray.from);
   end = min(reach.y, ray.to);
@@ -72,15 +87,22 @@ void main() {
 #ifdef BLENDED
     begin_blending(owner - 1);
 #endif
+#if FIELDS > 1
+    Ray through = enter_field(ray, shapes.parts[owner].x);
+#else
+    Ray through = ray;
+#endif
 #ifdef MAGNIFIED
     if (seen && owner > 0 && magnifies(owner - 1)) {
-      march_magnified(ray, owner - 1, shapes.parts[owner], t, stop, color);
+      march_magnified(through, owner - 1, shapes.parts[owner], t, stop, color);
       seen = false;
     }
-    float first = max(t, ray.first), last = min(stop, ray.last);
-    if (seen && first < last) march(ray, shapes.parts[owner], first, last, color);
+#endif
+#if defined(MAGNIFIED) || FIELDS > 1
+    float first = max(t, through.first), last = min(stop, through.last);
+    if (seen && first < last) march(through, shapes.parts[owner], first, last, color);
 #else
-    if (seen) march(ray, shapes.parts[owner], t, stop, color);
+    if (seen) march(through, shapes.parts[owner], t, stop, color);
 #endif
     t = stop;
   }

@@ -4,7 +4,7 @@
 // Software rasterisers compute both branches of an `if`: a step reads one voxel and one entry of a table whichever way
 // it goes, bricks are asked every other step, light is computed once a stretch that is seen, and stretches cut short by
 // borders come before and after the loop.
-// Needs volume/volume_block.glsl and volume/ray.glsl, shaded() where rays are shaded and volume/blend.glsl where values
+// Needs volume/volume_block.glsl and volume/ray.glsl, volume/slope.glsl and shaded() where rays are shaded and volume/blend.glsl where values
 // are blended.
 
 // Table coordinate of the value at g; NaN where there is none.
@@ -13,14 +13,15 @@ float value_at(vec3 g) {
 #ifdef BLENDED
   number = blended_number(number, g);
 #endif
-  return (number - volume.lower.w) * volume.upper.w + volume.points.w;
+  return (number - field.lower.w) * field.upper.w + field.points.w;
 }
 
 // Where the ray leaves the empty bricks around its point at t; no more than t where none is empty.
+// @param map where that of the transfer function begins, along z
 float end_of_empty(Ray ray, float t, float map) {
   const float kBrickCells = 8.0;
-  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), volume.bricks.xyz - 1.0);
-  float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map * volume.bricks.z)), 0).x);
+  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), field.bricks.xyz - 1.0);
+  float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map)), 0).x);
   // The nearest brick that is not empty begins `far` bricks away: up to there all are empty.
   vec3 wall = kBrickCells * (brick + mix(vec3(1.0 - far), vec3(far), greaterThan(ray.speed, vec3(0.0))));
   vec3 leave = (wall - ray.start) * ray.pace;
@@ -36,12 +37,17 @@ vec4 short_stretch(float front, float back, float first_layer, float stretch) {
              texture(tables, vec3(front, back, first_layer + below + 1.0)), place - below);
 }
 
+// The colour of a stretch about g: where the part has those of the voxels, opacities stay those of the table.
+vec3 painted(vec4 seen, vec4 part, vec3 g) {
+#ifdef COLORED
+  if (part.w > 1.5) return seen.a * texture(colors, (g + 0.5) / field.points.xyz).rgb;
+#endif
+  return seen.rgb;
+}
+
 // @param g middle of the stretch, `direction` of the ray in N
 void gather(vec4 seen, vec3 direction, vec4 part, vec3 g, inout vec4 gathered) {
-#ifdef COLORED
-  // Opacities stay those of the table; the colour is that of the stretch's middle.
-  if (part.w > 1.5) seen.rgb = seen.a * texture(colors, (g + 0.5) / volume.points.xyz).rgb;
-#endif
+  seen.rgb = painted(seen, part, g);
 #ifdef SHADED
   if (part.z > 0.5) seen.rgb = shaded(seen, direction, g);
 #endif
@@ -77,16 +83,17 @@ vec4 walk_on(inout Walk walk, Ray ray, float inside) {
   return seen;
 }
 
-// Adds what lies between `from` and `to`.
-void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  float first_layer = part.x * volume.lengths.y;
+// Adds what lies between `from` and `to`, from preintegrated tables.
+void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
+  ivec4 transfer = volume.transfers[int(part.x)];
+  float first_layer = float(transfer.z), map = float(transfer.w);
   float layer = layer_for(part.y, ray);
   Walk walk;
   walk.d = layer * volume.lengths.x;
   walk.layer = first_layer + layer;
   walk.n = floor(from / walk.d) + 1.0;
   walk.last = ceil(to / walk.d) - 1.0;
-  bool leaps = volume.bricks.w > 0.5;
+  bool leaps = field.bricks.w > 0.5;
 #ifdef BLENDED
   leaps = leaps && blended < 0;  // coarser voxels reach into bricks that are empty
 #endif
@@ -98,7 +105,7 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
 
   while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
     // The last sample that is still in empty bricks.
-    float inside = leaps ? floor(end_of_empty(ray, walk.n * walk.d, part.x) / walk.d) : walk.n;
+    float inside = leaps ? floor(end_of_empty(ray, walk.n * walk.d, map) / walk.d) : walk.n;
 #ifdef SHADED
     vec4 seen;
     for (int i = 0; i < 8 && walk.n < walk.last; ++i) {  // light costs most: on to the next stretch that is seen
@@ -119,3 +126,18 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
   }
 }
 #endif
+
+#ifdef REGIONS
+#include "volume/region_march.glsl"
+#endif
+
+// Adds what lies between `from` and `to` in the way of a part.
+void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
+#ifdef REGIONS
+  if (by_regions(part)) {
+    march_regions(ray, part, from, to, gathered);
+    return;
+  }
+#endif
+  march_tables(ray, part, from, to, gathered);
+}

@@ -6,6 +6,7 @@
 #endif
 #include "volume/volume_block.glsl"
 #include "volume/ray.glsl"
+#include "volume/slope.glsl"
 #ifdef SLABS
 #include "volume/slab.glsl"
 #endif

@@ -4,7 +4,8 @@
 // and lines where v is a given number c: the nearest place of the line is |v - c| / |grad v| away, the gradient taken
 // between neighbouring pixels. Inside lenses matter is enlarged where it is so in the volume, and the lens's colours lie
 // over the grey as opaque as its transfer function says: the table has the opacity A of its longest stretch, l of the
-// length for which transfer functions state theirs, hence that of the whole length is 1 - (1 - A)^(1/l).
+// length for which transfer functions state theirs, hence that of the whole length is 1 - (1 - A)^(1/l). Where the lens
+// shows another field, its colours are those of that one there.
 #include "include/frame.glsl"
 #include "include/contour.glsl"
 #include "volume/volume_block.glsl"
@@ -36,13 +37,42 @@ bool inside_lens(int i, vec3 x) {
   return true;
 }
 
+// Table coordinate of the value at g; NaN where there is none.
+float value_at(vec3 g) { return (number_at(g) - field.lower.w) * field.upper.w + field.points.w; }
+
+#ifdef REGIONS
+#include "volume/slope.glsl"
+layout(binding = 15) uniform sampler2DArray region_tables;  // colour times depth and depth: value, magnitude, number
+#endif
+
+// The colour at x in N, not associated, and its opacity along the whole length.
+vec4 lens_color(vec4 part, vec3 x) {
+  ivec4 transfer = volume.transfers[int(part.x)];
+#if FIELDS > 1
+  present = transfer.x;
+#endif
+  vec3 g = (field.grid_from_scene * vec4(x, 1.0)).xyz;
+  if (any(lessThan(g, field.lower.xyz)) || any(greaterThan(g, field.upper.xyz))) return vec4(0.0);
+  float entry = value_at(g);
+  if (isnan(entry)) return vec4(0.0);
+#ifdef REGIONS
+  if (transfer.y == 1) {
+    float row = length(slope_in_scene(slope_at(g))) * field.slopes.x + field.slopes.y;
+    vec4 matter = isnan(row) ? vec4(0.0) : texture(region_tables, vec3(entry, row, transfer.z));
+    return matter.a > 0.0 ? vec4(matter.rgb / matter.a, 1.0 - exp(-matter.a)) : vec4(0.0);
+  }
+#endif
+  vec4 seen = texture(tables, vec3(entry, entry, float(transfer.z) + volume.lengths.y - 1.0));
+  return seen.a > 0.0 ? vec4(seen.rgb / seen.a, 1.0 - pow(1.0 - min(seen.a, 1.0), longest_parts)) : vec4(0.0);
+}
+
 void main() {
   int lens = 0;
   while (lens < volume.counts.x && !inside_lens(lens, place)) ++lens;
   bool in_lens = lens < volume.counts.x;
   vec4 part = in_lens ? shapes.parts[lens + 1] : shapes.parts[0];
   vec3 x = in_lens && magnifies(lens) ? place_seen(lens, place) : place;
-  vec3 g = (volume.grid_from_scene * vec4(x, 1.0)).xyz;
+  vec3 g = (field.grid_from_scene * vec4(x, 1.0)).xyz;
   float number = number_at(g);
   float slope = length(vec2(dFdx(number), dFdy(number)));
   bool cut_away = in_lens && part.w > 0.5 && part.w < 1.5;
@@ -50,10 +80,8 @@ void main() {
 
   color = vec4(vec3(clamp((number - grey.x) * grey.y, 0.0, 1.0)), 1.0);  // (1)
   if (in_lens && part.x > 0.5) {
-    float entry = (number - volume.lower.w) * volume.upper.w + volume.points.w;
-    vec4 seen = texture(tables, vec3(entry, entry, part.x * volume.lengths.y + volume.lengths.y - 1.0));
-    if (seen.a > 0.0)
-      color.rgb = mix(color.rgb, seen.rgb / seen.a, 1.0 - pow(1.0 - min(seen.a, 1.0), longest_parts));
+    vec4 matter = lens_color(part, x);
+    color.rgb = mix(color.rgb, matter.rgb, matter.a);
   }
   float nearest = 1e30;
   for (int i = 0; i < contour_count; ++i) nearest = min(nearest, abs(number - contours[i]));

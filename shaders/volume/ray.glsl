@@ -46,6 +46,29 @@ float opaque_distance(Ray ray, float z, float none) {
   return (from.z - clip * from.w) / (clip * along.w - along.z);
 }
 
+// Where the ray runs through the field that is looked up.
+void find_volume(inout Ray ray) {
+  ray.start = (field.grid_from_scene * vec4(ray.origin, 1.0)).xyz;
+  ray.speed = mat3(field.grid_from_scene) * ray.direction;
+
+  ray.pace = 1.0 / mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
+  vec3 a = (field.lower.xyz - ray.start) * ray.pace, b = (field.upper.xyz - ray.start) * ray.pace;
+  vec3 near = min(a, b), far = max(a, b);
+  ray.first = max(near.x, max(near.y, near.z));
+  ray.last = min(far.x, min(far.y, far.z));
+}
+
+#if FIELDS > 1
+// The same ray through the field of a transfer function, which is looked up from now on.
+Ray enter_field(Ray ray, float transfer) {
+  present = volume.transfers[int(transfer)].x;
+  find_volume(ray);
+  ray.first = max(ray.first, ray.from);
+  ray.last = min(ray.last, ray.to);
+  return ray;
+}
+#endif
+
 Ray pixel_ray() {
   vec2 at = (picture_pixel() - 0.5 * frame.size.xy) * frame.size.z;
   vec3 across = at.x * frame.right.xyz + at.y * frame.up.xyz;
@@ -54,14 +77,7 @@ Ray pixel_ray() {
   ray.origin = perspective ? frame.eye.xyz : frame.eye.xyz + across;
   vec3 off_axis = frame.right.w * frame.right.xyz + frame.up.w * frame.up.xyz;
   ray.direction = perspective ? normalize(across - off_axis - frame.size.w * frame.back.xyz) : -frame.back.xyz;
-  ray.start = (volume.grid_from_scene * vec4(ray.origin, 1.0)).xyz;
-  ray.speed = mat3(volume.grid_from_scene) * ray.direction;
-
-  ray.pace = 1.0 / mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
-  vec3 a = (volume.lower.xyz - ray.start) * ray.pace, b = (volume.upper.xyz - ray.start) * ray.pace;
-  vec3 near = min(a, b), far = max(a, b);
-  ray.first = max(near.x, max(near.y, near.z));
-  ray.last = min(far.x, min(far.y, far.z));
+  find_volume(ray);
   ray.from = perspective ? 0.0 : -1e30;
   ray.to = 1e30;
   if (has_opaque_depth) ray.to = opaque_distance(ray, texelFetch(opaque_depth, opaque_pixel(), 0).x, ray.to);

@@ -1,11 +1,12 @@
-// As march() of volume/march.glsl, for the few steps in a slab: one loop for whole stretches and for those that a
+// As march_tables() of volume/march.glsl, for the few steps in a slab: one loop for whole stretches and for those that a
 // border cuts short, so that rays that see nothing in the slab cost one step and no more.
-// Needs volume/slab.glsl and what march() needs.
-void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  float first_layer = part.x * volume.lengths.y;
+// Needs volume/slab.glsl and what march_tables() needs.
+void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
+  ivec4 transfer = volume.transfers[int(part.x)];
+  float first_layer = float(transfer.z), map = float(transfer.w);
   float d = layer_for(part.y, ray) * volume.lengths.x;
   stay_in_slab(d, from, to);
-  bool leaps = volume.bricks.w > 0.5;
+  bool leaps = field.bricks.w > 0.5;
   float t = from, front = value_at(point_at(ray, t));
   while (t < to && gathered.a <= volume.lengths.z) {
     vec4 seen = vec4(0.0);
@@ -13,11 +14,11 @@ void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
     for (int i = 0; i < 8; ++i) {  // light costs most: on to the next stretch that is seen
       float n = floor(t / d + 1e-3);
       // The last sample that is still in empty bricks.
-      float inside = leaps ? floor(end_of_empty(ray, t, part.x) / d) : n;
+      float inside = leaps ? floor(end_of_empty(ray, t, map) / d) : n;
       float next = min(max(n + 1.0, inside) * d, to);
       float back = value_at(point_at(ray, next));
       if (!(inside > n)) seen = short_stretch(front, back, first_layer, next - t);
-      // As march() has it, to the last bit.
+      // As march_tables() has it, to the last bit.
       middle = t == n * d && next == (n + 1.0) * d ? (n + 0.5) * d : 0.5 * (t + next);
       t = next;
       front = back;

@@ -4,16 +4,12 @@
 // The gradient is that of central differences, one voxel to either side. With s its size in table coordinates a
 // voxel, the share s^2 / (s^2 + kFaint^2) of the light is that of the surface; the rest shines as it is, so that
 // noise has no surface.
-// Needs include/frame.glsl, include/shade.glsl, volume/volume_block.glsl and volume/ray.glsl.
-float value_at(vec3 g);
+// Needs include/frame.glsl, include/shade.glsl and volume/slope.glsl.
 
-vec3 shaded(vec4 seen, vec3 direction, vec3 g) {
+// @param slope in table coordinates a voxel, where `seen` is.
+vec3 lit(vec4 seen, vec3 direction, vec3 slope) {
   const float kAmbient = 0.35, kDiffuse = 0.70, kSpecular = 0.25, kGloss = 24.0, kFaint = 0.005;
-  vec2 step = vec2(1.0, 0.0);
-  vec3 slope = 0.5 * vec3(value_at(g + step.xyy) - value_at(g - step.xyy),
-                          value_at(g + step.yxy) - value_at(g - step.yxy),
-                          value_at(g + step.yyx) - value_at(g - step.yyx));
-  vec3 normal = slope * mat3(volume.grid_from_scene);  // gradient in N: transposed product
+  vec3 normal = slope_in_scene(slope);
   float size = length(normal);
   float square = dot(slope, slope);
   if (!(size > 0.0)) return seen.rgb;  // even, or NaN
@@ -22,6 +18,8 @@ vec3 shaded(vec4 seen, vec3 direction, vec3 g) {
   float ln = dot(light, normal);
   float shine = max(dot(2.0 * ln * normal - light, -direction), 0.0);
   float share = square / (square + kFaint * kFaint);
-  vec3 lit = seen.rgb * (kAmbient + kDiffuse * abs(ln)) + seen.a * (kSpecular * pow(shine, kGloss));
-  return min(mix(seen.rgb, lit, share), vec3(seen.a));
+  vec3 shone = seen.rgb * (kAmbient + kDiffuse * abs(ln)) + seen.a * (kSpecular * pow(shine, kGloss));
+  return min(mix(seen.rgb, shone, share), vec3(seen.a));
 }
+
+vec3 shaded(vec4 seen, vec3 direction, vec3 g) { return lit(seen, direction, slope_at(g)); }

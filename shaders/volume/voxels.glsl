@@ -10,10 +10,10 @@ layout(binding = 11) uniform sampler3D brick_index;  // xyz: voxel of the pool a
 // neighbours share the points between them. The last brick owns the upper end. Places keep clear of the brick's faces by
 // so little that texture units with weights in steps of 1/256 are one step off at most, and enough that no voxel of
 // another brick gets a weight: it may be NaN.
-float number_at(vec3 g) {
+float first_number_at(vec3 g) {
   const float kCells = float(BRICKED), kLower = 1.0 / 1024.0, kUpper = 1.0 / 480.0, kCoarse = 8.0;
   vec3 brick = clamp(floor(g / kCells), vec3(0.0), vec3(textureSize(brick_index, 0) - 1));
-  vec3 cells = min(vec3(kCells), max(volume.points.xyz - 1.0, vec3(1.0)));
+  vec3 cells = min(vec3(kCells), max(field.points.xyz - 1.0, vec3(1.0)));
   vec4 place = texelFetch(brick_index, ivec3(brick), 0);
   float scale = place.w < -3.4e38 ? 1.0 / kCoarse : 1.0;  // a coarse brick stands in
   vec3 inside = clamp((g - kCells * brick) * scale, vec3(kLower), ceil(cells * scale) - kUpper);
@@ -22,5 +22,30 @@ float number_at(vec3 g) {
 }
 #else
 // Number at g, trilinear; beyond the points that of the nearest place.
-float number_at(vec3 g) { return texture(voxels, (g + 0.5) / volume.points.xyz).x; }
+float first_number_at(vec3 g) { return texture(voxels, (g + 0.5) / field.points.xyz).x; }
+#endif
+
+#if FIELDS > 1
+// Those of other fields, which stand as a whole. A sampler must be chosen by what is the same for all pixels.
+layout(binding = 12) uniform sampler3D field_voxels_1;
+#if FIELDS > 2
+layout(binding = 13) uniform sampler3D field_voxels_2;
+#endif
+#if FIELDS > 3
+layout(binding = 14) uniform sampler3D field_voxels_3;
+#endif
+
+float number_at(vec3 g) {
+  if (present == 0) return first_number_at(g);
+  vec3 place = (g + 0.5) / field.points.xyz;
+#if FIELDS > 3
+  if (present == 3) return texture(field_voxels_3, place).x;
+#endif
+#if FIELDS > 2
+  if (present == 2) return texture(field_voxels_2, place).x;
+#endif
+  return texture(field_voxels_1, place).x;
+}
+#else
+float number_at(vec3 g) { return first_number_at(g); }
 #endif

@@ -32,38 +32,42 @@ Vec3 place_seen(const Lens& lens, const Vec3& x) {
 ReferenceRay::ReferenceRay(const VolumeView& view, const Camera& camera, int width, int height,
                            double samples)
     : view_(view), camera_(camera), height_(height), width_(width), samples_(samples) {
-  const VolumeImage& image = *view.image;
-  numbers_.resize(image.point_count());
-  for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = image.number(i);
-  if (draws_context_alone(view) && view.context.level > 0) {
-    coarse_ = coarse_image(image, view.context.level);
-    coarse_numbers_.resize(coarse_->point_count());
-    for (std::size_t i = 0; i < coarse_numbers_.size(); ++i) coarse_numbers_[i] = coarse_->number(i);
+  for (std::size_t field = 0; field <= view.fields.size(); ++field) {
+    Grid& grid = grids_.emplace_back(make_grid(image_of(view, field)));
+    const NumberRange range = table_range(view, field);
+    grid.place_scale = (view.table_entries - 1.0) / view.table_entries / (range.upper - range.lower);
   }
-  const double unit = power_of_two(binary_exponent(image.bounds().diagonal()));
-  grid_from_data_ = glm::inverse(image.axes / unit) / unit;
-  const NumberRange range = table_range(view);
-  place_scale_ = (view.table_entries - 1.0) / view.table_entries / (range.upper - range.lower);
+  if (draws_context_alone(view) && view.context.level > 0)
+    coarse_ = make_grid(coarse_image(*view.image, view.context.level));
+}
+
+ReferenceRay::Grid ReferenceRay::make_grid(std::shared_ptr<const VolumeImage> image) {
+  Grid grid{.image = std::move(image), .numbers = {}};
+  grid.numbers.resize(grid.image->point_count());
+  for (std::size_t i = 0; i < grid.numbers.size(); ++i) grid.numbers[i] = grid.image->number(i);
+  const double unit = power_of_two(binary_exponent(grid.image->bounds().diagonal()));
+  grid.grid_from_data = glm::inverse(grid.image->axes / unit) / unit;
+  return grid;
 }
 
 double ReferenceRay::coarse_at(const Vec3& g) const {
   const Vec3 fine = glm::max(Vec3(view_.image->points - 1), Vec3(1.0));
-  return number_at(g * Vec3(coarse_->points - 1) / fine, *coarse_, coarse_numbers_);
+  return coarse_->number_at(g * Vec3(coarse_->image->points - 1) / fine);
 }
 
 double ReferenceRay::number_in(const Lens& lens, const Vec3& g, const Vec3& x, double at_x,
                                double at_y) const {
-  if (!coarse_ || !has_transition(lens)) return number_at(g);
+  if (!coarse_ || !has_transition(lens)) return grids_[lens.field].number_at(g);
   double u = 0.0;
   if (lens.screen) u = std::hypot(at_x - lens.screen->x, at_y - lens.screen->y) / lens.screen->radius;
   const Vec3 center = center_of(lens.shape, Vec3(0.0));
   if (!lens.screen && x != center) u = 1.0 / clip_line(lens.shape, center, x - center).last;
   const double s = std::clamp((1.0 - u) / lens.transition, 0.0, 1.0);
-  return glm::mix(coarse_at(g), number_at(g), s * s * (3.0 - 2.0 * s));
+  return glm::mix(coarse_at(g), grids_[0].number_at(g), s * s * (3.0 - 2.0 * s));
 }
 
-double ReferenceRay::number_at(const Vec3& g, const VolumeImage& image, const std::vector<double>& numbers) {
-  const Index3 n = image.points;
+double ReferenceRay::Grid::number_at(const Vec3& g) const {
+  const Index3 n = image->points;
   const Vec3 bounded = glm::clamp(g, Vec3(0.0), Vec3(n - 1));
   const Index3 cell = glm::min(Index3(glm::floor(bounded)), glm::max(n - 2, Index3(0)));
   const Vec3 u = bounded - Vec3(cell);
@@ -81,14 +85,31 @@ double ReferenceRay::number_at(const Vec3& g, const VolumeImage& image, const st
   return sum;
 }
 
-Vec3 ReferenceRay::lit(const Vec3& g, const Vec3& color, const Vec3& direction) const {
+Vec3 ReferenceRay::Grid::slope_at(const Vec3& g) const {
   Vec3 slope{0.0};
   for (int a = 0; a < 3; ++a) {
     Vec3 side{0.0};
     side[a] = 1.0;
-    slope[a] = 0.5 * place_scale_ * (number_at(g + side) - number_at(g - side));
+    slope[a] = 0.5 * (number_at(g + side) - number_at(g - side));
   }
-  Vec3 normal = slope * grid_from_data_;
+  return slope;
+}
+
+double ReferenceRay::Grid::gradient_at(const Vec3& g) const {
+  return image->scale * glm::length(slope_at(g) * grid_from_data);
+}
+
+bool ReferenceRay::Grid::holds(const Vec3& g) const {
+  const Vec3 lower = image->lower(), upper = image->upper();
+  for (int a = 0; a < 3; ++a) {
+    if (!(g[a] >= lower[a] && g[a] <= upper[a])) return false;  // NaN, too
+  }
+  return true;
+}
+
+Vec3 ReferenceRay::lit(const Grid& grid, const Vec3& g, const Vec3& color, const Vec3& direction) const {
+  const Vec3 slope = grid.place_scale * grid.slope_at(g);
+  Vec3 normal = slope * grid.grid_from_data;
   const double size = glm::length(normal);
   if (!(size > 0.0)) return color;
   normal /= size;
@@ -111,11 +132,14 @@ Rgba ReferenceRay::cast(double x, double y) const {
       perspective ? glm::normalize(camera_.focal_point + across - origin) : -camera_.axes[2];
 
   const VolumeImage& image = *view_.image;
-  const Vec3 g0 = grid_from_data_ * (origin - image.origin), speed = grid_from_data_ * direction;
+  const Vec3 g0 = grids_[0].grid_from_data * (origin - image.origin);
+  const Vec3 speed = grids_[0].grid_from_data * direction;
+  // A lens may show something out of the context's volume.
+  const bool reaches_out = field_count(view_) > 1 || has_magnified_parts(view_);
   double first = perspective ? 0.0 : -HUGE_VAL, last = HUGE_VAL;
   for (int a = 0; a < 3; ++a) {
     if (speed[a] == 0.0) {
-      if (g0[a] < image.lower()[a] || g0[a] > image.upper()[a]) return {};
+      if (g0[a] < image.lower()[a] || g0[a] > image.upper()[a]) last = -HUGE_VAL;
       continue;
     }
     const double p = (image.lower()[a] - g0[a]) / speed[a], q = (image.upper()[a] - g0[a]) / speed[a];
@@ -141,9 +165,21 @@ Rgba ReferenceRay::cast(double x, double y) const {
     const LineInterval inside = clip_line(lens.shape, origin, direction);
     if (!(inside.first < inside.last) || !in_circle(lens)) continue;
     for (double t : {inside.first, inside.last}) {
-      // What is enlarged may be seen out of the volume, too.
-      if (magnifies(lens)) t = std::clamp(t, nearest, std::max(nearest, farthest));
-      if (magnifies(lens) || (t > first && t < last)) borders.push_back(t);
+      // What is enlarged, or of another field, may be seen out of the volume, too.
+      const bool far = magnifies(lens) || lens.field > 0;
+      if (far) t = std::clamp(t, nearest, std::max(nearest, farthest));
+      if (far || (reaches_out && std::isfinite(t)) || (t > first && t < last)) borders.push_back(t);
+    }
+    if (lens.field == 0 || lens.cut) continue;
+    // The faces of the other field's volume.
+    const Grid& grid = grids_[lens.field];
+    const Vec3 start = grid.grid_from_data * (origin - grid.image->origin),
+               pace = grid.grid_from_data * direction;
+    for (int a = 0; a < 3; ++a) {
+      for (const double face : {grid.image->lower()[a], grid.image->upper()[a]}) {
+        const double t = (face - start[a]) / pace[a];
+        if (t > inside.first && t < inside.last && t > nearest && t < farthest) borders.push_back(t);
+      }
     }
   }
   std::sort(borders.begin(), borders.end());
@@ -159,38 +195,46 @@ Rgba ReferenceRay::cast(double x, double y) const {
     });
     const bool focus = owner != view_.lenses.end();
     if (focus && owner->cut) continue;
-    const ColorTransfer& transfer = focus && owner->transfer ? *owner->transfer : view_.transfer;
+    const FieldTransfer transfer = transfer_of(view_, focus ? *owner : Lens());
+    const Grid& grid = grids_[transfer.field];
+    const Vec3 start = grid.grid_from_data * (origin - grid.image->origin),
+               pace = grid.grid_from_data * direction;
     const bool shading = focus ? owner->shading : view_.shading;
     const bool bent = focus && magnifies(*owner);
-    if (!bent && !(borders[part] >= first && borders[part + 1] <= last)) continue;
+    if (!bent && !grid.holds(start + (borders[part] + 0.5 * length) * pace)) continue;
+    if (transfer.field == 0 && !bent && !(borders[part] >= first && borders[part + 1] <= last)) continue;
     constexpr double kSqueezed = 2.0;
     const int steps = std::max(
-        1, static_cast<int>(std::ceil(length * glm::length(speed) * samples_ * (bent ? kSqueezed : 1.0))));
+        1, static_cast<int>(std::ceil(length * glm::length(pace) * samples_ * (bent ? kSqueezed : 1.0))));
     const double step = length / steps;
     for (int i = 0; i < steps; ++i) {
-      Vec3 g = g0 + (borders[part] + (i + 0.5) * step) * speed;
+      Vec3 g = start + (borders[part] + (i + 0.5) * step) * pace;
       double h = step;
       if (bent) {
         const auto at = [&](double s) {
           return place_seen(*owner, origin + (borders[part] + s * step) * direction);
         };
-        g = grid_from_data_ * (at(i + 0.5) - image.origin);
+        g = grid.grid_from_data * (at(i + 0.5) - grid.image->origin);
         h = glm::distance(at(i), at(i + 1.0));
-        bool out = false;
-        for (int a = 0; a < 3; ++a) out = out || g[a] < image.lower()[a] || g[a] > image.upper()[a];
-        if (out) continue;
+        if (!grid.holds(g)) continue;
       }
       const double number =
           focus && !bent
               ? number_in(*owner, g, origin + (borders[part] + (i + 0.5) * step) * direction, at_x, at_y)
           : !focus && coarse_ ? coarse_at(g)
-                              : number_at(g);
-      const double value = image.offset + image.scale * number;
-      const ColorSample sample = transfer.at(value);
-      const double thickness = optical_depth(sample.opacity) * h / opacity_length;
-      if (thickness <= 0.0) continue;
-      Vec3 color(sample.color);
-      if (shading) color = lit(g, color, direction);
+                              : grid.number_at(g);
+      const double value = grid.image->offset + grid.image->scale * number;
+      RegionTransfer::Sample matter;
+      if (transfer.regions) {
+        matter = transfer.regions->at({value, grid.gradient_at(g)});
+      } else {
+        const ColorSample sample = transfer.colors.at(value);
+        matter = {sample.color, optical_depth(sample.opacity)};
+      }
+      const double thickness = matter.depth * h / opacity_length;
+      if (!(thickness > 0.0)) continue;
+      Vec3 color(matter.color);
+      if (shading) color = lit(grid, g, color, direction);
       sum += std::exp(-depth) * (1.0 - std::exp(-thickness)) * color;
       depth += thickness;
     }

@@ -6,11 +6,14 @@
 ///
 ///   C = int tau c T dt      T = exp(-int tau dt)      A = 1 - T
 ///
-/// by the midpoint rule on each part of the ray between borders of the volume and of lenses. Where the
-/// context has coarser voxels, it and what goes over into it are without light.
+/// where transfer functions are of value and gradient magnitude, the gradient is that of differences of one
+/// voxel to either side, as the light's. Everything by the midpoint rule on each part of the ray between
+/// borders of the volume and of lenses. Where the context has coarser voxels, it and what goes over into it
+/// are without light.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/render/camera.h"
@@ -28,26 +31,36 @@ class ReferenceRay {
   [[nodiscard]] Rgba cast(double x, double y) const;
 
  private:
-  // Trilinear between points; beyond them the outermost ones hold.
-  [[nodiscard]] double number_at(const Vec3& g) const { return number_at(g, *view_.image, numbers_); }
-  [[nodiscard]] static double number_at(const Vec3& g, const VolumeImage& image,
-                                        const std::vector<double>& numbers);
+  // A scalar of the scene with its voxels in double precision.
+  struct Grid {
+    std::shared_ptr<const VolumeImage> image;
+    std::vector<double> numbers;
+    Mat3 grid_from_data{1.0};
+    double place_scale = 1.0;  // table coordinates a number
+
+    // Trilinear between points; beyond them the outermost ones hold.
+    [[nodiscard]] double number_at(const Vec3& g) const;
+    // Differences of one voxel to either side, in numbers a voxel.
+    [[nodiscard]] Vec3 slope_at(const Vec3& g) const;
+    // |grad v| [value / data unit]
+    [[nodiscard]] double gradient_at(const Vec3& g) const;
+    [[nodiscard]] bool holds(const Vec3& g) const;
+  };
+  [[nodiscard]] static Grid make_grid(std::shared_ptr<const VolumeImage> image);
+
   // Of the coarser voxels, at fine grid coordinates g.
   [[nodiscard]] double coarse_at(const Vec3& g) const;
   // What `lens` shows at x, g: its own number, or where values go over some of the coarser one.
   [[nodiscard]] double number_in(const Lens& lens, const Vec3& g, const Vec3& x, double at_x,
                                  double at_y) const;
-  [[nodiscard]] Vec3 lit(const Vec3& g, const Vec3& color, const Vec3& direction) const;
+  [[nodiscard]] Vec3 lit(const Grid& grid, const Vec3& g, const Vec3& color, const Vec3& direction) const;
 
   const VolumeView& view_;
   Camera camera_;
   double height_, width_;
   double samples_;
-  std::vector<double> numbers_;
-  std::shared_ptr<const VolumeImage> coarse_;  // of the context; null: it has the same
-  std::vector<double> coarse_numbers_;
-  Mat3 grid_from_data_;
-  double place_scale_;  // table coordinates a number
+  std::vector<Grid> grids_;     // by Lens::field
+  std::optional<Grid> coarse_;  // of the context; absent: it has the same
 };
 
 /// What became of a comparison.

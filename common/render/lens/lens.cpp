@@ -237,7 +237,7 @@ bool magnifies(const Lens& lens) {
 }
 
 bool has_transition(const Lens& lens) {
-  if (lens.cut || magnifies(lens) || !(lens.transition > 0.0)) return false;
+  if (lens.cut || lens.field > 0 || magnifies(lens) || !(lens.transition > 0.0)) return false;
   const bool everything = !lens.shape.quadric && lens.shape.half_spaces.empty();
   return everything ? lens.screen.has_value() : is_bounded(lens.shape) && has_middle(lens.shape);
 }

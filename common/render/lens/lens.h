@@ -9,11 +9,13 @@
 /// (Ikits 2006, sec. 5.3). Of several lenses the first in the list wins where they overlap.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "common/field/color_transfer.h"
+#include "common/field/region_transfer.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -83,10 +85,14 @@ struct Lens {
   /// not; a shape without quadric and half-spaces holds all of them.
   std::optional<ScreenCircle> screen;
   std::optional<ColorTransfer> transfer;  ///< absent: that of the context
-  double samples_per_voxel = 4.0;         ///< > 0
+  std::optional<RegionTransfer> regions;  ///< in place of `transfer`, of value and gradient magnitude
+  /// Which of the scene's scalars is shown (VolumeView::fields): 0 is that of the context.
+  std::size_t field = 0;
+  double samples_per_voxel = 4.0;  ///< > 0
   bool shading = true;
-  bool cut = false;      ///< cut away: nothing is drawn inside
-  bool colored = false;  ///< colours are those of the voxels; the transfer function gives opacities alone
+  bool cut = false;  ///< cut away: nothing is drawn inside
+  /// Colours are those of the voxels, in the context's field; the transfer function gives opacities alone.
+  bool colored = false;
   /// >= 1: matter about center_of() is seen this many times as large (shaders/volume/magnify.glsl); it
   /// takes its place among its neighbours again toward the border, which stays where it is.
   double magnification = 1.0;
@@ -101,7 +107,7 @@ struct Lens {
 /// does not.
 [[nodiscard]] bool magnifies(const Lens& lens);
 /// Whether values go over at its border: as for magnifies(), but on the screen they do, too; where the lens
-/// enlarges they do not.
+/// enlarges or shows another field they do not.
 [[nodiscard]] bool has_transition(const Lens& lens);
 
 }  // namespace palpate

@@ -38,7 +38,7 @@ std::array<glm::dvec4, 4> sides_of(const glm::mat4& clip_from_scene) {
 
 // Whether the lens may show some of a brick about `center`, whose half edges are the columns of `half`.
 bool may_show(const Lens& lens, const Vec3& center, const Mat3& half, const glm::dvec4& clip, double aspect) {
-  if (lens.cut) return false;
+  if (lens.cut || lens.field > 0) return false;
   if (lens.screen) {
     if (clip.w <= 0.0) return false;
     const double x = 0.5 * aspect * clip.x / clip.w, y = 0.5 * clip.y / clip.w;

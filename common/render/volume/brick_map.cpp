@@ -52,6 +52,34 @@ void sweep(std::vector<std::uint8_t>& distances, const Index3& bricks, bool reve
   }
 }
 
+// From seen bricks, at 0, to all others.
+void find_distances(std::vector<std::uint8_t>& distances, const Index3& bricks) {
+  sweep(distances, bricks, false);
+  sweep(distances, bricks, true);
+}
+
+// Which of `count` equally spaced entries lie next to a number.
+struct EntryScale {
+  // The texture unit's rounding may reach a little further than the values do.
+  static constexpr double kRounding = 1e-3;
+  double lower = 0.0, upper = 1.0;
+  std::size_t count = 2;
+
+  [[nodiscard]] std::size_t below(double number) const {
+    return bounded(std::floor(place(number) - kRounding));
+  }
+  [[nodiscard]] std::size_t above(double number) const {
+    return bounded(std::ceil(place(number) + kRounding));
+  }
+
+ private:
+  [[nodiscard]] double last() const { return static_cast<double>(count - 1); }
+  [[nodiscard]] double place(double number) const { return last() * ((number - lower) / (upper - lower)); }
+  [[nodiscard]] std::size_t bounded(double entry) const {
+    return static_cast<std::size_t>(std::clamp(entry, 0.0, last()));
+  }
+};
+
 }  // namespace
 
 BrickRanges brick_ranges(const VolumeImage& image, int threads) {
@@ -93,28 +121,47 @@ std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges, std::span<c
   // How many entries before each one are not clear.
   std::vector<std::size_t> seen(entries.size() + 1, 0);
   for (std::size_t i = 0; i < entries.size(); ++i) seen[i + 1] = seen[i] + (entries[i].depth > 0.0F ? 1 : 0);
-  const double last = static_cast<double>(entries.size() - 1);
-  const auto place = [&](float number) {
-    return last * ((static_cast<double>(number) - lower) / (upper - lower));
-  };
-  // The texture unit's rounding may reach a little further than the values do.
-  constexpr double kRounding = 1e-3;
+  const EntryScale columns{lower, upper, entries.size()};
   std::vector<std::uint8_t> distances(ranges.ranges.size());
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const BrickRanges::Range& range = ranges.ranges[i];
     bool empty = range.highest < range.lowest;
+    if (!empty) empty = seen[columns.above(range.highest) + 1] == seen[columns.below(range.lowest)];
+    distances[i] = empty ? kFarthest : 0;
+  }
+  find_distances(distances, ranges.bricks);
+  return distances;
+}
+
+std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges, const GradientRanges& gradients,
+                                          const RegionTable& table, double lower, double upper,
+                                          double highest) {
+  PALPATE_CHECK(gradients.ranges.size() == ranges.ranges.size() && lower < upper && highest > 0.0);
+  // How many entries before each one, along both, are not clear.
+  const std::size_t width = table.columns + 1;
+  std::vector<std::uint32_t> seen(width * (table.rows + 1), 0);
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    std::uint32_t in_row = 0;
+    for (std::size_t column = 0; column < table.columns; ++column) {
+      in_row += table.clear(column, row) ? 0 : 1;
+      seen[column + 1 + width * (row + 1)] = seen[column + 1 + width * row] + in_row;
+    }
+  }
+  const EntryScale columns{lower, upper, table.columns}, rows{0.0, highest, table.rows};
+  std::vector<std::uint8_t> distances(ranges.ranges.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const BrickRanges::Range& values = ranges.ranges[i];
+    const GradientRanges::Range& slopes = gradients.ranges[i];
+    bool empty = values.highest < values.lowest || slopes.highest < slopes.lowest;
     if (!empty) {
-      const auto from =
-          static_cast<std::size_t>(std::clamp(std::floor(place(range.lowest) - kRounding), 0.0, last));
-      const auto to =
-          static_cast<std::size_t>(std::clamp(std::ceil(place(range.highest) + kRounding), 0.0, last));
-      empty = seen[to + 1] == seen[from];
+      const std::size_t left = columns.below(values.lowest), right = columns.above(values.highest) + 1;
+      const std::size_t low = width * rows.below(slopes.lowest),
+                        high = width * (rows.above(slopes.highest) + 1);
+      empty = seen[right + high] + seen[left + low] == seen[left + high] + seen[right + low];
     }
     distances[i] = empty ? kFarthest : 0;
   }
-
-  sweep(distances, ranges.bricks, false);
-  sweep(distances, ranges.bricks, true);
+  find_distances(distances, ranges.bricks);
   return distances;
 }
 

@@ -13,6 +13,8 @@
 
 #include "common/math/vec.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/region_table.h"
+#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_image.h"
 
 namespace palpate {
@@ -36,5 +38,14 @@ struct BrickRanges {
 [[nodiscard]] std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges,
                                                         std::span<const OpticalEntry> entries, double lower,
                                                         double upper);
+
+/// The same for a transfer function of value and gradient magnitude: a brick is empty where the table is
+/// clear for all pairs of its values and its magnitudes.
+/// @param gradients of the same bricks. @param numbers at the first and the last column of the table.
+/// @param highest gradient magnitude at its last row.
+[[nodiscard]] std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges,
+                                                        const GradientRanges& gradients,
+                                                        const RegionTable& table, double lower, double upper,
+                                                        double highest);
 
 }  // namespace palpate

@@ -28,6 +28,8 @@ VolumeView context_of(const VolumeView& view) {
   VolumeView context = view;
   for (Lens& lens : context.lenses) {
     lens.transfer.reset();
+    lens.regions.reset();
+    lens.field = 0;
     lens.samples_per_voxel = view.samples_per_voxel;
     lens.cut = true;
     lens.colored = false;
@@ -40,18 +42,7 @@ VolumeView context_of(const VolumeView& view) {
 // The coarser voxels, whole, in the memory that there is for them.
 std::shared_ptr<const VolumeImage> coarse_context(const VolumeView& view) {
   const std::uint64_t memory = view.storage.memory / kContextShare;
-  auto image = coarse_image(*view.image, view.context.level);
-  const int largest = largest_volume_texture();
-  const auto fits = [&] {
-    const Index3 n = image->points;
-    return std::max({n.x, n.y, n.z}) <= largest && (memory == 0 || image->bytes.size() <= memory);
-  };
-  while (!fits()) {
-    const Index3 points = image->points;
-    image = coarse_image(*image, 1);
-    if (image->points == points) break;
-  }
-  return image;
+  return fitting_image(coarse_image(*view.image, view.context.level), memory);
 }
 
 }  // namespace
@@ -79,7 +70,7 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
     tiles_.reset();
     defines_ = std::move(defines);
   }
-  volume_block_ = volume_shader::make_block_buffer(make_volume_block(view_, frame, textures_.bricks()));
+  volume_block_ = volume_shader::make_block_buffer(make_volume_block(view_, frame, {textures_.bricks()}));
   shape_block_ = make_buffer(make_shape_block(view_, frame, room_));
 }
 

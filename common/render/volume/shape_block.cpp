@@ -31,16 +31,17 @@ glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& fram
 Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
 
 std::vector<glm::vec4> parts_of(const VolumeView& view) {
-  const std::vector<const ColorTransfer*> transfers = transfers_of(view);
+  const std::vector<FieldTransfer> transfers = transfers_of(view);
   PALPATE_CHECK(transfers.size() <= kMostTransfers);
   std::vector<glm::vec4> parts{part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored))};
   for (const Lens& lens : view.lenses) {
-    const auto found = std::find_if(transfers.begin(), transfers.end(), [&](const ColorTransfer* transfer) {
-      return lens.transfer && *transfer == *lens.transfer;
-    });
-    const auto place = found == transfers.end() ? 0 : static_cast<std::size_t>(found - transfers.begin());
+    std::size_t place = 0;
+    if (!lens.cut && (lens.field > 0 || lens.transfer || lens.regions)) {
+      const auto found = std::find(transfers.begin(), transfers.end(), transfer_of(view, lens));
+      place = static_cast<std::size_t>(found - transfers.begin());
+    }
     parts.push_back(part_of(place, lens.samples_per_voxel, lens.shading,
-                            lens.cut ? Content::kCut : content_of(lens.colored)));
+                            lens.cut ? Content::kCut : content_of(lens.colored && lens.field == 0)));
   }
   return parts;
 }

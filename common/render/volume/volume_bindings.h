@@ -19,6 +19,9 @@ inline constexpr std::uint32_t kKeptPicture = 6, kKeptDepth = 7;
 inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9,
                                kCoarseVoxels = 10;
 inline constexpr std::uint32_t kBrickIndex = 11;
+inline constexpr std::uint32_t kFieldVoxels =
+    12;  ///< of fields beside that of the context, and the next ones
+inline constexpr std::uint32_t kRegionTables = 15;
 
 // Uniforms.
 inline constexpr std::int32_t kHasOpaqueDepth = 0;

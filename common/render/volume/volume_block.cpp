@@ -5,12 +5,60 @@
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
+#include "common/render/volume/region_table.h"
 
 namespace palpate {
 namespace {
 
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
+
+// Entries by which tables of regions reach beyond these on either side.
+constexpr double kRoom = 2.0;
+
+// The longest and the shortest step from voxel to voxel [data units].
+struct Spacings {
+  double longest = 0.0, shortest = HUGE_VAL;
+
+  void include(const Mat3& axes) {
+    for (int c = 0; c < 3; ++c) {
+      // Powers of two keep squares of tiny spacings from vanishing.
+      const double unit = power_of_two(
+          binary_exponent(std::max({std::abs(axes[c].x), std::abs(axes[c].y), std::abs(axes[c].z)})));
+      const double spacing = glm::length(axes[c] / unit) * unit;
+      longest = std::max(longest, spacing);
+      shortest = std::min(shortest, spacing);
+    }
+  }
+};
+
+FieldBlock make_field_block(const VolumeView& view, std::size_t field, const SceneFrame& frame,
+                            const Index3& bricks) {
+  const VolumeImage& image = *image_of(view, field);
+  FieldBlock block;
+  // g = axes^-1 (x_X - origin), x_X = center + 2^e x_N. The exponent first: spacings may be tiny.
+  const double to_scene = power_of_two(-frame.exponent);
+  const Mat3 grid_from_scene = glm::inverse(image.axes * to_scene);
+  const Vec3 at_center = grid_from_scene * ((frame.center - image.origin) * to_scene);
+  block.grid_from_scene = glm::mat4(Mat4(grid_from_scene));
+  block.grid_from_scene[3] = {Vec3f(at_center), 1.0F};
+
+  const NumberRange range = table_range(view, field);
+  const double entries = view.table_entries;
+  const double unit = largest_number(image.type);
+  block.lower = {Vec3f(image.lower()), range.lower / unit};
+  block.upper = {Vec3f(image.upper()), (entries - 1.0) / entries * unit / (range.upper - range.lower)};
+  block.points = {Vec3f(image.points), 0.5 / entries};
+  block.bricks = {Vec3f(bricks), view.skip_empty ? 1.0F : 0.0F};
+
+  // m = scale (upper - lower) E / (E - 1) |grad_N p| / 2^e for the table coordinate p of values.
+  const double rows = kGradientEntries;
+  const double last_row = (rows - 1.0) / rows, last_column = (entries - 1.0) / entries;
+  const double values = std::abs(image.scale) * (range.upper - range.lower) / last_column;
+  block.slopes = {last_row * (values / highest_row(view, field) * to_scene), 0.5 / rows,
+                  1.0 / (opacity_length_of(view) * to_scene), 0.0};
+  return block;
+}
 
 }  // namespace
 
@@ -31,16 +79,11 @@ std::array<Vec3, 8> corners_in_scene(const VolumeImage& image, const SceneFrame&
 }
 
 StepLengths step_lengths(const VolumeView& view) noexcept {
-  const Mat3& axes = view.image->axes;
-  double longest = 0.0, shortest = HUGE_VAL;
-  for (int c = 0; c < 3; ++c) {
-    // Powers of two keep squares of tiny spacings from vanishing.
-    const double unit = power_of_two(
-        binary_exponent(std::max({std::abs(axes[c].x), std::abs(axes[c].y), std::abs(axes[c].z)})));
-    const double spacing = glm::length(axes[c] / unit) * unit;
-    longest = std::max(longest, spacing);
-    shortest = std::min(shortest, spacing);
+  Spacings spacings;
+  for (std::size_t field = 0; field < field_count(view); ++field) {
+    if (shows_field(view, field)) spacings.include(image_of(view, field)->axes);
   }
+  const double longest = spacings.longest, shortest = spacings.shortest;
   double fewest = view.samples_per_voxel, most = view.samples_per_voxel;
   for (const Lens& lens : view.lenses) {
     fewest = std::min(fewest, lens.samples_per_voxel);
@@ -49,18 +92,22 @@ StepLengths step_lengths(const VolumeView& view) noexcept {
   return {std::min(longest / fewest, kStepRatio * (shortest / most)), view.table_lengths};
 }
 
-NumberRange table_range(const VolumeView& view) noexcept {
-  const VolumeImage& image = *view.image;
+NumberRange table_range(const VolumeView& view, std::size_t field) {
+  const VolumeImage& image = *image_of(view, field);
   if (image.lowest > image.highest) return {};
   double least = HUGE_VAL, most = -HUGE_VAL;
-  const auto include = [&](const ColorTransfer& transfer) {
-    if (transfer.points().empty()) return;
-    least = std::min(least, transfer.points().front().value);
-    most = std::max(most, transfer.points().back().value);
-  };
-  include(view.transfer);
-  for (const Lens& lens : view.lenses) {
-    if (lens.transfer) include(*lens.transfer);
+  for (const FieldTransfer& transfer : transfers_of(view)) {
+    if (transfer.field != field) continue;
+    if (transfer.regions) {
+      const PlaceRange places = transfer.regions->extent();
+      if (places.empty()) continue;
+      const double room = kRoom / view.table_entries * (places.upper.x - places.lower.x);
+      least = std::min(least, places.lower.x - room);
+      most = std::max(most, places.upper.x + room);
+    } else if (!transfer.colors.points().empty()) {
+      least = std::min(least, transfer.colors.points().front().value);
+      most = std::max(most, transfer.colors.points().back().value);
+    }
   }
   double lower = std::max(image.lowest, least), upper = std::min(image.highest, most);
   if (!(lower < upper)) {
@@ -73,32 +120,55 @@ NumberRange table_range(const VolumeView& view) noexcept {
   return {range.lower, range.lower + std::max(1.0, std::abs(range.lower))};
 }
 
-VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame, const Index3& bricks) {
-  PALPATE_CHECK(view.image != nullptr);
-  const VolumeImage& image = *view.image;
+double highest_row(const VolumeView& view, std::size_t field) {
+  double highest = 0.0;
+  for (const FieldTransfer& transfer : transfers_of(view)) {
+    if (transfer.field != field || !transfer.regions) continue;
+    const PlaceRange places = transfer.regions->extent();
+    if (!places.empty()) highest = std::max(highest, places.upper.y);
+  }
+  return highest > 0.0 ? highest * (1.0 + kRoom / static_cast<double>(kGradientEntries)) : 1.0;
+}
+
+PlaceRange table_places(const VolumeView& view, std::size_t field) {
+  const VolumeImage& image = *image_of(view, field);
+  const NumberRange numbers = table_range(view, field);
+  return {{image.offset + image.scale * numbers.lower, 0.0},
+          {image.offset + image.scale * numbers.upper, highest_row(view, field)}};
+}
+
+std::vector<TransferPlace> transfer_places(const VolumeView& view, const std::vector<Index3>& bricks) {
+  std::vector<TransferPlace> places;
+  int tables = 0, regions = 0, z = 0;
+  for (const FieldTransfer& transfer : transfers_of(view)) {
+    const bool by_regions = transfer.regions.has_value();
+    places.push_back({transfer.field, by_regions, by_regions ? regions++ : view.table_lengths * tables++, z});
+    z += bricks[transfer.field].z;
+  }
+  return places;
+}
+
+VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
+                              const std::vector<Index3>& bricks) {
+  PALPATE_CHECK(view.image != nullptr && bricks.size() >= field_count(view) &&
+                field_count(view) <= kMostFields);
   VolumeBlock block;
-
-  // g = axes^-1 (x_X - origin), x_X = center + 2^e x_N. The exponent first: spacings may be tiny.
-  const double to_scene = power_of_two(-frame.exponent);
-  const Mat3 grid_from_scene = glm::inverse(image.axes * to_scene);
-  const Vec3 at_center = grid_from_scene * ((frame.center - image.origin) * to_scene);
-  block.grid_from_scene = glm::mat4(Mat4(grid_from_scene));
-  block.grid_from_scene[3] = {Vec3f(at_center), 1.0F};
-
-  const NumberRange range = table_range(view);
-  const double entries = view.table_entries;
-  const double unit = largest_number(image.type);
-  block.lower = {Vec3f(image.lower()), range.lower / unit};
-  block.upper = {Vec3f(image.upper()), (entries - 1.0) / entries * unit / (range.upper - range.lower)};
-  block.points = {Vec3f(image.points), 0.5 / entries};
-  block.bricks = {Vec3f(bricks), view.skip_empty ? 1.0F : 0.0F};
+  for (std::size_t field = 0; field < field_count(view); ++field) {
+    if (shows_field(view, field)) block.fields[field] = make_field_block(view, field, frame, bricks[field]);
+  }
   const StepLengths steps = step_lengths(view);
+  const double to_scene = power_of_two(-frame.exponent);
   block.lengths = {steps.longest * to_scene / (steps.layers - 1), steps.layers,
                    view.stop_where_opaque ? kOpaque : 2.0F, asks_tiles(view) ? 1.0F : 0.0F};
-
   block.counts.x = static_cast<int>(view.lenses.size());
   block.counts.y = static_cast<int>(
       std::count_if(view.cuts.begin(), view.cuts.end(), [](const CuttingPlane& cut) { return cut.on; }));
+  const std::vector<TransferPlace> places = transfer_places(view, bricks);
+  PALPATE_CHECK(places.size() <= kMostTransfers);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    block.transfers[i] = {static_cast<int>(places[i].field), places[i].regions ? 1 : 0, places[i].first_layer,
+                          places[i].first_brick_z};
+  }
   return block;
 }
 

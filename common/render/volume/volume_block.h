@@ -1,9 +1,10 @@
-/// What the shaders of volumes are told of a volume, its tables and its bricks, as they get it
+/// What the shaders of volumes are told of a volume, its fields, tables and bricks, as they get it
 /// (shaders/volume/volume_block.glsl).
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -30,23 +31,46 @@ inline constexpr double kStepRatio = 16.0;
 
 [[nodiscard]] StepLengths step_lengths(const VolumeView& view) noexcept;
 
-/// Between which of the image's numbers the tables of `view` spread their entries: those that occur and at
-/// which some transfer function changes.
+/// Between which of the numbers of a field's image the tables of `view` spread their entries: those that
+/// occur and at which some transfer function of that field changes.
 struct NumberRange {
   double lower = 0.0;
   double upper = 1.0;  ///< > lower
 };
-[[nodiscard]] NumberRange table_range(const VolumeView& view) noexcept;
+[[nodiscard]] NumberRange table_range(const VolumeView& view, std::size_t field = 0);
+/// The gradient magnitude at the last row of a field's region tables [value / data unit]: a little above all
+/// regions, so that what is beyond it is clear. > 0.
+[[nodiscard]] double highest_row(const VolumeView& view, std::size_t field);
+/// The places between which the region tables of a field spread their entries.
+[[nodiscard]] PlaceRange table_places(const VolumeView& view, std::size_t field);
+
+/// What the number of a transfer function stands for.
+struct TransferPlace {
+  std::size_t field = 0;
+  bool regions = false;   ///< by value and gradient magnitude
+  int first_layer = 0;    ///< of its own tables: preintegrated, or of regions
+  int first_brick_z = 0;  ///< of its map of empty bricks
+};
+/// Those of transfers_of(view). @param bricks an axis, of each field.
+[[nodiscard]] std::vector<TransferPlace> transfer_places(const VolumeView& view,
+                                                         const std::vector<Index3>& bricks);
+
+/// Laid out as the struct Field of shaders/volume/volume_block.glsl.
+struct FieldBlock {
+  glm::mat4 grid_from_scene{1.0F};
+  glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, slopes{1.0F};
+};
 
 /// Laid out as a std140 uniform block, bound to 1.
 struct VolumeBlock {
-  glm::mat4 grid_from_scene{1.0F};
-  glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, lengths{1.0F};
+  glm::vec4 lengths{0.0F};
   glm::ivec4 counts{0};  ///< lenses, planes that cut
+  std::array<glm::ivec4, kMostTransfers> transfers{};
+  std::array<FieldBlock, kMostFields> fields{};
 };
 
-/// @param bricks an axis. @pre view.image is not null.
+/// @param bricks an axis, of each field up to the last one that is shown. @pre view.image is not null.
 [[nodiscard]] VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
-                                            const Index3& bricks);
+                                            const std::vector<Index3>& bricks);
 
 }  // namespace palpate

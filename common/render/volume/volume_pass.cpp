@@ -109,7 +109,7 @@ struct VolumePass::State {
   }
 
   [[nodiscard]] bool keeps_slabs() const {
-    return shown.keep_slabs && fragment_of(Reach::kSlab, variant) != nullptr;
+    return shown.keep_slabs && !has_regions(shown) && fragment_of(Reach::kSlab, variant) != nullptr;
   }
 
   // Whether this picture can use what is kept, or begins to keep it.
@@ -178,9 +178,9 @@ struct VolumePass::State {
     struct Blocks {
       GlBuffer volume, shapes;
     };
-    auto uncut = std::make_shared<const Blocks>(
-        Blocks{volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.bricks())),
-               make_shapes(slabs->uncut())});
+    auto uncut = std::make_shared<const Blocks>(Blocks{
+        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.field_bricks())),
+        make_shapes(slabs->uncut())});
     return [this, uncut](const SlabCache::Slab& slab) {
       bind(program_of(Reach::kSlab), uncut->volume, uncut->shapes, slab.depth);
       set_slab(slab);
@@ -218,7 +218,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.textures.update(view, make_brick_sight(block, frame));
   if (s.textures.changes() != voxels) s.slabs.reset();
   view.storage = asked.storage;
-  view.image = s.textures.image();
+  view = s.textures.drawn(std::move(view));
   s.asked = asked.image;
   s.room = ShapeRoom::of(view);
   std::vector<std::string> defines = s.textures.shader_defines();
@@ -232,7 +232,8 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
-  s.volume_block = volume_shader::make_block_buffer(make_volume_block(view, frame, s.textures.bricks()));
+  s.volume_block =
+      volume_shader::make_block_buffer(make_volume_block(view, frame, s.textures.field_bricks()));
   s.shape_block = s.make_shapes(view);
   s.shown = view;
   if (!draws_context_alone(view)) {
@@ -320,7 +321,7 @@ VolumePass::Cost VolumePass::cost() const noexcept {
   Cost cost = state_->cost;
   const VolumeTextures::Cost& textures = state_->textures.cost();
   cost.programs += state_->textures.tiles().compiled() ? 1 : 0;
-  cost.voxel_bytes = textures.voxel_bytes;
+  cost.voxel_bytes = textures.voxel_bytes + textures.field_bytes;
   cost.table_bytes = textures.table_bytes;
   cost.brick_bytes = textures.brick_bytes;
   cost.table_ms = textures.table_ms;

@@ -28,12 +28,6 @@ void check_size(const VolumeImage& image, int largest) {
                     std::to_string(largest));
 }
 
-GlTexture upload_whole(const VolumeImage& image) {
-  GlTexture texture = make_voxel_texture(image.points, image.type, "voxels");
-  upload_voxels(texture, Index3(0), image.points, image.type, image.bytes.data());
-  return texture;
-}
-
 GlTexture upload_colors(const VolumeImage& image) {
   const Index3 n = image.points;
   GlTexture texture = make_texture(GL_TEXTURE_3D, "colours of voxels");
@@ -52,27 +46,57 @@ bool fits_whole(const VolumeImage& image, std::uint64_t memory) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MB"; }
 
+// The part of the memory for voxels that each field gets.
+std::uint64_t memory_of_field(const VolumeView& view) {
+  std::uint64_t shown = 0;
+  for (std::size_t field = 0; field < field_count(view); ++field) shown += shows_field(view, field) ? 1 : 0;
+  return view.storage.memory / shown;
+}
+
 }  // namespace
 
 bool VolumeTextures::TableKey::operator==(const TableKey& other) const {
-  return transfers == other.transfers && range.lower == other.range.lower &&
-         range.upper == other.range.upper && longest == other.longest && entries == other.entries &&
-         lengths == other.lengths;
+  const auto same = [](const PlaceRange& a, const PlaceRange& b) {
+    return a.lower == b.lower && a.upper == b.upper;
+  };
+  return transfers == other.transfers &&
+         std::equal(places.begin(), places.end(), other.places.begin(), other.places.end(), same) &&
+         longest == other.longest && entries == other.entries && lengths == other.lengths;
 }
 
 void VolumeTextures::update(const VolumeView& view, const BrickSight& sight, const VolumeTextures* other) {
   PALPATE_CHECK(view.image != nullptr);
   PALPATE_CHECK(view.table_entries >= 2 && view.table_lengths >= static_cast<int>(kLengthGroup));
   if (other != nullptr) tiles_.share_program(other->tiles_);
-  VolumeView drawn = view;
+  const std::uint64_t memory = memory_of_field(view);
   if (other != nullptr && other->image_ == view.image) {
     share_voxels(*other);
   } else {
-    place_voxels(drawn, sight);
+    VolumeView first = view;
+    first.storage.memory -= view.storage.memory - memory;
+    place_voxels(first, sight);
   }
-  drawn.image = image_;
-  update_colors(drawn);
-  update_tables(drawn);
+  if (fields_.update(view, memory)) {
+    ++changes_;
+    key_ = {};
+  }
+  const VolumeView shown = drawn(view);
+  regions_ = has_regions(shown);
+  field_count_ = field_count(shown);
+  field_bricks_.assign(1, bricks());
+  for (std::size_t field = 1; field < field_count_; ++field)
+    field_bricks_.push_back(shows_field(shown, field) ? fields_.bricks(field).ranges().bricks : Index3(1));
+  cost_.field_bytes = fields_.bytes();
+  update_colors(shown);
+  update_tables(shown);
+}
+
+VolumeView VolumeTextures::drawn(VolumeView view) const {
+  view.image = image_;
+  for (std::size_t i = 0; i < view.fields.size(); ++i) {
+    if (shows_field(view, i + 1)) view.fields[i].image = fields_.image(i + 1);
+  }
+  return view;
 }
 
 void VolumeTextures::bind(bool colors) const {
@@ -83,26 +107,31 @@ void VolumeTextures::bind(bool colors) const {
   }
   glBindTextureUnit(volume_shader::kTables, tables_.name());
   glBindTextureUnit(volume_shader::kEmptyBricks, empty_bricks_.name());
+  if (regions_) glBindTextureUnit(volume_shader::kRegionTables, region_tables_.name());
+  fields_.bind();
   if (colors) glBindTextureUnit(volume_shader::kColors, colors_.name());
 }
 
 void VolumeTextures::bind_voxels(std::uint32_t unit) const { glBindTextureUnit(unit, voxels_->name()); }
 
 std::vector<std::string> VolumeTextures::shader_defines() const {
-  if (!bricks_) return {};
-  return {"BRICKED " + std::to_string(bricks_->layout().cells)};
+  std::vector<std::string> defines;
+  if (bricks_) defines.push_back("BRICKED " + std::to_string(bricks_->layout().cells));
+  if (field_count_ > 1) defines.push_back("FIELDS " + std::to_string(field_count_));
+  if (regions_) defines.emplace_back("REGIONS");
+  return defines;
 }
 
 void VolumeTextures::take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges) {
   if (image_ == image) return;
   image_ = image;
-  ranges_ = ranges;
+  bricks_of_image_ = FieldBricks(image, ranges);
   colors_ = GlTexture();
   key_ = {};
 }
 
 void VolumeTextures::share_voxels(const VolumeTextures& other) {
-  take_image(other.image_, other.ranges_);
+  take_image(other.image_, other.bricks_of_image_.ranges());
   voxels_ = other.voxels_;
   bricks_ = other.bricks_;
   placed_ = {};
@@ -119,7 +148,7 @@ void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sigh
       !may_cut || (view.storage.brick_cells == 0 && fits_whole(*view.image, view.storage.memory));
   if (!whole) {
     // What bricks that are needed depend on.
-    for (const ColorTransfer* transfer : transfers_of(view)) wanted.transfers.push_back(*transfer);
+    wanted.transfers = transfers_of(view);
     wanted.step = step_lengths(view).longest;
     wanted.opacity_length = opacity_length_of(view);
     wanted.magnified = has_magnified_parts(view);
@@ -207,52 +236,110 @@ void VolumeTextures::update_colors(const VolumeView& view) {
 }
 
 void VolumeTextures::update_tables(const VolumeView& view) {
-  const std::vector<const ColorTransfer*> transfers = transfers_of(view);
-  TableKey wanted;
-  for (const ColorTransfer* transfer : transfers) wanted.transfers.push_back(*transfer);
-  wanted.range = table_range(view);
+  TableKey wanted{.transfers = transfers_of(view), .places = {}};
+  for (std::size_t field = 0; field < field_count_; ++field) {
+    if (!shows_field(view, field)) continue;
+    const NumberRange numbers = table_range(view, field);
+    wanted.places.push_back({{numbers.lower, 0.0}, {numbers.upper, highest_row(view, field)}});
+  }
   wanted.longest = step_lengths(view).longest / opacity_length_of(view);
   wanted.entries = view.table_entries;
   wanted.lengths = view.table_lengths;
   if (wanted == key_) return;
 
   const Stopwatch clock;
-  const auto entries = static_cast<std::size_t>(wanted.entries);
-  const auto lengths = static_cast<std::size_t>(wanted.lengths);
-  const int layers = wanted.lengths * static_cast<int>(transfers.size());
-  tables_ = make_texture(GL_TEXTURE_2D_ARRAY, "preintegrated tables");
-  glTextureStorage3D(tables_.name(), 1, GL_RGBA16, wanted.entries, wanted.entries, layers);
-  set_sampling(tables_, GL_LINEAR, GL_CLAMP_TO_EDGE);
-  const Index3 b = ranges_.bricks;
-  empty_bricks_ = make_texture(GL_TEXTURE_3D, "empty bricks");
-  glTextureStorage3D(empty_bricks_.name(), 1, GL_R8UI, b.x, b.y, b.z * static_cast<int>(transfers.size()));
-  set_sampling(empty_bricks_, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  key_ = std::move(wanted);
+  allocate_tables(view);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-
-  table_.resize(4 * entries * entries * lengths);
-  std::vector<std::uint8_t> maps;
-  for (std::size_t i = 0; i < transfers.size(); ++i) {
-    const std::vector<OpticalEntry> optical =
-        optical_entries(*transfers[i], image_->offset + image_->scale * wanted.range.lower,
-                        image_->offset + image_->scale * wanted.range.upper, entries, wanted.longest);
-    preintegrate(optical, lengths, 0, table_);
-    glTextureSubImage3D(tables_.name(), 0, 0, 0, static_cast<GLint>(i) * wanted.lengths, wanted.entries,
-                        wanted.entries, wanted.lengths, GL_RGBA, GL_UNSIGNED_SHORT, table_.data());
-    const std::vector<std::uint8_t> distances =
-        empty_distances(ranges_, optical, wanted.range.lower, wanted.range.upper);
-    glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, static_cast<GLint>(i) * b.z, b.x, b.y, b.z,
-                        GL_RED_INTEGER, GL_UNSIGNED_BYTE, distances.data());
-    maps.insert(maps.end(), distances.begin(), distances.end());
+  std::vector<std::uint8_t> maps;  // of the context's field
+  const std::vector<TransferPlace> places = transfer_places(view, field_bricks_);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const TransferPlace& place = places[i];
+    const std::vector<std::uint8_t> distances = place.regions
+                                                    ? update_regions(view, key_.transfers[i], place)
+                                                    : update_preintegrated(view, key_.transfers[i], place);
+    const Index3 b = field_bricks_[place.field];
+    glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, place.first_brick_z, b.x, b.y, b.z, GL_RED_INTEGER,
+                        GL_UNSIGNED_BYTE, distances.data());
+    if (place.field == 0) maps.insert(maps.end(), distances.begin(), distances.end());
     if (i > 0) continue;
     const auto empty = std::count_if(distances.begin(), distances.end(), [](auto d) { return d > 0; });
     cost_.empty_share = static_cast<double>(empty) / static_cast<double>(distances.size());
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  tiles_.set_bricks(shell_bricks(b, maps));
-  cost_.table_bytes = table_.size() * sizeof(std::uint16_t) * transfers.size();
-  cost_.brick_bytes = ranges_.ranges.size() * transfers.size();
+  tiles_.set_bricks(shell_bricks(bricks(), maps));
   cost_.table_ms = 1e3 * clock.seconds();
-  key_ = std::move(wanted);
+}
+
+void VolumeTextures::allocate_tables(const VolumeView& view) {
+  tables_.reset();
+  region_tables_.reset();
+  cost_.table_bytes = 0;
+  Index3 maps(0);
+  int tables = 0, regions = 0;
+  for (const TransferPlace& place : transfer_places(view, field_bricks_)) {
+    const Index3 b = field_bricks_[place.field];
+    maps = {std::max(maps.x, b.x), std::max(maps.y, b.y), maps.z + b.z};
+    (place.regions ? regions : tables) += 1;
+  }
+  const auto entries = static_cast<std::uint64_t>(view.table_entries);
+  if (tables > 0) {
+    const int layers = view.table_lengths * tables;
+    tables_ = make_texture(GL_TEXTURE_2D_ARRAY, "preintegrated tables");
+    glTextureStorage3D(tables_.name(), 1, GL_RGBA16, view.table_entries, view.table_entries, layers);
+    set_sampling(tables_, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    cost_.table_bytes += 4 * sizeof(std::uint16_t) * entries * entries * static_cast<std::uint64_t>(layers);
+  }
+  if (regions > 0) {
+    region_tables_ = make_texture(GL_TEXTURE_2D_ARRAY, "region tables");
+    glTextureStorage3D(region_tables_.name(), 1, GL_RGBA16F, view.table_entries,
+                       static_cast<GLsizei>(kGradientEntries), regions);
+    set_sampling(region_tables_, GL_LINEAR, GL_CLAMP_TO_EDGE);
+    cost_.table_bytes +=
+        4 * sizeof(std::uint16_t) * entries * kGradientEntries * static_cast<std::uint64_t>(regions);
+  }
+  empty_bricks_ = make_texture(GL_TEXTURE_3D, "empty bricks");
+  glTextureStorage3D(empty_bricks_.name(), 1, GL_R8UI, maps.x, maps.y, maps.z);
+  set_sampling(empty_bricks_, GL_NEAREST, GL_CLAMP_TO_EDGE);
+  cost_.brick_bytes = static_cast<std::uint64_t>(maps.x) * static_cast<std::uint64_t>(maps.y) *
+                      static_cast<std::uint64_t>(maps.z);
+}
+
+// @return distances between empty bricks
+std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView& view,
+                                                               const FieldTransfer& transfer,
+                                                               const TransferPlace& place) {
+  const auto entries = static_cast<std::size_t>(view.table_entries);
+  const auto lengths = static_cast<std::size_t>(view.table_lengths);
+  const NumberRange numbers = table_range(view, place.field);
+  const PlaceRange values = table_places(view, place.field);
+  const std::vector<OpticalEntry> optical =
+      optical_entries(transfer.colors, values.lower.x, values.upper.x, entries, key_.longest);
+  table_.resize(4 * entries * entries * lengths);
+  preintegrate(optical, lengths, 0, table_);
+  glTextureSubImage3D(tables_.name(), 0, 0, 0, place.first_layer, view.table_entries, view.table_entries,
+                      view.table_lengths, GL_RGBA, GL_UNSIGNED_SHORT, table_.data());
+  const BrickRanges& ranges =
+      place.field == 0 ? bricks_of_image_.ranges() : fields_.bricks(place.field).ranges();
+  return empty_distances(ranges, optical, numbers.lower, numbers.upper);
+}
+
+// The same. Gradients of a volume in bricks are not measured, as that would read all of it: what is seen
+// there of its values with any gradient counts.
+std::vector<std::uint8_t> VolumeTextures::update_regions(const VolumeView& view,
+                                                         const FieldTransfer& transfer,
+                                                         const TransferPlace& place) {
+  const NumberRange numbers = table_range(view, place.field);
+  const PlaceRange places = table_places(view, place.field);
+  const RegionTable table =
+      make_region_table(*transfer.regions, places, static_cast<std::size_t>(view.table_entries));
+  glTextureSubImage3D(region_tables_.name(), 0, 0, 0, place.first_layer, view.table_entries,
+                      static_cast<GLsizei>(kGradientEntries), 1, GL_RGBA, GL_FLOAT, table.entries.data());
+  FieldBricks& bricks = place.field == 0 ? bricks_of_image_ : fields_.bricks(place.field);
+  if (place.field == 0 && bricks_)
+    return empty_distances(bricks.ranges(), deepest_entries(table), numbers.lower, numbers.upper);
+  return empty_distances(bricks.ranges(), bricks.gradients(), table, numbers.lower, numbers.upper,
+                         places.upper.y);
 }
 
 }  // namespace palpate

@@ -10,6 +10,7 @@
 #include "common/render/gl/object.h"
 #include "common/render/volume/brick_demand.h"
 #include "common/render/volume/brick_map.h"
+#include "common/render/volume/field_voxels.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_view.h"
@@ -37,12 +38,18 @@ class VolumeTextures {
   void bind_voxels(std::uint32_t unit) const;
 
   /// What shaders that look up voxels are told (compile_program()): others only after update() for another
-  /// image or other storage.
+  /// image, other storage, other fields or another kind of transfer functions.
   [[nodiscard]] std::vector<std::string> shader_defines() const;
 
   /// What is drawn: the view's, or a coarser one where that does not fit its storage.
   [[nodiscard]] const std::shared_ptr<const VolumeImage>& image() const noexcept { return image_; }
-  [[nodiscard]] const Index3& bricks() const noexcept { return ranges_.bricks; }  ///< an axis
+  /// The view with what is drawn in place of its images.
+  [[nodiscard]] VolumeView drawn(VolumeView view) const;
+  [[nodiscard]] const Index3& bricks() const noexcept {
+    return bricks_of_image_.ranges().bricks;
+  }  ///< an axis
+  /// The same of each field up to the last one that is shown.
+  [[nodiscard]] const std::vector<Index3>& field_bricks() const noexcept { return field_bricks_; }
   [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
   [[nodiscard]] const TilePass& tiles() const noexcept { return tiles_; }
 
@@ -53,17 +60,18 @@ class VolumeTextures {
 
   struct Cost {
     std::uint64_t voxel_bytes = 0, table_bytes = 0, brick_bytes = 0;
-    double table_ms = 0.0;     ///< of the last preintegration
-    double empty_share = 0.0;  ///< of the bricks, for the context
+    std::uint64_t field_bytes = 0;  ///< voxels of fields beside that of the context
+    double table_ms = 0.0;          ///< of the last preintegration
+    double empty_share = 0.0;       ///< of the bricks, for the context
   };
   [[nodiscard]] const Cost& cost() const noexcept { return cost_; }
 
  private:
   /// All that the tables depend on.
   struct TableKey {
-    std::vector<ColorTransfer> transfers;
-    NumberRange range;
-    double longest = 0.0;  ///< in units of the opacity length
+    std::vector<FieldTransfer> transfers;
+    std::vector<PlaceRange> places;  ///< of each field's tables, in numbers of its image
+    double longest = 0.0;            ///< in units of the opacity length
     int entries = 0, lengths = 0;
 
     bool operator==(const TableKey& other) const;
@@ -72,7 +80,7 @@ class VolumeTextures {
   struct PlaceKey {
     std::shared_ptr<const VolumeImage> image;
     VoxelStorage storage;
-    std::vector<ColorTransfer> transfers;  ///< this and what follows: of volumes in bricks alone
+    std::vector<FieldTransfer> transfers;  ///< this and what follows: of volumes in bricks alone
     double step = 0.0, opacity_length = 0.0;
     bool magnified = false, blended = false;
     std::vector<CuttingPlane> cuts;  ///< on which values are drawn
@@ -92,6 +100,11 @@ class VolumeTextures {
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
+  void allocate_tables(const VolumeView& view);
+  std::vector<std::uint8_t> update_preintegrated(const VolumeView& view, const FieldTransfer& transfer,
+                                                 const TransferPlace& place);
+  std::vector<std::uint8_t> update_regions(const VolumeView& view, const FieldTransfer& transfer,
+                                           const TransferPlace& place);
 
   std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
   std::shared_ptr<VoxelBricks> bricks_;
@@ -100,9 +113,13 @@ class VolumeTextures {
   std::vector<Lens> lenses_;         ///< likewise
   std::uint64_t changes_ = 0;
   std::vector<Level> levels_;  ///< of volumes in bricks, as far as they were asked for
-  GlTexture colors_, tables_, empty_bricks_;
+  FieldVoxels fields_;
+  bool regions_ = false;         ///< some part is shown by value and gradient magnitude
+  std::size_t field_count_ = 1;  ///< up to the last one that is shown
+  std::vector<Index3> field_bricks_;
+  GlTexture colors_, tables_, region_tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;
-  BrickRanges ranges_;
+  FieldBricks bricks_of_image_;
   TilePass tiles_;
   TableKey key_;
   /// Kept: it is large and asked for again while a function is dragged.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/math/power_of_two.h"
 #include "common/render/lens/plane_section.h"
@@ -9,28 +10,58 @@
 namespace palpate {
 
 bool same_picture(const VolumeView& a, const VolumeView& b) {
-  return a.image == b.image && a.transfer == b.transfer && a.opacity_length == b.opacity_length &&
-         a.samples_per_voxel == b.samples_per_voxel && a.shading == b.shading && a.lenses == b.lenses &&
-         a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
-         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
-         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
-         a.keep_slabs == b.keep_slabs && a.context == b.context && a.storage == b.storage;
+  return a.image == b.image && a.transfer == b.transfer && a.regions == b.regions && a.fields == b.fields &&
+         a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
+         a.shading == b.shading && a.lenses == b.lenses && a.cuts == b.cuts && a.planes == b.planes &&
+         a.colored == b.colored && a.shown == b.shown && a.table_entries == b.table_entries &&
+         a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
+         a.stop_where_opaque == b.stop_where_opaque && a.keep_slabs == b.keep_slabs &&
+         a.context == b.context && a.storage == b.storage;
 }
 
-std::vector<const ColorTransfer*> transfers_of(const VolumeView& view) {
-  std::vector<const ColorTransfer*> transfers{&view.transfer};
+FieldTransfer transfer_of(const VolumeView& view, const Lens& lens) {
+  if (lens.regions) return {lens.field, {}, lens.regions};
+  if (lens.transfer) return {lens.field, *lens.transfer, {}};
+  if (view.regions) return {lens.field, {}, view.regions};
+  return {lens.field, view.transfer, {}};
+}
+
+std::vector<FieldTransfer> transfers_of(const VolumeView& view) {
+  std::vector<FieldTransfer> transfers{transfer_of(view, Lens())};
   for (const Lens& lens : view.lenses) {
-    if (!lens.transfer) continue;
-    const auto same = [&](const ColorTransfer* other) { return *other == *lens.transfer; };
-    if (std::none_of(transfers.begin(), transfers.end(), same)) transfers.push_back(&*lens.transfer);
+    if (lens.cut || (lens.field == 0 && !lens.transfer && !lens.regions)) continue;
+    FieldTransfer one = transfer_of(view, lens);
+    if (std::find(transfers.begin(), transfers.end(), one) == transfers.end())
+      transfers.push_back(std::move(one));
   }
   return transfers;
 }
 
+const std::shared_ptr<const VolumeImage>& image_of(const VolumeView& view, std::size_t field) {
+  return field == 0 ? view.image : view.fields[field - 1].image;
+}
+
+bool shows_field(const VolumeView& view, std::size_t field) {
+  return field == 0 || std::any_of(view.lenses.begin(), view.lenses.end(),
+                                   [&](const Lens& lens) { return !lens.cut && lens.field == field; });
+}
+
+std::size_t field_count(const VolumeView& view) {
+  std::size_t count = 1;
+  for (const Lens& lens : view.lenses) count = std::max(count, lens.cut ? 1 : lens.field + 1);
+  return count;
+}
+
+bool has_regions(const VolumeView& view) {
+  if (view.regions) return true;
+  return std::any_of(view.lenses.begin(), view.lenses.end(),
+                     [](const Lens& lens) { return !lens.cut && lens.regions.has_value(); });
+}
+
 bool has_colored_parts(const VolumeView& view) noexcept {
   if (view.image == nullptr || !view.image->colors) return false;
-  return view.colored ||
-         std::any_of(view.lenses.begin(), view.lenses.end(), [](const Lens& lens) { return lens.colored; });
+  return view.colored || std::any_of(view.lenses.begin(), view.lenses.end(),
+                                     [](const Lens& lens) { return lens.colored && lens.field == 0; });
 }
 
 bool is_cut(const VolumeView& view) {
@@ -83,7 +114,7 @@ bool blends_values(const VolumeView& view) {
 }
 
 bool asks_tiles(const VolumeView& view) {
-  return view.skip_empty && !has_magnified_parts(view) && !blends_values(view);
+  return view.skip_empty && !has_magnified_parts(view) && !blends_values(view) && field_count(view) == 1;
 }
 
 double opacity_length_of(const VolumeView& view) noexcept {

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/field/color_transfer.h"
+#include "common/field/region_transfer.h"
 #include "common/field/value_histogram.h"
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_image.h"
@@ -70,9 +72,21 @@ struct BrickShare {
   [[nodiscard]] bool complete() const noexcept { return held == wanted; }
 };
 
+/// Another scalar of the scene, on a grid of its own, for lenses that show it.
+struct VolumeField {
+  std::shared_ptr<const VolumeImage> image;
+  std::string name;
+
+  bool operator==(const VolumeField&) const = default;
+};
+inline constexpr std::size_t kMostFields = 4;  ///< of one picture, that of the context included
+
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
   ColorTransfer transfer;
+  std::optional<RegionTransfer> regions;  ///< in place of `transfer`, of value and gradient magnitude
+  /// Beside `image`, by Lens::field less one; at most kMostFields - 1. Those that no lens shows take nothing.
+  std::vector<VolumeField> fields;
   /// Length along which matter has the opacity of the transfer function [data units]; 0: a 512th of the
   /// diagonal, whatever the number of voxels.
   double opacity_length = 0.0;
@@ -100,10 +114,29 @@ struct VolumeView {
 /// Whether both give the same picture; images count as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
 
+/// A transfer function and the field whose values it shows.
+struct FieldTransfer {
+  std::size_t field = 0;  ///< Lens::field
+  ColorTransfer colors;
+  std::optional<RegionTransfer> regions;  ///< in place of `colors`
+
+  bool operator==(const FieldTransfer&) const = default;
+};
 /// Each has tables of its own on the GPU.
 inline constexpr std::size_t kMostTransfers = 9;
+/// What a lens shows. @pre lens.field <= view.fields.size().
+[[nodiscard]] FieldTransfer transfer_of(const VolumeView& view, const Lens& lens);
 /// The transfer functions of a view, each once: that of the context, then others of lenses.
-[[nodiscard]] std::vector<const ColorTransfer*> transfers_of(const VolumeView& view);
+[[nodiscard]] std::vector<FieldTransfer> transfers_of(const VolumeView& view);
+
+/// The image of Lens::field. @pre field <= view.fields.size().
+[[nodiscard]] const std::shared_ptr<const VolumeImage>& image_of(const VolumeView& view, std::size_t field);
+/// Whether some lens shows that field, or it is that of the context.
+[[nodiscard]] bool shows_field(const VolumeView& view, std::size_t field);
+/// How many fields there are up to the last one that is shown: 1 where no lens has another than the context.
+[[nodiscard]] std::size_t field_count(const VolumeView& view);
+/// Whether some part is shown by value and gradient magnitude.
+[[nodiscard]] bool has_regions(const VolumeView& view);
 
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
@@ -125,7 +158,7 @@ inline constexpr std::size_t kMostTransfers = 9;
 /// Whether values go over at the border of some lens: where the context has voxels of its own.
 [[nodiscard]] bool blends_values(const VolumeView& view);
 /// Whether rays are asked by tiles of the picture where matter lies: not where it is seen elsewhere, and not
-/// where values are seen that no fine voxel has.
+/// where values are seen that no fine voxel of the context's field has.
 [[nodiscard]] bool asks_tiles(const VolumeView& view);
 
 /// Length in data units that `view` uses for its opacities.

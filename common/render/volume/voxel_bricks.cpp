@@ -12,6 +12,7 @@
 #include "common/base/check.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/region_table.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/voxel_texture.h"
@@ -85,13 +86,16 @@ bool is_even(const VolumeImage& image, std::size_t brick, const BrickLayout& lay
 // For each brick of `ranges` its distance to the nearest one in which some transfer function of the view
 // shows something.
 std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickRanges& ranges) {
-  const VolumeImage& image = *view.image;
   const NumberRange numbers = table_range(view);
   std::vector<std::uint8_t> nearest(ranges.ranges.size(), std::numeric_limits<std::uint8_t>::max());
-  for (const ColorTransfer* transfer : transfers_of(view)) {
-    const std::vector<OpticalEntry> entries = optical_entries(
-        *transfer, image.offset + image.scale * numbers.lower, image.offset + image.scale * numbers.upper,
-        static_cast<std::size_t>(view.table_entries), step_lengths(view).longest / opacity_length_of(view));
+  const auto columns = static_cast<std::size_t>(view.table_entries);
+  for (const FieldTransfer& transfer : transfers_of(view)) {
+    if (transfer.field > 0) continue;
+    const PlaceRange places = table_places(view, 0);
+    const std::vector<OpticalEntry> entries =
+        transfer.regions ? deepest_entries(make_region_table(*transfer.regions, places, columns))
+                         : optical_entries(transfer.colors, places.lower.x, places.upper.x, columns,
+                                           step_lengths(view).longest / opacity_length_of(view));
     const std::vector<std::uint8_t> distances =
         empty_distances(ranges, entries, numbers.lower, numbers.upper);
     for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::min(nearest[i], distances[i]);

@@ -1,8 +1,11 @@
 #include "common/render/volume/voxel_texture.h"
 
+#include <algorithm>
+
 #include <epoxy/gl.h>
 
 #include "common/render/gl/gpu_objects.h"
+#include "common/render/volume/coarse_image.h"
 
 namespace palpate {
 namespace {
@@ -58,6 +61,27 @@ void upload_voxels(const GlTexture& texture, const Index3& first, const Index3& 
   glTextureSubImage3D(texture.name(), 0, first.x, first.y, first.z, size.x, size.y, size.z, GL_RED,
                       format_of(type).type, bytes);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+GlTexture upload_whole(const VolumeImage& image) {
+  GlTexture texture = make_voxel_texture(image.points, image.type, "voxels");
+  upload_voxels(texture, Index3(0), image.points, image.type, image.bytes.data());
+  return texture;
+}
+
+std::shared_ptr<const VolumeImage> fitting_image(std::shared_ptr<const VolumeImage> image,
+                                                 std::uint64_t memory) {
+  const int largest = largest_volume_texture();
+  const auto fits = [&] {
+    const Index3 n = image->points;
+    return std::max({n.x, n.y, n.z}) <= largest && (memory == 0 || image->bytes.size() <= memory);
+  };
+  while (!fits()) {
+    const Index3 points = image->points;
+    image = coarse_image(*image, 1);
+    if (image->points == points) break;
+  }
+  return image;
 }
 
 int largest_volume_texture() {

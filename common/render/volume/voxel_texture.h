@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 #include "common/field/data_set.h"
 #include "common/math/vec.h"
 #include "common/render/gl/object.h"
+#include "common/render/volume/volume_image.h"
 
 namespace palpate {
 
@@ -23,7 +25,12 @@ void set_voxel_sampling(const GlTexture& texture);
 /// Gives the voxels from `first` on, `size` of them an axis, the numbers of `bytes`, x fastest.
 void upload_voxels(const GlTexture& texture, const Index3& first, const Index3& size, ScalarType type,
                    const std::byte* bytes);
+/// All voxels of an image.
+[[nodiscard]] GlTexture upload_whole(const VolumeImage& image);
 /// Voxels an axis of the largest texture of the driver.
 [[nodiscard]] int largest_volume_texture();
+/// The image, or the finest coarser one (coarse_image.h) that fits a texture and `memory` [bytes]; 0: any.
+[[nodiscard]] std::shared_ptr<const VolumeImage> fitting_image(std::shared_ptr<const VolumeImage> image,
+                                                               std::uint64_t memory);
 
 }  // namespace palpate

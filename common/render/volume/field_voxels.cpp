@@ -1,0 +1,58 @@
+#include "common/render/volume/field_voxels.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "common/base/check.h"
+#include "common/render/volume/coarse_image.h"
+#include "common/render/volume/volume_bindings.h"
+#include "common/render/volume/voxel_texture.h"
+
+namespace palpate {
+
+const GradientRanges& FieldBricks::gradients() {
+  if (gradients_.ranges.empty()) gradients_ = gradient_ranges(*image_, ranges_.bricks);
+  return gradients_;
+}
+
+bool FieldVoxels::update(const VolumeView& view, std::uint64_t memory) {
+  PALPATE_CHECK(view.fields.size() < kMostFields);
+  bool changed = false;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Place& place = places_[i];
+    const bool shown = i < view.fields.size() && shows_field(view, i + 1);
+    if (!shown) {
+      changed = changed || place.voxels;
+      place = {};
+      continue;
+    }
+    const std::shared_ptr<const VolumeImage>& asked = view.fields[i].image;
+    PALPATE_CHECK(asked != nullptr);
+    if (place.asked == asked && place.memory == memory) continue;
+    place = {};
+    place.image = fitting_image(asked, memory);
+    place.voxels = upload_whole(*place.image);
+    place.bricks = FieldBricks(place.image, brick_ranges(*place.image));
+    place.asked = asked;
+    place.memory = memory;
+    changed = true;
+  }
+  return changed;
+}
+
+void FieldVoxels::bind() const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (places_[i].voxels)
+      glBindTextureUnit(volume_shader::kFieldVoxels + static_cast<GLuint>(i), places_[i].voxels.name());
+  }
+}
+
+std::uint64_t FieldVoxels::bytes() const noexcept {
+  std::uint64_t bytes = 0;
+  for (const Place& place : places_) bytes += place.image ? place.image->bytes.size() : 0;
+  return bytes;
+}
+
+}  // namespace palpate

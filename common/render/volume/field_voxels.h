@@ -1,0 +1,60 @@
+/// The voxels on the GPU of scalars beside that of the context, for lenses that show them: each on a grid of
+/// its own, whole, and where it does not fit its part of the memory from coarser voxels.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "common/render/gl/object.h"
+#include "common/render/volume/brick_map.h"
+#include "common/render/volume/value_gradient.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+/// Where matter of one field lies. Depends on its image alone.
+class FieldBricks {
+ public:
+  FieldBricks() = default;
+  FieldBricks(std::shared_ptr<const VolumeImage> image, BrickRanges ranges)
+      : image_(std::move(image)), ranges_(std::move(ranges)) {}
+
+  [[nodiscard]] const BrickRanges& ranges() const noexcept { return ranges_; }
+  /// Made when first asked for.
+  [[nodiscard]] const GradientRanges& gradients();
+
+ private:
+  std::shared_ptr<const VolumeImage> image_;
+  BrickRanges ranges_;
+  GradientRanges gradients_;
+};
+
+class FieldVoxels {
+ public:
+  /// Uploads the fields of `view` that some lens shows, as far as they are not there, and frees others.
+  /// @param memory for each of them [bytes]; 0: no bound. @return whether other voxels are there than before.
+  bool update(const VolumeView& view, std::uint64_t memory);
+  /// To the units of shaders/volume/voxels.glsl.
+  void bind() const;
+
+  /// What is drawn of Lens::field; null where no lens shows it. @pre 0 < field < kMostFields.
+  [[nodiscard]] const std::shared_ptr<const VolumeImage>& image(std::size_t field) const {
+    return places_[field - 1].image;
+  }
+  [[nodiscard]] FieldBricks& bricks(std::size_t field) { return places_[field - 1].bricks; }
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
+
+ private:
+  struct Place {
+    std::shared_ptr<const VolumeImage> asked, image;
+    std::uint64_t memory = 0;
+    GlTexture voxels;
+    FieldBricks bricks;
+  };
+  std::array<Place, kMostFields - 1> places_;
+};
+
+}  // namespace palpate
