@@ -1,10 +1,12 @@
 #include "common/calibration/workbench_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
 #include <sstream>
+#include <utility>
 
 #include <toml++/toml.h>
 
@@ -136,6 +138,23 @@ InteractionGeometry interaction_of(const Section& s) {
   if (s.has("rotation")) out.rotation = s.rotation();
   if (s.has("gain")) out.gain = s.number("gain");
   if (!(out.gain > 0.0)) s.refuse_at("gain", short_number(out.gain), "a number above zero");
+  const std::array<std::pair<const char*, int*>, 3> stations{{{"stylus_station", &out.stylus_station},
+                                                              {"hand_station", &out.hand_station},
+                                                              {"head_station", &out.head_station}}};
+  for (const auto& [key, station] : stations) {
+    if (!s.has(key)) continue;
+    const std::int64_t said = s.at(key).value_exact<std::int64_t>().value_or(-1);
+    if (said < 1 || said > InteractionGeometry::kStations)
+      s.refuse_at(key, "another value", "a station of the tracker, from 1 to 16");
+    *station = static_cast<int>(said);
+  }
+  // Two things on one sensor would move as one.
+  for (const auto& [key, station] : stations) {
+    for (const auto& [other, its] : stations) {
+      if (key != other && *station == *its && s.has(key))
+        s.refuse_at(key, "station " + std::to_string(*station) + ", which is " + other, "another station");
+    }
+  }
   if (s.has("enabling_button")) {
     constexpr std::int64_t kMost = InteractionGeometry::kButtons - 1;
     const toml::node& said = s.at("enabling_button");
@@ -336,7 +355,9 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
       refuse(path, line_of(*node), "'screen' is no section", "[screen], or [[screen]] for each of several");
     }
   }
-  section("interaction", {"technique", "middle", "rotation", "gain", "enabling_button", "enabling_device"},
+  section("interaction",
+          {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
+           "enabling_button", "enabling_device"},
           [&](const Section& s) { out.interaction = interaction_of(s); });
   return out;
 }

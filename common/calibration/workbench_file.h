@@ -35,6 +35,9 @@
 ///   middle = [x, y, z]             # immersive: where the middle of the data is, in the tracker's frame
 ///   rotation = [w, x, y, z]        # optional: turns the tracker's axes into those of the data
 ///   gain = 2.0                     # optional: metres of the workspace for a metre of the hand, > 0
+///   stylus_station = 1             # optional: the tracker's station, from 1, that is the stylus; 1
+///   hand_station = 2               # optional: that of the other hand; none
+///   head_station = 3               # optional: that of the head; none
 ///   enabling_button = 2            # optional: the dead-man switch of a device that shows force; "none"
 ///   enabling_device = "pedal"      # optional: the driver of another device that has this button
 ///
@@ -81,7 +84,11 @@ struct InteractionGeometry {
   std::optional<int> enabling_button;  ///< kNoButton, or below kButtons; nothing: not named
   std::string enabling_device;         ///< empty: the device itself
 
-  static constexpr int kNoButton = -1, kButtons = 32;  ///< as of DeviceLimits
+  static constexpr int kNoButton = -1, kButtons = 32;   ///< as of DeviceLimits
+  static constexpr int kNoStation = 0, kStations = 16;  ///< as of PoseAtoms
+
+  /// Of a tracker, from 1, all different.
+  int stylus_station = 1, hand_station = kNoStation, head_station = kNoStation;
 };
 
 struct WorkbenchGeometry {

@@ -65,9 +65,12 @@ class DriverLink {
   /// Does what is next, for some milliseconds with a device that is ready, for less than kLongestRound else.
   /// The device shows `force` [N, frame D] from then on if it is ready, the force is finite and every answer
   /// made sense, else none.
-  /// @return whether atoms() are new. One thread.
+  /// @return whether atoms() or poses() are new. One thread.
   virtual bool round(const Vec3& force) noexcept = 0;
   [[nodiscard]] virtual const DeviceAtoms& atoms() const noexcept = 0;
+  /// Of a tracker: all stations that it could have, those that it does not see as not valid. Null: it is
+  /// none.
+  [[nodiscard]] virtual const PoseAtoms* poses() const noexcept { return nullptr; }
   [[nodiscard]] virtual const LinkStatus& status() const noexcept = 0;
   /// What the user should know or do now, one sentence; empty where there is nothing to say.
   [[nodiscard]] virtual std::string advice() const = 0;

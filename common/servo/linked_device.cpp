@@ -26,6 +26,7 @@ LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitc
     : link_(std::move(link)) {
   PALPATE_CHECK(link_ != nullptr);
   limits_ = link_->limits();
+  tracks_ = link_->poses() != nullptr;
   if (enabling.link) {
     switch_ = std::make_unique<LinkedDevice>(enabling.link);
     switch_button_ = enabling.button;
@@ -49,7 +50,10 @@ void LinkedDevice::work(const std::stop_token& stop) {
     (void)orders_.read(order);
     const double now = now_seconds();
     const bool fresh = now - order.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
-    if (link_->round(fresh ? order.force : Vec3{0.0})) atoms_.write(link_->atoms());
+    if (link_->round(fresh ? order.force : Vec3{0.0})) {
+      atoms_.write(link_->atoms());
+      if (const PoseAtoms* const poses = link_->poses()) poses_.write(*poses);
+    }
     // Words are for people: when something has changed, and now and then.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
@@ -74,6 +78,16 @@ bool LinkedDevice::read_atoms(double now, DeviceAtoms& atoms) noexcept {
     atoms.buttons = with_switch(atoms.buttons, any ? &heard : nullptr, switch_button_, now);
   }
   return true;
+}
+
+void LinkedDevice::read_poses(double now, PoseAtoms& poses) noexcept {
+  (void)poses_.read(newest_poses_);
+  poses = newest_poses_;
+  for (PoseAtom& pose : poses.stations) {
+    if (now - pose.time <= kPosesKept) continue;
+    pose.valid = false;
+    pose.buttons = 0;
+  }
 }
 
 bool LinkedDevice::read(double now, DeviceSample& sample) noexcept {

@@ -49,6 +49,13 @@ class LinkedDevice final : public Device {
   /// The newest of all that the device has, at most kKept old. Servo thread, in place of read(). @rt Safe.
   bool read_atoms(double now, DeviceAtoms& atoms) noexcept;
 
+  /// Whether it is a tracker, all its life.
+  [[nodiscard]] bool tracks() const noexcept { return tracks_; }
+  /// The newest poses, those that are older than kPosesKept as not valid. One thread, which need not be the
+  /// servo's; the same ones again where there are no newer. @rt Safe.
+  void read_poses(double now, PoseAtoms& poses) noexcept;
+  static constexpr double kPosesKept = 0.1;  ///< [s] half a dozen poses of the slowest tracker
+
   /// @name Any thread but the servo's
   /// @{
   [[nodiscard]] LinkStatus status() const;
@@ -68,12 +75,15 @@ class LinkedDevice final : public Device {
   DeviceLimits limits_;
   std::unique_ptr<LinkedDevice> switch_;  ///< the other device; null: none
   int switch_button_ = DeviceLimits::kNoButton;
+  bool tracks_ = false;
   TripleBuffer<DeviceAtoms> atoms_;
+  TripleBuffer<PoseAtoms> poses_;
   TripleBuffer<Order> orders_;
   std::atomic<bool> stopped_{false};
 
   DeviceAtoms newest_;  ///< the servo thread's
   bool seen_ = false;
+  PoseAtoms newest_poses_;  ///< the reader's
 
   mutable std::mutex mutex_;  ///< of the next two
   LinkStatus status_;

@@ -100,7 +100,7 @@ std::string FalconLink::advice() const {
     case LinkPhase::kAbsent:
       return "no Falcon is plugged in; it needs its own power supply, too";
     case LinkPhase::kRefused:
-      if (refused_ == UsbStatus::kBusy) return "another program has the Falcon";
+      if (refused_ == TransferStatus::kBusy) return "another program has the Falcon";
       return "the Falcon cannot be opened (" + std::string(name_of(refused_)) +
              "); `workbench doctor` prints the rule that gives access to it";
     case LinkPhase::kNeedsFirmware:
@@ -122,24 +122,24 @@ std::string FalconLink::advice() const {
 std::string FalconLink::place() const { return path_.empty() ? path_ : "usb " + path_; }
 
 void FalconLink::search() noexcept {
-  status_.phase = refused_ == UsbStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
+  status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
   const std::vector<UsbDevice> devices = transport_.devices();
   const auto found =
       std::find_if(devices.begin(), devices.end(), [](const UsbDevice& d) { return d.id == kFalconId; });
   if (found == devices.end()) {
-    refused_ = UsbStatus::kOk;
+    refused_ = TransferStatus::kOk;
     status_.phase = LinkPhase::kAbsent;
     transport_.sleep(kSearchPause);
     return;
   }
   UsbOpened opened = transport_.open(found->path, kInterface);
-  if (opened.status != UsbStatus::kOk) {
+  if (opened.status != TransferStatus::kOk) {
     refused_ = opened.status;
     status_.phase = LinkPhase::kRefused;
     transport_.sleep(kRefusedPause);
     return;
   }
-  refused_ = UsbStatus::kOk;
+  refused_ = TransferStatus::kOk;
   connection_ = std::move(opened.connection);
   path_ = found->path;
   ++status_.opened;
@@ -182,9 +182,9 @@ void FalconLink::load() noexcept {
 
 bool FalconLink::control(std::uint8_t request, std::uint16_t value) noexcept {
   if (!connection_) return false;
-  const UsbResult done = connection_->control(
+  const TransferResult done = connection_->control(
       {.request_type = kVendorOut, .request = request, .value = value}, {}, kControlTime);
-  if (done.status == UsbStatus::kGone) give_up();
+  if (done.status == TransferStatus::kGone) give_up();
   return done.ok();
 }
 
@@ -209,10 +209,10 @@ bool FalconLink::greet_loader() noexcept {
   // It is ready for the image when it raises CTS; where it never does, the echo still tells.
   std::array<std::uint8_t, kTransferBytes> transfer{};
   for (const double until = transport_.now() + kEchoTime; transport_.now() < until;) {
-    const UsbResult got = connection_->read(kIn, transfer, kAnswerTime);
+    const TransferResult got = connection_->read(kIn, transfer, kAnswerTime);
     const FtdiRead read = strip_ftdi_status(std::span(transfer).first(got.bytes));
     if (read.has_status && (read.modem & kFtdiClearToSend) != 0) break;
-    if (got.status != UsbStatus::kOk && got.status != UsbStatus::kTimeout) return false;
+    if (got.status != TransferStatus::kOk && got.status != TransferStatus::kTimeout) return false;
   }
   return connection_->write(kOut, kReadyFor, kEchoTime).ok() && expect(kReadyFor, kEchoTime);
 }
@@ -222,8 +222,8 @@ void FalconLink::upload() noexcept {
   for (int n = 0; n < kChunksARound; ++n) {
     const auto left = std::span<const std::uint8_t>(settings_.firmware).subspan(uploaded_);
     const auto chunk = left.first(std::min(kChunk, left.size()));
-    const UsbResult sent = connection_->write(kOut, chunk, kEchoTime);
-    if (sent.status == UsbStatus::kGone) return give_up();
+    const TransferResult sent = connection_->write(kOut, chunk, kEchoTime);
+    if (sent.status == TransferStatus::kGone) return give_up();
     if (!sent.ok() || sent.bytes != chunk.size() || !expect(chunk, kEchoTime)) {
       if (connection_) stage_ = Stage::kLoad;
       return;
@@ -241,8 +241,8 @@ bool FalconLink::expect(std::span<const std::uint8_t> wanted, double seconds) no
   std::array<std::uint8_t, kTransferBytes> transfer{};
   std::size_t matched = 0;
   for (const double until = transport_.now() + seconds; transport_.now() < until;) {
-    const UsbResult got = connection_->read(kIn, transfer, until - transport_.now());
-    if (got.status == UsbStatus::kGone) {
+    const TransferResult got = connection_->read(kIn, transfer, until - transport_.now());
+    if (got.status == TransferStatus::kGone) {
       give_up();
       return false;
     }
@@ -255,7 +255,7 @@ bool FalconLink::expect(std::span<const std::uint8_t> wanted, double seconds) no
       }
     }
     if (matched == wanted.size()) return true;
-    if (!got.ok() && got.status != UsbStatus::kTimeout) return false;
+    if (!got.ok() && got.status != TransferStatus::kTimeout) return false;
   }
   return false;
 }
@@ -263,8 +263,8 @@ bool FalconLink::expect(std::span<const std::uint8_t> wanted, double seconds) no
 std::optional<FalconReply> FalconLink::ask(const FalconCommand& command) noexcept {
   if (!connection_) return std::nullopt;
   const FalconPacket packet = encode(command);
-  const UsbResult sent = connection_->write(kOut, packet, kWriteTime);
-  if (sent.status == UsbStatus::kGone) {
+  const TransferResult sent = connection_->write(kOut, packet, kWriteTime);
+  if (sent.status == TransferStatus::kGone) {
     give_up();
     return std::nullopt;
   }
@@ -272,8 +272,8 @@ std::optional<FalconReply> FalconLink::ask(const FalconCommand& command) noexcep
   std::optional<FalconReply> newest;
   std::array<std::uint8_t, kTransferBytes> transfer{};
   for (const double until = transport_.now() + kAnswerTime; !newest && transport_.now() < until;) {
-    const UsbResult got = connection_->read(kIn, transfer, until - transport_.now());
-    if (got.status == UsbStatus::kGone) {
+    const TransferResult got = connection_->read(kIn, transfer, until - transport_.now());
+    if (got.status == TransferStatus::kGone) {
       give_up();
       return std::nullopt;
     }
@@ -281,7 +281,8 @@ std::optional<FalconReply> FalconLink::ask(const FalconCommand& command) noexcep
     for (std::size_t i = 0; i < read.bytes; ++i) {
       if (const auto reply = parser_.push(transfer[i])) newest = reply;
     }
-    if (!got.ok() && got.status != UsbStatus::kTimeout) break;  // a fault of the bus: the caller counts it
+    if (!got.ok() && got.status != TransferStatus::kTimeout)
+      break;  // a fault of the bus: the caller counts it
   }
   status_.dropped += parser_.dropped() - dropped_before_;
   dropped_before_ = parser_.dropped();
@@ -377,7 +378,7 @@ Vec3 FalconLink::angles_of(const FalconCounts& counts) const noexcept {
 void FalconLink::send_zeros() noexcept {
   const FalconPacket packet = encode({.lights = kFalconRed});
   for (int n = 0; connection_ && n < kLastZeros; ++n) {
-    if (connection_->write(kOut, packet, kWriteTime).status == UsbStatus::kGone) break;
+    if (connection_->write(kOut, packet, kWriteTime).status == TransferStatus::kGone) break;
   }
 }
 

@@ -97,7 +97,7 @@ class FalconLink final : public DriverLink {
 
   std::unique_ptr<UsbConnection> connection_;
   std::string path_;
-  UsbStatus refused_ = UsbStatus::kOk;  ///< why it could not be opened
+  TransferStatus refused_ = TransferStatus::kOk;  ///< why it could not be opened
   Stage stage_ = Stage::kSearch;
   int uploads_in_a_row_ = 0;
   std::size_t uploaded_ = 0;  ///< [bytes] of the image, echoed

@@ -1,12 +1,14 @@
 #include "common/device/driver/libusb_transport.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <thread>
 #include <utility>
 
 #include <libusb-1.0/libusb.h>
+#include <sys/time.h>
 
 namespace palpate {
 namespace {
@@ -25,24 +27,24 @@ struct FreeConfiguration {
 using Handle = std::unique_ptr<libusb_device_handle, CloseHandle>;
 using Context = std::shared_ptr<libusb_context>;
 
-UsbStatus status_of(int code) noexcept {
+TransferStatus status_of(int code) noexcept {
   switch (code) {
     case LIBUSB_SUCCESS:
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     case LIBUSB_ERROR_TIMEOUT:
-      return UsbStatus::kTimeout;
+      return TransferStatus::kTimeout;
     case LIBUSB_ERROR_PIPE:
     case LIBUSB_ERROR_OVERFLOW:
-      return UsbStatus::kStall;
+      return TransferStatus::kStall;
     case LIBUSB_ERROR_NO_DEVICE:
     case LIBUSB_ERROR_NOT_FOUND:
-      return UsbStatus::kGone;
+      return TransferStatus::kGone;
     case LIBUSB_ERROR_ACCESS:
-      return UsbStatus::kDenied;
+      return TransferStatus::kDenied;
     case LIBUSB_ERROR_BUSY:
-      return UsbStatus::kBusy;
+      return TransferStatus::kBusy;
     default:
-      return UsbStatus::kFailed;
+      return TransferStatus::kFailed;
   }
 }
 
@@ -90,38 +92,39 @@ class LibusbConnection final : public UsbConnection {
       : context_(std::move(context)), handle_(std::move(handle)), interface_(interface) {}
   ~LibusbConnection() override { libusb_release_interface(handle_.get(), interface_); }
 
-  UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
-                    double seconds) noexcept override {
+  TransferResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
+                         double seconds) noexcept override {
     // libusb does not write to what it sends.
     return transfer_control(setup, const_cast<std::uint8_t*>(data.data()), data.size(), seconds);
   }
 
-  UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept override {
+  TransferResult ask(const UsbControl& setup, std::span<std::uint8_t> data,
+                     double seconds) noexcept override {
     return transfer_control(setup, data.data(), data.size(), seconds);
   }
 
-  UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
-                  double seconds) noexcept override {
+  TransferResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
+                       double seconds) noexcept override {
     return transfer(endpoint, const_cast<std::uint8_t*>(data.data()), data.size(), seconds);
   }
 
-  UsbResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
-                 double seconds) noexcept override {
+  TransferResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
+                      double seconds) noexcept override {
     return transfer(endpoint, data.data(), data.size(), seconds);
   }
 
  private:
-  UsbResult transfer_control(const UsbControl& setup, std::uint8_t* data, std::size_t bytes,
-                             double seconds) noexcept {
+  TransferResult transfer_control(const UsbControl& setup, std::uint8_t* data, std::size_t bytes,
+                                  double seconds) noexcept {
     const int done =
         libusb_control_transfer(handle_.get(), setup.request_type, setup.request, setup.value, setup.index,
                                 data, static_cast<std::uint16_t>(bytes), milliseconds(seconds));
     if (done < 0) return {status_of(done), 0};
-    return {UsbStatus::kOk, static_cast<std::size_t>(done)};
+    return {TransferStatus::kOk, static_cast<std::size_t>(done)};
   }
 
-  UsbResult transfer(const UsbEndpoint& endpoint, std::uint8_t* data, std::size_t bytes,
-                     double seconds) noexcept {
+  TransferResult transfer(const UsbEndpoint& endpoint, std::uint8_t* data, std::size_t bytes,
+                          double seconds) noexcept {
     int done = 0;
     auto* const move = endpoint.interrupt ? libusb_interrupt_transfer : libusb_bulk_transfer;
     const int code =
@@ -137,7 +140,16 @@ class LibusbConnection final : public UsbConnection {
 
 class LibusbTransport final : public UsbTransport {
  public:
-  explicit LibusbTransport(Context context) : context_(std::move(context)) {}
+  explicit LibusbTransport(Context context) : context_(std::move(context)) {
+    if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG) == 0) return;
+    tells_arrivals_ = libusb_hotplug_register_callback(context_.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED, 0,
+                                                       LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
+                                                       LIBUSB_HOTPLUG_MATCH_ANY, &LibusbTransport::arrived,
+                                                       this, &callback_) == LIBUSB_SUCCESS;
+  }
+  ~LibusbTransport() override {
+    if (tells_arrivals_) libusb_hotplug_deregister_callback(context_.get(), callback_);
+  }
 
   std::vector<UsbDevice> devices() override {
     std::vector<UsbDevice> all;
@@ -153,20 +165,20 @@ class LibusbTransport final : public UsbTransport {
   }
 
   UsbOpened open(const std::string& path, int interface) override {
-    UsbOpened opened{.status = UsbStatus::kGone};
+    UsbOpened opened{.status = TransferStatus::kGone};
     Handle handle = handle_at(path, opened.status);
     if (!handle) return opened;
     // Where the system has no driver to be detached this says so, which is no fault.
     libusb_set_auto_detach_kernel_driver(handle.get(), 1);
     opened.status = status_of(libusb_claim_interface(handle.get(), interface));
-    if (opened.status == UsbStatus::kOk) {
+    if (opened.status == TransferStatus::kOk) {
       opened.connection = std::make_unique<LibusbConnection>(context_, std::move(handle), interface);
     }
     return opened;
   }
 
-  UsbStatus access(const std::string& path) override {
-    UsbStatus status = UsbStatus::kGone;
+  TransferStatus access(const std::string& path) override {
+    TransferStatus status = TransferStatus::kGone;
     (void)handle_at(path, status);
     return status;
   }
@@ -176,6 +188,19 @@ class LibusbTransport final : public UsbTransport {
   }
   void sleep(double seconds) noexcept override {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  }
+
+  void await_arrival(double seconds) noexcept override {
+    if (!tells_arrivals_) return UsbTransport::await_arrival(seconds);
+    const std::uint64_t before = arrivals_.load();
+    for (const double until = now() + seconds; arrivals_.load() == before;) {
+      const double left = until - now();
+      if (left <= 0.0) return;
+      timeval wait{.tv_sec = 0, .tv_usec = static_cast<suseconds_t>(std::min(1e6 * left, 999'999.0))};
+      // Where events cannot be waited for, time still passes.
+      if (libusb_handle_events_timeout_completed(context_.get(), &wait, nullptr) != LIBUSB_SUCCESS)
+        return UsbTransport::await_arrival(left);
+    }
   }
 
  private:
@@ -190,7 +215,7 @@ class LibusbTransport final : public UsbTransport {
     if (count >= 0) libusb_free_device_list(list, 1);
   }
 
-  Handle handle_at(const std::string& path, UsbStatus& status) {
+  Handle handle_at(const std::string& path, TransferStatus& status) {
     Handle handle;
     each([&](libusb_device* device) {
       if (path_of(device) != path) return true;
@@ -202,7 +227,17 @@ class LibusbTransport final : public UsbTransport {
     return handle;
   }
 
+  /// On whatever thread waits for events.
+  static int LIBUSB_CALL arrived(libusb_context* /*context*/, libusb_device* /*device*/,
+                                 libusb_hotplug_event /*event*/, void* self) {
+    static_cast<LibusbTransport*>(self)->arrivals_.fetch_add(1);
+    return 0;
+  }
+
   Context context_;
+  std::atomic<std::uint64_t> arrivals_{0};
+  libusb_hotplug_callback_handle callback_ = 0;
+  bool tells_arrivals_ = false;
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <utility>
 
-#include "common/device/driver/known_devices.h"
+#include "common/device/driver/usb_search.h"
 
 namespace palpate {
 namespace {
@@ -11,7 +13,6 @@ namespace {
 constexpr std::string_view kPedal = "pedal";
 constexpr double kAnswerTime = 0.010;    // [s] that GET_REPORT may take
 constexpr double kSetUpTime = 0.1;       // [s]
-constexpr double kPedalPause = 0.1;      // [s] between two looks at the bus
 constexpr std::size_t kPedalBytes = 64;  // [bytes]
 
 // HID, class requests to the interface.
@@ -35,7 +36,7 @@ std::string PedalLink::advice() const {
     return "the foot switch neither repeats its reports nor answers: it cannot guard a hand; plug it in "
            "directly, without a hub, or take another one";
   }
-  if (refused_ == UsbStatus::kBusy) return "another program has the foot switch; end it";
+  if (refused_ == TransferStatus::kBusy) return "another program has the foot switch; end it";
   return "the foot switch cannot be opened (" + std::string(name_of(refused_)) +
          "); `workbench doctor` prints the rule that gives access to it";
 }
@@ -54,24 +55,24 @@ bool PedalLink::round(const Vec3& /*force*/) noexcept {
 
 bool PedalLink::listen() noexcept {
   std::array<std::uint8_t, kPedalBytes> report{};
-  const auto fails = [this](UsbStatus status) {
+  const auto fails = [this](TransferStatus status) {
     // That a pedal refuses to be asked is no fault, as long as it speaks by itself.
-    if (status != UsbStatus::kGone && (status == UsbStatus::kTimeout || ++misses_ < kMostMisses))
+    if (status != TransferStatus::kGone && (status == TransferStatus::kTimeout || ++misses_ < kMostMisses))
       return false;
     ++status_.faults;
     connection_.reset();
     return true;
   };
-  const UsbResult said = connection_->read(reports_, report, kAskAfter);
+  const TransferResult said = connection_->read(reports_, report, kAskAfter);
   if (said.ok()) return hear(std::span(report).first(std::min(said.bytes, report.size())));
   if (fails(said.status)) return false;
-  const UsbResult answer = connection_->ask({.request_type = kInFromInterface,
-                                             .request = kGetReport,
-                                             .value = kInputReport,
-                                             .index = reports_.interface},
-                                            report, kAnswerTime);
+  const TransferResult answer = connection_->ask({.request_type = kInFromInterface,
+                                                  .request = kGetReport,
+                                                  .value = kInputReport,
+                                                  .index = reports_.interface},
+                                                 report, kAnswerTime);
   if (answer.ok()) return hear(std::span(report).first(std::min(answer.bytes, report.size())));
-  if (answer.status == UsbStatus::kGone) (void)fails(answer.status);
+  if (answer.status == TransferStatus::kGone) (void)fails(answer.status);
   ++status_.lost;
   return false;
 }
@@ -103,39 +104,28 @@ bool PedalLink::release() noexcept {
 }
 
 void PedalLink::search() noexcept {
-  const std::vector<UsbDevice> devices = transport_.devices();
-  status_.phase = LinkPhase::kAbsent;
-  for (const UsbDevice& device : devices) {
-    const KnownDevice* const known = find_known(device.id);
-    if (known == nullptr || known->driver != kPedal) continue;
-    // Of several interfaces the first has the pedals, others set them up.
-    const auto endpoint = std::find_if(device.endpoints.begin(), device.endpoints.end(),
-                                       [](const UsbEndpoint& e) { return e.interrupt && e.in(); });
-    if (endpoint == device.endpoints.end()) continue;
-    UsbOpened opened = transport_.open(device.path, endpoint->interface);
-    if (opened.status != UsbStatus::kOk) {
-      refused_ = opened.status;
-      status_.phase = LinkPhase::kRefused;
-      continue;  // there may be another one
-    }
-    connection_ = std::move(opened.connection);
-    reports_ = *endpoint;
-    format_ = format_of(device.id);
-    path_ = device.path;
-    misses_ = 0;
-    seen_released_ = false;
-    heard_ = transport_.now();
-    ++status_.opened;
-    status_.phase = LinkPhase::kLoading;
-    // A pedal that refuses is asked instead.
-    (void)connection_->control({.request_type = kOutToInterface,
-                                .request = kSetIdle,
-                                .value = static_cast<std::uint16_t>(kRepeatUnits << 8U),
-                                .index = reports_.interface},
-                               {}, kSetUpTime);
+  UsbFound found = open_first(transport_, kPedal, true);
+  if (!found.connection) {
+    refused_ = found.refused;
+    status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
+    transport_.await_arrival(kLookPause);
     return;
   }
-  transport_.sleep(kPedalPause);
+  connection_ = std::move(found.connection);
+  reports_ = found.endpoint;
+  format_ = format_of(found.device.id);
+  path_ = std::move(found.device.path);
+  misses_ = 0;
+  seen_released_ = false;
+  heard_ = transport_.now();
+  ++status_.opened;
+  status_.phase = LinkPhase::kLoading;
+  // A pedal that refuses is asked instead.
+  (void)connection_->control({.request_type = kOutToInterface,
+                              .request = kSetIdle,
+                              .value = static_cast<std::uint16_t>(kRepeatUnits << 8U),
+                              .index = reports_.interface},
+                             {}, kSetUpTime);
 }
 
 }  // namespace palpate

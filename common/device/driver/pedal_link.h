@@ -53,7 +53,7 @@ class PedalLink final : public DriverLink {
   UsbEndpoint reports_;
   PedalFormat format_ = PedalFormat::kKeyboard;
   std::string path_;
-  UsbStatus refused_ = UsbStatus::kOk;
+  TransferStatus refused_ = TransferStatus::kOk;
   bool seen_released_ = false;
   double heard_ = 0.0;  ///< [s] when it said something that made sense, or was opened
   int misses_ = 0;

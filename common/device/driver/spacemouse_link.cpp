@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "common/base/error.h"
-#include "common/device/driver/known_devices.h"
+#include "common/device/driver/usb_search.h"
 
 namespace palpate {
 namespace {
@@ -13,7 +14,6 @@ constexpr std::string_view kSpaceMouse = "spacemouse";
 constexpr std::string_view kAxisLetters = "xyzabc";
 constexpr double kReportTime = 0.010;       // [s] that one round waits for a report
 constexpr double kLightTime = 0.1;          // [s]
-constexpr double kLookPause = 0.1;          // [s] between two looks at the bus
 constexpr std::size_t kLongestReport = 64;  // [bytes]
 
 // HID: SET_REPORT of the output report 4, one byte.
@@ -53,7 +53,8 @@ SpaceMouseLink::~SpaceMouseLink() { close(); }
 std::string SpaceMouseLink::advice() const {
   if (status_.phase == LinkPhase::kAbsent) return "no SpaceMouse is plugged in";
   if (status_.phase != LinkPhase::kRefused) return {};
-  if (refused_ == UsbStatus::kBusy) return "another program, spacenavd perhaps, has the SpaceMouse; end it";
+  if (refused_ == TransferStatus::kBusy)
+    return "another program, spacenavd perhaps, has the SpaceMouse; end it";
   return "the SpaceMouse cannot be opened (" + std::string(name_of(refused_)) +
          "); `workbench doctor` prints the rule that gives access to it";
 }
@@ -66,10 +67,10 @@ bool SpaceMouseLink::round(const Vec3& /*force*/) noexcept {
     return false;
   }
   std::array<std::uint8_t, kLongestReport> report{};
-  const UsbResult got = connection_->read(reports_, report, kReportTime);
+  const TransferResult got = connection_->read(reports_, report, kReportTime);
   const double now = transport_.now();
-  if (got.status == UsbStatus::kGone ||
-      (!got.ok() && got.status != UsbStatus::kTimeout && ++misses_ >= kMostMisses)) {
+  if (got.status == TransferStatus::kGone ||
+      (!got.ok() && got.status != TransferStatus::kTimeout && ++misses_ >= kMostMisses)) {
     ++status_.faults;
     close();
     publish(now);
@@ -98,30 +99,20 @@ void SpaceMouseLink::publish(double now) noexcept {
 }
 
 void SpaceMouseLink::search() noexcept {
-  const std::vector<UsbDevice> devices = transport_.devices();
-  status_.phase = LinkPhase::kAbsent;
-  for (const UsbDevice& device : devices) {
-    const KnownDevice* const known = find_known(device.id);
-    if (known == nullptr || known->driver != kSpaceMouse) continue;
-    const auto endpoint = std::find_if(device.endpoints.begin(), device.endpoints.end(),
-                                       [](const UsbEndpoint& e) { return e.interrupt && e.in(); });
-    if (endpoint == device.endpoints.end()) continue;
-    UsbOpened opened = transport_.open(device.path, endpoint->interface);
-    if (opened.status != UsbStatus::kOk) {
-      refused_ = opened.status;
-      status_.phase = LinkPhase::kRefused;
-      continue;  // there may be another one
-    }
-    connection_ = std::move(opened.connection);
-    reports_ = *endpoint;
-    path_ = device.path;
-    misses_ = 0;
-    ++status_.opened;
-    status_.phase = LinkPhase::kReady;
-    light(true);
+  UsbFound found = open_first(transport_, kSpaceMouse, true);
+  if (!found.connection) {
+    refused_ = found.refused;
+    status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
+    transport_.await_arrival(kLookPause);
     return;
   }
-  transport_.sleep(kLookPause);
+  connection_ = std::move(found.connection);
+  reports_ = found.endpoint;
+  path_ = std::move(found.device.path);
+  misses_ = 0;
+  ++status_.opened;
+  status_.phase = LinkPhase::kReady;
+  light(true);
 }
 
 /// That it has none, or does not answer, is no fault.

@@ -54,7 +54,7 @@ class SpaceMouseLink final : public DriverLink {
   std::unique_ptr<UsbConnection> connection_;
   UsbEndpoint reports_;
   std::string path_;
-  UsbStatus refused_ = UsbStatus::kOk;
+  TransferStatus refused_ = TransferStatus::kOk;
   SpaceMouseState state_;
   double heard_ = 0.0;  ///< [s] when axes were reported last
   int misses_ = 0;

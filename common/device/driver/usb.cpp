@@ -1,6 +1,6 @@
 #include "common/device/driver/usb.h"
 
-#include <array>
+#include <string_view>
 
 namespace palpate {
 
@@ -13,12 +13,6 @@ std::string text_of(UsbId id) {
       text += kDigits[(number >> static_cast<unsigned>(shift)) & 15U];
   }
   return text;
-}
-
-std::string_view name_of(UsbStatus status) noexcept {
-  constexpr std::array<std::string_view, 7> kNames{"ok",     "timeout", "stall", "gone",
-                                                   "denied", "busy",    "failed"};
-  return kNames[static_cast<std::size_t>(status)];
 }
 
 }  // namespace palpate

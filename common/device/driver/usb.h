@@ -5,6 +5,7 @@
 /// several.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "common/device/driver/transfer.h"
 
 namespace palpate {
 
@@ -42,24 +45,6 @@ struct UsbDevice {
   std::vector<UsbEndpoint> endpoints;
 };
 
-enum class UsbStatus : std::uint8_t {
-  kOk,
-  kTimeout,  ///< nothing, or not all, within the time that was given
-  kStall,    ///< the device refused
-  kGone,     ///< it is no longer plugged in
-  kDenied,   ///< this user may not open it
-  kBusy,     ///< another program has it
-  kFailed    ///< anything else
-};
-[[nodiscard]] std::string_view name_of(UsbStatus status) noexcept;  ///< "timeout"
-
-struct UsbResult {
-  UsbStatus status = UsbStatus::kOk;
-  std::size_t bytes = 0;  ///< moved, whatever the status
-
-  [[nodiscard]] bool ok() const noexcept { return status == UsbStatus::kOk; }
-};
-
 /// The set-up packet of a control transfer.
 struct UsbControl {
   std::uint8_t request_type = 0;
@@ -77,19 +62,20 @@ class UsbConnection {
   virtual ~UsbConnection() = default;
 
   /// With data to the device, or none.
-  virtual UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
-                            double seconds) noexcept = 0;
+  virtual TransferResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
+                                 double seconds) noexcept = 0;
   /// With data from the device; `setup` has bit 7 of its type set.
-  virtual UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept = 0;
+  virtual TransferResult ask(const UsbControl& setup, std::span<std::uint8_t> data,
+                             double seconds) noexcept = 0;
   /// One bulk or interrupt transfer.
-  virtual UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
-                          double seconds) noexcept = 0;
-  virtual UsbResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
-                         double seconds) noexcept = 0;
+  virtual TransferResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
+                               double seconds) noexcept = 0;
+  virtual TransferResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
+                              double seconds) noexcept = 0;
 };
 
 struct UsbOpened {
-  UsbStatus status = UsbStatus::kFailed;
+  TransferStatus status = TransferStatus::kFailed;
   std::unique_ptr<UsbConnection> connection;  ///< where the status is kOk
 };
 
@@ -106,10 +92,16 @@ class UsbTransport {
   /// has it, and claims it.
   [[nodiscard]] virtual UsbOpened open(const std::string& path, int interface) = 0;
   /// Whether this user may open it; claims nothing, so that a program that has it goes on undisturbed.
-  [[nodiscard]] virtual UsbStatus access(const std::string& path) = 0;
+  [[nodiscard]] virtual TransferStatus access(const std::string& path) = 0;
   /// [s] of a clock that only goes forward: CLOCK_MONOTONIC but in tests.
   [[nodiscard]] virtual double now() const noexcept = 0;
   virtual void sleep(double seconds) noexcept = 0;
+  /// Waits for up to `seconds` for something to be plugged in. A bus that cannot tell of that is to be looked
+  /// at again soon.
+  virtual void await_arrival(double seconds) noexcept {
+    constexpr double kSoon = 0.1;  // [s]
+    sleep(std::min(seconds, kSoon));
+  }
 };
 
 }  // namespace palpate

@@ -139,6 +139,23 @@ TEST_F(WorkbenchFileTest, NamesTheDeadManSwitch) {
   }
 }
 
+TEST_F(WorkbenchFileTest, SaysWhichStationOfATrackerIsWhere) {
+  write("[interaction]\n");
+  EXPECT_EQ(read_workbench(path_).interaction.stylus_station, 1);
+  EXPECT_EQ(read_workbench(path_).interaction.hand_station, InteractionGeometry::kNoStation);
+  write("[interaction]\nstylus_station = 3\nhand_station = 1\nhead_station = 16\n");
+  const InteractionGeometry read = read_workbench(path_).interaction;
+  EXPECT_EQ(read.stylus_station, 3);
+  EXPECT_EQ(read.hand_station, 1);
+  EXPECT_EQ(read.head_station, 16);
+  const std::string twice = refusal("[interaction]\n\nhead_station = 1\n");
+  EXPECT_NE(twice.find("line 3"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("stylus_station"), std::string::npos) << twice;
+  for (const char* wrong : {"hand_station = 0", "hand_station = 17", "hand_station = 1.5"}) {
+    EXPECT_NE(refusal("[interaction]\n" + std::string(wrong) + "\n").find("1 to 16"), std::string::npos);
+  }
+}
+
 TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
   write("[screen]\nlower_left = [0, 0, 0]\nlower_right = [1, 0, 0]\nupper_left = [0, 0.5, 0]\n");
   ASSERT_EQ(read_workbench(path_).screens.size(), 1U);

@@ -27,6 +27,7 @@ class ScriptedLink final : public DriverLink {
     told_ = force;
     ++rounds_;
     atoms_ = said_;
+    poses_ = said_poses_;
     return speaks_;
   }
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
@@ -34,10 +35,16 @@ class ScriptedLink final : public DriverLink {
   [[nodiscard]] std::string advice() const override { return "move it"; }
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
   [[nodiscard]] std::string place() const override { return "here"; }
+  [[nodiscard]] const PoseAtoms* poses() const noexcept override { return tracks_ ? &poses_ : nullptr; }
 
   void say(const DeviceAtoms& atoms) {
     const std::lock_guard lock(mutex_);
     said_ = atoms;
+    speaks_ = true;
+  }
+  void show(const PoseAtom& pose) {
+    const std::lock_guard lock(mutex_);
+    said_poses_.stations[pose.station - 1U] = pose;
     speaks_ = true;
   }
   [[nodiscard]] Vec3 told() const {
@@ -49,6 +56,7 @@ class ScriptedLink final : public DriverLink {
     return rounds_;
   }
   DeviceLimits limits_;
+  bool tracks_ = false;
 
  private:
   mutable std::mutex mutex_;
@@ -56,6 +64,7 @@ class ScriptedLink final : public DriverLink {
   std::uint64_t rounds_ = 0;
   bool speaks_ = false;
   DeviceAtoms said_, atoms_;
+  PoseAtoms said_poses_, poses_;
   LinkStatus status_;
 };
 
@@ -94,6 +103,36 @@ TEST_F(LinkedDeviceTest, GivesTheNewestSampleAndKeepsItForAWhile) {
   EXPECT_EQ(sample.time, time);
   EXPECT_FALSE(device.read(time + 1.1 * LinkedDevice::kKept, sample));
   EXPECT_EQ(device.advice(), "move it");
+}
+
+TEST_F(LinkedDeviceTest, GivesTheNewestPosesEachForAWhile) {
+  EXPECT_FALSE(LinkedDevice(link_).tracks());
+  link_->tracks_ = true;
+  LinkedDevice device(link_);
+  EXPECT_TRUE(device.tracks());
+  PoseAtoms poses;
+  device.read_poses(now(), poses);
+  EXPECT_FALSE(poses.stations[2].valid);
+  const double late = now() - 0.9 * LinkedDevice::kPosesKept, time = late + 0.5 * LinkedDevice::kPosesKept;
+  const PoseAtom third{.time = time,
+                       .position = {1.0, 2.0, 3.0},
+                       .orientation = {0.6, 0.0, 0.8, 0.0},
+                       .buttons = 1,
+                       .station = 3,
+                       .valid = true};
+  link_->show({.time = late, .buttons = 2, .station = 1, .valid = true});
+  link_->show(third);
+  ASSERT_TRUE(comes([&] {
+    device.read_poses(time, poses);
+    return poses.stations[2].valid;
+  }));
+  EXPECT_EQ(poses.stations[2], third);
+  EXPECT_TRUE(poses.stations[0].valid);
+  // One station has fallen silent, the other has not: what it was is still known, its button is up.
+  device.read_poses(late + 1.05 * LinkedDevice::kPosesKept, poses);
+  EXPECT_FALSE(poses.stations[0].valid);
+  EXPECT_EQ(poses.stations[0].buttons, 0U);
+  EXPECT_EQ(poses.stations[2], third);
 }
 
 TEST_F(LinkedDeviceTest, PassesForcesOnWhileTheyAreRenewed) {

@@ -24,55 +24,57 @@ class FakeUsb::Connection final : public UsbConnection {
     device_->closed(bus_.now());
   }
 
-  UsbResult control(const UsbControl& setup, std::span<const std::uint8_t> data, double) noexcept override {
-    if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
-    if (bus_.happens(bus_.faults_.stall)) return {UsbStatus::kStall, 0};
+  TransferResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
+                         double) noexcept override {
+    if (bus_.transfer(path_, device_) == nullptr) return {TransferStatus::kGone, 0};
+    if (bus_.happens(bus_.faults_.stall)) return {TransferStatus::kStall, 0};
     return {device_->control(bus_.now(), setup, data), data.size()};
   }
 
-  UsbResult ask(const UsbControl& setup, std::span<std::uint8_t> data, double seconds) noexcept override {
-    if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
-    if (bus_.happens(bus_.faults_.stall)) return {UsbStatus::kStall, 0};
+  TransferResult ask(const UsbControl& setup, std::span<std::uint8_t> data,
+                     double seconds) noexcept override {
+    if (bus_.transfer(path_, device_) == nullptr) return {TransferStatus::kGone, 0};
+    if (bus_.happens(bus_.faults_.stall)) return {TransferStatus::kStall, 0};
     if (bus_.happens(bus_.faults_.lost_read)) {
       bus_.sleep(seconds);
-      return {UsbStatus::kTimeout, 0};
+      return {TransferStatus::kTimeout, 0};
     }
     const std::size_t bytes = device_->answer(bus_.now(), setup, data);
-    if (bytes == 0) return {UsbStatus::kStall, 0};
+    if (bytes == 0) return {TransferStatus::kStall, 0};
     bus_.spoil(data.first(bytes));
-    return {UsbStatus::kOk, bytes};
+    return {TransferStatus::kOk, bytes};
   }
 
-  UsbResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
-                  double seconds) noexcept override {
-    if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
-    if (bus_.happens(bus_.faults_.stall)) return {UsbStatus::kStall, 0};
+  TransferResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
+                       double seconds) noexcept override {
+    if (bus_.transfer(path_, device_) == nullptr) return {TransferStatus::kGone, 0};
+    if (bus_.happens(bus_.faults_.stall)) return {TransferStatus::kStall, 0};
     if (bus_.happens(bus_.faults_.timeout)) {
       bus_.sleep(seconds);
-      return {UsbStatus::kTimeout, 0};
+      return {TransferStatus::kTimeout, 0};
     }
-    if (bus_.happens(bus_.faults_.lost_write)) return {UsbStatus::kOk, data.size()};
+    if (bus_.happens(bus_.faults_.lost_write)) return {TransferStatus::kOk, data.size()};
     const bool cut = bus_.happens(bus_.faults_.short_write);
     const auto sent = data.first(cut ? data.size() / 2 : data.size());
     device_->write(bus_.now(), endpoint.address, sent);
-    return {UsbStatus::kOk, sent.size()};
+    return {TransferStatus::kOk, sent.size()};
   }
 
-  UsbResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
-                 double seconds) noexcept override {
-    if (bus_.happens(bus_.faults_.stall)) return {UsbStatus::kStall, 0};
+  TransferResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
+                      double seconds) noexcept override {
+    if (bus_.happens(bus_.faults_.stall)) return {TransferStatus::kStall, 0};
     if (bus_.happens(bus_.faults_.late_read)) bus_.sleep(bus_.faults_.lateness);
     const double until = bus_.now() + seconds;
     for (;;) {
-      if (bus_.transfer(path_, device_) == nullptr) return {UsbStatus::kGone, 0};
+      if (bus_.transfer(path_, device_) == nullptr) return {TransferStatus::kGone, 0};
       std::size_t bytes = device_->read(bus_.now(), endpoint.address, data);
       if (bytes > 0 && bus_.happens(bus_.faults_.lost_read)) bytes = 0;
       if (bytes > 0) {
         bus_.spoil(data.first(bytes));
         if (bus_.happens(bus_.faults_.short_read)) bytes /= 2;
-        return {UsbStatus::kOk, bytes};
+        return {TransferStatus::kOk, bytes};
       }
-      if (bus_.now() >= until) return {UsbStatus::kTimeout, 0};
+      if (bus_.now() >= until) return {TransferStatus::kTimeout, 0};
       bus_.sleep(std::min(kTick, std::max(until - bus_.now(), 1e-6)));
     }
   }
@@ -111,13 +113,13 @@ std::vector<UsbDevice> FakeUsb::devices() {
 
 UsbOpened FakeUsb::open(const std::string& path, int /*interface*/) {
   const auto found = devices_.find(path);
-  if (found == devices_.end()) return {UsbStatus::kGone, nullptr};
-  if (refused_ != UsbStatus::kOk) return {refused_, nullptr};
-  return {UsbStatus::kOk, std::make_unique<Connection>(*this, path, found->second)};
+  if (found == devices_.end()) return {TransferStatus::kGone, nullptr};
+  if (refused_ != TransferStatus::kOk) return {refused_, nullptr};
+  return {TransferStatus::kOk, std::make_unique<Connection>(*this, path, found->second)};
 }
 
-UsbStatus FakeUsb::access(const std::string& path) {
-  return devices_.count(path) > 0 ? refused_ : UsbStatus::kGone;
+TransferStatus FakeUsb::access(const std::string& path) {
+  return devices_.count(path) > 0 ? refused_ : TransferStatus::kGone;
 }
 
 double FakeUsb::now() const noexcept {

@@ -21,7 +21,7 @@ class FakeDevice {
   [[nodiscard]] virtual UsbDevice description() const = 0;
   virtual void opened(double /*now*/) {}
   virtual void closed(double /*now*/) {}
-  virtual UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) = 0;
+  virtual TransferStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) = 0;
   /// A control transfer with data to the host; 0: it stalls.
   virtual std::size_t answer(double /*now*/, const UsbControl& /*setup*/, std::span<std::uint8_t> /*data*/) {
     return 0;
@@ -55,7 +55,7 @@ class FakeUsb final : public UsbTransport {
   }
   /// Every transfer ends with kGone from now on.
   void unplug(const std::string& path) { devices_.erase(path); }
-  void refuse(UsbStatus status) { refused_ = status; }  ///< to open anything; kOk: no longer
+  void refuse(TransferStatus status) { refused_ = status; }  ///< to open anything; kOk: no longer
   void set_faults(const CableFaults& faults) {
     faults_ = faults;
     random_.seed(faults.seed);
@@ -67,7 +67,7 @@ class FakeUsb final : public UsbTransport {
 
   std::vector<UsbDevice> devices() override;
   UsbOpened open(const std::string& path, int interface) override;
-  UsbStatus access(const std::string& path) override;
+  TransferStatus access(const std::string& path) override;
   [[nodiscard]] double now() const noexcept override;
   void sleep(double seconds) noexcept override;
 
@@ -82,7 +82,7 @@ class FakeUsb final : public UsbTransport {
   Clock clock_;
   double now_ = 0.0;
   std::map<std::string, std::shared_ptr<FakeDevice>> devices_;
-  UsbStatus refused_ = UsbStatus::kOk;
+  TransferStatus refused_ = TransferStatus::kOk;
   CableFaults faults_;
   std::mt19937_64 random_{1};
   std::uint64_t transfers_ = 0;

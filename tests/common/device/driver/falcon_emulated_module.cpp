@@ -21,7 +21,7 @@ class WanderingFalcon final : public FakeDevice {
   explicit WanderingFalcon(const EmulatedFalcon& settings) : falcon_(settings) {}
 
   [[nodiscard]] UsbDevice description() const override { return falcon_.description(); }
-  UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override {
+  TransferStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override {
     return falcon_.control(local(now), setup, data);
   }
   void write(double now, std::uint8_t endpoint, std::span<const std::uint8_t> data) override {

@@ -163,15 +163,15 @@ double FalconEmulator::byte_time() const {
   return 10.0 / baud;
 }
 
-UsbStatus FalconEmulator::control(double now, const UsbControl& setup, std::span<const std::uint8_t>) {
+TransferStatus FalconEmulator::control(double now, const UsbControl& setup, std::span<const std::uint8_t>) {
   advance(now);
-  if (setup.request_type != 0x40) return UsbStatus::kStall;
+  if (setup.request_type != 0x40) return TransferStatus::kStall;
   controls_.emplace_back(setup.request, setup.value);
   switch (setup.request) {
     case 0x00:
       if (setup.value != 2) to_host_.clear();
       if (setup.value != 1) to_device_.clear();
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     case 0x01:
       if ((setup.value & 0x0100) != 0) {
         const bool high = (setup.value & 0x01) != 0;
@@ -179,19 +179,19 @@ UsbStatus FalconEmulator::control(double now, const UsbControl& setup, std::span
         dtr_ = high;
       }
       if ((setup.value & 0x0200) != 0) rts_ = (setup.value & 0x02) != 0;
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     case 0x03:
       divisor_ = setup.value;
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     case 0x09:
       latency_ = setup.value;
       next_flush_ = now + 1e-3 * latency_;
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     case 0x02:
     case 0x04:
-      return UsbStatus::kOk;
+      return TransferStatus::kOk;
     default:
-      return UsbStatus::kStall;
+      return TransferStatus::kStall;
   }
 }
 

@@ -72,7 +72,7 @@ class FalconEmulator final : public FakeDevice {
   [[nodiscard]] const std::vector<std::pair<int, int>>& controls() const { return controls_; }
 
   UsbDevice description() const override;
-  UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
+  TransferStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
   void write(double now, std::uint8_t endpoint, std::span<const std::uint8_t> data) override;
   std::size_t read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) override;
 

@@ -254,15 +254,15 @@ TEST_F(FalconLinkTest, NoticesWithinATenthOfASecondThatItIsUnplugged) {
 }
 
 TEST_F(FalconLinkTest, SaysWhyItCannotBeOpened) {
-  bus_.refuse(UsbStatus::kDenied);
+  bus_.refuse(TransferStatus::kDenied);
   plug({.loaded = true, .homed = true});
   run(0.1);
   EXPECT_EQ(link_->status().phase, LinkPhase::kRefused);
   EXPECT_NE(link_->advice().find("denied"), std::string::npos);
-  bus_.refuse(UsbStatus::kBusy);
+  bus_.refuse(TransferStatus::kBusy);
   run(1.0);
   EXPECT_NE(link_->advice().find("another program"), std::string::npos);
-  bus_.refuse(UsbStatus::kOk);
+  bus_.refuse(TransferStatus::kOk);
   EXPECT_TRUE(run_until(LinkPhase::kReady, 2.0));
 }
 

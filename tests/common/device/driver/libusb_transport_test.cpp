@@ -185,9 +185,9 @@ class UsbfsDevice {
         umockdev_ioctl_data_update(urb.buffer, 8, said.data(), static_cast<gint>(bytes));
         return finish(urb, 0, static_cast<int>(bytes));
       }
-      const UsbStatus status =
+      const TransferStatus status =
           device_.control(local(), asking, std::span<const std::uint8_t>(setup + 8, length - 8));
-      return finish(urb, status == UsbStatus::kOk ? 0 : -EPIPE, static_cast<int>(length - 8));
+      return finish(urb, status == TransferStatus::kOk ? 0 : -EPIPE, static_cast<int>(length - 8));
     }
     if ((asked.endpoint & 0x80U) == 0) {
       device_.write(local(), asked.endpoint, {urb.buffer->data, length});
@@ -268,28 +268,28 @@ TEST_F(LibusbTransport, FindsTheDeviceWithItsEndpoints) {
   EXPECT_TRUE(devices[0].endpoints[0].in());
   EXPECT_EQ(devices[0].endpoints[1].packet, 64);
   EXPECT_FALSE(devices[0].endpoints[1].interrupt);
-  EXPECT_EQ(bus_->access("1-2"), UsbStatus::kOk);
-  EXPECT_EQ(bus_->access("9-9"), UsbStatus::kGone);
-  EXPECT_EQ(bus_->open("9-9", 0).status, UsbStatus::kGone);
+  EXPECT_EQ(bus_->access("1-2"), TransferStatus::kOk);
+  EXPECT_EQ(bus_->access("9-9"), TransferStatus::kGone);
+  EXPECT_EQ(bus_->open("9-9", 0).status, TransferStatus::kGone);
 }
 
 TEST_F(LibusbTransport, MovesDataBothWaysAndSaysWhatWentWrong) {
   constexpr UsbEndpoint kOut{.address = 0x02, .packet = 64}, kIn{.address = 0x81, .packet = 64};
   UsbOpened opened = bus_->open("1-2", 0);
-  ASSERT_EQ(opened.status, UsbStatus::kOk);
+  ASSERT_EQ(opened.status, TransferStatus::kOk);
   EXPECT_EQ(usbfs_->claims(), 1);
   UsbConnection& falcon = *opened.connection;
   EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x09, .value = 1}, {}, 1.0).ok());
   EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x03, .value = 2}, {}, 1.0).ok());
-  EXPECT_EQ(falcon.control({.request_type = 0x40, .request = 0x77}, {}, 1.0).status, UsbStatus::kStall);
+  EXPECT_EQ(falcon.control({.request_type = 0x40, .request = 0x77}, {}, 1.0).status, TransferStatus::kStall);
   const FalconPacket packet = encode({});
-  const UsbResult sent = falcon.write(kOut, packet, 1.0);
+  const TransferResult sent = falcon.write(kOut, packet, 1.0);
   EXPECT_TRUE(sent.ok());
   EXPECT_EQ(sent.bytes, packet.size());
   std::array<std::uint8_t, 64> data{};
   std::size_t bytes = 0;
   for (int n = 0; n < 100 && bytes <= 2; ++n) {
-    const UsbResult got = falcon.read(kIn, data, 1.0);
+    const TransferResult got = falcon.read(kIn, data, 1.0);
     ASSERT_TRUE(got.ok());
     bytes = got.bytes;
   }
@@ -298,9 +298,9 @@ TEST_F(LibusbTransport, MovesDataBothWaysAndSaysWhatWentWrong) {
 
   // Nothing comes at the longest latency within a millisecond.
   EXPECT_TRUE(falcon.control({.request_type = 0x40, .request = 0x09, .value = 255}, {}, 1.0).ok());
-  EXPECT_EQ(falcon.read(kIn, data, 0.001).status, UsbStatus::kTimeout);
+  EXPECT_EQ(falcon.read(kIn, data, 0.001).status, TransferStatus::kTimeout);
   usbfs_->stall(true);
-  EXPECT_EQ(falcon.write(kOut, packet, 1.0).status, UsbStatus::kStall);
+  EXPECT_EQ(falcon.write(kOut, packet, 1.0).status, TransferStatus::kStall);
   usbfs_->stall(false);
   EXPECT_TRUE(falcon.write(kOut, packet, 1.0).ok());
   opened.connection.reset();

@@ -29,13 +29,14 @@ std::vector<std::uint8_t> PedalEmulator::report() const {
   return keys;
 }
 
-UsbStatus PedalEmulator::control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) {
+TransferStatus PedalEmulator::control(double now, const UsbControl& setup,
+                                      std::span<const std::uint8_t> data) {
   const bool is_idle = setup.request_type == 0x21 && setup.request == 0x0A && setup.value % 256 == 0 &&
                        setup.index == 0 && data.empty();
-  if (!is_idle || !settings_.repeats) return UsbStatus::kStall;
+  if (!is_idle || !settings_.repeats) return TransferStatus::kStall;
   idle_ = 0.004 * (setup.value / 256);
   next_ = now;
-  return UsbStatus::kOk;
+  return TransferStatus::kOk;
 }
 
 std::size_t PedalEmulator::answer(double /*now*/, const UsbControl& setup, std::span<std::uint8_t> data) {

@@ -34,7 +34,7 @@ class PedalEmulator final : public FakeDevice {
   [[nodiscard]] int asked() const { return asked_; }
 
   UsbDevice description() const override;
-  UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
+  TransferStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
   std::size_t answer(double now, const UsbControl& setup, std::span<std::uint8_t> data) override;
   void write(double, std::uint8_t, std::span<const std::uint8_t>) override {}
   std::size_t read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) override;

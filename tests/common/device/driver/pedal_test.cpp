@@ -209,12 +209,12 @@ TEST_F(PedalLinkTest, IsFoundAgainAndSaysWhoHasIt) {
   EXPECT_LT(bus_.now() - pulled, 0.1);
   EXPECT_EQ(bus_.open_connections(), 0);
   EXPECT_EQ(link_->place(), "");
-  bus_.refuse(UsbStatus::kBusy);
+  bus_.refuse(TransferStatus::kBusy);
   bus_.plug("1-5", pedal_);
   run(0.3);
   EXPECT_EQ(link_->status().phase, LinkPhase::kRefused);
   EXPECT_NE(link_->advice().find("another program"), std::string::npos);
-  bus_.refuse(UsbStatus::kOk);
+  bus_.refuse(TransferStatus::kOk);
   run(0.3);
   EXPECT_EQ(link_->status().phase, LinkPhase::kReady);
   EXPECT_EQ(link_->place(), "usb 1-5");

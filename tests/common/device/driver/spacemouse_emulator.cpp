@@ -12,15 +12,16 @@ UsbDevice SpaceMouseEmulator::description() const {
                         {.interface = 0, .address = 0x83, .packet = 16, .interrupt = true}}};
 }
 
-UsbStatus SpaceMouseEmulator::control(double, const UsbControl& setup, std::span<const std::uint8_t> data) {
+TransferStatus SpaceMouseEmulator::control(double, const UsbControl& setup,
+                                           std::span<const std::uint8_t> data) {
   const bool is_light = setup.request_type == 0x21 && setup.request == 0x09 && setup.value == 0x0204 &&
                         setup.index == 0 && data.size() == 2 && data[0] == 4;
   if (!is_light) {
     ++bad_controls_;
-    return UsbStatus::kStall;
+    return TransferStatus::kStall;
   }
   light_ = data[1];
-  return UsbStatus::kOk;
+  return TransferStatus::kOk;
 }
 
 std::size_t SpaceMouseEmulator::read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) {

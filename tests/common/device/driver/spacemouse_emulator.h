@@ -33,7 +33,7 @@ class SpaceMouseEmulator final : public FakeDevice {
   [[nodiscard]] int bad_controls() const { return bad_controls_; }
 
   UsbDevice description() const override;
-  UsbStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
+  TransferStatus control(double now, const UsbControl& setup, std::span<const std::uint8_t> data) override;
   void write(double, std::uint8_t, std::span<const std::uint8_t>) override {}
   std::size_t read(double now, std::uint8_t endpoint, std::span<std::uint8_t> data) override;
 

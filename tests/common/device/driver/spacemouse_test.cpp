@@ -161,11 +161,11 @@ TEST_F(SpaceMouseLinkTest, IgnoresStrangeReportsAndOtherDevices) {
 }
 
 TEST_F(SpaceMouseLinkTest, SaysThatAnotherProgramHasIt) {
-  bus_.refuse(UsbStatus::kBusy);
+  bus_.refuse(TransferStatus::kBusy);
   plug();
   EXPECT_EQ(link_->status().phase, LinkPhase::kRefused);
   EXPECT_NE(link_->advice().find("spacenavd"), std::string::npos);
-  bus_.refuse(UsbStatus::kOk);
+  bus_.refuse(TransferStatus::kOk);
   run(0.2);
   EXPECT_EQ(link_->status().phase, LinkPhase::kReady);
 }

@@ -1,0 +1,33 @@
+#include "common/device/driver/usb_search.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "common/device/driver/known_devices.h"
+
+namespace palpate {
+
+UsbFound open_first(UsbTransport& transport, std::string_view driver, bool interrupt) {
+  UsbFound found;
+  for (UsbDevice& device : transport.devices()) {
+    const KnownDevice* const known = find_known(device.id);
+    if (known == nullptr || known->driver != driver) continue;
+    const auto endpoint =
+        std::find_if(device.endpoints.begin(), device.endpoints.end(),
+                     [interrupt](const UsbEndpoint& e) { return e.interrupt == interrupt && e.in(); });
+    if (endpoint == device.endpoints.end()) continue;
+    UsbOpened opened = transport.open(device.path, endpoint->interface);
+    if (opened.status != TransferStatus::kOk) {
+      found.refused = opened.status;
+      continue;
+    }
+    found.connection = std::move(opened.connection);
+    found.endpoint = *endpoint;
+    found.device = std::move(device);
+    break;
+  }
+  return found;
+}
+
+}  // namespace palpate
