@@ -1,31 +1,13 @@
 #include "common/device/tracked_hands.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 
 #include "common/base/csv_reader.h"
-#include "common/base/text.h"
 
 namespace palpate {
-namespace {
-
-/// A pose from seven numbers; none where they are not all there.
-std::optional<TrackerPose> pose_at(const CsvReader& table, const double* v) {
-  for (int i = 0; i < 7; ++i) {
-    if (std::isnan(v[i])) return std::nullopt;
-  }
-  const Quat q{v[3], v[4], v[5], v[6]};
-  const double length = glm::length(q);
-  constexpr double kSlack = 1e-3;
-  if (!(std::abs(length - 1.0) <= kSlack))
-    table.refuse("a quaternion of length " + short_number(length), "1");
-  const Vec3 position{v[0], v[1], v[2]};
-  if (!is_finite(position)) table.refuse("a place that is not finite", "metres");
-  return TrackerPose{position, q / length};
-}
-
-}  // namespace
 
 bool ReplayHands::read(double now, TrackedHands& hands) {
   if (hands_.empty()) return false;
@@ -42,20 +24,30 @@ bool ReplayHands::read(double now, TrackedHands& hands) {
 
 std::vector<TrackedHands> read_hands(const std::string& file) {
   constexpr std::array<std::string_view, 8> kRequired{"t", "x", "y", "z", "qw", "qx", "qy", "qz"};
-  constexpr std::array<std::string_view, 10> kOptional{"b0",  "b1",  "hx",  "hy",  "hz",
-                                                       "hqw", "hqx", "hqy", "hqz", "h0"};
+  constexpr std::array<std::string_view, 17> kOptional{
+      "b0", "b1",    "hx",    "hy",    "hz",     "hqw",    "hqx",    "hqy",   "hqz",
+      "h0", "headx", "heady", "headz", "headqw", "headqx", "headqy", "headqz"};
   CsvReader table(file, kRequired, kOptional,
-                  "tracked hands with the header t,x,y,z,qw,qx,qy,qz, then b0, b1, hx,hy,hz,hqw,hqx,hqy,hqz "
-                  "and h0 where there are such");
+                  "tracked hands with the header t,x,y,z,qw,qx,qy,qz, then b0, b1, hx,hy,hz,hqw,hqx,hqy,hqz, "
+                  "h0 and headx,heady,headz,headqw,headqx,headqy,headqz where there are such");
   const auto down = [](double button) { return !std::isnan(button) && button != 0.0; };
   std::vector<TrackedHands> hands;
   for (std::array<double, kRequired.size() + kOptional.size()> row{}; table.next(row);) {
     if (!std::isfinite(row[0]) || (!hands.empty() && !(row[0] > hands.back().time)))
       table.refuse("a time that does not rise", "seconds, later than those of the row before");
-    hands.push_back({row[0], pose_at(table, &row[1]), pose_at(table, &row[10]), down(row[8]), down(row[9]),
-                     down(row[17])});
+    hands.push_back({row[0], pose_of_row(table, &row[1]), pose_of_row(table, &row[10]), down(row[8]),
+                     down(row[9]), down(row[17]), pose_of_row(table, &row[18])});
   }
   return hands;
+}
+
+std::vector<PoseSample> heads_of(const std::vector<TrackedHands>& hands) {
+  const bool any = std::any_of(hands.begin(), hands.end(), [](const TrackedHands& h) { return h.head; });
+  std::vector<PoseSample> heads;
+  for (const TrackedHands& h : hands) {
+    if (any) heads.push_back({h.time, h.head});
+  }
+  return heads;
 }
 
 }  // namespace palpate

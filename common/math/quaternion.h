@@ -33,6 +33,15 @@ inline constexpr double kDegree = 0.017453292519943295;  ///< [rad]
   return 2.0 * std::atan2(glm::length(Vec3{q.x, q.y, q.z}), std::abs(q.w));
 }
 
+/// The rotation vector of `q`, no longer than pi [rad]: what rotation_by() turns into q or -q.
+[[nodiscard]] inline Vec3 rotation_vector(const Quat& q) noexcept {
+  const Vec3 v = q.w < 0.0 ? Vec3{-q.x, -q.y, -q.z} : Vec3{q.x, q.y, q.z};
+  const double sine = glm::length(v);
+  // 2 asin(s) / s is 2 to rounding below that sine.
+  constexpr double kSmall = 1e-8;
+  return sine < kSmall ? 2.0 * v : 2.0 * std::atan2(sine, std::abs(q.w)) / sine * v;
+}
+
 /// The vector part of the one of q and -q whose scalar part is not negative: sin(angle / 2) times the axis.
 [[nodiscard]] inline Vec3 short_vector_part(const Quat& q) noexcept {
   return q.w < 0.0 ? Vec3{-q.x, -q.y, -q.z} : Vec3{q.x, q.y, q.z};
