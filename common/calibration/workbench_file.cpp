@@ -90,6 +90,10 @@ class Section {
     if (!value || !std::isfinite(*value)) refuse(path_, line_of(at(key)), "no number", "a finite number");
     return *value;
   }
+  /// Empty where it is no text.
+  [[nodiscard]] std::string word(const char* key) const {
+    return at(key).value_exact<std::string>().value_or("");
+  }
   [[nodiscard]] const toml::array& array(const char* key) const {
     const toml::array* array = at(key).as_array();
     if (!array) refuse(path_, line_of(at(key)), "no list", "a list in brackets");
@@ -126,7 +130,22 @@ class Section {
   const std::filesystem::path& path_;
 };
 
-InteractionGeometry interaction_of(const Section& s) {
+/// The plane of the first screen, or the one that is given.
+Vec4 surface_of(const Section& s, const std::vector<ScreenGeometry>& screens) {
+  if (s.at("surface").is_string()) {
+    if (s.word("surface") != "screen")
+      s.refuse_at("surface", "'" + s.word("surface") + "'", "\"screen\", or a plane [nx, ny, nz, d]");
+    if (screens.empty()) s.refuse_at("surface", "\"screen\" without a screen", "a [screen] with its corners");
+    const Vec3 n = axes(screens.front().corners)[2];
+    return {n, glm::dot(n, center(screens.front().corners))};
+  }
+  const auto x = s.numbers(s.at("surface"), 4);
+  const double length = glm::length(Vec3{x[0], x[1], x[2]});
+  if (!(length > 0.0)) s.refuse_at("surface", "a normal without length", "a plane [nx, ny, nz, d]");
+  return Vec4{x[0], x[1], x[2], x[3]} / length;
+}
+
+InteractionGeometry interaction_of(const Section& s, const std::vector<ScreenGeometry>& screens) {
   InteractionGeometry out;
   if (s.has("technique")) {
     const std::string technique = s.at("technique").value<std::string>().value_or("");
@@ -170,6 +189,54 @@ InteractionGeometry interaction_of(const Section& s) {
       s.refuse_at("enabling_device", "'" + out.enabling_device + "'",
                   "the name of a driver, with a button that is not \"none\"");
   }
+  if (s.has("tip_offset")) out.tip_offset = s.vector("tip_offset");
+  if (s.has("surface")) out.surface = surface_of(s, screens);
+  return out;
+}
+
+/// Seconds, from 0 or above it to HeadGeometry::kLongest.
+double seconds_of(const Section& s, const char* key, bool may_be_zero) {
+  const double value = s.number(key);
+  if (!(value >= 0.0 && value <= HeadGeometry::kLongest && (may_be_zero || value > 0.0)))
+    s.refuse_at(key, short_number(value),
+                std::string("seconds ") + (may_be_zero ? "from 0" : "above 0, up") + " to " +
+                    short_number(HeadGeometry::kLongest));
+  return value;
+}
+
+HeadGeometry head_of(const Section& s) {
+  HeadGeometry out;
+  if (s.has("source")) {
+    out.source = s.word("source");
+    if (out.source.empty())
+      s.refuse_at("source", "no word", "\"hands\", \"replay:FILE.csv\" or the name of a driver");
+  }
+  if (s.has("resting_eye")) out.resting_eye = s.vector("resting_eye");
+  if (s.has("sensor_latency")) out.sensor_latency = seconds_of(s, "sensor_latency", true);
+  if (s.has("display_latency")) out.display_latency = seconds_of(s, "display_latency", true);
+  if (s.has("latency")) out.latency = seconds_of(s, "latency", true);
+  if (s.has("predict")) {
+    const auto said = s.at("predict").value_exact<bool>();
+    if (!said) s.refuse_at("predict", "another value", "true or false");
+    out.predict = *said;
+  }
+  if (s.has("velocity_window")) out.velocity_window = seconds_of(s, "velocity_window", false);
+  if (s.has("freeze")) out.freeze = seconds_of(s, "freeze", true);
+  if (s.has("glide")) out.glide = seconds_of(s, "glide", true);
+  return out;
+}
+
+/// Two whole numbers of a size that screens have.
+std::array<int, 2> pixel_pair(const Section& s, const char* key, double least) {
+  const auto given = s.numbers(s.at(key), 2);
+  constexpr double kMost = 65536.0;
+  std::array<int, 2> out{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!(given[i] >= least && given[i] <= kMost && given[i] == std::floor(given[i])))
+      s.refuse_at(key, short_number(given[i]) + " pixels",
+                  std::string("two whole numbers") + (least > 0.0 ? " above zero" : ""));
+    out[i] = static_cast<int>(given[i]);
+  }
   return out;
 }
 
@@ -178,15 +245,24 @@ ScreenGeometry screen_of(const Section& s) {
                      .name = {}};
   if (const std::string fault = fault_of(out.corners); !fault.empty())
     s.refuse_at("lower_left", fault, "three corners of a rectangle, in metres");
-  if (s.has("name")) out.name = s.at("name").value<std::string>().value_or("");
-  if (s.has("pixels")) {
-    const auto pixels = s.numbers(s.at("pixels"), 2);
-    constexpr double kMost = 65536.0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!(pixels[i] >= 1.0 && pixels[i] <= kMost && pixels[i] == std::floor(pixels[i])))
-        s.refuse_at("pixels", short_number(pixels[i]) + " pixels", "two whole numbers above zero");
-      out.pixels[i] = static_cast<int>(pixels[i]);
+  if (s.has("name")) {
+    out.name = s.word("name");
+    // It is part of file names, and 'all' means all of them.
+    if (out.name.empty() || out.name == "all" || out.name.find('/') != std::string::npos)
+      s.refuse_at("name", "'" + out.name + "'", "a word other than \"all\", without '/'");
+  }
+  if (s.has("pixels")) out.pixels = pixel_pair(s, "pixels", 1.0);
+  if (s.has("position")) out.position = pixel_pair(s, "position", -65536.0);
+  if (s.has("stereo")) {
+    const std::string mode = s.word("stereo");
+    const auto* const found = std::find(kStereoModeNames.begin(), kStereoModeNames.end(), mode);
+    if (found == kStereoModeNames.end()) {
+      std::string known;
+      for (const std::string_view name : kStereoModeNames)
+        known += (known.empty() ? "" : ", ") + std::string(name);
+      s.refuse_at("stereo", "'" + mode + "'", known);
     }
+    out.stereo = static_cast<StereoMode>(found - kStereoModeNames.begin());
   }
   return out;
 }
@@ -342,8 +418,16 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
     if (s.has("right")) out.eyes->right = s.vector("right");
   });
   const auto add_screen = [&](const toml::table& table) {
-    out.screens.push_back(screen_of(
-        Section(table, "screen", path, {"lower_left", "lower_right", "upper_left", "name", "pixels"})));
+    ScreenGeometry screen = screen_of(
+        Section(table, "screen", path,
+                {"lower_left", "lower_right", "upper_left", "name", "pixels", "position", "stereo"}));
+    const bool twice = std::any_of(out.screens.begin(), out.screens.end(), [&](const ScreenGeometry& other) {
+      return !screen.name.empty() && other.name == screen.name;
+    });
+    if (twice)
+      refuse(path, line_of(table), "a second screen with the name '" + screen.name + "'",
+             "names that differ");
+    out.screens.push_back(std::move(screen));
   };
   if (const toml::node* node = root.get("screen")) {
     const toml::array* several = node->as_array();
@@ -355,10 +439,14 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
       refuse(path, line_of(*node), "'screen' is no section", "[screen], or [[screen]] for each of several");
     }
   }
+  section("head",
+          {"source", "resting_eye", "sensor_latency", "display_latency", "latency", "predict",
+           "velocity_window", "freeze", "glide"},
+          [&](const Section& s) { out.head = head_of(s); });
   section("interaction",
           {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
-           "enabling_button", "enabling_device"},
-          [&](const Section& s) { out.interaction = interaction_of(s); });
+           "enabling_button", "enabling_device", "tip_offset", "surface"},
+          [&](const Section& s) { out.interaction = interaction_of(s, out.screens); });
   return out;
 }
 

@@ -28,7 +28,21 @@
 ///   [screen]           # or [[screen]] for each of several; written by hand
 ///   lower_left = [x, y, z]         # lower_right, upper_left: its corners in the tracker's frame
 ///   name = "front"                 # optional, for --screen
-///   pixels = [1920, 1080]          # optional
+///   pixels = [1920, 1080]          # optional: across and up; a window then shows the part that it covers
+///   position = [0, 0]              # optional: of its upper left pixel on the desktop; default [0, 0]
+///   stereo = "rows"                # optional: how it shows two eyes, as --stereo
+///
+///   [head]             # what follows the head before the screens; written by hand, as all below
+///   source = "hands"               # optional: as --head, "replay:FILE.csv" or the head of --device hands
+///   resting_eye = [x, y, z]        # optional: between the eyes while the tracker does not see the head, in
+///                                  # its frame; default: 0.6 m before the middle of the first screen
+///   sensor_latency = 0.004         # optional [s]: from a motion to the time that the tracker gives it
+///   display_latency = 0.008        # optional [s]: from a finished picture to its light
+///   latency = 0.05                 # optional [s]: from that time to that light; default: measured
+///   predict = true                 # optional: shows where the head will be then, not where it was
+///   velocity_window = 0.05         # optional [s]: pose_prediction.h
+///   freeze = 0.25                  # optional [s]: a head that is not seen stays where it was for so long,
+///   glide = 0.75                   # optional [s]: and then comes to resting_eye in so long
 ///
 ///   [interaction]      # how hands work with the data; written by hand, no calibration makes it
 ///   technique = "immersive"        # tracked hands; "desktop", the default: a mouse
@@ -40,6 +54,10 @@
 ///   head_station = 3               # optional: that of the head; none
 ///   enabling_button = 2            # optional: the dead-man switch of a device that shows force; "none"
 ///   enabling_device = "pedal"      # optional: the driver of another device that has this button
+///   tip_offset = [x, y, z]         # optional [m]: from the tip in the hand to its picture, in the tracker's
+///                                  # frame; of a device that is laid over the view: right, up, to the user
+///   surface = "screen"             # optional: the tip moves on the first screen alone, or on a plane n.x = d
+///                                  # of the tracker's frame, [nx, ny, nz, d]
 ///
 /// Other sections belong to others and are left alone.
 #pragma once
@@ -51,6 +69,7 @@
 #include <vector>
 
 #include "common/geometry/screen.h"
+#include "common/geometry/stereo_mode.h"
 #include "common/kinematics/dhh_chain.h"
 #include "common/kinematics/tracker_correction.h"
 
@@ -69,9 +88,24 @@ struct EyesGeometry {
 };
 /// A screen, and what it shows.
 struct ScreenGeometry {
-  Screen corners;                   ///< [m] in the tracker's frame
-  std::string name;                 ///< may be empty
-  std::array<int, 2> pixels{0, 0};  ///< across and up; 0: not known
+  Screen corners;                     ///< [m] in the tracker's frame
+  std::string name;                   ///< may be empty
+  std::array<int, 2> pixels{0, 0};    ///< across and up; 0: not known
+  std::array<int, 2> position{0, 0};  ///< of its upper left corner on the desktop [screen coordinates]
+  StereoMode stereo = StereoMode::kNone;
+};
+
+/// What follows the head, and how late it is. Seconds.
+struct HeadGeometry {
+  std::string source;               ///< as --head; empty: nothing
+  std::optional<Vec3> resting_eye;  ///< [m] in the tracker's frame
+  double sensor_latency = 0.0, display_latency = 0.0;
+  std::optional<double> latency;
+  bool predict = true;
+  double velocity_window = 0.05;
+  double freeze = 0.25, glide = 0.75;
+
+  static constexpr double kLongest = 10.0;  ///< of each of them
 };
 
 /// How hands work with the data: with x of the tracker, the probe is at m + gain R (x - middle) in the
@@ -83,6 +117,9 @@ struct InteractionGeometry {
   double gain = 1.0;
   std::optional<int> enabling_button;  ///< kNoButton, or below kButtons; nothing: not named
   std::string enabling_device;         ///< empty: the device itself
+  Vec3 tip_offset{0.0};                ///< [m] from the tip to its picture
+  /// The plane that the tip moves on alone: (n, d), n.x = d, |n| = 1, in the tracker's frame [m].
+  std::optional<Vec4> surface;
 
   static constexpr int kNoButton = -1, kButtons = 32;   ///< as of DeviceLimits
   static constexpr int kNoStation = 0, kStations = 16;  ///< as of PoseAtoms
@@ -99,6 +136,7 @@ struct WorkbenchGeometry {
   std::optional<Vec3> stylus;
   std::optional<EyesGeometry> eyes;
   std::vector<ScreenGeometry> screens;  ///< in the order of the file
+  HeadGeometry head;
   InteractionGeometry interaction;
 };
 

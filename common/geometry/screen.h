@@ -1,6 +1,7 @@
 /// A flat screen that pictures are shown on, by three of its corners, in any frame and unit.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -43,6 +44,18 @@ struct Screen {
   const Vec3 up = screen.upper_left - screen.lower_left;
   const Vec3 upright = glm::normalize(up - glm::dot(up, right) * right);
   return {right, upright, glm::cross(right, upright)};
+}
+
+/// The part that a picture of `width` x `height` pixels covers, whose upper left corner is `left` and `top`
+/// pixels from that of the screen. @param pixels across and up the whole of it, above 0.
+/// @pre fault_of() is empty.
+[[nodiscard]] inline Screen part_of(const Screen& screen, const std::array<int, 2>& pixels, double left,
+                                    double top, double width, double height) {
+  const Vec3 across = (screen.lower_right - screen.lower_left) / static_cast<double>(pixels[0]);
+  const Vec3 up = (screen.upper_left - screen.lower_left) / static_cast<double>(pixels[1]);
+  const Vec3 upper_left = screen.upper_left + left * across - top * up;
+  const Vec3 lower_left = upper_left - height * up;
+  return {lower_left, lower_left + width * across, upper_left};
 }
 
 }  // namespace palpate

@@ -14,27 +14,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
-#include <string_view>
 
+#include "common/geometry/stereo_mode.h"
 #include "common/math/vec.h"
 #include "common/render/camera.h"
 
 namespace palpate {
-
-/// How one picture shows two.
-enum class StereoMode : std::uint8_t {
-  kNone,          ///< one eye
-  kSideBySide,    ///< left eye left; halves with square pixels, not squeezed
-  kTopBottom,     ///< left eye on top; likewise
-  kRows,          ///< left eye in the first row, right eye in the second, ...
-  kColumns,       ///< likewise
-  kAnaglyph,      ///< red-cyan, in colour: Dubois 2009
-  kAnaglyphGrey,  ///< red-cyan, of luminances: free of rivalry between colours
-};
-inline constexpr std::array<std::string_view, 7> kStereoModeNames{
-    "none", "side-by-side", "top-bottom", "rows", "columns", "anaglyph", "anaglyph-grey"};
 
 struct StereoView {
   StereoMode mode = StereoMode::kNone;

@@ -183,6 +183,56 @@ TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
   names("a = 1\nscreen = 3\n", "line 2", "[screen]");
 }
 
+TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
+  const std::string screen =
+      "[screen]\nlower_left = [0, 0, 1]\nlower_right = [1, 0, 1]\nupper_left = [0, 1, 1]\n";
+  write(screen +
+        "pixels = [800, 800]\nposition = [-1920, 40]\nstereo = 'rows'\n[head]\nsource = 'hands'\n"
+        "resting_eye = [0.5, 0.6, 2]\nsensor_latency = 0.004\ndisplay_latency = 0.008\nlatency = 0.05\n"
+        "predict = false\nvelocity_window = 0.1\nfreeze = 0.5\nglide = 0\n"
+        "[interaction]\ntip_offset = [0, 0.05, 0]\nsurface = 'screen'\n");
+  const WorkbenchGeometry bench = read_workbench(path_);
+  EXPECT_EQ(bench.screens[0].position[0], -1920);
+  EXPECT_EQ(bench.screens[0].stereo, StereoMode::kRows);
+  EXPECT_EQ(bench.head.source, "hands");
+  EXPECT_EQ(bench.head.resting_eye, Vec3(0.5, 0.6, 2.0));
+  EXPECT_EQ(bench.head.sensor_latency, 0.004);
+  EXPECT_EQ(bench.head.display_latency, 0.008);
+  EXPECT_EQ(bench.head.latency, 0.05);
+  EXPECT_FALSE(bench.head.predict);
+  EXPECT_EQ(bench.head.velocity_window, 0.1);
+  EXPECT_EQ(bench.head.freeze, 0.5);
+  EXPECT_EQ(bench.head.glide, 0.0);
+  EXPECT_EQ(bench.interaction.tip_offset, Vec3(0.0, 0.05, 0.0));
+  EXPECT_EQ(bench.interaction.surface, Vec4(0.0, 0.0, 1.0, 1.0));
+  write("[interaction]\nsurface = [0, 2, 0, 1]\n");
+  EXPECT_EQ(read_workbench(path_).interaction.surface, Vec4(0.0, 1.0, 0.0, 0.5));
+
+  const auto names = [this](const std::string& content, const char* line, const char* word) {
+    const std::string text = refusal(content);
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+  };
+  names(screen + "position = [0.5, 0]\n", "line 5", "whole");
+  names(screen + "stereo = 'crossed'\n", "line 5", "quad-buffer");
+  names(screen + "name = 'all'\n", "line 5", "all");
+  names(
+      "[[screen]]\nname = 'a'\nlower_left = [0, 0, 1]\nlower_right = [1, 0, 1]\nupper_left = [0, 1, 1]\n"
+      "[[screen]]\nname = 'a'\nlower_left = [0, 0, 1]\nlower_right = [1, 0, 1]\nupper_left = [0, 1, 1]\n",
+      "line 6", "second screen");
+  names("[head]\nsource = 3\n", "line 2", "hands");
+  names("[head]\nlatency = -1\n", "line 2", "seconds");
+  names("[head]\nsensor_latency = 60\n", "line 2", "from 0 to 10");
+  names("[head]\nvelocity_window = 0\n", "line 2", "above 0");
+  names("[head]\npredict = 'yes'\n", "line 2", "true or false");
+  names("[head]\nresting_eye = [1, 2]\n", "line 2", "3 finite numbers");
+  names("[head]\nspeed = 1\n", "line 2", "velocity_window");
+  names("[interaction]\nsurface = 'table'\n", "line 2", "screen");
+  names("[interaction]\nsurface = 'screen'\n", "line 2", "[screen]");
+  names("[interaction]\nsurface = [0, 0, 0, 1]\n", "line 2", "normal");
+  names("[interaction]\ntip_offset = 3\n", "line 2", "3 finite numbers");
+}
+
 TEST_F(WorkbenchFileTest, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(refusal("[stylus]\ntip = [1, 2\n").find("line"), std::string::npos);
   const std::string unknown = refusal("a = 1\n[stylus]\ntop = [1, 2, 3]\n");
