@@ -506,11 +506,11 @@ double SceneRenderer::finish() {
 
 Image SceneRenderer::read() const { return state_->stereo ? state_->stereo->read() : state_->target.read(); }
 
-void SceneRenderer::show(int left, int bottom) const {
+void SceneRenderer::show(int left, int bottom, std::uint32_t framebuffer) const {
   if (state_->stereo) {
-    state_->stereo->show(left, bottom);
+    state_->stereo->show(left, bottom, framebuffer);
   } else {
-    state_->target.show(left, bottom);
+    state_->target.show(left, bottom, framebuffer);
   }
 }
 

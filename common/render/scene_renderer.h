@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -54,9 +55,10 @@ class SceneRenderer {
   /// some drivers lie.
   double finish();
   [[nodiscard]] Image read() const;
-  /// Copies the picture to the framebuffer that the window shows, `left` and `bottom` pixels from its
-  /// lower left corner.
-  void show(int left, int bottom) const;
+  /// Copies the picture to the framebuffer that the window shows, or to another one, `left` and `bottom`
+  /// pixels from its lower left corner. One for a window with two buffers is twice as high in another one,
+  /// the left eye's on top.
+  void show(int left, int bottom, std::uint32_t framebuffer = 0) const;
   /// The range that the colours of the last picture spread over.
   [[nodiscard]] ValueRange range() const;
 

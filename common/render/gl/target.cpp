@@ -147,8 +147,8 @@ void RenderTarget::bind_resolved() {
   glViewport(0, 0, width_, height_);
 }
 
-void RenderTarget::show(int left, int bottom) const {
-  glBlitNamedFramebuffer(resolved_.name(), 0, 0, 0, width_, height_, left, bottom, left + width_,
+void RenderTarget::show(int left, int bottom, std::uint32_t framebuffer) const {
+  glBlitNamedFramebuffer(resolved_.name(), framebuffer, 0, 0, width_, height_, left, bottom, left + width_,
                          bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 

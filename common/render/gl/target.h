@@ -36,7 +36,7 @@ class RenderTarget {
   [[nodiscard]] Image read() const;                                                   ///< of it
   /// Copies the plain one to the framebuffer that the window shows, `left` and `bottom` pixels from its
   /// lower left corner.
-  void show(int left, int bottom) const;
+  void show(int left, int bottom, std::uint32_t framebuffer) const;
 
   [[nodiscard]] int scene_width() const noexcept { return scene_width_; }
   [[nodiscard]] int scene_height() const noexcept { return scene_height_; }

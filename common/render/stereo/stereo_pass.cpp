@@ -42,7 +42,8 @@ void StereoPass::begin(StereoMode mode, int width, int height) {
   for (std::size_t i = 0; i < eyes_.size(); ++i)
     make_layer(eyes_[i], eye_framebuffers_[i], eye_size_.width, eye_size_.height,
                i == 0 ? "left eye" : "right eye");
-  make_layer(picture_, framebuffer_, width, height, "both eyes");
+  composed_height_ = mode == StereoMode::kQuadBuffer ? 2 * height : height;
+  make_layer(picture_, framebuffer_, width, composed_height_, "both eyes");
   mode_ = mode;
   width_ = width;
   height_ = height;
@@ -60,11 +61,13 @@ void StereoPass::compose() {
     no_vertices_ = make_vertex_array();
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, width_, composed_height_);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glUseProgram(program_.name());
-  glUniform1i(kModeLocation, static_cast<GLint>(mode_));
+  // In one picture, both buffers are shown one above the other.
+  const StereoMode composed = mode_ == StereoMode::kQuadBuffer ? StereoMode::kTopBottom : mode_;
+  glUniform1i(kModeLocation, static_cast<GLint>(composed));
   for (std::size_t i = 0; i < eyes_.size(); ++i) glBindTextureUnit(static_cast<GLuint>(i), eyes_[i].name());
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -73,11 +76,23 @@ void StereoPass::compose() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-Image StereoPass::read() const { return read_framebuffer(framebuffer_.name(), width_, height_); }
+Image StereoPass::read() const { return read_framebuffer(framebuffer_.name(), width_, composed_height_); }
 
-void StereoPass::show(int left, int bottom) const {
-  glBlitNamedFramebuffer(framebuffer_.name(), 0, 0, 0, width_, height_, left, bottom, left + width_,
-                         bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void StereoPass::show(int left, int bottom, std::uint32_t framebuffer) const {
+  if (mode_ == StereoMode::kQuadBuffer && framebuffer == 0) {
+    GLint two = 0;
+    glGetNamedFramebufferParameteriv(0, GL_STEREO, &two);
+    for (std::size_t i = 0; i < (two != 0 ? eyes_.size() : 1); ++i) {
+      if (two != 0) glNamedFramebufferDrawBuffer(0, i == 0 ? GL_BACK_LEFT : GL_BACK_RIGHT);
+      glBlitNamedFramebuffer(eye_framebuffers_[i].name(), 0, 0, 0, width_, height_, left, bottom,
+                             left + width_, bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    // What is drawn over it is for both eyes.
+    if (two != 0) glNamedFramebufferDrawBuffer(0, GL_BACK);
+    return;
+  }
+  glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, width_, composed_height_, left, bottom,
+                         left + width_, bottom + composed_height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace palpate

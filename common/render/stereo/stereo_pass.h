@@ -4,6 +4,8 @@
 /// projection of Dubois 2009 ("Conversion of a stereo pair to anaglyph with the least-squares projection
 /// method") for red-cyan glasses before an LCD; or, in grey, red takes the luminance (ITU-R BT.709) of L,
 /// green and blue that of R.
+///
+/// For a window with two buffers nothing is composed: show() copies each picture into its own buffer.
 #pragma once
 
 #include <array>
@@ -28,13 +30,17 @@ class StereoPass {
   void compose();
   /// @name The picture, as RenderTarget
   /// @{
+  /// Of kQuadBuffer both pictures, the left eye's on top: twice as high as was asked for.
   [[nodiscard]] Image read() const;
-  void show(int left, int bottom) const;
+  /// Of kQuadBuffer into the left and the right buffer of the window, framebuffer 0, or where that has but
+  /// one the left eye's; into another framebuffer both, as read().
+  void show(int left, int bottom, std::uint32_t framebuffer) const;
   /// @}
 
  private:
   StereoMode mode_ = StereoMode::kNone;
   int width_ = 0, height_ = 0;
+  int composed_height_ = 0;
   EyePictureSize eye_size_;
   GlProgram program_;
   GlVertexArray no_vertices_;

@@ -67,6 +67,14 @@ TEST(StereoPicture, HoldsThePicturesOfBothEyesWhereTheModeSays) {
   const Image columns = drawn(view, kWidth, kHeight);
   EXPECT_EQ(strange_pixels(columns, right, 0, 0, [](int x, int) { return x % 2 == 0; }), 0);
   EXPECT_EQ(strange_pixels(columns, left, 0, 0, [](int x, int) { return x % 2 == 1; }), 0);
+
+  // A buffer for each eye: in one picture both in full, the left one on top.
+  view.stereo.mode = StereoMode::kQuadBuffer;
+  view.stereo.swapped = false;
+  const Image both = drawn(view, kWidth, kHeight);
+  ASSERT_EQ(both.height, 2 * kHeight);
+  EXPECT_EQ(strange_pixels(both, left, 0, 0, all), 0);
+  EXPECT_EQ(strange_pixels(both, right, 0, kHeight, all), 0);
 }
 
 double linear(int byte) {
