@@ -269,6 +269,10 @@ class VerbParser {
         ->group("Touch");
     add_rate();
     add_workbench();
+    add_head(
+        "show the data as the first screen of --workbench does to a head before it, which is there, is "
+        "replayed, or with 'hands' is that of --device hands:FILE.csv; --screen all opens a window for each "
+        "screen, beside that of the desktop; default: the [head] of the workbench, or none");
     scene("--play-rate", options_.view.play_rate, "time steps a second while they play; default 5", "N",
           "View")
         ->check(CLI::Range(0.2, 60.0));
@@ -291,21 +295,32 @@ class VerbParser {
   }
 
   void add_picture() {
-    app_.add_option("--size", options_.size, "size of the picture in pixels; default 1280x960")
+    app_.add_option("--size", options_.size,
+                    "size of the picture in pixels; default 1280x960, or the pixels of the screen")
         ->type_name("WxH")
         ->group("View");
-    app_.add_option(
-            "--head", options_.view.head,
-            "the picture as a screen of --workbench shows it to this head: where its sensor is in the "
-            "tracker's frame, in metres, and how it is turned; --camera says nothing then")
-        ->type_name("x,y,z[,qw,qx,qy,qz]")
-        ->group("View");
-    app_.add_option("--screen", options_.view.screen, "which screen of --workbench; default: its first")
-        ->type_name("NAME")
+    add_head(
+        "the picture as a screen of --workbench shows it to this head: where its sensor is in the "
+        "tracker's frame, in metres, and how it is turned, or a recording of that with the header "
+        "t,x,y,z,qw,qx,qy,qz; --camera says nothing then");
+    app_.add_option("--head-time", options_.view.head_time,
+                    "time of that recording, in seconds, at which the picture is shown; default: its end")
+        ->type_name("T")
         ->group("View");
     app_.add_option("--repeat", options_.repeat, "frames to time after the first one")
         ->type_name("N")
         ->check(CLI::Range(0, 100000))
+        ->group("View");
+  }
+
+  void add_head(const char* what) {
+    app_.add_option("--head", options_.view.head, what)
+        ->type_name("x,y,z[,qw,qx,qy,qz]|replay:FILE.csv")
+        ->group("View");
+    app_.add_option("--screen", options_.view.screen,
+                    "which screen of --workbench, or all of them, each with a picture of its own; default: "
+                    "its first")
+        ->type_name("NAME|all")
         ->group("View");
   }
 

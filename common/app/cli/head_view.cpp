@@ -1,87 +1,141 @@
 #include "common/app/cli/head_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
+#include <sstream>
+#include <string_view>
+#include <utility>
 
+#include "common/app/cli/stereo_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/calibration/workbench_file.h"
 #include "common/haptics/workspace.h"
-#include "common/math/quaternion.h"
-#include "common/render/stereo/screen_camera.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kHalfSeparation = 0.5e-3;  // of --eye-separation [mm], in metres
+constexpr double kMetres = 1e-3;   // a millimetre
+constexpr int kMostPixels = 8192;  // an edge of the picture: a driver may allow more, memory not
+constexpr std::string_view kReplay = "replay:", kHands = "hands", kAll = "all";
+constexpr PictureSize kUsualSize{1280, 960};
 
-/// A screen and both eyes, in the tracker's frame [m].
-struct Head {
-  Screen screen;
-  std::array<Vec3, 2> eyes;
-  InteractionGeometry place;
-};
+PictureSize parse_size(const std::string& text) {
+  PictureSize size;
+  char cross = 0;
+  std::istringstream in(text);
+  const bool read = static_cast<bool>(in >> size.width >> cross >> size.height) && in.peek() == EOF;
+  if (!read || (cross != 'x' && cross != 'X')) {
+    throw usage_error("--size " + text + ": width x height in pixels is expected, such as 1280x960");
+  }
+  if (size.width < 1 || size.height < 1 || size.width > kMostPixels || size.height > kMostPixels) {
+    throw usage_error("--size " + text + ": edges from 1 to " + std::to_string(kMostPixels) +
+                      " pixels are possible");
+  }
+  return size;
+}
 
-Rigid pose_of(const std::string& text) {
+TrackerPose parse_pose(const std::string& text) {
   const bool turned = std::count(text.begin(), text.end(), ',') > 2;
   const auto x = parse_numbers(text, turned ? 7 : 3,
-                               "--head takes x,y,z in metres, or x,y,z,qw,qx,qy,qz, such as 0,0,0.6");
-  Rigid pose;
-  pose.translation = {x[0], x[1], x[2]};
+                               "--head takes x,y,z in metres, x,y,z,qw,qx,qy,qz, such as 0,0,0.6, or "
+                               "replay:FILE.csv");
+  TrackerPose pose;
+  pose.position = {x[0], x[1], x[2]};
   if (!turned) return pose;
   const Quat q{x[3], x[4], x[5], x[6]};
   constexpr double kSlack = 1e-3;
   if (!(std::abs(glm::length(q) - 1.0) < kSlack))
     throw usage_error("--head " + text + ": a quaternion of length 1 is expected");
-  pose.rotation = glm::normalize(q);
+  pose.orientation = glm::normalize(q);
   return pose;
 }
 
-const ScreenGeometry& screen_of(const WorkbenchGeometry& bench, const Options& options) {
+WorkbenchGeometry bench_of(const Options& options) {
+  if (options.workbench.empty())
+    throw usage_error("--head needs the screen that it is before: try --workbench workbench.toml");
+  WorkbenchGeometry bench = read_workbench(options.workbench);
   if (bench.screens.empty())
     throw input_error({options.workbench.string(), "", "has no [screen]", "its corners in metres",
                        "add [screen] with lower_left, lower_right and upper_left"});
-  if (options.view.screen.empty()) return bench.screens.front();
+  return bench;
+}
+
+std::size_t screen_of(const WorkbenchGeometry& bench, const Options& options) {
+  const std::string& wanted = options.view.screen;
+  if (wanted.empty()) return 0;
   std::string names;
-  for (const ScreenGeometry& screen : bench.screens) {
-    if (screen.name == options.view.screen) return screen;
-    if (!screen.name.empty()) names += (names.empty() ? "" : ", ") + screen.name;
+  for (std::size_t i = 0; i < bench.screens.size(); ++i) {
+    const std::string& name = bench.screens[i].name;
+    if (name == wanted) return i;
+    if (!name.empty()) names += (names.empty() ? "" : ", ") + name;
   }
-  throw usage_error("--screen " + options.view.screen + ": " + options.workbench.string() +
+  throw usage_error("--screen " + wanted + ": " + options.workbench.string() +
                     (names.empty() ? " names no screens" : " has " + names));
 }
 
-Head head_of(const Options& options) {
-  if (options.workbench.empty())
-    throw usage_error("--head needs the screen that it is before: try --workbench workbench.toml");
-  const WorkbenchGeometry bench = read_workbench(options.workbench);
-  const Rigid pose = pose_of(options.view.head);
-  Head head{.screen = screen_of(bench, options).corners, .eyes = {}, .place = bench.interaction};
-  // Where the file does not say where eyes are on the head, they are beside the sensor, along its x axis.
-  const Vec3 half{kHalfSeparation * options.view.eye_separation, 0.0, 0.0};
-  const EyesGeometry eyes = bench.eyes.value_or(EyesGeometry{});
-  head.eyes = {pose.rotation * eyes.left.value_or(-half) + pose.translation,
-               pose.rotation * eyes.right.value_or(half) + pose.translation};
-  for (const Vec3& eye : head.eyes) {
-    if (!(glm::dot(eye - center(head.screen), axes(head.screen)[2]) > 0.0))
-      throw usage_error("--head " + options.view.head + ": an eye is not before the screen of " +
-                        options.workbench.string());
-  }
-  return head;
+double separation_of(const Options& options) { return kMetres * options.view.eye_separation; }
+
+/// That of the command line, else that of the screen.
+StereoView stereo_on(const ScreenGeometry& screen, const Options& options) {
+  StereoView stereo = stereo_of(options.view);
+  if (stereo.mode == StereoMode::kNone) stereo.mode = screen.stereo;
+  return stereo;
 }
 
-}  // namespace
-
-void check_head(const Options& options, double aspect) {
-  if (options.view.head.empty()) {
-    if (!options.view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
-    return;
+/// That of --size, else the screen's pixels, else its shape. With a picture beside or above the other both
+/// have the screen's.
+PictureSize size_on(const ScreenGeometry& screen, StereoMode mode, const Options& options) {
+  if (!options.size.empty()) return parse_size(options.size);
+  PictureSize size{screen.pixels[0], screen.pixels[1]};
+  if (size.width == 0) {
+    const double aspect = width(screen.corners) / height(screen.corners);
+    size = {kUsualSize.width, std::max(1, static_cast<int>(std::lround(kUsualSize.width / aspect)))};
   }
-  const Screen screen = head_of(options).screen;
-  const double wanted = width(screen) / height(screen);
+  if (mode == StereoMode::kSideBySide) size.width *= 2;
+  if (mode == StereoMode::kTopBottom) size.height *= 2;
+  return size;
+}
+
+/// The eyes of the head before all screens, at the time of --head-time where it is a recording.
+Eyes eyes_of(const WorkbenchGeometry& bench, std::size_t screen, const Options& options) {
+  const std::string& head = options.view.head;
+  HeadTracker tracker(bench, bench.screens[screen].corners, separation_of(options));
+  if (!head.starts_with(kReplay)) return tracker.eyes_on(parse_pose(head));
+  const std::vector<PoseSample> poses = read_poses(head.substr(kReplay.size()));
+  const double begin = poses.front().time;
+  const double time = options.view.head_time.value_or(poses.back().time);
+  if (!(time >= begin)) {
+    throw usage_error("--head-time " + short_number(time) + ": the recording begins at " +
+                      short_number(begin) + " s");
+  }
+  // As a window looks at it, picture by picture.
+  constexpr double kPicture = 1.0 / 60.0;  // [s]
+  const double ahead = bench.head.latency.value_or(bench.head.display_latency);
+  ReplayPoses source(poses);
+  const auto pictures = static_cast<long>((time - begin) / kPicture);
+  for (long i = 0; i <= pictures; ++i) {
+    const double now = begin + static_cast<double>(i) * kPicture;
+    tracker.follow(source, now);
+    (void)tracker.eyes(now, now + ahead);
+  }
+  tracker.follow(source, time);
+  return tracker.eyes(time, (bench.head.latency && tracker.present() ? tracker.sampled_at() : time) + ahead);
+}
+
+void check_before(const Eyes& eyes, const ScreenGeometry& screen, const Options& options) {
+  for (const Vec3& eye : eyes) {
+    if (!(glm::dot(eye - center(screen.corners), axes(screen.corners)[2]) > 0.0)) {
+      throw usage_error("--head " + options.view.head + ": an eye is not before the screen" +
+                        (screen.name.empty() ? "" : " '" + screen.name + "'") + " of " +
+                        options.workbench.string());
+    }
+  }
+}
+
+void check_shape(const ScreenGeometry& screen, const ScreenPicture& picture) {
+  const double aspect = eye_aspect(picture.stereo.mode, picture.size.width, picture.size.height);
+  const double wanted = width(screen.corners) / height(screen.corners);
   constexpr double kSlack = 0.01;
   if (!(std::abs(aspect / wanted - 1.0) < kSlack))
     throw usage_error("the screen is " + short_number(std::round(1e3 * wanted) / 1e3) +
@@ -89,21 +143,81 @@ void check_head(const Options& options, double aspect) {
                       short_number(std::round(1e3 * aspect) / 1e3) + " times: give --size another shape");
 }
 
-void take_head(const Options& options, SceneView& view) {
-  if (options.view.head.empty()) return;
-  const Head head = head_of(options);
-  const double to_data = head.place.gain / Workspace::default_scale(view.bounds.diagonal());
-  const auto data = [&](const Vec3& x) {
-    return view.bounds.center() + to_data * (head.place.rotation * (x - head.place.middle));
-  };
-  const Screen& s = head.screen;
-  view.camera = screen_camera({data(s.lower_left), data(s.lower_right), data(s.upper_left)});
-  const std::array<Vec3, 2> eyes{data(head.eyes[0]), data(head.eyes[1])};
-  if (view.stereo.mode == StereoMode::kNone) {
-    view.camera = seen_from(view.camera, 0.5 * (eyes[0] + eyes[1]));
-  } else {
-    view.stereo.eyes = eyes;
+}  // namespace
+
+std::vector<ScreenPicture> asked_pictures(const Options& options) {
+  if (options.view.head_time && !options.view.head.starts_with(kReplay))
+    throw usage_error("--head-time needs a recording of the head: try --head replay:head.csv");
+  if (options.view.head.empty()) {
+    if (!options.view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
+    const PictureSize size = options.size.empty() ? kUsualSize : parse_size(options.size);
+    return {{.name = {}, .size = size, .stereo = stereo_of(options.view), .screen = std::nullopt}};
   }
+  const WorkbenchGeometry bench = bench_of(options);
+  const bool all = options.view.screen == kAll;
+  const std::size_t first = all ? 0 : screen_of(bench, options);
+  const std::size_t end = all ? bench.screens.size() : first + 1;
+  const Eyes eyes = eyes_of(bench, first, options);
+  std::vector<ScreenPicture> pictures;
+  for (std::size_t i = first; i < end; ++i) {
+    const ScreenGeometry& screen = bench.screens[i];
+    const StereoView stereo = stereo_on(screen, options);
+    pictures.push_back({.name = screen.name.empty() ? std::to_string(i + 1) : screen.name,
+                        .size = size_on(screen, stereo.mode, options),
+                        .stereo = stereo,
+                        .screen = SeenScreen{screen.corners, eyes, bench.interaction}});
+    check_before(eyes, screen, options);
+    check_shape(screen, pictures.back());
+  }
+  return pictures;
+}
+
+void take_head(const ScreenPicture& picture, SceneView& view) {
+  view.stereo = picture.stereo;
+  if (!picture.screen) return;
+  const auto& [corners, eyes, interaction] = *picture.screen;
+  const BenchPlace place =
+      place_of(interaction, view.bounds.center(), Workspace::default_scale(view.bounds.diagonal()));
+  look_through(place(corners), {place(eyes[0]), place(eyes[1])}, view);
+}
+
+std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
+                                                    const std::vector<TrackedHands>& hands) {
+  const ViewOptions& view = options.view;
+  if (options.workbench.empty()) {
+    if (!view.head.empty() || !view.screen.empty()) (void)bench_of(options);
+    return std::nullopt;
+  }
+  std::string head = view.head;
+  if (head.empty()) head = read_workbench(options.workbench).head.source;
+  if (head.empty()) {
+    if (!view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
+    return std::nullopt;
+  }
+  BenchDisplayOptions display{.bench = bench_of(options), .separation = separation_of(options)};
+  display.several = view.screen == kAll;
+  if (!display.several) display.screen = screen_of(display.bench, options);
+  if (head == kHands) {
+    std::vector<PoseSample> heads = heads_of(hands);
+    if (heads.empty()) {
+      throw usage_error(
+          "the head 'hands' needs a recording of hands with headx,heady,headz,headqw,headqx,"
+          "headqy,headqz: try --device hands:FILE.csv");
+    }
+    display.head = std::make_shared<ReplayPoses>(std::move(heads));
+  } else if (head.starts_with(kReplay)) {
+    display.head = std::make_shared<ReplayPoses>(read_poses(head.substr(kReplay.size())));
+  } else {
+    const TrackerPose pose = parse_pose(head);
+    const HeadTracker tracker(display.bench, display.bench.screens[display.screen].corners,
+                              display.separation);
+    for (std::size_t i = 0; i < display.bench.screens.size(); ++i) {
+      if (display.several || i == display.screen)
+        check_before(tracker.eyes_on(pose), display.bench.screens[i], options);
+    }
+    display.head = std::make_shared<RestingPose>(pose);
+  }
+  return display;
 }
 
 }  // namespace palpate

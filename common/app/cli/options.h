@@ -83,8 +83,11 @@ struct ViewOptions {
   double eye_distance = 600.0;   ///< between eyes and screen [mm]
   double disparity_limit = 1.0;  ///< [degrees]
   bool swap_eyes = false;
-  std::string head;  ///< x,y,z[,qw,qx,qy,qz] of a tracker [m]: where the head is before a screen; empty: none
-  std::string screen;  ///< which of the workbench's; empty: the first
+  /// Where the head is before a screen: x,y,z[,qw,qx,qy,qz] of a tracker [m], replay:FILE.csv, and in windows
+  /// hands; empty: none, or in windows as the workbench says.
+  std::string head;
+  std::optional<double> head_time;  ///< of that recording [s]; absent: its end
+  std::string screen;               ///< which of the workbench's, or all; empty: the first
 };
 
 /// How a volume is drawn.
@@ -215,7 +218,7 @@ struct Options {
   std::filesystem::path tract;   ///< probe: where the way of the proxy is saved as a line
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
-  std::string size = "1280x960";
+  std::string size;  ///< WxH; empty: 1280x960, or that of the screen
   int repeat = 0;  ///< render: frames to be timed after the first one
   std::string effort = "normal";
   std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 #include "common/app/cli/head_view.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
-#include "common/app/haptic/probe_mouse.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -20,24 +18,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kMostPixels = 8192;  // an edge of the picture: a driver may allow more, memory not
-constexpr int kOversampling = 3;   // samples along each edge of a pixel of the converged picture
+constexpr int kOversampling = 3;  // samples along each edge of a pixel of the converged picture
 constexpr int kFramesForJson = 5;
-
-PictureSize parse_size(const std::string& text) {
-  PictureSize size;
-  char cross = 0;
-  std::istringstream in(text);
-  const bool read = static_cast<bool>(in >> size.width >> cross >> size.height) && in.peek() == EOF;
-  if (!read || (cross != 'x' && cross != 'X')) {
-    throw usage_error("--size " + text + ": width x height in pixels is expected, such as 1280x960");
-  }
-  if (size.width < 1 || size.height < 1 || size.width > kMostPixels || size.height > kMostPixels) {
-    throw usage_error("--size " + text + ": edges from 1 to " + std::to_string(kMostPixels) +
-                      " pixels are possible");
-  }
-  return size;
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -73,7 +55,9 @@ void measure_error(const SceneView& view, const Image& image, RenderSummary& sum
     // Of one eye: an interlaced picture has no finer one.
     SceneView one = view;
     one.stereo.mode = StereoMode::kNone;
-    const EyePictureSize size = eye_picture_size(view.stereo.mode, image.width, image.height);
+    // Both of quad-buffer are in one picture.
+    const int height = view.stereo.mode == StereoMode::kQuadBuffer ? image.height / 2 : image.height;
+    const EyePictureSize size = eye_picture_size(view.stereo.mode, image.width, height);
     measure_error(one, render_image(one, size.width, size.height).image, summary);
     return;
   }
@@ -94,65 +78,20 @@ void measure_error(const SceneView& view, const Image& image, RenderSummary& sum
   summary.image_error_kind = "root mean square of full scale, against 9 samples a pixel";
 }
 
-}  // namespace
+/// Of one of several pictures: "seen-front.png".
+std::filesystem::path output_of(const std::filesystem::path& out, const ScreenPicture& picture,
+                                bool several) {
+  if (!several) return out;
+  std::filesystem::path named = out;
+  named.replace_filename(out.stem().string() + "-" + picture.name + out.extension().string());
+  return named;
+}
 
-ExitCode draw_picture(const PictureMaker& maker, const Options& options, const VerbContext& context) {
-  Console& console = context.console;
-  if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
-  const PictureSize size = parse_size(options.size);
-  (void)camera_of(options.view, Box{}, 1.0);
-  const StereoView stereo = stereo_of(options.view);
-  check_head(options, eye_aspect(stereo.mode, size.width, size.height));
-  if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {
-    throw usage_error(options.out.string() + ": pictures are written as .png");
-  }
-  check_output(options.out, options.common.force);
-  maker.check(options);
-
-  Input input = open_input(options, context);
-  RenderSummary summary{
-      .input = input.title(), .output = options.out.string(), .width = size.width, .height = size.height};
-  const SceneUse use = maker.use(options, input);
-  console.note(input.choice_sentence());
-  if (options.common.explain) {
-    summary.plan = plan_scene(input, use);
-    console.print(plan_text(summary.plan));
-  }
-
-  DrawnScene drawn = maker.make(input, options, context, eye_aspect(stereo.mode, size.width, size.height));
-  drawn.view.stereo = stereo;
-  if (stereo.mode != StereoMode::kNone && !has_two_eyes(drawn.view))
-    throw usage_error("--stereo needs a perspective picture: leave out --projection orthographic");
-  take_head(options, drawn.view);
-  summary.field = drawn.field;
-  summary.lines = drawn.lines;
-  summary.points = drawn.points;
-  summary.voxels = drawn.voxels;
-  summary.seconds_trace = drawn.seconds_trace;
-  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
-  context.progress.begin("drawing", 0);
-  const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
-  const RenderedImage rendered =
-      render_image(drawn.view, size.width, size.height, repeat, options.view.frame_budget);
-  summary.first_frame_ms = rendered.first_frame_ms;
-  summary.frames_timed = static_cast<int>(rendered.frame_ms.size());
-  summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
-  summary.renderer = rendered.renderer;
-  summary.quality = rendered.quality;
-  summary.bricks = rendered.bricks;
-  context.progress.check();
-  write_png(options.out, rendered.image,
-            {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});
-  context.interrupt.keep(options.out);
-  if (console.json()) measure_error(drawn.view, rendered.image, summary);
-  if (options.common.explain) {
-    summary.gpu = rendered.gpu;
-    summary.measured = drawn.measured;
-    summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
-  }
+/// What is told of the drawing once a picture is there.
+void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedImage& rendered,
+          Console& console) {
   console.print(summary.input + ": " + drawn.what + " -> " + summary.output + " (" +
-                std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
+                std::to_string(summary.width) + " x " + std::to_string(summary.height) + ", " +
                 short_number(std::round(summary.frame_ms)) + " ms a frame, " + summary.renderer + ")\n");
   if (const BrickShare& bricks = rendered.bricks; bricks.all > 0) {
     console.print("  bricks: " + std::to_string(bricks.held) + " of the " + std::to_string(bricks.all) +
@@ -165,7 +104,72 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
                  " voxels, each the mean of several: finer ones do not fit --gpu-memory");
   }
   console.print(stereo_text(drawn.view));
-  if (options.common.explain) console.print(gpu_text(summary.gpu) + measured_text(summary.measured));
+}
+
+}  // namespace
+
+ExitCode draw_picture(const PictureMaker& maker, const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
+  (void)camera_of(options.view, Box{}, 1.0);
+  const std::vector<ScreenPicture> pictures = asked_pictures(options);
+  const auto [width, height] = pictures.front().size;
+  const double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
+  if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {
+    throw usage_error(options.out.string() + ": pictures are written as .png");
+  }
+  for (const ScreenPicture& picture : pictures)
+    check_output(output_of(options.out, picture, pictures.size() > 1), options.common.force);
+  maker.check(options);
+
+  Input input = open_input(options, context);
+  RenderSummary summary{.input = input.title()};
+  const SceneUse use = maker.use(options, input);
+  console.note(input.choice_sentence());
+  if (options.common.explain) {
+    summary.plan = plan_scene(input, use);
+    console.print(plan_text(summary.plan));
+  }
+
+  DrawnScene drawn = maker.make(input, options, context, aspect);
+  summary.field = drawn.field;
+  summary.lines = drawn.lines;
+  summary.points = drawn.points;
+  summary.voxels = drawn.voxels;
+  summary.seconds_trace = drawn.seconds_trace;
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  for (const ScreenPicture& picture : pictures) {
+    const auto [across, up] = picture.size;
+    take_head(picture, drawn.view);
+    if (picture.stereo.mode != StereoMode::kNone && !has_two_eyes(drawn.view))
+      throw usage_error("--stereo needs a perspective picture: leave out --projection orthographic");
+    context.progress.begin("drawing", 0);
+    const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
+    const RenderedImage rendered = render_image(drawn.view, across, up, repeat, options.view.frame_budget);
+    summary.output = output_of(options.out, picture, pictures.size() > 1).string();
+    summary.width = rendered.image.width;
+    summary.height = rendered.image.height;
+    summary.first_frame_ms = rendered.first_frame_ms;
+    summary.frames_timed = static_cast<int>(rendered.frame_ms.size());
+    summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
+    summary.renderer = rendered.renderer;
+    summary.quality = rendered.quality;
+    summary.bricks = rendered.bricks;
+    context.progress.check();
+    write_png(summary.output, rendered.image,
+              {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});
+    context.interrupt.keep(summary.output);
+    tell(summary, drawn, rendered, console);
+    if (&picture != &pictures.back()) continue;
+    if (console.json()) measure_error(drawn.view, rendered.image, summary);
+    if (options.common.explain) {
+      summary.gpu = rendered.gpu;
+      summary.measured = drawn.measured;
+      summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
+      console.print(gpu_text(summary.gpu) + measured_text(summary.measured));
+    }
+  }
   console.print_json(render_json(summary));
   return ExitCode::kDone;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/app/cli/head_view.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/slice_plane.h"
 #include "common/app/cli/stereo_text.h"
@@ -22,11 +23,14 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
   const CameraAngles angles = camera_angles(options.view.camera);
   const std::optional<Vec3> focal_point = focal_point_of(options.view);
-  const StereoView stereo = stereo_of(options.view);
+  StereoView stereo = stereo_of(options.view);
   verb.check(options);
   const bool felt = !verb.modes.empty();
   ProbeSessionOptions touch;
   if (felt) touch = window_touch(verb.modes, options, context);
+  std::optional<BenchDisplayOptions> bench = bench_display_of(options, touch.hands);
+  if (bench && !bench->several && stereo.mode == StereoMode::kNone)
+    stereo.mode = bench->bench.screens[bench->screen].stereo;
   if (!window_available() && nothing_named) return headless_tour(verb.render, options, context, verb.next);
   if (options.common.explain) {
     const Input input = open_input(options, context);
@@ -46,6 +50,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .focal_point = focal_point,
       .command_line = context.command_line,
       .version = version_text(context.explorer.name),
+      .bench = std::move(bench),
       .touch = std::move(touch),
       .region =
           options.slice.box.empty() ? std::nullopt : std::optional(parse_box(options.slice.box, "--box")),

@@ -5,7 +5,7 @@
 namespace palpate {
 
 ImmersiveTechnique::ImmersiveTechnique(WorkbenchGeometry bench, const Vec3& middle, double scale)
-    : bench_(std::move(bench)), middle_(middle), units_(bench_.interaction.gain / scale) {
+    : bench_(std::move(bench)), place_(place_of(bench_.interaction, middle, scale)) {
   intent_.probe = middle;
 }
 
@@ -13,8 +13,11 @@ TrackerPose ImmersiveTechnique::corrected(const TrackerPose& reported) const noe
   return bench_.tracker ? bench_.tracker->corrected(reported) : reported;
 }
 
-Vec3 ImmersiveTechnique::place(const Vec3& q) const noexcept {
-  return middle_ + units_ * (bench_.interaction.rotation * (q - bench_.interaction.middle));
+Vec3 ImmersiveTechnique::on_surface(const Vec3& q) const noexcept {
+  const auto& plane = bench_.interaction.surface;
+  if (!plane) return q;
+  const Vec3 n{*plane};
+  return q - (glm::dot(n, q) - plane->w) * n;
 }
 
 void ImmersiveTechnique::put(const Vec3& probe) noexcept {
@@ -22,13 +25,15 @@ void ImmersiveTechnique::put(const Vec3& probe) noexcept {
   intent_.probe = probe;
 }
 
-bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& /*view*/) noexcept {
+bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noexcept {
   const auto* hands = std::get_if<TrackedHands>(&event);
   if (hands == nullptr) return false;
+  if (view.place) place_ = *view.place;
   intent_.acts = hands->acts;
   if (hands->stylus) {
     const TrackerPose pose = corrected(*hands->stylus);
-    tip_ = place(pose.position + pose.orientation * bench_.stylus.value_or(Vec3{0.0}));
+    const Vec3 tip = pose.position + pose.orientation * bench_.stylus.value_or(Vec3{0.0});
+    tip_ = place_(on_surface(tip + bench_.interaction.tip_offset));
     if (hands->clutch) offset_ = intent_.probe - tip_;
     if (!hands->clutch) intent_.probe = tip_ + offset_;
   }
@@ -38,7 +43,7 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& /*view*/)
     intent_.carried.reset();
   } else if (hands->other) {
     const TrackerPose pose = corrected(*hands->other);
-    const Rigid now{bench_.interaction.rotation * pose.orientation, place(pose.position)};
+    const Rigid now{place_.turn * pose.orientation, place_(pose.position)};
     // Where it takes hold nothing has moved, to the bit.
     intent_.carried = grip_ ? now * grip_->inverse() : Rigid{};
     if (!grip_) grip_ = now;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "common/app/haptic/probe_mouse.h"
+#include "common/app/immersive/bench_place.h"
 #include "common/device/tracked_hands.h"
 #include "common/math/quaternion.h"
 
@@ -38,6 +39,8 @@ struct HandsView {
   Camera camera;
   PictureSize size;
   std::optional<Vec3> held;  ///< the proxy, while something holds it
+  /// Where the data is at the workbench; none: as its file says.
+  std::optional<BenchPlace> place;
 };
 
 class InteractionTechnique {

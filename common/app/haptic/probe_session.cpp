@@ -111,7 +111,8 @@ void ProbeSession::start_replay() {
 }
 
 Placement ProbeSession::placement(const Camera& camera) const {
-  return {workspace().workspace_from_data(camera.focal_point), camera.axes};
+  const Vec3 middle = workspace().workspace_from_data(camera.focal_point);
+  return {middle + camera.axes * options_.workbench.interaction.tip_offset, camera.axes};
 }
 
 /// The device of this session; a path is laid over the first field that is opened.
@@ -206,7 +207,7 @@ void ProbeSession::follow_hands(double time) {
     let_go();
     return;
   }
-  (void)technique_->take(hands, {});
+  (void)technique_->take(hands, {.place = bench_place_});
   if (!mouse_->grabbed()) hold(time, intent().probe);
   pressed_ = intent().acts;
   const std::optional<PlanePoses> poses = carried_.follow(intent(), planes());

@@ -94,6 +94,8 @@ class ProbeSession {
   void move(const Vec3& position) noexcept { technique_->put(position); }
   /// What a device of the interaction technique says; what is not its own changes nothing.
   void lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept;
+  /// Where the data is at the workbench now; tracked hands are there, too.
+  void place_bench(const BenchPlace& place) noexcept { bench_place_ = place; }
   [[nodiscard]] const HandsIntent& intent() const noexcept { return technique_->intent(); }
   void let_go() noexcept;
   /// Takes the hand off the probe and on again where it is now, moved by `by`: its view has been moved.
@@ -222,6 +224,7 @@ class ProbeSession {
   NamedField open_;
   std::unique_ptr<InteractionTechnique> technique_;
   std::unique_ptr<HandSource> hands_;  ///< of the immersive technique
+  std::optional<BenchPlace> bench_place_;
   CarriedPlanes carried_;
 
   std::optional<FollowedCurve> curve_;

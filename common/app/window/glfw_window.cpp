@@ -33,11 +33,35 @@ void require_glfw() {
   if (!start_glfw()) throw work_error(no_window("no display"));
 }
 
-GlfwWindow::GlfwWindow(const WindowOptions& options) {
-  require_glfw();
+GLFWwindow* create_window(int width, int height, const std::string& title, StereoMode mode,
+                          GLFWwindow* share) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  // The picture has its own multisampled framebuffer with depth.
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  const bool two_buffers = mode == StereoMode::kQuadBuffer;
+  glfwWindowHint(GLFW_STEREO, two_buffers ? GLFW_TRUE : GLFW_FALSE);
+  GLFWwindow* window = nullptr;
+  for (const int api : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
+    window = glfwCreateWindow(width, height, title.c_str(), nullptr, share);
+    if (window != nullptr) break;
+  }
+  if (window == nullptr && two_buffers) {
+    glfwWindowHint(GLFW_STEREO, GLFW_FALSE);
+    throw work_error(
+        "--stereo quad-buffer: this display has no window with a buffer for each eye (a professional "
+        "graphics card and its driver's stereo mode are needed); try --stereo rows, side-by-side or "
+        "anaglyph");
+  }
+  if (window == nullptr) throw work_error(no_window("the driver has no OpenGL 4.5 core context"));
+  return window;
+}
+
+GlfwWindow::GlfwWindow(const WindowOptions& options) {
+  require_glfw();
   glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
   // Never larger than what the screen shows of it.
   int width = options.width, height = options.height;
@@ -47,15 +71,7 @@ GlfwWindow::GlfwWindow(const WindowOptions& options) {
     if (screen_width > 0) width = std::min(width, screen_width);
     if (screen_height > 0) height = std::min(height, screen_height);
   }
-  // The picture has its own multisampled framebuffer with depth.
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);
-  glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  for (const int api : {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API}) {
-    glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
-    window_ = glfwCreateWindow(width, height, options.program.c_str(), nullptr, nullptr);
-    if (window_ != nullptr) break;
-  }
-  if (window_ == nullptr) throw work_error(no_window("the driver has no OpenGL 4.5 core context"));
+  window_ = create_window(width, height, options.program, options.view.stereo.mode, nullptr);
   glfwMakeContextCurrent(window_);
   listen();
 }
@@ -64,11 +80,21 @@ GlfwWindow::~GlfwWindow() { glfwDestroyWindow(window_); }
 
 bool GlfwWindow::take_damage() noexcept { return std::exchange(damaged_, false); }
 
+void GlfwWindow::take_keys_of(GLFWwindow* other) {
+  glfwSetWindowUserPointer(other, this);
+  glfwSetKeyCallback(other, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+    auto* const self = static_cast<GlfwWindow*>(glfwGetWindowUserPointer(w));
+    self->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kKeyUp : InputKind::kKeyDown,
+                             .key = key,
+                             .modifiers = modifiers});
+  });
+}
+
 void GlfwWindow::listen() {
   static const auto self = [](GLFWwindow* w) {
     return static_cast<GlfwWindow*>(glfwGetWindowUserPointer(w));
   };
-  glfwSetWindowUserPointer(window_, this);
+  take_keys_of(window_);
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     const double scale = self(w)->pixels_per_coordinate();
     self(w)->events_.push_back({.kind = InputKind::kMove, .x = scale * x, .y = scale * y});
@@ -80,11 +106,6 @@ void GlfwWindow::listen() {
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
     self(w)->events_.push_back({.kind = InputKind::kWheel, .x = x, .y = y});
-  });
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-    self(w)->events_.push_back({.kind = action == GLFW_RELEASE ? InputKind::kKeyUp : InputKind::kKeyDown,
-                                .key = key,
-                                .modifiers = modifiers});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code_point) {
     self(w)->events_.push_back({.kind = InputKind::kText, .key = static_cast<int>(code_point)});
@@ -101,6 +122,12 @@ double GlfwWindow::pixels_per_coordinate() const {
   glfwGetWindowSize(window_, &window_width, nullptr);
   glfwGetFramebufferSize(window_, &pixel_width, nullptr);
   return window_width > 0 ? static_cast<double>(pixel_width) / window_width : 1.0;
+}
+
+std::pair<int, int> GlfwWindow::position() const {
+  std::pair<int, int> place{0, 0};
+  glfwGetWindowPos(window_, &place.first, &place.second);
+  return place;
 }
 
 void GlfwWindow::toggle_full_screen() {

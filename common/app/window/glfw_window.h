@@ -1,10 +1,12 @@
 /// A window of the system with an OpenGL 4.5 core context, and its events as plain data.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "common/app/window/input_event.h"
+#include "common/geometry/stereo_mode.h"
 
 struct GLFWwindow;
 
@@ -17,6 +19,13 @@ struct WindowOptions;
 
 /// The same. @throws Error (work failed) where there is no display.
 void require_glfw();
+
+/// A window with such a context, hidden or not as GLFW's hints say. @param share whose objects it sees, or
+/// null.
+/// @throws Error (work failed) where none can be opened: for kQuadBuffer where the display has no two
+/// buffers.
+[[nodiscard]] GLFWwindow* create_window(int width, int height, const std::string& title, StereoMode mode,
+                                        GLFWwindow* share);
 
 class GlfwWindow {
  public:
@@ -32,13 +41,19 @@ class GlfwWindow {
   [[nodiscard]] std::vector<InputEvent>& events() noexcept { return events_; }
   /// Whether the window has to be drawn again whatever it shows; asked once.
   [[nodiscard]] bool take_damage() noexcept;
+  /// Keys that are pressed in another window count as if they were in this one: the force is off at once
+  /// wherever the keyboard is. This one outlives it.
+  void take_keys_of(GLFWwindow* other);
   void toggle_full_screen();
   /// Width and height, those before where it takes the full screen [screen coordinates].
   [[nodiscard]] std::pair<int, int> size() const;
+  /// Where its upper left corner is on the desktop; zero where the system does not say it [screen
+  /// coordinates].
+  [[nodiscard]] std::pair<int, int> position() const;
+  [[nodiscard]] double pixels_per_coordinate() const;
 
  private:
   void listen();
-  [[nodiscard]] double pixels_per_coordinate() const;
 
   GLFWwindow* window_ = nullptr;
   std::vector<InputEvent> events_;

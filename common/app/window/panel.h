@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/app/window/live_picture.h"
 #include "common/app/window/region_panel.h"
@@ -29,6 +31,7 @@ struct PanelState {
   bool message_is_error = false;
   bool show_help = false;
   bool show_rates = false;
+  std::vector<std::pair<std::string, std::string>> head_rows;  ///< of a tracked head, told with the rates
   bool playing = false;
   double play_rate = 0.0;            ///< time steps a second
   std::string plotted;               ///< edited; empty: nothing

@@ -177,6 +177,7 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
     rows.add("load", "%.3g s", state.scene->seconds_load);
     rows.add("trace", "%.3g s", state.scene->seconds_trace);
   }
+  for (const auto& [name, value] : state.head_rows) rows.add(name.c_str(), "%s", value.c_str());
   if (state.touch != nullptr) add_servo_rates(*state.touch, rows);
   rows.finish();
   ImGui::End();

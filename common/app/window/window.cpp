@@ -27,9 +27,11 @@
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
 #include "common/app/window/plane_image_control.h"
+#include "common/app/window/pointer.h"
 #include "common/app/window/probe_plot.h"
 #include "common/app/window/region_control.h"
 #include "common/app/window/saved_files.h"
+#include "common/app/window/screen_windows.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/slice_control.h"
 #include "common/app/window/touch_control.h"
@@ -74,6 +76,14 @@ class Window {
     live_ = std::make_unique<LivePicture>(options_.frame_budget);
     touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
     touch_control_ = std::make_unique<TouchControl>(*touch_);
+    if (options_.bench) {
+      bench_ = std::make_unique<BenchDisplay>(*options_.bench);
+      if (options_.bench->several) {
+        screens_ = std::make_unique<ScreenWindows>(glfw_, *options_.bench, view_.stereo, options_.hidden);
+        // The desktop is one more display, for one eye that rests.
+        view_.stereo.mode = StereoMode::kNone;
+      }
+    }
     state_.touch = touch_.get();
     state_.region = &region_control_;
     state_.recent = options_.recent;
@@ -98,6 +108,7 @@ class Window {
         break;
       }
       glfwSwapBuffers(glfw_.get());
+      if (bench_) bench_->finished(BenchDisplay::now());
     }
     touch_->finish();
     WindowResult result{.frames = frame_,
@@ -110,6 +121,8 @@ class Window {
                         .tensor = state_.tensor,
                         .replay = touch_->replay_verdict(),
                         .series = plot_.curve()};
+    if (screens_) result.screens = screens_->read();
+    if (bench_) result.latency = bench_->latency();
     std::tie(result.width, result.height) = glfw_.size();
     result.median_frame_ms = live_->median_milliseconds();
     return result;
@@ -136,6 +149,7 @@ class Window {
 
   /// Whether the window is to be closed, and nothing is lost by that or the user has said so.
   [[nodiscard]] bool closes() {
+    if (screens_ && screens_->close_asked()) glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
     if (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) return false;
     if (leave_ || !asked_about(std::nullopt)) return true;
     glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
@@ -175,7 +189,9 @@ class Window {
     }
   }
 
-  [[nodiscard]] bool lively() const { return lively_frames_ > 0 || state_.playing || touch_->lively(); }
+  [[nodiscard]] bool lively() const {
+    return lively_frames_ > 0 || state_.playing || touch_->lively() || (bench_ && bench_->lively());
+  }
 
   void inject(int frame) {
     for (const ScriptedEvent& scripted : options_.script) {
@@ -318,15 +334,12 @@ class Window {
     // Those that come while the picture is drawn are for the next frame.
     const auto handled = static_cast<std::ptrdiff_t>(glfw_.events().size());
     gui_->begin_frame(glfw_.events(), width, height, seconds);
-    handle_events(parts);
-    if (needs_camera_ && scene_) {
-      view_.camera = make_camera(view_.bounds, options_.angles,
-                                 eye_aspect(view_.stereo.mode, parts.picture.width, parts.picture.height),
-                                 view_.camera.projection);
-      // Of the first view alone: a reset shows all there is.
-      view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
-      needs_camera_ = false;
-    }
+    look();
+    // An orthographic picture has one eye, but a workbench's is never that.
+    const bool two = has_two_eyes(view_) || (bench_ && !screens_);
+    pointer_.over(two ? view_.stereo : StereoView{}, picture_);
+    handle_events();
+    if (needs_camera_ && scene_) reset_camera();
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
     state_.marking = touch_control_->marking();
@@ -334,7 +347,7 @@ class Window {
     const bool looking =
         view_.tensors && !control_.dragging() && !touch_->readout().held && !ImGui::GetIO().WantCaptureMouse;
     state_.tensor =
-        looking ? slice_control_.under_mouse(picture_, view_.camera, *view_.tensors) : std::nullopt;
+        looking ? slice_control_.under_mouse(pointer_.area(), seeing(), *view_.tensors) : std::nullopt;
     state_.series.reset();
     if (scene_) plot_.update(*scene_->info, scene_->settings.time_step, options_.threads, state_);
     const SceneSettings settings_before = state_.settings;
@@ -370,6 +383,7 @@ class Window {
       });
     }
     if (actions.lens) say(lens_control_.follow(*actions.lens), false);
+    if (bench_) touch_->place_bench(place_of(view_.camera, bench_->screen()));
     if (view_.probe) touch_->update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
     cut_volume();
     lead_by_grid();
@@ -400,8 +414,11 @@ class Window {
         job_->seconds() > kPatience) {
       job_->cancel();
     }
-    draw_picture(parts, width, height);
+    const SceneView picture = with_focus();
+    draw_picture(picture, parts, width, height);
+    draw_second_pointer();
     gui_->end_frame();
+    if (screens_) screens_->draw(picture, *bench_, state_.picture.quality);
     std::vector<InputEvent>& events = glfw_.events();
     events.erase(events.begin(), events.begin() + handled);
   }
@@ -434,10 +451,56 @@ class Window {
     touch_->shift_hand(glfwGetTime(), *left);
   }
 
+  /// Where the head is, and which part of its screen the picture is.
+  void look() {
+    if (!bench_) return;
+    bench_->follow(BenchDisplay::now());
+    state_.head_rows = bench_->rows();
+    // The desktop beside several screens shows all of the one that its camera is of.
+    if (screens_) return;
+    const auto [left, top] = glfw_.position();
+    const double scale = glfw_.pixels_per_coordinate();
+    bench_->cover(scale * left + picture_.left, scale * top + picture_.top, picture_.width, picture_.height,
+                  view_.camera);
+  }
+
+  void reset_camera() {
+    needs_camera_ = false;
+    if (bench_) {
+      view_.camera = bench_->camera(view_.bounds, options_.touch.workspace_scale);
+      return;
+    }
+    view_.camera =
+        make_camera(view_.bounds, options_.angles,
+                    eye_aspect(view_.stereo.mode, picture_.width, picture_.height), view_.camera.projection);
+    // Of the first view alone: a reset shows all there is.
+    view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
+  }
+
+  /// The camera of what is seen there.
+  [[nodiscard]] Camera seeing() const {
+    if (!bench_ || screens_) return seeing_camera(view_, pointer_.eye());
+    SceneView seen = view_;
+    bench_->show(seen);
+    return seeing_camera(seen, pointer_.eye());
+  }
+
+  /// A pointer is seen by both eyes where it is in both halves, at the same place.
+  void draw_second_pointer() const {
+    const auto there = pointer_.twin();
+    if (!there || ImGui::GetIO().WantCaptureMouse) return;
+    const ImVec2 at{static_cast<float>(there->x), static_cast<float>(there->y)};
+    const float size = 0.8F * gui_->text_height();
+    ImGui::GetForegroundDrawList()->AddTriangleFilled(
+        at, {at.x, at.y + size}, {at.x + 0.7F * size, at.y + 0.7F * size}, IM_COL32(255, 255, 255, 230));
+  }
+
   // Panels first: what happens over them is not for the camera.
-  void handle_events(const WindowLayout& parts) {
+  void handle_events() {
     const ImGuiIO& io = ImGui::GetIO();
     for (const InputEvent& event : glfw_.events()) {
+      pointer_.follow(event);
+      const Aim aim(view_.camera, seeing());
       if (event.kind == InputKind::kDrop && !question_.asking()) open({event.files, {}});
       if (const std::string text = event_text(event); !text.empty()) {
         touch_->record_event(static_cast<std::uint64_t>(frame_), text);
@@ -453,12 +516,12 @@ class Window {
       // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
       const bool of_lens =
           event.kind == InputKind::kPress && (lens_control_.followed() || color_lens_control_.followed());
-      if (!of_panel && !handle_region(event, parts.picture) && !handle_plane_image(event, parts.picture) &&
-          !(of_lens && handle_lens(event, parts.picture)) &&
-          !touch_control_->handle(event, parts.picture, view_, glfwGetTime(), io.WantCaptureMouse) &&
-          !handle_lens(event, parts.picture) &&
-          !(view_.tensors && slice_control_.handle(event, parts.picture, view_.camera, *view_.tensors))) {
-        control_.handle(event, parts.picture, view_.bounds, view_.camera);
+      if (!of_panel && !handle_region(event, pointer_.area()) &&
+          !handle_plane_image(event, pointer_.area()) && !(of_lens && handle_lens(event, pointer_.area())) &&
+          !touch_control_->handle(event, pointer_.area(), view_, glfwGetTime(), io.WantCaptureMouse) &&
+          !handle_lens(event, pointer_.area()) &&
+          !(view_.tensors && slice_control_.handle(event, pointer_.area(), view_.camera, *view_.tensors))) {
+        control_.handle(event, pointer_.area(), view_.bounds, view_.camera);
       } else if (event.kind == InputKind::kMove) {
         control_.place(event.x, event.y);
         slice_control_.place(event.x, event.y);
@@ -609,7 +672,8 @@ class Window {
       return;
     }
     if (!scene_ || !view_.volume) return;
-    say(lens_control_.run(command, picture_, view_.camera, view_.bounds, scene_->lens, *view_.volume), false);
+    say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->lens, *view_.volume),
+        false);
     live_->lens_moved(glfwGetTime());
   }
 
@@ -618,7 +682,8 @@ class Window {
                           eye_aspect(view_.stereo.mode, picture_.width, picture_.height), view_.camera))
       return;
     if (view_.tensors && SliceControl::run(command, *view_.tensors)) return;
-    if (const auto words = touch_control_->run(command, picture_, view_, glfwGetTime())) say(*words, false);
+    if (const auto words = touch_control_->run(command, pointer_.area(), view_, glfwGetTime()))
+      say(*words, false);
   }
 
   std::filesystem::path save_lines() {
@@ -683,6 +748,14 @@ class Window {
     write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
   }
 
+  /// The place under the mouse that is the next one of an annotation which is begun; none where none is.
+  [[nodiscard]] std::optional<Vec3> next_mark() const {
+    if (touch_->notes().pending().empty()) return std::nullopt;
+    SceneView seen = view_;
+    seen.camera = seeing();
+    return touch_control_->next_mark(pointer_.area(), seen);
+  }
+
   /// The view with the lines stepping back while a hand is on the probe, and where lines are kept or
   /// isosurfaces felt, which they would bury.
   [[nodiscard]] SceneView with_focus() const {
@@ -699,9 +772,7 @@ class Window {
     // Those on a layer are its grain.
     const bool on_layer = scene_ && scene_->info->layers;
     if ((hand || !view_.surfaces.empty()) && !on_layer && touch_->choice().fade_rest) fade_lines(picture);
-    picture.notes = notes_of(
-        touch_->notes(), length_unit(picture),
-        touch_->notes().pending().empty() ? std::nullopt : touch_control_->next_mark(picture_, view_));
+    picture.notes = notes_of(touch_->notes(), length_unit(picture), next_mark());
     std::vector<std::vector<Vec3>> handled;
     if (touch_->planes())
       handled = lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius());
@@ -722,11 +793,12 @@ class Window {
     return picture;
   }
 
-  void draw_picture(const WindowLayout& parts, int width, int height) {
+  void draw_picture(SceneView picture, const WindowLayout& parts, int width, int height) {
     const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
     if (glfw_.take_damage()) live_->damage();
     PictureMoment moment{.seconds = glfwGetTime(),
-                         .moving = control_.dragging() || slice_control_.dragging() || state_.playing};
+                         .moving = control_.dragging() || slice_control_.dragging() || state_.playing ||
+                                   (bench_ && bench_->moved())};
     if (!lively() && !job_->running() && !scripted()) {
       moment.interrupted = [this] {
         glfwPollEvents();
@@ -734,7 +806,8 @@ class Window {
       };
     }
     if (touch_->planes()) moment.next_cut = static_cast<std::size_t>(touch_->planes()->current);
-    live_->draw(with_focus(), w, h, moment);
+    if (bench_ && !screens_) bench_->show(picture);
+    live_->draw(std::move(picture), w, h, moment);
     state_.picture = live_->figures();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
@@ -752,6 +825,7 @@ class Window {
 
   SceneView view_;  // as the user wants it
   PictureArea picture_;
+  Pointer pointer_;
   bool needs_camera_ = true;
   std::optional<SceneState> scene_;
   PanelState state_;
@@ -776,6 +850,8 @@ class Window {
   int told_popped_ = 0;
   std::unique_ptr<ProbeSession> touch_;
   std::unique_ptr<TouchControl> touch_control_;
+  std::unique_ptr<BenchDisplay> bench_;
+  std::unique_ptr<ScreenWindows> screens_;  // each beside that of the desktop
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "common/app/haptic/probe_series.h"
 #include "common/app/haptic/probe_session.h"
+#include "common/app/immersive/bench_display.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
 #include "common/render/scene_view.h"
@@ -32,11 +33,13 @@ struct WindowOptions {
   std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
-  ProbeSessionOptions touch;                   ///< without modes: the window knows no touch
-  std::optional<Box> region;                   ///< of interest, in a volume
-  std::string plotted;                         ///< one of SceneInfo::plotted, or empty
-  double play_rate = kPlayRate;                ///< time steps a second
-  int threads = 0;                             ///< of what is read beside the picture; 0: all cores
+  /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
+  std::optional<BenchDisplayOptions> bench;
+  ProbeSessionOptions touch;     ///< without modes: the window knows no touch
+  std::optional<Box> region;     ///< of interest, in a volume
+  std::string plotted;           ///< one of SceneInfo::plotted, or empty
+  double play_rate = kPlayRate;  ///< time steps a second
+  int threads = 0;               ///< of what is read beside the picture; 0: all cores
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 
@@ -66,6 +69,8 @@ struct WindowResult {
   std::optional<TensorPick> tensor;  ///< that is read out under the mouse at the end
   std::string replay;                ///< verdict on a replay that came to its end
   SeriesCurve series;                ///< that was plotted at the end
+  std::vector<Image> screens;        ///< of a workbench, each in a window of its own, at the end
+  double latency = 0.0;              ///< BenchDisplay::latency()
 };
 
 /// Whether a window can be opened at all (a display is there).

@@ -158,5 +158,53 @@ TEST(ImmersiveTechnique, TheOtherHandCarriesAPlaneRigidly) {
   }
 }
 
+// The picture of the tip is off by the offset, turned and enlarged as the data is, and stays on the surface.
+TEST(ImmersiveTechnique, ShowsTheTipBesideTheHandAndOnASurface) {
+  WorkbenchGeometry file = bench(2.0);
+  constexpr double kScale = 0.25;  // [m] a data unit
+  ImmersiveTechnique plain(file, Vec3{1.0, 2.0, 3.0}, kScale);
+  file.interaction.tip_offset = {0.01, -0.02, 0.03};
+  ImmersiveTechnique beside(file, Vec3{1.0, 2.0, 3.0}, kScale);
+  const Vec3 n = glm::normalize(Vec3(0.3, 1.0, -0.2));
+  file.interaction.surface = Vec4(n, 0.04);
+  ImmersiveTechnique on_surface(file, Vec3{1.0, 2.0, 3.0}, kScale);
+  std::mt19937_64 random(29);
+  std::uniform_real_distribution<double> anywhere(-0.3, 0.3);
+  const BenchPlace place = place_of(file.interaction, Vec3{1.0, 2.0, 3.0}, kScale);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 q{anywhere(random), anywhere(random), anywhere(random)};
+    const TrackedHands hands = stylus(q, rotation_by({anywhere(random), anywhere(random), anywhere(random)}));
+    for (ImmersiveTechnique* each : {&plain, &beside, &on_surface}) ASSERT_TRUE(each->take(hands, {}));
+    const Vec3 offset = 2.0 / kScale * (file.interaction.rotation * file.interaction.tip_offset);
+    EXPECT_LT(glm::distance(beside.intent().probe, plain.intent().probe + offset), 1e-12);
+    // In the data, the plane is that of three of its places.
+    const Vec3 foot = 0.04 * n, side = glm::normalize(glm::cross(n, Vec3(1.0, 0.0, 0.0)));
+    const Vec3 a = place(foot),
+               normal =
+                   glm::normalize(glm::cross(place(foot + side) - a, place(foot + glm::cross(n, side)) - a));
+    EXPECT_NEAR(glm::dot(normal, on_surface.intent().probe - a), 0.0, 1e-12);
+    const Vec3 moved = beside.intent().probe - on_surface.intent().probe;
+    EXPECT_LT(glm::length(glm::cross(moved, normal)), 1e-12) << "straight down to it";
+  }
+}
+
+// What the mouse does to the view the hands follow: they stay where the data is shown.
+TEST(ImmersiveTechnique, IsWhereTheViewShowsTheData) {
+  WorkbenchGeometry file = bench(1.0);
+  file.tracker.reset();
+  file.stylus.reset();
+  const Screen screen{{-0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, {-0.3, 0.2, 0.1}};
+  ImmersiveTechnique technique(file, Vec3{0.0}, 0.25);
+  HandsView seen = view();
+  turn(seen.camera, 0.7, -0.3);
+  seen.place = place_of(seen.camera, screen);
+  ASSERT_TRUE(technique.take(stylus(center(screen)), seen));
+  EXPECT_LT(glm::distance(technique.intent().probe, seen.camera.focal_point), 1e-12);
+  ASSERT_TRUE(technique.take(stylus(screen.upper_left + Vec3(0.3, 0.0, 0.1)), seen));
+  const Vec3 above = seen.camera.focal_point + 0.5 * seen.camera.view_height * seen.camera.axes[1] +
+                     0.25 * seen.camera.view_height * seen.camera.axes[2];
+  EXPECT_LT(glm::distance(technique.intent().probe, above), 1e-12);
+}
+
 }  // namespace
 }  // namespace palpate
