@@ -6,9 +6,9 @@
 namespace palpate {
 namespace {
 
-constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse", kPedalDriver = "pedal";
+constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse", kPedalDriver = "pedal",
+                           kTrackerDriver = "polhemus";
 constexpr std::string_view kUnloaded = "waits for its firmware, which its maker's software loads (fxload)";
-constexpr std::string_view kNotYet = "there is no driver for it yet";
 
 constexpr std::array kKnown{
     KnownDevice{{0x0403, 0xcb48}, "Novint Falcon", kFalconDriver, ""},
@@ -45,14 +45,15 @@ constexpr std::array kKnown{
     KnownDevice{{0x256f, 0xc63a}, "SpaceMouse Wireless Bluetooth", kMouseDriver, ""},
     KnownDevice{{0x256f, 0xc652}, "3Dconnexion Universal Receiver", kMouseDriver, ""},
     KnownDevice{{0x0f44, 0x0001}, "Polhemus Fastrak", "", kUnloaded},
-    KnownDevice{{0x0f44, 0x0002}, "Polhemus Fastrak", "", kNotYet},
+    KnownDevice{{0x0f44, 0x0002}, "Polhemus Fastrak", kTrackerDriver, ""},
+    KnownDevice{{0x0f44, 0x0003}, "Polhemus Fastrak 3", kTrackerDriver, ""},
     KnownDevice{{0x0f44, 0xef11}, "Polhemus Patriot", "", kUnloaded},
-    KnownDevice{{0x0f44, 0xef12}, "Polhemus Patriot", "", kNotYet},
-    KnownDevice{{0x0f44, 0xef20}, "Polhemus Patriot HS", "", kNotYet},
+    KnownDevice{{0x0f44, 0xef12}, "Polhemus Patriot", kTrackerDriver, ""},
+    KnownDevice{{0x0f44, 0xef20}, "Polhemus Patriot HS", kTrackerDriver, ""},
     KnownDevice{{0x0f44, 0xef21}, "Polhemus Patriot HS", "", kUnloaded},
     KnownDevice{{0x0f44, 0xff11}, "Polhemus Liberty", "", kUnloaded},
-    KnownDevice{{0x0f44, 0xff12}, "Polhemus Liberty", "", kNotYet},
-    KnownDevice{{0x0f44, 0xff20}, "Polhemus Liberty 2", "", kNotYet},
+    KnownDevice{{0x0f44, 0xff12}, "Polhemus Liberty", kTrackerDriver, ""},
+    KnownDevice{{0x0f44, 0xff20}, "Polhemus Liberty 2", kTrackerDriver, ""},
     KnownDevice{{0x0f44, 0xff21}, "Polhemus Liberty 2", "", kUnloaded},
     KnownDevice{{0x0f44, 0xcf01}, "Polhemus G4", "", "speaks through its maker's library only"},
 };
