@@ -1,12 +1,16 @@
 // What devices send: the first byte chooses whose parser gets the rest, the second how it is cut into
 // transfers. Whatever came before, a good packet after it is understood.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "common/device/driver/falcon_packet.h"
+#include "common/device/driver/polhemus_record.h"
 #include "common/device/driver/spacemouse_report.h"
 
 using namespace palpate;
@@ -51,16 +55,47 @@ void spacemouse(std::span<const std::uint8_t> bytes, std::size_t transfer) {
   }
 }
 
+/// Whatever came before, of two whole records after it the second is understood.
+template <class Parser>
+void polhemus(std::span<const std::uint8_t> bytes, Parser parser, std::span<const std::uint8_t> whole) {
+  for (const std::uint8_t byte : bytes) {
+    const auto news = parser.push(byte);
+    const auto* const record = news ? std::get_if<PolhemusRecord>(&*news) : nullptr;
+    if (record == nullptr) continue;
+    require(record->station >= 1 && record->station <= static_cast<int>(LibertyParser::kMostStations));
+    require(is_finite(record->position) && std::abs(glm::length(record->orientation) - 1.0) < 1e-9);
+  }
+  std::optional<PolhemusNews> last;
+  for (int n = 0; n < 2; ++n) {
+    for (const std::uint8_t byte : whole) last = parser.push(byte);
+  }
+  require(last.has_value() && std::get<PolhemusRecord>(*last).position == Vec3(2.0, 2.0, 2.0));
+}
+
+// At (2, 2, 2), not turned.
+constexpr std::uint8_t kLiberty[]{'L', 'Y',  1, 'C', ' ',  0,    28, 0, 0, 0, 0, 0x40, 0, 0, 0, 0x40, 0, 0,
+                                  0,   0x40, 0, 0,   0x80, 0x3F, 0,  0, 0, 0, 0, 0,    0, 0, 0, 0,    0, 0};
+constexpr std::uint8_t kFastrak[]{'0',  '1',  ' ', 0, 0, 0, 0x40, 0, 0, 0, 0x40, 0, 0, 0, 0x40, 0,   0,
+                                  0x80, 0x3F, 0,   0, 0, 0, 0,    0, 0, 0, 0,    0, 0, 0, ' ',  '0', ' '};
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const std::span<const std::uint8_t> rest(data + 2, size - 2);
   const std::size_t transfer = 1 + data[1];
-  if (data[0] % 2 == 0) {
-    falcon(rest, transfer);
-  } else {
-    spacemouse(rest, transfer);
+  switch (data[0] % 4) {
+    case 0:
+      falcon(rest, transfer);
+      break;
+    case 1:
+      spacemouse(rest, transfer);
+      break;
+    case 2:
+      polhemus(rest, LibertyParser(std::array{LibertyItem::kPosition, LibertyItem::kQuaternion}), kLiberty);
+      break;
+    default:
+      polhemus(rest, FastrakParser(), kFastrak);
   }
   return 0;
 }
