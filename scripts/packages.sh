@@ -1,7 +1,8 @@
 # Debian packages by purpose, and installing those that are missing. Sourced by ./run and ./test.
 
 # What every build needs.
-packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev"
+packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev
+  libnanovdb-dev"
 # The explorers: command line, session files, window, drawing.
 packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"

@@ -95,6 +95,7 @@ const char* name_of(ScalarType type) noexcept {
 
 double DataArray::at(std::size_t tuple, int component) const noexcept {
   PALPATE_ASSERT(tuple < tuples && component >= 0 && component < components);
+  if (sparse) return static_cast<double>((*sparse)[tuple]);
   const std::size_t index =
       tuple * static_cast<std::size_t>(components) + static_cast<std::size_t>(component);
   switch (type) {

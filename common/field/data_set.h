@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/field/grid/sparse/sparse_numbers.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -37,7 +38,7 @@ enum class ScalarType : std::uint8_t {
 enum class Association : std::uint8_t { kPoint, kCell };
 
 /// A named array of `tuples` tuples of `components` numbers, tuple by tuple, native byte order, aligned
-/// to the number's size.
+/// to the number's size; or, where most are alike, as a tree.
 struct DataArray {
   std::string name;
   Association association = Association::kPoint;
@@ -46,7 +47,14 @@ struct DataArray {
   std::size_t tuples = 0;
   std::span<const std::byte> bytes;   ///< tuples * components * byte_size(type)
   std::shared_ptr<const void> owner;  ///< keeps `bytes` alive
+  /// Where not null the numbers stand here, `bytes` are none: one of single precision for each point of a
+  /// uniform block.
+  std::shared_ptr<const SparseNumbers> sparse;
 
+  /// Of memory that the numbers take.
+  [[nodiscard]] std::uint64_t stored_bytes() const noexcept {
+    return sparse ? sparse->bytes().size() : bytes.size();
+  }
   /// @pre tuple < tuples, component < components.
   [[nodiscard]] double at(std::size_t tuple, int component = 0) const noexcept;
 };

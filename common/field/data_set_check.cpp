@@ -16,6 +16,7 @@ class BlockCheck {
       const bool point = array.association == Association::kPoint;
       const std::size_t wanted = point ? block_.point_count() : block_.cell_count();
       check_array(array);
+      check_sparse(array);
       if (array.tuples != wanted) {
         refuse("array '" + array.name + "' has " + std::to_string(array.tuples) + " tuples",
                std::to_string(wanted) + ", one a " + (point ? "point" : "cell"));
@@ -59,6 +60,7 @@ class BlockCheck {
                  name_of(array.type),
              "at least one component of a known type");
     }
+    if (array.sparse) return;
     const std::size_t tuple = static_cast<std::size_t>(array.components) * byte_size(array.type);
     if (array.tuples > array.bytes.size() / tuple || array.tuples * tuple != array.bytes.size()) {
       refuse("array '" + array.name + "' has " + std::to_string(array.bytes.size()) + " bytes",
@@ -66,9 +68,18 @@ class BlockCheck {
     }
   }
 
+  void check_sparse(const DataArray& array) const {
+    if (!array.sparse) return;
+    const bool fits = std::holds_alternative<UniformTopology>(block_.topology) &&
+                      array.association == Association::kPoint && array.components == 1 &&
+                      array.type == ScalarType::kFloat32 && array.tuples == array.sparse->size() &&
+                      array.sparse->points() == structured_points(block_);
+    if (!fits) refuse("sparse array '" + array.name + "'", "one number a point of a uniform block");
+  }
+
   void check_positions(const DataArray& positions, std::size_t points) const {
     check_array(positions);
-    if (positions.components != 3) {
+    if (positions.components != 3 || positions.sparse) {
       refuse("points of " + std::to_string(positions.components) + " components", "3");
     }
     if (positions.tuples != points) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "common/base/error.h"
@@ -10,6 +11,7 @@
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/scalar_field.h"
 
 namespace palpate {
@@ -63,6 +65,11 @@ bool share_values(const FieldGrid& grid, const std::vector<DataSet>& used, const
   }
   const DataArray& array = *used.front().find(choice.array, Association::kPoint);
   if (array.components != 1) return false;
+  if (array.sparse) {
+    values.values = SparseSpan{array.sparse.get()};
+    values.owner = array.sparse;
+    return true;
+  }
   switch (array.type) {
     case ScalarType::kFloat32:
       return share<float>(array, values);
@@ -133,7 +140,7 @@ class ScalarFieldBuilder {
       field->notes_.lines.emplace_back(
           "cell values brought to the points: volume-weighted mean of the cells around each point");
     }
-    take_range(*field);
+    take_range(*field, threads);
     return field;
   }
 
@@ -187,7 +194,7 @@ class ScalarFieldBuilder {
           field->values_.owner = std::move(stored);
         },
         vectors.values);
-    take_range(*field);
+    take_range(*field, 0);
     return field;
   }
 
@@ -226,20 +233,30 @@ class ScalarFieldBuilder {
     field.values_.owner = std::move(stored);
   }
 
-  static void take_range(ScalarField& field) {
+  static void take_range(ScalarField& field, int threads) {
     field.lowest_ = std::numeric_limits<double>::infinity();
     field.highest_ = -std::numeric_limits<double>::infinity();
     std::size_t bad = 0;
+    const auto include = [&](const auto& values) {
+      for (const auto stored : values) {
+        const auto value = static_cast<double>(stored);
+        if (!std::isfinite(value)) {
+          ++bad;
+          continue;
+        }
+        field.lowest_ = std::min(field.lowest_, value);
+        field.highest_ = std::max(field.highest_, value);
+      }
+    };
     std::visit(
         [&](const auto& values) {
-          for (const auto stored : values) {
-            const auto value = static_cast<double>(stored);
-            if (!std::isfinite(value)) {
-              ++bad;
-              continue;
-            }
-            field.lowest_ = std::min(field.lowest_, value);
-            field.highest_ = std::max(field.highest_, value);
+          if constexpr (std::is_same_v<std::decay_t<decltype(values)>, SparseSpan>) {
+            const SparseRange range = range_of(*values.numbers, threads);
+            field.lowest_ = range.lowest;
+            field.highest_ = range.highest;
+            bad = range.not_finite;
+          } else {
+            include(values);
           }
         },
         field.values_.values);

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <variant>
 
+#include "common/field/grid/sparse/sparse_statistics.h"
+
 namespace palpate {
 
 ValueHistogram value_histogram(const ScalarField& field) {
@@ -18,6 +20,10 @@ ValueHistogram value_histogram(const ScalarField& field) {
       return formula->value(box.lower + box.size() * (at / double{kSide - 1}));
     };
     return count_values(kSide * kSide * kSide, at_lattice, lowest, highest, kBins, 0);
+  }
+  if (const auto* sparse = std::get_if<SparseSpan>(&field.values().values)) {
+    return count_values(
+        *sparse->numbers, [scale](double number) { return number * scale; }, lowest, highest, kBins, 0);
   }
   return std::visit(
       [&](const auto& values) {

@@ -13,24 +13,27 @@ double ValueHistogram::value_of(std::size_t bin) const noexcept {
   return (1.0 - t) * lower + t * upper;
 }
 
+HistogramBins::HistogramBins(double lower, double upper, std::size_t bins) noexcept
+    : lower_(lower),
+      upper_(upper),
+      half_width_(0.5 * upper - 0.5 * lower),
+      bins_(static_cast<double>(bins)),
+      last_(bins_ - 1.0) {
+  PALPATE_CHECK(bins >= 1 && std::isfinite(lower) && std::isfinite(upper) && lower <= upper);
+}
+
 ValueHistogram count_values(std::size_t count, const std::function<double(std::size_t)>& value_at,
                             double lower, double upper, std::size_t bins, int threads) {
-  PALPATE_CHECK(bins >= 1 && std::isfinite(lower) && std::isfinite(upper) && lower <= upper);
   // Counts of pieces that do not depend on the threads are added up in the end: whole numbers, any order.
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   const std::size_t pieces = (count + kPiece - 1) / kPiece;
   std::vector<std::vector<std::uint64_t>> found(pieces);
-  // Halved before the difference is taken, which could overflow.
-  const double half_width = 0.5 * upper - 0.5 * lower;
-  const double last = static_cast<double>(bins) - 1.0;
+  const HistogramBins places(lower, upper, bins);
   parallel_for(pieces, threads, [&](std::size_t first, std::size_t end) {
     for (std::size_t p = first; p < end; ++p) {
       found[p].assign(bins, 0);
       for (std::size_t i = p * kPiece; i < std::min(count, (p + 1) * kPiece); ++i) {
-        const double value = value_at(i);
-        if (!(value >= lower && value <= upper)) continue;
-        const double t = half_width > 0.0 ? (0.5 * value - 0.5 * lower) / half_width : 0.0;
-        ++found[p][static_cast<std::size_t>(std::min(t * static_cast<double>(bins), last))];
+        if (const auto bin = places.of(value_at(i))) ++found[p][*bin];
       }
     }
   });

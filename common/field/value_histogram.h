@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace palpate {
@@ -19,6 +20,23 @@ struct ValueHistogram {
 
   /// s_i. @pre bin < counts.size().
   [[nodiscard]] double value_of(std::size_t bin) const noexcept;
+};
+
+/// The bins of a histogram. @pre bins >= 1, lower <= upper, both finite.
+class HistogramBins {
+ public:
+  HistogramBins(double lower, double upper, std::size_t bins) noexcept;
+  /// The one that a value counts for; none where it is not finite or lies outside.
+  [[nodiscard]] std::optional<std::size_t> of(double value) const noexcept {
+    if (!(value >= lower_ && value <= upper_)) return std::nullopt;
+    const double t = half_width_ > 0.0 ? (0.5 * value - 0.5 * lower_) / half_width_ : 0.0;
+    return static_cast<std::size_t>(t * bins_ < last_ ? t * bins_ : last_);
+  }
+
+ private:
+  double lower_, upper_;
+  double half_width_;  ///< halved before the difference is taken, which could overflow
+  double bins_, last_;
 };
 
 /// Counts value_at(0) to value_at(count - 1) in `bins` bins over [lower, upper]; values that are not finite

@@ -17,6 +17,8 @@ struct ArrayInfo {
   int components = 1;
   ScalarType type = ScalarType::kFloat32;
   std::size_t tuples = 0;
+  std::uint64_t sparse_bytes =
+      0;  ///< about so many where the numbers stand in a tree (DataArray::sparse); 0: no
 };
 
 /// A recipe for a vector field.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <stdexcept>
 
 namespace palpate::message {
 namespace {
@@ -30,7 +31,12 @@ std::uint64_t points_of(const Index3& index, const char* key) {
 json encode_array(const DataArray& array, MemoryFile& memory) {
   json object =
       encode_array_info({array.name, array.association, array.components, array.type, array.tuples});
-  object["offset"] = memory.append(array.bytes);
+  if (array.sparse) {
+    object["tree_bytes"] = array.sparse->bytes().size();
+    object["points"] = counts_json(array.sparse->points());
+    object["shift"] = counts_json(array.sparse->shift());
+  }
+  object["offset"] = memory.append(array.sparse ? array.sparse->bytes() : array.bytes);
   return object;
 }
 
@@ -57,6 +63,16 @@ struct Memory {
   }
 };
 
+std::shared_ptr<const SparseNumbers> decode_sparse(const json& object, const Memory& memory) {
+  const auto bytes = memory.at(count_at(object, "offset"), count_at(object, "tree_bytes"), 1);
+  try {
+    return std::make_shared<const SparseNumbers>(bytes, memory.owner, index_at(object, "shift"),
+                                                 index_at(object, "points"));
+  } catch (const std::invalid_argument& problem) {
+    malformed(problem.what());
+  }
+}
+
 DataArray decode_array(const json& object, const Memory& memory) {
   ArrayInfo info = decode_array_info(object);
   DataArray array;
@@ -65,6 +81,13 @@ DataArray decode_array(const json& object, const Memory& memory) {
   array.components = info.components;
   array.type = info.type;
   array.tuples = info.tuples;
+  if (object.contains("tree_bytes")) {
+    array.sparse = decode_sparse(object, memory);
+    const bool plain = array.components == 1 && array.type == ScalarType::kFloat32 &&
+                       array.association == Association::kPoint;
+    if (!plain) malformed("a sparse array holds more than one number a point");
+    return array;
+  }
   array.bytes = memory.at(count_at(object, "offset"), info.tuples,
                           static_cast<std::uint64_t>(info.components) * byte_size(info.type));
   array.owner = memory.owner;
@@ -73,6 +96,7 @@ DataArray decode_array(const json& object, const Memory& memory) {
 
 DataArray decode_positions(const json& object, const Memory& memory) {
   DataArray positions = decode_array(member(object, "positions"), memory);
+  if (positions.sparse) malformed("positions are sparse");
   const bool real = positions.type == ScalarType::kFloat32 || positions.type == ScalarType::kFloat64;
   if (positions.components != 3 || positions.association != Association::kPoint || !real) {
     malformed("positions are not three floats a point");
@@ -254,7 +278,8 @@ json encode_array_info(const ArrayInfo& info) {
           {"on", info.association == Association::kPoint ? "point" : "cell"},
           {"components", info.components},
           {"type", name_of(info.type)},
-          {"tuples", info.tuples}};
+          {"tuples", info.tuples},
+          {"sparse_bytes", info.sparse_bytes}};
 }
 
 ArrayInfo decode_array_info(const json& object) {
@@ -269,6 +294,7 @@ ArrayInfo decode_array_info(const json& object) {
   info.components = static_cast<int>(components);
   info.type = scalar_type_at(object);
   info.tuples = count_at(object, "tuples");
+  info.sparse_bytes = count_at(object, "sparse_bytes");
   return info;
 }
 
@@ -306,6 +332,11 @@ DataSet decode_block(const json& object, std::span<const std::byte> bytes,
     if (array.tuples != (array.association == Association::kPoint ? counts.points : counts.cells)) {
       malformed("array '" + array.name + "' has " + std::to_string(array.tuples) + " tuples for " +
                 std::to_string(counts.points) + " points and " + std::to_string(counts.cells) + " cells");
+    }
+    if (array.sparse) {
+      const auto* uniform = std::get_if<UniformTopology>(&block.topology);
+      if (uniform == nullptr || uniform->points != array.sparse->points())
+        malformed("sparse array '" + array.name + "' lies on another grid");
     }
     block.arrays.push_back(std::move(array));
   }

@@ -168,7 +168,8 @@ void Input::open_example() {
   }
   made_ = spec_.kind == FieldKind::kTensor ? tensor_example(spec_.example) : volume_example(spec_.example);
   const DataArray& array = made_->arrays.front();
-  arrays_ = {{array.name, array.association, array.components, array.type, array.tuples}};
+  arrays_ = {{array.name, array.association, array.components, array.type, array.tuples,
+              array.sparse ? array.stored_bytes() : 0}};
   made_info_ = FileInfo{.format = "made on the fly"};
   made_info_->blocks.push_back(describe_image(std::get<UniformTopology>(made_->topology), arrays_.front()));
 }

@@ -59,8 +59,10 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
   std::vector<std::string> wanted;
   if (use.field && !input.fields().empty()) wanted = input.field_arrays();
   for (const ArrayInfo& array : input.arrays()) {
-    const std::uint64_t bytes = static_cast<std::uint64_t>(array.tuples) *
-                                static_cast<std::uint64_t>(array.components) * byte_size(array.type);
+    const std::uint64_t bytes = array.sparse_bytes > 0 ? array.sparse_bytes
+                                                       : static_cast<std::uint64_t>(array.tuples) *
+                                                             static_cast<std::uint64_t>(array.components) *
+                                                             byte_size(array.type);
     const bool in_field = std::find(wanted.begin(), wanted.end(), array.name) != wanted.end();
     const bool colors = array.name == use.color_array;
     const std::string what = kArray + array.name;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -149,14 +150,23 @@ class BoxMarch {
  private:
   enum Side : std::uint8_t { kBelow = 0, kAbove = 1, kBad = 2 };
 
-  void classify(int k, std::vector<std::uint8_t>& side) const {
+  void classify(int k, std::vector<std::uint8_t>& side) {
+    const auto classify_all = [&](const auto& slice) {
+      for (std::size_t i = 0; i < slice_; ++i) {
+        const double s = static_cast<double>(slice[i]) * values_.scale;
+        side[i] = !std::isfinite(s) ? kBad : s >= level_ ? kAbove : kBelow;
+      }
+    };
+    if (const auto* sparse = std::get_if<SparseSpan>(&values_.values)) {
+      const Index3 n = grid_.points();
+      sparse_slice_.resize(slice_);
+      sparse->numbers->copy({{0, 0, k}, {n.x, n.y, k + 1}}, sparse_slice_.data());
+      return classify_all(sparse_slice_);
+    }
     std::visit(
         [&](const auto& stored) {
-          const auto slice = stored.subspan(static_cast<std::size_t>(k) * slice_, slice_);
-          for (std::size_t i = 0; i < slice_; ++i) {
-            const double s = static_cast<double>(slice[i]) * values_.scale;
-            side[i] = !std::isfinite(s) ? kBad : s >= level_ ? kAbove : kBelow;
-          }
+          if constexpr (!std::is_same_v<std::decay_t<decltype(stored)>, SparseSpan>)
+            classify_all(stored.subspan(static_cast<std::size_t>(k) * slice_, slice_));
         },
         values_.values);
   }
@@ -238,6 +248,7 @@ class BoxMarch {
   std::function<double(const Vec3&)> exact_;
   Triangles triangles_;
   std::size_t row_, slice_;
+  std::vector<float> sparse_slice_;
   std::array<std::vector<std::uint8_t>, 2> side_;   // of the slices below and above
   std::array<std::vector<std::uint32_t>, 2> flat_;  // vertices on edges within them: x, y, xy of each point
   std::vector<std::uint32_t> up_;                   // between them: z, zx, yz, xyz

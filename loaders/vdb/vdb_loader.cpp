@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/field/grid/sparse/sparse_builder.h"
 #include "common/load/sniff.h"
 #include "common/load/volume_block.h"
 
@@ -111,7 +113,7 @@ class VdbLoader : public Loader {
     for (const openvdb::GridBase::Ptr& grid : grids_) {
       const ArrayInfo info = described(*grid);
       if (std::find(names.begin(), names.end(), info.name) != names.end())
-        block.arrays.push_back(dense(*grid, info));
+        block.arrays.push_back(values_of(*grid, info));
     }
     std::vector<DataSet> blocks;
     blocks.push_back(std::move(block));
@@ -164,9 +166,11 @@ class VdbLoader : public Loader {
     rlimit limit{};
     ::getrlimit(RLIMIT_AS, &limit);
     double bytes = 0.0;
-    for (const auto& grid : grids_) bytes = std::max(bytes, count * static_cast<double>(tuple_bytes(*grid)));
-    // The numbers are there twice, here and on their way.
-    if (2.0 * bytes > static_cast<double>(limit.rlim_cur) || count > 1e15) {
+    for (const auto& grid : grids_) {
+      if (!stays_sparse(*grid)) bytes = std::max(bytes, count * static_cast<double>(tuple_bytes(*grid)));
+    }
+    // Dense numbers are there twice, here and on their way.
+    if (2.0 * bytes > static_cast<double>(limit.rlim_cur) || count > static_cast<double>(kMostSparsePoints)) {
       const auto& low = box_.min();
       const auto& high = box_.max();
       const auto side = [&](int axis) {
@@ -174,8 +178,10 @@ class VdbLoader : public Loader {
       };
       throw input_error({file_, "",
                          "has active voxels in a box of " + side(0) + " x " + side(1) + " x " + side(2) +
-                             ", more than this machine's memory holds",
-                         "", "cut or resample it"});
+                             (bytes > 0.0 ? ", more than this machine's memory holds" : ""),
+                         "at most " + std::to_string(kMostSparsePoints >> 30U) +
+                             " thousand million voxels, and fewer where they are no single numbers",
+                         "cut or resample it"});
     }
     const openvdb::math::Transform& transform = grids_.front()->transform();
     const openvdb::Vec3d origin = transform.indexToWorld(box_.min());
@@ -191,6 +197,9 @@ class VdbLoader : public Loader {
   static std::string name_of_array(const openvdb::GridBase& grid) {
     return grid.getName().empty() ? "values" : grid.getName();
   }
+
+  // Numbers of single precision are handed over as the tree that they are.
+  static bool stays_sparse(const openvdb::GridBase& grid) { return grid.isType<openvdb::FloatGrid>(); }
 
   static std::size_t tuple_bytes(const openvdb::GridBase& grid) {
     std::size_t bytes = 0;
@@ -208,6 +217,9 @@ class VdbLoader : public Loader {
                    .type = ScalarType::kFloat32,
                    .tuples = 1};
     for (int axis = 0; axis < 3; ++axis) info.tuples *= static_cast<std::size_t>(topology_.points[axis]);
+    if (stays_sparse(grid))
+      info.sparse_bytes =
+          static_cast<const openvdb::FloatGrid&>(grid).tree().leafCount() * kBlockVoxels * sizeof(float);
     (void)with_grid(grid, [&](const auto& g) {
       using Value = typename std::decay_t<decltype(g)>::ValueType;
       if constexpr (openvdb::VecTraits<Value>::IsVec) {
@@ -220,12 +232,49 @@ class VdbLoader : public Loader {
     return info;
   }
 
-  [[nodiscard]] DataArray dense(const openvdb::GridBase& grid, const ArrayInfo& info) const {
+  // What lies in the box, leaf by leaf and tile by tile.
+  [[nodiscard]] std::shared_ptr<const SparseNumbers> sparse(const openvdb::FloatGrid& grid) const {
+    const openvdb::Coord low = box_.min();
+    constexpr int kMask = kBlockSide - 1;
+    const Index3 shift(low.x() & kMask, low.y() & kMask, low.z() & kMask);
+    SparseBuilder builder(shift, topology_.points, grid.background());
+    const Index3 origin = Index3(low.x(), low.y(), low.z()) - shift;
+    const auto block_of = [&](const openvdb::Coord& voxel) {
+      return (Index3(voxel.x(), voxel.y(), voxel.z()) - origin) / kBlockSide;
+    };
+    using Tree = openvdb::FloatTree;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+      if (!box_.hasOverlap(leaf->getNodeBoundingBox())) continue;
+      builder.put(block_of(leaf->origin()),
+                  std::span<const float, kBlockVoxels>(leaf->buffer().data(), kBlockVoxels));
+    }
+    auto tile = grid.tree().cbeginValueAll();
+    tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+      if (*tile == grid.background()) continue;
+      openvdb::CoordBBox part = tile.getBoundingBox();
+      part.intersect(box_);
+      if (part.empty()) continue;
+      const Index3 first = block_of(part.min()), last = block_of(part.max());
+      for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+          for (int x = first.x; x <= last.x; ++x) builder.put({x, y, z}, *tile);
+        }
+      }
+    }
+    return builder.finish();
+  }
+
+  [[nodiscard]] DataArray values_of(const openvdb::GridBase& grid, const ArrayInfo& info) const {
     DataArray array;
     array.name = info.name;
     array.type = info.type;
     array.components = info.components;
     array.tuples = info.tuples;
+    if (stays_sparse(grid)) {
+      array.sparse = sparse(static_cast<const openvdb::FloatGrid&>(grid));
+      return array;
+    }
     const auto bytes = std::make_shared<std::vector<std::byte>>(info.tuples * tuple_bytes(grid));
     (void)with_grid(grid, [&](const auto& g) {
       using Value = typename std::decay_t<decltype(g)>::ValueType;

@@ -138,6 +138,36 @@ TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndTheOthersNamed) {
   EXPECT_EQ(marked->at(1), 0.0);
 }
 
+// A ball of 60 voxels, solid by tiles, in one corner of a box of 1024^3, a voxel in the other: some MB, not
+// 4.3 GB.
+TEST(Vdb, ASparseGridOfSinglePrecisionStaysSparse) {
+  openvdb::initialize();
+  const test::TempFolder folder;
+  const auto grid = openvdb::FloatGrid::create(0.5F);
+  grid->setName("solid");
+  grid->sparseFill(openvdb::CoordBBox(openvdb::Coord(-13), openvdb::Coord(47)), 2.0F);
+  grid->tree().setValue(openvdb::Coord(1010), 3.0F);
+  grid->tree().setValueOff(openvdb::Coord(7, 8, 9), -1.0F);
+  Source source = Source::open({{write(folder, "sparse.vdb", {grid})}, {}});
+  ASSERT_EQ(source.arrays().size(), 1U);
+  EXPECT_GT(source.arrays().front().sparse_bytes, 0U);
+  const DataSet block = source.read({"solid"}).at(0);
+  const DataArray& array = block.arrays.front();
+  ASSERT_NE(array.sparse, nullptr);
+  EXPECT_EQ(array.tuples, std::size_t{1} << 30U);
+  EXPECT_LT(array.stored_bytes(), std::uint64_t{4} << 20U);
+  SparseReader reader(*array.sparse);
+  const auto at = [&](int x, int y, int z) { return reader.at(Index3(x, y, z) + 13); };
+  EXPECT_EQ(at(-13, -13, -13), 2.0F);
+  EXPECT_EQ(at(20, 21, 22), 2.0F);
+  EXPECT_EQ(at(47, 47, 47), 2.0F);
+  EXPECT_EQ(at(48, 47, 47), 0.5F);
+  EXPECT_EQ(at(7, 8, 9), -1.0F) << "values that are not active count as well";
+  EXPECT_EQ(at(1010, 1010, 1010), 3.0F);
+  EXPECT_EQ(at(1009, 1010, 1010), 0.5F);
+  EXPECT_EQ(array.at(array.tuples - 1), 3.0);
+}
+
 TEST(Vdb, HalvesPackingsAndLevelSetsAreRead) {
   const test::TempFolder folder;
   const auto grid = ball();

@@ -8,6 +8,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/load/read_tractogram.h"
 #include "common/scene/plan.h"
 
@@ -27,7 +28,16 @@ struct PieceRange {
   std::uint64_t bad = 0;
 };
 
+void include_sparse(const SparseNumbers& numbers, int threads, ArraySummary& summary) {
+  if (summary.ranges.empty()) summary.ranges.assign(1, {HUGE_VAL, -HUGE_VAL});
+  const SparseRange range = range_of(numbers, threads);
+  summary.bad_values += range.not_finite;
+  summary.ranges.front().lower = std::min(summary.ranges.front().lower, range.lowest);
+  summary.ranges.front().upper = std::max(summary.ranges.front().upper, range.highest);
+}
+
 void include_array(const DataArray& array, int threads, ArraySummary& summary) {
+  if (array.sparse) return include_sparse(*array.sparse, threads, summary);
   constexpr std::size_t kPiece = 65536;
   const std::size_t pieces = (array.tuples + kPiece - 1) / kPiece;
   const auto components = static_cast<std::size_t>(array.components);
@@ -110,7 +120,7 @@ void read_all(Input& input, const Options& options, const VerbContext& context, 
       const DataArray* values = block.find(array.info.name, array.info.association);
       if (!values) continue;
       include_array(*values, options.common.threads, array);
-      summary.memory_bytes += values->bytes.size();
+      summary.memory_bytes += values->stored_bytes();
     }
   }
 }
@@ -163,7 +173,7 @@ std::string file_text(const InfoSummary& summary, const FileInfo& file) {
     text += "  array      " + array.info.name + " (" +
             (array.info.association == Association::kCell ? "cells" : "points") + ", " +
             std::to_string(array.info.components) + " x " + name_of(array.info.type) +
-            "): " + range_text(array) + "\n";
+            (array.info.sparse_bytes > 0 ? ", sparse" : "") + "): " + range_text(array) + "\n";
   }
   if (summary.tracts) text += tracts_text(*summary.tracts);
   if (file.times.size() > 1) {

@@ -18,6 +18,7 @@
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/field/grid/image_contours.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/value_histogram.h"
 #include "common/load/write_image.h"
 #include "common/load/write_lines.h"
@@ -60,19 +61,28 @@ struct Greys {
 
 Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) {
   Greys greys{HUGE_VAL, -HUGE_VAL, 1.0, 0.0};
-  for (std::size_t i = 0; i < values.tuples; ++i) {
-    const double v = values.at(i);
-    if (!std::isfinite(v)) continue;
-    greys.lowest = std::min(greys.lowest, v);
-    greys.highest = std::max(greys.highest, v);
+  if (values.sparse) {
+    const SparseRange range = range_of(*values.sparse, threads);
+    greys.lowest = range.lowest;
+    greys.highest = range.highest;
+  } else {
+    for (std::size_t i = 0; i < values.tuples; ++i) {
+      const double v = values.at(i);
+      if (!std::isfinite(v)) continue;
+      greys.lowest = std::min(greys.lowest, v);
+      greys.highest = std::max(greys.highest, v);
+    }
   }
   if (greys.lowest > greys.highest) greys.lowest = greys.highest = 0.0;
   ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
   constexpr std::size_t kBins = 1024;
   if (greys.lowest < greys.highest) {
-    histogram = count_values(
-        values.tuples, [&values](std::size_t i) { return values.at(i); }, greys.lowest, greys.highest, kBins,
-        threads);
+    histogram = values.sparse ? count_values(
+                                    *values.sparse, [](double number) { return number; }, greys.lowest,
+                                    greys.highest, kBins, threads)
+                              : count_values(
+                                    values.tuples, [&values](std::size_t i) { return values.at(i); },
+                                    greys.lowest, greys.highest, kBins, threads);
   }
   const ValueWindow window = default_window(histogram);
   greys.window = slice.window.value_or(window.width);

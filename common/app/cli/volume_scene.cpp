@@ -16,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/color_transfer_file.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/value_histogram.h"
 #include "common/scene/volume_source.h"
 
@@ -42,6 +43,11 @@ Voxels read_voxels(Input& input, Progress* progress) {
 
 ValueHistogram histogram_of(const VolumeImage& image, double lower, int threads) {
   constexpr std::size_t kBins = 1024;
+  if (image.sparse) {
+    return count_values(
+        *image.sparse, [&image](double number) { return image.offset + image.scale * number; }, lower,
+        image.highest, kBins, threads);
+  }
   return count_values(
       image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, image.highest, kBins,
       threads);

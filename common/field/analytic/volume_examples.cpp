@@ -8,9 +8,12 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "common/base/error.h"
+#include "common/base/parallel.h"
 #include "common/field/analytic/scalar_examples.h"
+#include "common/field/grid/sparse/sparse_builder.h"
 #include "common/math/counter_random.h"
 
 namespace palpate {
@@ -118,18 +121,95 @@ DataSet voxel() {
   });
 }
 
+/// The part in [0, 1] that a thin shell with holes has in the direction `d` of number `i`.
+double part_of_shell(const Vec3& d, double i) {
+  constexpr double kWaves = 5.0, kEdge = 4.0;  // of the pattern over a half turn; steepness of holes' edges
+  const Vec3 a = kWaves * d;
+  const double pattern = std::sin(a.x + i) * std::cos(a.y) + std::sin(a.y + i) * std::cos(a.z) +
+                         std::sin(a.z + i) * std::cos(a.x);
+  return std::clamp(0.5 + kEdge * pattern, 0.0, 1.0);
+}
+
+/// Six nested shells with holes, thin as a few voxels of 1024^3, nothing elsewhere:
+/// s = A_i max(0, 1 - ||x| - R_i| / w) where shell i is no hole. Only blocks that a shell meets are made.
+DataSet sparse_shells() {
+  constexpr int kPoints = 1024, kShells = 6;
+  constexpr double kStep = 2.0 / (kPoints - 1), kWidth = 2.0 * kStep;  // w
+  const auto radius_of = [](int shell) { return 0.96 * (shell + 1) / kShells; };
+  const auto value_at = [&](const Vec3& x) {
+    const double r = glm::length(x);
+    for (int shell = 0; shell < kShells; ++shell) {
+      const double across = 1.0 - std::abs(r - radius_of(shell)) / kWidth;
+      if (across <= 0.0) continue;
+      const double height = 1.0 - 0.12 * shell;
+      return static_cast<float>(height * across * part_of_shell(x / r, shell));
+    }
+    return 0.0F;
+  };
+  UniformTopology topology;
+  topology.points = Index3{kPoints};
+  topology.origin = kUnitCube.lower;
+  topology.axes = kStep * Mat3{1.0};
+
+  SparseBuilder builder(Index3{0}, topology.points, 0.0F);
+  const Index3 n = builder.blocks();
+  struct Made {
+    bool any = false;
+    std::array<float, kBlockVoxels> numbers{};
+  };
+  const auto make = [&](const Index3& block, Made& made) {
+    const Vec3 middle = topology.origin + kStep * (Vec3{kBlockSide * block} + 0.5 * (kBlockSide - 1));
+    const double reach = 0.5 * kBlockSide * kStep * std::sqrt(3.0) + kWidth, r = glm::length(middle);
+    made.any = false;
+    for (int shell = 0; shell < kShells; ++shell)
+      made.any = made.any || std::abs(r - radius_of(shell)) <= reach;
+    if (!made.any) return;
+    for (int x = 0; x < kBlockSide; ++x) {
+      for (int y = 0; y < kBlockSide; ++y) {
+        for (int z = 0; z < kBlockSide; ++z) {
+          const Index3 p = kBlockSide * block + Index3(x, y, z);
+          made.numbers[block_offset(p)] = value_at(topology.origin + kStep * Vec3{p});
+        }
+      }
+    }
+  };
+  std::vector<Made> layer(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y));
+  const auto block_of = [&](std::size_t i, int z) {
+    const auto row = static_cast<std::size_t>(n.x);
+    return Index3(static_cast<int>(i % row), static_cast<int>(i / row), z);
+  };
+  for (int z = 0; z < n.z; ++z) {
+    parallel_for(layer.size(), 0, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) make(block_of(i, z), layer[i]);
+    });
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      if (layer[i].any) builder.put(block_of(i, z), layer[i].numbers);
+    }
+  }
+  DataArray array;
+  array.name = kVolumeArray;
+  array.sparse = builder.finish();
+  array.tuples = array.sparse->size();
+  DataSet block;
+  block.topology = topology;
+  block.arrays.push_back(std::move(array));
+  return block;
+}
+
 struct Example {
   const char* name;
   const char* summary;
   DataSet (*make)();
 };
-constexpr std::array<Example, 4> kExamples{
+constexpr std::array<Example, 5> kExamples{
     {{"shells", "four nested shells of falling value (96^3, 8 bits)", shells},
      {"marschner-lobb",
       "Marschner-Lobb signal (Marschner and Lobb 1994): rings at the limit of its grid (41^3, float)",
       marschner_lobb},
      {"blob", "three joined blobs under white noise (64^3, 16 bits)", blob},
-     {"voxel", "an empty volume with one voxel in the middle (33^3, 8 bits)", voxel}}};
+     {"voxel", "an empty volume with one voxel in the middle (33^3, 8 bits)", voxel},
+     {"sparse-shells", "six thin shells with holes in an empty volume (1024^3, float, sparse)",
+      sparse_shells}}};
 
 }  // namespace
 

@@ -10,23 +10,33 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <variant>
 
 #include "common/field/grid/box_grid.h"
+#include "common/field/grid/sparse/sparse_numbers.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/math/jet.h"
 #include "common/math/vec.h"
 
 namespace palpate {
 
+/// Sparse numbers where others are a span.
+struct SparseSpan {
+  const SparseNumbers* numbers = nullptr;
+
+  [[nodiscard]] std::size_t size() const noexcept { return numbers->size(); }
+  [[nodiscard]] float operator[](std::size_t index) const noexcept { return (*numbers)[index]; }
+};
+
 /// Scalars at the points of a grid, in the order of its points, as stored; multiplied by `scale` they are
 /// local ones.
 struct PointScalars {
   std::variant<std::span<const float>, std::span<const double>, std::span<const std::uint8_t>,
-               std::span<const std::int16_t>, std::span<const std::uint16_t>>
+               std::span<const std::int16_t>, std::span<const std::uint16_t>, SparseSpan>
       values;
   double scale = 1.0;                 ///< a power of two
   std::shared_ptr<const void> owner;  ///< keeps `values` alive

@@ -98,7 +98,11 @@ void SlicePass::upload_underlay(const VolumeImage& image) {
   const Index3 n = image.points;
   under_ = make_voxel_texture(layout.internal, n);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage3D(under_.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RED, layout.type, image.bytes.data());
+  std::vector<std::byte> layer(image.byte_count() / static_cast<std::size_t>(n.z));
+  for (int z = 0; z < n.z; ++z) {
+    image.copy({{0, 0, z}, {n.x, n.y, z + 1}}, layer.data());
+    glTextureSubImage3D(under_.name(), 0, 0, 0, z, n.x, n.y, 1, GL_RED, layout.type, layer.data());
+  }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
@@ -82,6 +83,46 @@ struct EntryScale {
 
 }  // namespace
 
+namespace {
+
+// The ranges of the row of bricks at (by, bz): where no leaf is met, those of a few numbers.
+void find_sparse_row(const SparseNumbers& numbers, int by, int bz, std::span<BrickRanges::Range> row) {
+  const Index3 n = numbers.points(), shift = numbers.shift();
+  const auto block_of = [](int voxel) { return voxel / kBlockSide; };
+  SparseReader reader(numbers);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const Index3 first(kBrickCells * static_cast<int>(i), kBrickCells * by, kBrickCells * bz);
+    const Index3 end = glm::min(first + kBrickCells + 1, n);
+    float lowest = HUGE_VALF, highest = -HUGE_VALF;
+    const auto include = [&](float v) {
+      lowest = v < lowest ? v : lowest;  // NaN passes both
+      highest = v > highest ? v : highest;
+    };
+    bool leaf = false;
+    for (int z = block_of(first.z + shift.z); z <= block_of(end.z - 1 + shift.z); ++z) {
+      for (int y = block_of(first.y + shift.y); y <= block_of(end.y - 1 + shift.y); ++y) {
+        for (int x = block_of(first.x + shift.x); x <= block_of(end.x - 1 + shift.x) && !leaf; ++x) {
+          const SparseBlock block = numbers.block({x, y, z});
+          leaf = block.numbers != nullptr;
+          if (!leaf) include(block.constant);
+        }
+      }
+    }
+    if (leaf) {
+      lowest = HUGE_VALF;
+      highest = -HUGE_VALF;
+      for (int x = first.x; x < end.x; ++x) {
+        for (int y = first.y; y < end.y; ++y) {
+          for (int z = first.z; z < end.z; ++z) include(reader.at({x, y, z}));
+        }
+      }
+    }
+    row[i] = {lowest, highest};
+  }
+}
+
+}  // namespace
+
 BrickRanges brick_ranges(const VolumeImage& image, int threads) {
   BrickRanges result;
   for (int a = 0; a < 3; ++a) {
@@ -92,6 +133,11 @@ BrickRanges brick_ranges(const VolumeImage& image, int threads) {
   parallel_for(size_of(b.y) * size_of(b.z), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
       const int by = static_cast<int>(row % size_of(b.y)), bz = static_cast<int>(row / size_of(b.y));
+      if (image.sparse) {
+        find_sparse_row(*image.sparse, by, bz,
+                        std::span(result.ranges).subspan(size_of(b.x) * row, size_of(b.x)));
+        continue;
+      }
       // A brick's last points are the first ones of the next: cells, not points, are cut apart.
       const int y1 = std::min(n.y, kBrickCells * (by + 1) + 1),
                 z1 = std::min(n.z, kBrickCells * (bz + 1) + 1);

@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/field/grid/sparse/sparse_builder.h"
 
 namespace palpate {
 namespace {
@@ -48,19 +51,17 @@ struct Numbers {
   std::vector<float> values;
 };
 
-// Halves one axis. Strides are those of its points.
-Numbers halved(const Numbers& fine, std::size_t axis) {
-  const int n = static_cast<int>(fine.points[axis]);
-  if (coarse_points(n) == n) return fine;
+// Makes the points of one axis that have these neighbours, the first of which is point `offset`. Strides are
+// those of its points.
+Numbers halved(const Numbers& fine, std::size_t axis, const std::vector<Neighbours>& neighbours,
+               std::size_t offset, int threads) {
   Numbers coarse;
   coarse.points = fine.points;
-  coarse.points[axis] = static_cast<std::size_t>(coarse_points(n));
+  coarse.points[axis] = neighbours.size();
   coarse.values.resize(coarse.points[0] * coarse.points[1] * coarse.points[2]);
   std::size_t stride = 1;
   for (std::size_t a = 0; a < axis; ++a) stride *= fine.points[a];
   const std::size_t layers = fine.values.size() / (stride * fine.points[axis]);
-  std::vector<Neighbours> neighbours;
-  for (int k = 0; k < coarse_points(n); ++k) neighbours.push_back(neighbours_of(k, n));
 
   const auto make_row = [&](std::size_t row) {
     const std::size_t layer = row / neighbours.size();
@@ -70,19 +71,108 @@ Numbers halved(const Numbers& fine, std::size_t axis) {
     for (std::size_t i = 0; i < stride; ++i) {
       float sum = 0.0F, weight = 0.0F;
       for (std::size_t k = 0; k < from.count; ++k) {
-        const float v = in[from.points[k] * stride + i];
+        const float v = in[(from.points[k] - offset) * stride + i];
         if (!std::isfinite(v)) continue;
         sum += from.weights[k] * v;
         weight += from.weights[k];
       }
-      const bool blank = !std::isfinite(in[from.nearest * stride + i]);
+      const bool blank = !std::isfinite(in[(from.nearest - offset) * stride + i]);
       out[i] = blank ? std::numeric_limits<float>::quiet_NaN() : sum / weight;
     }
   };
-  parallel_for(layers * neighbours.size(), 0, [&](std::size_t first, std::size_t last) {
+  parallel_for(layers * neighbours.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) make_row(row);
   });
   return coarse;
+}
+
+std::vector<Neighbours> neighbours_of_all(int points, int first, int end) {
+  std::vector<Neighbours> neighbours;
+  for (int k = first; k < end; ++k) neighbours.push_back(neighbours_of(k, points));
+  return neighbours;
+}
+
+// The number that all blocks have in which points of `box` lie.
+std::optional<float> only_number(const SparseNumbers& fine, const PointBox& box) {
+  const Index3 first = (box.first + fine.shift()) / kBlockSide,
+               last = (box.end - 1 + fine.shift()) / kBlockSide;
+  const SparseBlock one = fine.block(first);
+  for (int z = first.z; z <= last.z; ++z) {
+    for (int y = first.y; y <= last.y; ++y) {
+      for (int x = first.x; x <= last.x; ++x) {
+        const SparseBlock block = fine.block({x, y, z});
+        const bool same =
+            std::bit_cast<std::uint32_t>(block.constant) == std::bit_cast<std::uint32_t>(one.constant);
+        if (block.numbers != nullptr || !same) return std::nullopt;
+      }
+    }
+  }
+  return one.constant;
+}
+
+// What a block of coarse numbers holds.
+struct CoarseBlock {
+  std::optional<float> one;
+  std::array<float, kBlockVoxels> numbers{};
+};
+
+void make_coarse_block(const SparseNumbers& fine, const PointBox& points, CoarseBlock& block) {
+  std::array<std::vector<Neighbours>, 3> neighbours;
+  PointBox window;
+  for (int a = 0; a < 3; ++a) {
+    auto& along = neighbours[static_cast<std::size_t>(a)];
+    along = neighbours_of_all(fine.points()[a], points.first[a], points.end[a]);
+    window.first[a] = static_cast<int>(along.front().points.front());
+    window.end[a] = static_cast<int>(along.back().points[along.back().count - 1]) + 1;
+  }
+  block.one = only_number(fine, window);
+  if (block.one) return;
+  Numbers numbers;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    numbers.points[a] = static_cast<std::size_t>(window.end[axis] - window.first[axis]);
+  }
+  numbers.values.resize(window.count());
+  fine.copy(window, numbers.values.data());
+  for (std::size_t a = 0; a < 3; ++a)
+    numbers =
+        halved(numbers, a, neighbours[a], static_cast<std::size_t>(window.first[static_cast<int>(a)]), 1);
+  block.numbers.fill(numbers.values.front());  // beyond the volume
+  std::size_t i = 0;
+  for (int z = points.first.z; z < points.end.z; ++z) {
+    for (int y = points.first.y; y < points.end.y; ++y) {
+      for (int x = points.first.x; x < points.end.x; ++x)
+        block.numbers[block_offset({x, y, z})] = numbers.values[i++];
+    }
+  }
+}
+
+// Halves all axes; where a neighbourhood has one number nothing is computed.
+std::shared_ptr<const SparseNumbers> halved(const SparseNumbers& fine) {
+  Index3 points;
+  for (int a = 0; a < 3; ++a) points[a] = coarse_points(fine.points()[a]);
+  SparseBuilder builder(Index3(0), points, fine.background());
+  const Index3 n = builder.blocks();
+  const auto row = static_cast<std::size_t>(n.x);
+  std::vector<CoarseBlock> layer(row * static_cast<std::size_t>(n.y));
+  const auto box_of = [&](std::size_t i, int z) {
+    const Index3 b(static_cast<int>(i % row), static_cast<int>(i / row), z);
+    return PointBox{kBlockSide * b, glm::min(kBlockSide * (b + 1), points)};
+  };
+  for (int z = 0; z < n.z; ++z) {
+    parallel_for(layer.size(), 0, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) make_coarse_block(fine, box_of(i, z), layer[i]);
+    });
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      const Index3 b = box_of(i, z).first / kBlockSide;
+      if (layer[i].one) {
+        builder.put(b, *layer[i].one);
+      } else {
+        builder.put(b, layer[i].numbers);
+      }
+    }
+  }
+  return builder.finish();
 }
 
 template <typename T>
@@ -108,6 +198,14 @@ std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int le
   PALPATE_CHECK(level > 0);
   auto coarse = std::make_shared<VolumeImage>(image);
   coarse->colors.reset();
+  if (image.sparse) {
+    for (int k = 0; k < level; ++k) {
+      for (int a = 0; a < 3; ++a) coarse->axes[a] *= spacing_ratio(coarse->points[a]);
+      coarse->sparse = halved(*coarse->sparse);
+      coarse->points = coarse->sparse->points();
+    }
+    return coarse;
+  }
   Numbers numbers;
   numbers.points = {static_cast<std::size_t>(image.points.x), static_cast<std::size_t>(image.points.y),
                     static_cast<std::size_t>(image.points.z)};
@@ -116,8 +214,11 @@ std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int le
     numbers.values[i] = static_cast<float>(image.number(i));
   for (int k = 0; k < level; ++k) {
     for (int a = 0; a < 3; ++a) {
-      coarse->axes[a] *= spacing_ratio(static_cast<int>(numbers.points[static_cast<std::size_t>(a)]));
-      numbers = halved(numbers, static_cast<std::size_t>(a));
+      const auto axis = static_cast<std::size_t>(a);
+      const int n = static_cast<int>(numbers.points[axis]);
+      if (coarse_points(n) == n) continue;
+      coarse->axes[a] *= spacing_ratio(n);
+      numbers = halved(numbers, axis, neighbours_of_all(n, 0, coarse_points(n)), 0, 0);
     }
   }
   coarse->points = {static_cast<int>(numbers.points[0]), static_cast<int>(numbers.points[1]),

@@ -51,7 +51,7 @@ void FieldVoxels::bind() const {
 
 std::uint64_t FieldVoxels::bytes() const noexcept {
   std::uint64_t bytes = 0;
-  for (const Place& place : places_) bytes += place.image ? place.image->bytes.size() : 0;
+  for (const Place& place : places_) bytes += place.image ? place.image->byte_count() : 0;
   return bytes;
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/field/data_set_check.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -43,6 +44,12 @@ bool spans_space(const Mat3& axes) {
 // Numbers of this magnitude and their reciprocals keep clear of the ends of single precision.
 constexpr int kLargestExponent = 60;
 
+void set_range(VolumeImage& image, double lowest, double highest) {
+  if (lowest > highest) return;
+  image.lowest = image.offset + image.scale * lowest;
+  image.highest = image.offset + image.scale * highest;
+}
+
 void find_range(VolumeImage& image) {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   const std::size_t count = image.point_count();
@@ -52,9 +59,30 @@ void find_range(VolumeImage& image) {
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
   }
-  if (lowest > highest) return;
-  image.lowest = image.offset + image.scale * lowest;
-  image.highest = image.offset + image.scale * highest;
+  set_range(image, lowest, highest);
+}
+
+// Single precision as it is, or scaled, where the GPU would lose it.
+void take_sparse(VolumeImage& image, std::shared_ptr<const SparseNumbers> numbers) {
+  const SparseRange range = range_of(*numbers, 0);
+  const bool some = range.lowest <= range.highest;
+  const double most = some ? std::max(std::abs(range.lowest), std::abs(range.highest)) : 0.0;
+  const int exponent = binary_exponent(most);
+  const bool in_reach = most == 0.0 || std::abs(exponent) <= kLargestExponent;
+  image.scale = in_reach ? 1.0 : power_of_two(exponent);
+  if (!in_reach || range.has_infinite) {
+    const double to_number = in_reach ? 1.0 : power_of_two(-exponent);
+    numbers = numbers->mapped([to_number](float v) {
+      return std::isfinite(v) ? static_cast<float>(static_cast<double>(v) * to_number)
+                              : std::numeric_limits<float>::quiet_NaN();
+    });
+  }
+  image.type = ScalarType::kFloat32;
+  image.sparse = std::move(numbers);
+  if (some) {
+    image.lowest = range.lowest;
+    image.highest = range.highest;
+  }
 }
 
 template <typename T>
@@ -97,7 +125,7 @@ void convert_to_floats(VolumeImage& image, const DataSet& block, const DataArray
 
 // Whether the numbers can be given to the GPU as they are.
 bool fits(const DataSet& block, const DataArray& array) {
-  if (array.components != 1 || !block.visible.empty()) return false;
+  if (array.components != 1 || !block.visible.empty() || array.sparse) return false;
   if (array.type == ScalarType::kUint8 || array.type == ScalarType::kUint16) return true;
   if (array.type != ScalarType::kFloat32) return false;
   const float largest = std::ldexp(1.0F, kLargestExponent), least = std::ldexp(1.0F, -kLargestExponent);
@@ -113,6 +141,7 @@ bool fits(const DataSet& block, const DataArray& array) {
 }  // namespace
 
 double VolumeImage::number(std::size_t index) const noexcept {
+  if (sparse) return static_cast<double>((*sparse)[index]);
   switch (type) {
     case ScalarType::kUint8:
       return static_cast<double>(read_as<std::uint8_t>(bytes, index));
@@ -126,6 +155,21 @@ double VolumeImage::number(std::size_t index) const noexcept {
 std::size_t VolumeImage::point_count() const noexcept {
   return static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
          static_cast<std::size_t>(points.z);
+}
+
+void VolumeImage::copy(const PointBox& box, std::byte* to) const noexcept {
+  if (sparse) return sparse->copy(box, reinterpret_cast<float*>(to));
+  const std::size_t size = byte_size(type);
+  const std::size_t row = static_cast<std::size_t>(box.end.x - box.first.x) * size;
+  for (int z = box.first.z; z < box.end.z; ++z) {
+    for (int y = box.first.y; y < box.end.y; ++y, to += row) {
+      const std::size_t first = static_cast<std::size_t>(box.first.x) +
+                                static_cast<std::size_t>(points.x) *
+                                    (static_cast<std::size_t>(y) +
+                                     static_cast<std::size_t>(points.y) * static_cast<std::size_t>(z));
+      std::memcpy(to, bytes.data() + first * size, row);
+    }
+  }
 }
 
 Vec3 VolumeImage::lower() const noexcept {
@@ -171,6 +215,10 @@ std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block, const
   if (values->tuples != image->point_count() || values->tuples == 0) {
     throw problem(file, array, "has " + std::to_string(values->tuples) + " values",
                   std::to_string(image->point_count()) + ", one a voxel");
+  }
+  if (values->sparse && block.visible.empty()) {
+    take_sparse(*image, values->sparse);
+    return image;
   }
   if (fits(block, *values)) {
     image->type = values->type;

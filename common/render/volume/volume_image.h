@@ -26,6 +26,8 @@ struct VolumeImage {
   ScalarType type = ScalarType::kFloat32;  ///< kUint8, kUint16 or kFloat32
   std::span<const std::byte> bytes;        ///< points.x * points.y * points.z numbers, x fastest
   std::shared_ptr<const void> owner;       ///< keeps `bytes` alive
+  /// Where not null, the numbers stand here, in single precision, and `bytes` are none.
+  std::shared_ptr<const SparseNumbers> sparse;
   /// A colour for each point, sRGB with an unused fourth byte, for parts that are drawn in it
   /// (Lens::colored), trilinear between points; null: none.
   std::shared_ptr<const std::vector<std::array<std::uint8_t, 4>>> colors;
@@ -38,6 +40,11 @@ struct VolumeImage {
   [[nodiscard]] double number(std::size_t index) const noexcept;
   [[nodiscard]] double value(std::size_t index) const noexcept { return offset + scale * number(index); }
   [[nodiscard]] std::size_t point_count() const noexcept;
+  /// Bytes of all numbers, those of sparse ones each by itself.
+  [[nodiscard]] std::uint64_t byte_count() const noexcept { return point_count() * byte_size(type); }
+  /// Writes the numbers of the points of `box`, x fastest, in their type.
+  /// @pre `box` lies in the volume; `to` is aligned to the type.
+  void copy(const PointBox& box, std::byte* to) const noexcept;
   /// Grid coordinates of the lower and upper corners of what is shown.
   [[nodiscard]] Vec3 lower() const noexcept;
   [[nodiscard]] Vec3 upper() const noexcept;
@@ -46,8 +53,8 @@ struct VolumeImage {
 };
 
 /// One component of a point array of a uniform block. Numbers of 8 and 16 bits and single-precision ones are
-/// shared with the array where it has one component; others are converted to single precision, wide ranges
-/// with a power of two as `scale`. Blanked points become NaN.
+/// shared with the array where it has one component, sparse ones as well; others are converted to single
+/// precision, wide ranges with a power of two as `scale`. Blanked points become NaN.
 /// @throws Error (bad input) with `file` where the block is not uniform, has no such array, sizes disagree,
 /// or the axes do not span a space; (usage) where the array has no such component.
 [[nodiscard]] std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block,

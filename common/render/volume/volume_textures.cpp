@@ -38,12 +38,6 @@ GlTexture upload_colors(const VolumeImage& image) {
   return texture;
 }
 
-bool fits_whole(const VolumeImage& image, std::uint64_t memory) {
-  const Index3 n = image.points;
-  return std::max({n.x, n.y, n.z}) <= largest_volume_texture() &&
-         (memory == 0 || image.bytes.size() <= memory);
-}
-
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20U) + " MB"; }
 
 // The part of the memory for voxels that each field gets.
@@ -174,7 +168,7 @@ void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image
   bricks_.reset();
   voxels_.reset();
   voxels_ = std::make_shared<const GlTexture>(upload_whole(*image));
-  cost_.voxel_bytes = image->bytes.size();
+  cost_.voxel_bytes = image->byte_count();
   ++changes_;
   take_image(image, ranges);
 }

@@ -69,18 +69,30 @@ Index3 first_point(std::size_t brick, const BrickLayout& layout) {
   return layout.cells * at_index(brick, layout.bricks);
 }
 
+// Calls f(read) with what reads the number of a point of the image: read(p).
+template <typename F>
+auto with_reader(const VolumeImage& image, F f) {
+  if (image.sparse) {
+    SparseReader reader(*image.sparse);
+    return f([&](const Index3& p) { return static_cast<double>(reader.at(p)); });
+  }
+  return f([&](const Index3& p) { return image.number(index_of(p, image.points)); });
+}
+
 // Whether all points of a brick have the number, NaN being none.
 bool is_even(const VolumeImage& image, std::size_t brick, const BrickLayout& layout, double number) {
   if (image.type != ScalarType::kFloat32) return true;  // its range says so
   const Index3 first = first_point(brick, layout), end = glm::min(first + layout.points, image.points);
-  for (int z = first.z; z < end.z; ++z) {
-    for (int y = first.y; y < end.y; ++y) {
-      for (int x = first.x; x < end.x; ++x) {
-        if (image.number(index_of({x, y, z}, image.points)) != number) return false;
+  return with_reader(image, [&](auto read) {
+    for (int z = first.z; z < end.z; ++z) {
+      for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+          if (read(Index3(x, y, z)) != number) return false;
+        }
       }
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 // For each brick of `ranges` its distance to the nearest one in which some transfer function of the view
@@ -132,7 +144,8 @@ Index3 coarse_points(const BrickLayout& layout) {
 
 // Mean of the finite ones of the numbers about a point, as far as the next coarse points are halfway; every
 // other one. Points beyond the volume are its last ones.
-double mean_about(const VolumeImage& image, const Index3& point) {
+template <typename Read>
+double mean_about(const VolumeImage& image, const Index3& point, const Read& read) {
   constexpr int kHalf = kBrickCells / 2, kStep = 2;
   const Index3 last = image.points - 1;
   const Index3 middle = glm::min(point, last);
@@ -142,7 +155,7 @@ double mean_about(const VolumeImage& image, const Index3& point) {
   for (int z = from.z; z <= to.z; z += kStep) {
     for (int y = from.y; y <= to.y; y += kStep) {
       for (int x = from.x; x <= to.x; x += kStep) {
-        const double number = image.number(index_of({x, y, z}, image.points));
+        const double number = read(Index3(x, y, z));
         if (!std::isfinite(number)) continue;
         sum += number;
         ++count;
@@ -282,20 +295,22 @@ Index3 VoxelBricks::coarse_place_of(std::size_t brick) const {
 void VoxelBricks::upload(std::size_t brick, std::size_t slot) {
   const Index3 first = first_point(brick, layout_), last = image_->points - 1, size = layout_.points;
   const std::size_t bytes = byte_size(image_->type);
-  scratch_.resize(product(size) * bytes);
-  std::byte* to = scratch_.data();
-  // Beyond the volume its last points, again.
   const Index3 there = glm::min(size, last + 1 - first);
-  for (int z = 0; z < size.z; ++z) {
-    for (int y = 0; y < size.y; ++y) {
-      const Index3 start(first.x, std::min(first.y + y, last.y), std::min(first.z + z, last.z));
-      const std::byte* from = image_->bytes.data() + index_of(start, image_->points) * bytes;
-      const auto row = static_cast<std::size_t>(there.x);
-      std::memcpy(to, from, row * bytes);
-      for (auto x = row; x < static_cast<std::size_t>(size.x); ++x)
-        std::memcpy(to + x * bytes, from + (row - 1) * bytes, bytes);
-      to += static_cast<std::size_t>(size.x) * bytes;
+  scratch_.resize(product(there) * bytes);
+  image_->copy({first, first + there}, scratch_.data());
+  if (there != size) {
+    // Beyond the volume its last points, again.
+    std::vector<std::byte> whole(product(size) * bytes);
+    std::byte* to = whole.data();
+    for (int z = 0; z < size.z; ++z) {
+      for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x, to += bytes) {
+          const std::size_t from = index_of(glm::min(Index3(x, y, z), there - 1), there);
+          std::memcpy(to, scratch_.data() + from * bytes, bytes);
+        }
+      }
     }
+    scratch_.swap(whole);
   }
   upload_voxels(pool_, place_of(slot), size, image_->type, scratch_.data());
   ++uploads_;
@@ -315,12 +330,14 @@ void VoxelBricks::hold_coarse(const std::vector<bool>& needed) {
     scratch_.resize(product(coarse_points_) * bytes);
     std::byte* to = scratch_.data();
     const Index3 first = first_point(i, layout_);
-    for (int z = 0; z < coarse_points_.z; ++z) {
-      for (int y = 0; y < coarse_points_.y; ++y) {
-        for (int x = 0; x < coarse_points_.x; ++x, to += bytes)
-          put_number(to, image_->type, mean_about(*image_, first + kBrickCells * Index3(x, y, z)));
+    with_reader(*image_, [&](auto read) {
+      for (int z = 0; z < coarse_points_.z; ++z) {
+        for (int y = 0; y < coarse_points_.y; ++y) {
+          for (int x = 0; x < coarse_points_.x; ++x, to += bytes)
+            put_number(to, image_->type, mean_about(*image_, first + kBrickCells * Index3(x, y, z), read));
+        }
       }
-    }
+    });
     upload_voxels(pool_, coarse_place_of(i), coarse_points_, image_->type, scratch_.data());
   }
 }

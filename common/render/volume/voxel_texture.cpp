@@ -1,6 +1,8 @@
 #include "common/render/volume/voxel_texture.h"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include <epoxy/gl.h>
 
@@ -64,19 +66,35 @@ void upload_voxels(const GlTexture& texture, const Index3& first, const Index3& 
 }
 
 GlTexture upload_whole(const VolumeImage& image) {
-  GlTexture texture = make_voxel_texture(image.points, image.type, "voxels");
-  upload_voxels(texture, Index3(0), image.points, image.type, image.bytes.data());
+  const Index3 n = image.points;
+  GlTexture texture = make_voxel_texture(n, image.type, "voxels");
+  if (!image.sparse) {
+    upload_voxels(texture, Index3(0), n, image.type, image.bytes.data());
+    return texture;
+  }
+  // Some layers at a time, so that they are not all there at once.
+  std::vector<float> layers;
+  for (int z = 0; z < n.z; z += kBlockSide) {
+    const PointBox box{{0, 0, z}, {n.x, n.y, std::min(n.z, z + kBlockSide)}};
+    layers.resize(box.count());
+    image.sparse->copy(box, layers.data());
+    upload_voxels(texture, box.first, box.end - box.first, image.type,
+                  std::as_bytes(std::span(layers)).data());
+  }
   return texture;
+}
+
+bool fits_whole(const VolumeImage& image, std::uint64_t memory) {
+  constexpr std::uint64_t kMostOfSparse = std::uint64_t{64} << 20U;
+  const Index3 n = image.points;
+  const std::uint64_t bytes = image.byte_count();
+  return std::max({n.x, n.y, n.z}) <= largest_volume_texture() && (memory == 0 || bytes <= memory) &&
+         (!image.sparse || bytes <= kMostOfSparse);
 }
 
 std::shared_ptr<const VolumeImage> fitting_image(std::shared_ptr<const VolumeImage> image,
                                                  std::uint64_t memory) {
-  const int largest = largest_volume_texture();
-  const auto fits = [&] {
-    const Index3 n = image->points;
-    return std::max({n.x, n.y, n.z}) <= largest && (memory == 0 || image->bytes.size() <= memory);
-  };
-  while (!fits()) {
+  while (!fits_whole(*image, memory)) {
     const Index3 points = image->points;
     image = coarse_image(*image, 1);
     if (image->points == points) break;

@@ -29,7 +29,10 @@ void upload_voxels(const GlTexture& texture, const Index3& first, const Index3& 
 [[nodiscard]] GlTexture upload_whole(const VolumeImage& image);
 /// Voxels an axis of the largest texture of the driver.
 [[nodiscard]] int largest_volume_texture();
-/// The image, or the finest coarser one (coarse_image.h) that fits a texture and `memory` [bytes]; 0: any.
+/// Whether an image is held as a whole: it fits a texture and `memory` [bytes]; 0: any. Sparse ones are not
+/// made dense on the GPU, either, unless they are small: bricks leave parts out.
+[[nodiscard]] bool fits_whole(const VolumeImage& image, std::uint64_t memory);
+/// The image, or the finest coarser one (coarse_image.h) that is held as a whole.
 [[nodiscard]] std::shared_ptr<const VolumeImage> fitting_image(std::shared_ptr<const VolumeImage> image,
                                                                std::uint64_t memory);
 
