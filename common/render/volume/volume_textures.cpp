@@ -1,6 +1,7 @@
 #include "common/render/volume/volume_textures.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -133,7 +134,11 @@ void VolumeTextures::share_voxels(const VolumeTextures& other) {
   cost_.voxel_bytes = 0;
 }
 
-BrickShare VolumeTextures::bricks_held() const noexcept { return bricks_ ? bricks_->share() : BrickShare{}; }
+BrickShare VolumeTextures::bricks_held() const noexcept {
+  BrickShare share = bricks_ ? bricks_->share() : BrickShare{};
+  share.wanted += left_out_;
+  return share;
+}
 
 void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sight) {
   PlaceKey wanted{.image = view.image, .storage = view.storage, .transfers = {}, .cuts = {}};
@@ -150,7 +155,12 @@ void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sigh
     if (shows_planes(view)) wanted.cuts = view.cuts;
   }
   if (wanted != placed_) {
-    if (wanted.image != placed_.image) levels_.clear();
+    left_out_ = 0;
+    if (wanted.image != placed_.image) {
+      if (making_.valid()) making_.wait();
+      making_ = {};
+      levels_.clear();
+    }
     for (Level& level : levels_) level.needed.clear();
     placed_ = {};
     sight_.reset();
@@ -173,22 +183,39 @@ void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image
   take_image(image, ranges);
 }
 
+// The level after the last one. A picture that need not `wait` for it goes without until it is made: false
+// then.
+bool VolumeTextures::add_level(const VolumeView& view, bool wait) {
+  if (levels_.empty()) {
+    levels_.push_back({view.image, brick_ranges(*view.image), {}});
+    return true;
+  }
+  if (!making_.valid()) {
+    making_ = std::async(std::launch::async, [fine = levels_.back().image] {
+      auto image = coarse_image(*fine, 1);
+      BrickRanges ranges = brick_ranges(*image);
+      return Level{std::move(image), std::move(ranges), {}};
+    });
+  }
+  if (!wait && making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+  Level made = making_.get();
+  if (made.image->points == levels_.back().image->points) {
+    throw usage_error("no " + megabytes(view.storage.memory) + " of memory hold a volume, however coarse");
+  }
+  levels_.push_back(std::move(made));
+  return true;
+}
+
 // The finest level of which all that the picture looks up fits.
 void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
   const int largest = largest_volume_texture();
   const int cells = view.storage.brick_cells > 0 ? view.storage.brick_cells : kPoolBrickCells;
   const bool coarse = view.storage.upload > 0;
   lenses_ = view.lenses;
+  FinerBricks finer;
   for (std::size_t level = 0;; ++level) {
-    if (level == levels_.size()) {
-      auto image = level == 0 ? view.image : coarse_image(*levels_.back().image, 1);
-      if (level > 0 && image->points == levels_.back().image->points) {
-        throw usage_error("no " + megabytes(view.storage.memory) +
-                          " of memory hold a volume, however coarse");
-      }
-      BrickRanges ranges = brick_ranges(*image);
-      levels_.push_back({std::move(image), std::move(ranges), {}});
-    }
+    const bool there = level < levels_.size() || add_level(view, !coarse);
+    if (!there) --level;
     Level& at = levels_[level];
     view.image = at.image;
     if (level > 0 && fits_whole(*at.image, view.storage.memory)) {
@@ -198,17 +225,37 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
     }
     const BrickLayout layout = brick_layout(*at.image, cells);
     if (at.needed.empty()) at.needed = needed_bricks(view, at.ranges, layout);
-    const std::vector<std::size_t> wanted = bricks_in_sight(view, at.needed, layout, sight);
+    std::vector<std::size_t> wanted = bricks_in_sight(view, at.needed, layout, sight);
     const auto count = static_cast<std::size_t>(std::count(at.needed.begin(), at.needed.end(), true));
-    const std::size_t places = wanted.size() + (coarse ? coarse_places(count, layout) : 0);
-    const std::uint64_t bytes = bricked_bytes(places, layout, at.image->type, largest);
-    if (bytes == std::numeric_limits<std::uint64_t>::max() ||
-        (view.storage.memory > 0 && bytes > view.storage.memory))
-      continue;
+    if (level == 0 && coarse) finer = {count, brick_index_bytes(layout)};
+    const std::size_t beside = coarse ? coarse_places(count, layout) : 0;
+    const auto fit = [&](std::size_t bricks) {
+      const std::uint64_t bytes = bricked_bytes(bricks + beside, layout, at.image->type, largest);
+      return bytes < std::numeric_limits<std::uint64_t>::max() &&
+             (view.storage.memory == 0 || bytes <= view.storage.memory);
+    };
+    left_out_ = 0;
+    if (!fit(wanted.size())) {
+      if (there) continue;
+      // The most urgent ones, until there is a coarser level.
+      std::size_t some = 0, too_many = wanted.size();
+      while (some + 1 < too_many) {
+        const std::size_t middle = some + (too_many - some) / 2;
+        (fit(middle) ? some : too_many) = middle;
+      }
+      if (some == 0) {  // not even they
+        (void)add_level(view, true);
+        continue;
+      }
+      left_out_ = wanted.size() - some;
+      wanted.resize(some);
+    }
     voxels_.reset();
     if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells || bricks_->coarse() != coarse) {
+      BrickPool pool;
+      if (bricks_ && coarse && bricks_.use_count() == 1) pool = std::move(*bricks_).give_pool();
       bricks_.reset();
-      bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges, coarse);
+      bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges, coarse, finer, std::move(pool));
       ++changes_;
     }
     const std::uint64_t before = bricks_->uploads();
@@ -217,7 +264,7 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
     cost_.voxel_bytes = bricks_->bytes();
     take_image(at.image, at.ranges);
     sight_.reset();
-    if (bricks_->share().complete()) sight_ = sight;
+    if (bricks_held().complete()) sight_ = sight;
     return;
   }
 }

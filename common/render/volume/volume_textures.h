@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -96,6 +97,7 @@ class VolumeTextures {
   void share_voxels(const VolumeTextures& other);
   void place_voxels(const VolumeView& view, const BrickSight& sight);
   void place_bricks(VolumeView view, const BrickSight& sight);
+  bool add_level(const VolumeView& view, bool wait);
   void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
@@ -113,6 +115,8 @@ class VolumeTextures {
   std::vector<Lens> lenses_;         ///< likewise
   std::uint64_t changes_ = 0;
   std::vector<Level> levels_;  ///< of volumes in bricks, as far as they were asked for
+  std::future<Level> making_;  ///< the next one
+  std::size_t left_out_ = 0;   ///< bricks in sight that have no room until that is there
   FieldVoxels fields_;
   bool regions_ = false;         ///< some part is shown by value and gradient magnitude
   std::size_t field_count_ = 1;  ///< up to the last one that is shown

@@ -10,6 +10,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
+#include "common/base/parallel.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/volume/preintegration.h"
 #include "common/render/volume/region_table.h"
@@ -40,8 +41,6 @@ Index3 at_index(std::size_t index, const Index3& n) {
 std::uint64_t pool_bytes(const Index3& bricks, const BrickLayout& layout, ScalarType type) {
   return product(bricks) * product(layout.points) * byte_size(type);
 }
-
-std::uint64_t index_bytes(const BrickLayout& layout) { return product(layout.bricks) * sizeof(glm::vec4); }
 
 // Calls f(small, large) for each brick of `ranges` and the one of `layout` that it lies in.
 template <typename F>
@@ -223,19 +222,25 @@ Index3 pool_size(std::size_t count, const BrickLayout& layout, int largest) {
   return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(std::ceil(n / (x * y)))};
 }
 
+std::uint64_t brick_index_bytes(const BrickLayout& layout) {
+  return product(layout.bricks) * sizeof(glm::vec4);
+}
+
 std::uint64_t bricked_bytes(std::size_t count, const BrickLayout& layout, ScalarType type, int largest) {
   const Index3 pool = pool_size(std::max<std::size_t>(count, 1), layout, largest);
   if (pool.x == 0) return std::numeric_limits<std::uint64_t>::max();
-  return index_bytes(layout) + pool_bytes(pool, layout, type);
+  return brick_index_bytes(layout) + pool_bytes(pool, layout, type);
 }
 
 VoxelBricks::VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout,
-                         const BrickRanges& ranges, bool coarse)
+                         const BrickRanges& ranges, bool coarse, const FinerBricks& finer, BrickPool pool)
     : image_(std::move(image)),
       layout_(layout),
       coarse_(coarse),
       coarse_points_(coarse_points(layout)),
-      coarse_rows_(layout.points / coarse_points_) {
+      coarse_rows_(layout.points / coarse_points_),
+      finer_(finer),
+      pool_(std::move(pool)) {
   const double unit = largest_number(image_->type);
   for (const Range& range : joined_ranges(ranges, layout)) {
     // Infinite numbers show nothing, as NaN does; in the index they would mean the pool.
@@ -253,11 +258,13 @@ VoxelBricks::VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLa
   set_sampling(index_, GL_NEAREST, GL_CLAMP_TO_EDGE);
 }
 
-void VoxelBricks::make_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory) {
+void VoxelBricks::find_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory) {
   const int largest = largest_volume_texture();
   const auto fits = [&](std::size_t places) {
     const std::uint64_t bytes = bricked_bytes(places, layout_, image_->type, largest);
-    return bytes < std::numeric_limits<std::uint64_t>::max() && (memory == 0 || bytes <= memory);
+    if (bytes == std::numeric_limits<std::uint64_t>::max()) return false;
+    const std::uint64_t index = std::max(brick_index_bytes(layout_), finer_.index_bytes);
+    return memory == 0 || bytes - brick_index_bytes(layout_) + index <= memory;
   };
   const auto coarse_for = [&](std::size_t bricks) { return coarse_ ? coarse_places(bricks, layout_) : 0; };
   // Some room, for functions that are dragged.
@@ -265,26 +272,35 @@ void VoxelBricks::make_pool(std::size_t needed, std::size_t wanted, std::uint64_
   coarse_room_ = fits(roomy + coarse_for(roomy)) ? roomy : needed;
   const std::size_t coarse = coarse_for(coarse_room_);
   // As many as the memory has room for: what was looked up before may be again.
-  std::size_t fine = std::max<std::size_t>(wanted, 1), too_many = coarse_room_ + 1;
+  std::size_t fine = std::max<std::size_t>(wanted, 1), too_many = std::max(coarse_room_, finer_.needed) + 1;
   while (fine + 1 < too_many) {
     const std::size_t middle = fine + (too_many - fine) / 2;
     (fits(middle + coarse) ? fine : too_many) = middle;
   }
-  pool_bricks_ = pool_size(fine + coarse, layout_, largest);
-  PALPATE_CHECK(pool_bricks_.x > 0);
-  bytes_ = index_bytes(layout_) + pool_bytes(pool_bricks_, layout_, image_->type);
-  PALPATE_CHECK(memory == 0 || bytes_ <= memory);
-  pool_.reset();
-  pool_ = make_voxel_texture(pool_bricks_ * layout_.points, image_->type, "voxels in bricks");
+  const Index3 size = pool_size(fine + coarse, layout_, largest);
+  PALPATE_CHECK(size.x > 0);
+  const std::uint64_t pool = pool_bytes(size, layout_, image_->type);
+  PALPATE_CHECK(memory == 0 || brick_index_bytes(layout_) + pool <= memory);
+  const bool does =
+      pool_.texture && pool_.points == layout_.points && pool_.type == image_->type &&
+      product(pool_.bricks) >= product(size) &&
+      (memory == 0 || brick_index_bytes(layout_) + pool_bytes(pool_.bricks, layout_, image_->type) <= memory);
+  if (!does) {
+    pool_ = {};  // before there is another one
+    pool_ = {make_voxel_texture(size * layout_.points, image_->type, "voxels in bricks"), size,
+             layout_.points, image_->type};
+  }
+  placed_ = true;
+  bytes_ = brick_index_bytes(layout_) + pool_bytes(pool_.bricks, layout_, image_->type);
   std::fill(slots_.begin(), slots_.end(), -1);
   std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
   coarse_held_ = 0;
-  first_coarse_ = product(pool_bricks_) - coarse;
+  first_coarse_ = product(pool_.bricks) - coarse;
   free_.resize(first_coarse_);
   for (std::size_t i = 0; i < free_.size(); ++i) free_[i] = static_cast<int>(free_.size() - 1 - i);
 }
 
-Index3 VoxelBricks::place_of(std::size_t slot) const { return layout_.points * at_index(slot, pool_bricks_); }
+Index3 VoxelBricks::place_of(std::size_t slot) const { return layout_.points * at_index(slot, pool_.bricks); }
 
 Index3 VoxelBricks::coarse_place_of(std::size_t brick) const {
   const auto number = static_cast<std::size_t>(coarse_numbers_[brick]);
@@ -312,33 +328,39 @@ void VoxelBricks::upload(std::size_t brick, std::size_t slot) {
     }
     scratch_.swap(whole);
   }
-  upload_voxels(pool_, place_of(slot), size, image_->type, scratch_.data());
+  upload_voxels(pool_.texture, place_of(slot), size, image_->type, scratch_.data());
   ++uploads_;
 }
 
-void VoxelBricks::hold_coarse(const std::vector<bool>& needed) {
-  std::size_t lacking = 0;
-  for (std::size_t i = 0; i < needed.size(); ++i) lacking += needed[i] && coarse_numbers_[i] < 0 ? 1 : 0;
-  if (coarse_held_ + lacking > coarse_room_) {
+// Of those that have no coarse one, the first ones get theirs: as many as a picture has time for.
+void VoxelBricks::hold_coarse(std::vector<std::size_t> bricks) {
+  constexpr std::size_t kAPicture = 1024;  // some 30 ms of two cores
+  std::erase_if(bricks, [&](std::size_t i) { return coarse_numbers_[i] >= 0; });
+  bricks.resize(std::min({bricks.size(), kAPicture, coarse_room_}));
+  if (coarse_held_ + bricks.size() > coarse_room_) {
     std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
     coarse_held_ = 0;
   }
-  const std::size_t bytes = byte_size(image_->type);
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (!needed[i] || coarse_numbers_[i] >= 0) continue;
-    coarse_numbers_[i] = static_cast<int>(coarse_held_++);
-    scratch_.resize(product(coarse_points_) * bytes);
-    std::byte* to = scratch_.data();
-    const Index3 first = first_point(i, layout_);
+  const std::size_t bytes = byte_size(image_->type), each = product(coarse_points_) * bytes;
+  scratch_.resize(bricks.size() * each);
+  parallel_for(bricks.size(), 0, [&](std::size_t begin, std::size_t end) {
     with_reader(*image_, [&](auto read) {
-      for (int z = 0; z < coarse_points_.z; ++z) {
-        for (int y = 0; y < coarse_points_.y; ++y) {
-          for (int x = 0; x < coarse_points_.x; ++x, to += bytes)
-            put_number(to, image_->type, mean_about(*image_, first + kBrickCells * Index3(x, y, z), read));
+      for (std::size_t k = begin; k < end; ++k) {
+        std::byte* to = scratch_.data() + k * each;
+        const Index3 first = first_point(bricks[k], layout_);
+        for (int z = 0; z < coarse_points_.z; ++z) {
+          for (int y = 0; y < coarse_points_.y; ++y) {
+            for (int x = 0; x < coarse_points_.x; ++x, to += bytes)
+              put_number(to, image_->type, mean_about(*image_, first + kBrickCells * Index3(x, y, z), read));
+          }
         }
       }
     });
-    upload_voxels(pool_, coarse_place_of(i), coarse_points_, image_->type, scratch_.data());
+  });
+  for (std::size_t k = 0; k < bricks.size(); ++k) {
+    coarse_numbers_[bricks[k]] = static_cast<int>(coarse_held_++);
+    upload_voxels(pool_.texture, coarse_place_of(bricks[k]), coarse_points_, image_->type,
+                  scratch_.data() + k * each);
   }
 }
 
@@ -363,11 +385,10 @@ void VoxelBricks::hold(const std::vector<bool>& needed, const std::vector<std::s
                        const VoxelStorage& storage) {
   PALPATE_CHECK(needed.size() == slots_.size());
   const auto count = static_cast<std::size_t>(std::count(needed.begin(), needed.end(), true));
-  if (!pool_ || wanted.size() > first_coarse_ || count > coarse_room_ ||
+  if (!placed_ || wanted.size() > first_coarse_ || count > coarse_room_ ||
       (storage.memory > 0 && bytes_ > storage.memory))
-    make_pool(count, wanted.size(), storage.memory);
+    find_pool(count, wanted.size(), storage.memory);
   ++pictures_;
-  if (coarse_) hold_coarse(needed);
   for (const std::size_t i : wanted) looked_up_[i] = pictures_;
   share_.held = 0;
   std::vector<std::size_t> lacking;
@@ -380,7 +401,9 @@ void VoxelBricks::hold(const std::vector<bool>& needed, const std::vector<std::s
   }
   if (coarse_ && storage.upload > 0) {
     const std::uint64_t each = product(layout_.points) * byte_size(image_->type);
-    lacking.resize(std::min(lacking.size(), std::max<std::size_t>(1, storage.upload / each)));
+    const std::size_t now = std::min(lacking.size(), std::max<std::size_t>(1, storage.upload / each));
+    hold_coarse({lacking.begin() + static_cast<std::ptrdiff_t>(now), lacking.end()});
+    lacking.resize(now);
   }
   find_room(lacking.size());
   for (const std::size_t i : lacking) {
@@ -410,12 +433,12 @@ void VoxelBricks::write_index(const std::vector<bool>& needed) {
   }
   const Index3 n = layout_.bricks;
   glTextureSubImage3D(index_.name(), 0, 0, 0, 0, n.x, n.y, n.z, GL_RGBA, GL_FLOAT, index.data());
-  label_object(GpuObject::Kind::kTexture, pool_.name(),
+  label_object(GpuObject::Kind::kTexture, pool_.texture.name(),
                "voxels in bricks, " + std::to_string(held) + " of " + std::to_string(slots_.size()));
 }
 
 void VoxelBricks::bind() const {
-  glBindTextureUnit(volume_shader::kVoxels, pool_.name());
+  glBindTextureUnit(volume_shader::kVoxels, pool_.texture.name());
   glBindTextureUnit(volume_shader::kBrickIndex, index_.name());
 }
 

@@ -11,14 +11,15 @@
 /// A brick need not stand in the pool where all its numbers are the same, and where nothing is seen of it: a
 /// number of its range then stands for all of it. Where lenses blend values with coarser ones, all others
 /// are needed. Of those that are needed, the ones that a picture looks up are paged in (brick_demand.h), in
-/// the place of those that were looked up the longest ago. Where a picture may go without some of them, every
-/// needed brick has a coarse one in the same pool, with means about every kBrickCells-th point: a 300th of
+/// the place of those that were looked up the longest ago. Where a picture may go without some of them, these
+/// have a coarse one in the same pool, with means about every kBrickCells-th point: a 300th of
 /// its voxels, that meet those of their neighbours at the faces.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/math/vec.h"
@@ -52,17 +53,36 @@ struct BrickLayout {
 /// @return zeros where no pool is large enough.
 [[nodiscard]] Index3 pool_size(std::size_t count, const BrickLayout& layout, int largest);
 
+/// Bytes of the index.
+[[nodiscard]] std::uint64_t brick_index_bytes(const BrickLayout& layout);
+
 /// Bytes of the index and of a pool for `count` bricks; the largest number where no pool is large enough.
 [[nodiscard]] std::uint64_t bricked_bytes(std::size_t count, const BrickLayout& layout, ScalarType type,
                                           int largest);
+
+/// Where bricks stand. One of enough places serves other levels of the same volume, too: to make a large one
+/// takes longer than a picture.
+struct BrickPool {
+  GlTexture texture;
+  Index3 bricks{0};  ///< an axis
+  Index3 points{0};  ///< of a brick, an axis
+  ScalarType type = ScalarType::kFloat32;
+};
+
+/// What a pool is to serve besides: finer levels of the volume.
+struct FinerBricks {
+  std::size_t needed = 0;         ///< of the level that needs most
+  std::uint64_t index_bytes = 0;  ///< of its index
+};
 
 /// The pool and the index. Needs the context current in which it was made.
 class VoxelBricks {
  public:
   /// @param ranges brick_ranges(*image). @param coarse whether coarse bricks stand in for those that are not
   /// there: what hold() may leave out.
+  /// @param finer the pool is made for, too. @param pool to be used where it does for these bricks.
   VoxelBricks(std::shared_ptr<const VolumeImage> image, const BrickLayout& layout, const BrickRanges& ranges,
-              bool coarse);
+              bool coarse, const FinerBricks& finer = {}, BrickPool pool = {});
 
   /// Uploads those of the bricks that a picture looks up that are not there, in place of those that were
   /// looked up the longest ago.
@@ -74,6 +94,9 @@ class VoxelBricks {
   void hold(const std::vector<bool>& needed, const std::vector<std::size_t>& wanted,
             const VoxelStorage& storage);
 
+  /// The pool, for other bricks; these hold none then.
+  [[nodiscard]] BrickPool give_pool() && { return std::move(pool_); }
+
   /// Binds the pool as the voxels, and the index (shaders/volume/voxels.glsl).
   void bind() const;
   [[nodiscard]] const BrickLayout& layout() const noexcept { return layout_; }
@@ -83,10 +106,10 @@ class VoxelBricks {
   [[nodiscard]] std::uint64_t uploads() const noexcept { return uploads_; }  ///< of bricks, so far
 
  private:
-  void make_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory);
+  void find_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory);
   void find_room(std::size_t places);
   void upload(std::size_t brick, std::size_t slot);
-  void hold_coarse(const std::vector<bool>& needed);
+  void hold_coarse(std::vector<std::size_t> bricks);
   void write_index(const std::vector<bool>& needed);
   [[nodiscard]] Index3 place_of(std::size_t slot) const;
   [[nodiscard]] Index3 coarse_place_of(std::size_t brick) const;
@@ -100,10 +123,12 @@ class VoxelBricks {
   std::vector<int> coarse_numbers_;  ///< likewise its number among the coarse ones
   std::vector<std::uint64_t> looked_up_;  ///< for each brick the last picture that did
   std::vector<int> free_;                 ///< places
-  Index3 pool_bricks_{0};
+  FinerBricks finer_;
+  BrickPool pool_;
+  bool placed_ = false;           ///< the pool is divided up
   std::size_t first_coarse_ = 0;  ///< place from which on there are coarse ones
   std::size_t coarse_room_ = 0, coarse_held_ = 0;
-  GlTexture pool_, index_;
+  GlTexture index_;
   std::vector<std::byte> scratch_;
   std::uint64_t bytes_ = 0, uploads_ = 0, pictures_ = 0;
   BrickShare share_;
