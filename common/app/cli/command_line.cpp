@@ -271,7 +271,9 @@ class VerbParser {
     add_workbench();
     add_head(
         "show the data as the first screen of --workbench does to a head before it, which is there, is "
-        "replayed, or with 'hands' is that of --device hands:FILE.csv; --screen all opens a window for each "
+        "replayed, with 'hands' is that of --device hands:FILE.csv, or is seen by a tracker, named as for "
+        "--device, at "
+        "the head_station of the workbench; --screen all opens a window for each "
         "screen, beside that of the desktop; default: the [head] of the workbench, or none");
     scene("--play-rate", options_.view.play_rate, "time steps a second while they play; default 5", "N",
           "View")

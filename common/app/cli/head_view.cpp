@@ -1,6 +1,7 @@
 #include "common/app/cli/head_view.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -9,8 +10,10 @@
 #include "common/app/cli/stereo_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/device/driver_library.h"
 #include "common/haptics/workspace.h"
 #include "common/scene/seeds.h"
+#include "common/servo/station_poses.h"
 
 namespace palpate {
 namespace {
@@ -207,6 +210,11 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
     display.head = std::make_shared<ReplayPoses>(std::move(heads));
   } else if (head.starts_with(kReplay)) {
     display.head = std::make_shared<ReplayPoses>(read_poses(head.substr(kReplay.size())));
+  } else if (std::isalpha(static_cast<unsigned char>(head.front())) != 0) {
+    std::shared_ptr<DriverLink> link = open_device(parse_device(head)).link;
+    if (link->poses() == nullptr) throw usage_error("--head " + head + ": that device tells no poses");
+    const int station = std::max(1, display.bench.interaction.head_station);
+    display.head = std::make_shared<StationPoses>(std::make_shared<LinkedDevice>(std::move(link)), station);
   } else {
     const TrackerPose pose = parse_pose(head);
     const HeadTracker tracker(display.bench, display.bench.screens[display.screen].corners,

@@ -84,7 +84,7 @@ struct ViewOptions {
   double disparity_limit = 1.0;  ///< [degrees]
   bool swap_eyes = false;
   /// Where the head is before a screen: x,y,z[,qw,qx,qy,qz] of a tracker [m], replay:FILE.csv, and in windows
-  /// hands; empty: none, or in windows as the workbench says.
+  /// hands, or a tracker by its driver; empty: none, or in windows as the workbench says.
   std::string head;
   std::optional<double> head_time;  ///< of that recording [s]; absent: its end
   std::string screen;               ///< which of the workbench's, or all; empty: the first

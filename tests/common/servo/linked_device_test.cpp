@@ -14,6 +14,7 @@
 
 #include "common/servo/placed_device.h"
 #include "common/servo/real_time.h"
+#include "common/servo/station_poses.h"
 
 namespace palpate::test {
 namespace {
@@ -270,6 +271,26 @@ TEST_F(PlacedDeviceTest, IsSteeredByValuatorsWithinTheData) {
   for (int n = 0; n < 1000; ++n) ASSERT_TRUE(device.read(start + 0.02 * (n + 2), sample));
   EXPECT_EQ(sample.position.x, 1.5);
   EXPECT_EQ(sample.position.z, 4.0);
+}
+
+// What a head's tracker tells, as a head that is followed gets it: each pose once, and that it is not seen.
+TEST_F(PlacedDeviceTest, TellsThePosesOfAStation) {
+  link_->tracks_ = true;
+  const auto tracker = std::make_shared<LinkedDevice>(link_);
+  StationPoses poses(tracker, 3);
+  PoseSample sample;
+  const double first = now();
+  PoseAtom atom{.time = first, .position = {0.1, 0.2, 0.6}, .station = 3, .valid = true};
+  link_->show(atom);
+  ASSERT_TRUE(comes([&] { return poses.next(now(), sample) && sample.pose; }));
+  EXPECT_EQ(sample.time, first);
+  EXPECT_EQ(sample.pose->position, Vec3(0.1, 0.2, 0.6));
+  EXPECT_FALSE(poses.next(first, sample)) << "once";
+  EXPECT_TRUE(poses.live());
+  // Too old to be seen still.
+  ASSERT_TRUE(poses.next(first + 1.0, sample));
+  EXPECT_FALSE(sample.pose.has_value());
+  EXPECT_EQ(sample.time, first + 1.0);
 }
 
 }  // namespace
