@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/haptics/constraint/circle.h"
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/grid_axis.h"
 #include "common/haptics/constraint/polyline.h"
 #include "common/haptics/constraint/sphere.h"
@@ -63,6 +64,29 @@ ContractSubject circle() {
   };
   subject.slope = 8.0;  // that of the sphere, and 1 along the normal
   subject.smooth_at = {0.1, 0.23, 0.7};
+  return subject;
+}
+
+ContractSubject detents() {
+  constexpr int kMarks = 9;
+  const auto mark = [](int i) { return Vec3{0.03 * i - 0.12, 0.02, 0.0}; };
+  ContractSubject subject;
+  subject.name = "Detents";
+  subject.make = [=](const Placement& at) {
+    std::vector<Vec3> marks;
+    for (int i = 0; i < kMarks; ++i) marks.push_back(at.point(mark(i)));
+    return std::make_shared<DetentMarks>(marks, 0.015);
+  };
+  // Along the marks and a little beside them.
+  subject.path = [](double s) {
+    return Vec3{0.11 * std::sin(kTurn * s), 0.02 + 0.003 * std::sin(20.0 * s), 0.003 * std::cos(30.0 * s)};
+  };
+  subject.off_feature = [=](const Vec3&, const LinkUpdate& link) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < kMarks; ++i) least = std::min(least, glm::distance(link.proxy, mark(i)));
+    return least;
+  };
+  subject.smooth_at = {0.01, 0.13, 0.4};
   return subject;
 }
 
@@ -156,8 +180,8 @@ ContractSubject grid_axis(bool teeth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ConstraintContract,
-                         ::testing::Values(sphere(), circle(), segment(), polyline(), grid_axis(false),
-                                           grid_axis(true)),
+                         ::testing::Values(sphere(), circle(), segment(), polyline(), detents(),
+                                           grid_axis(false), grid_axis(true)),
                          subject_name);
 
 }  // namespace
