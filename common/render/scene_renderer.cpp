@@ -20,6 +20,7 @@
 #include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/sign/sign_pass.h"
 #include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
@@ -126,6 +127,7 @@ struct SceneRenderer::State {
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
+  std::unique_ptr<SignPass> signs;
   std::unique_ptr<Overlay> overlay;
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
   Stopwatch since_draw;
@@ -389,7 +391,9 @@ struct SceneRenderer::State {
     draws_volume = shows_volume(view);
 
     const double aspect = static_cast<double>(width) / height;
-    const ViewTransform transform = view_transform(view.camera, frame, reach, aspect);
+    Box drawn = reach;
+    include_signs(view.signs, view.camera.axes, drawn);
+    const ViewTransform transform = view_transform(view.camera, frame, drawn, aspect);
     const bool perspective = view.camera.projection == Projection::kPerspective;
     // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
     const int scene_height = target.scene_height();
@@ -417,6 +421,10 @@ struct SceneRenderer::State {
       if (shows_volume(view)) draw_volume(view);
     }
     if (is_transparent(view)) draw_lines(view, base, unit);
+    if (!view.signs.empty()) {
+      if (!signs) signs = std::make_unique<SignPass>();
+      signs->draw(view.signs, frame, view.camera.axes);
+    }
 
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(0);
