@@ -30,12 +30,16 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noe
   if (hands == nullptr) return false;
   if (view.place) place_ = *view.place;
   intent_.acts = hands->acts;
+  intent_.pointing.reset();
   if (hands->stylus) {
     const TrackerPose pose = corrected(*hands->stylus);
-    const Vec3 tip = pose.position + pose.orientation * bench_.stylus.value_or(Vec3{0.0});
+    const Vec3 shaft = bench_.stylus.value_or(Vec3{0.0});
+    const Vec3 tip = pose.position + pose.orientation * shaft;
     tip_ = place_(on_surface(tip + bench_.interaction.tip_offset));
     if (hands->clutch) offset_ = intent_.probe - tip_;
     if (!hands->clutch) intent_.probe = tip_ + offset_;
+    const Vec3 along = glm::length(shaft) > 0.0 ? glm::normalize(shaft) : Vec3{0.0, 0.0, -1.0};
+    intent_.pointing = Ray{intent_.probe, place_.turn * (pose.orientation * along)};
   }
   // A hand that is out of sight for a while goes on with what it holds.
   if (!hands->carries) {

@@ -10,6 +10,8 @@
 /// o is zero until the clutch is used: while it is held x stays and o takes up what the hand moves. What the
 /// other hand holds moves rigidly with its sensor, places by B and turns by R, from where it took hold.
 ///
+/// The stylus points from its sensor through its tip; where no tip is known, along the sensor's -z.
+///
 /// e moves the picture of a tip that the hand, or the arm, hides, and lets the place that is touched be
 /// before the screen while the tip is not (sec. 3.1); the plane is one that steadies and rests the hand, such
 /// as the surface of the screen (sec. 3.2).

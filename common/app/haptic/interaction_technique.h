@@ -8,6 +8,7 @@
 
 #include "common/app/haptic/probe_mouse.h"
 #include "common/app/immersive/bench_place.h"
+#include "common/app/immersive/pick.h"
 #include "common/device/tracked_hands.h"
 #include "common/math/quaternion.h"
 
@@ -19,6 +20,8 @@ struct HandsIntent {
   bool acts = false;             ///< takes hold of what the probe is at
   std::optional<int> axis;       ///< along which alone the probe moves
   std::optional<Rigid> carried;  ///< how the other hand has moved what it holds since it took hold
+  /// Where a tracked stylus points, from its tip; none where it is not seen, or there is none.
+  std::optional<Ray> pointing;
 };
 
 /// What devices say: pixels that a mouse was moved by, notches of its wheel, an axis to be locked or none, or

@@ -216,7 +216,9 @@ void ProbeSession::follow_hands(double time) {
 }
 
 /// Modes that take hold of something wait for the button; in all others the hand itself is the button.
-std::uint32_t ProbeSession::buttons() const noexcept { return takes_hold() && !pressed_ ? 0U : 1U; }
+std::uint32_t ProbeSession::buttons() const noexcept {
+  return takes_hold() && (!pressed_ || elsewhere_) ? 0U : 1U;
+}
 
 bool ProbeSession::takes_hold() const noexcept { return planes_.there() || on_grid(); }
 

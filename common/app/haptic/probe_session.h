@@ -105,6 +105,8 @@ class ProbeSession {
   [[nodiscard]] bool takes_hold() const noexcept;
   /// That button of the mouse, while it has the probe.
   void press(bool down) noexcept { pressed_ = down; }
+  /// Whether the hand works something else, such as a menu: its button takes hold of nothing then.
+  void engage(bool elsewhere) noexcept { elsewhere_ = elsewhere; }
   void force_off() noexcept;
   void arm() noexcept;
   /// @}
@@ -242,7 +244,7 @@ class ProbeSession {
   Isovalues chain_isovalues_, replayed_isovalues_;
   std::shared_ptr<const ScalarField> noise_;  ///< felt as a texture: HapticChain
   HandPlanes planes_;
-  bool pressed_ = false;
+  bool pressed_ = false, elsewhere_ = false;
   AnnotationList notes_;
   KeptLines kept_;
   ProbeReadout readout_;

@@ -24,6 +24,7 @@ std::span<const KeyBinding> key_bindings() noexcept {
        "a lens that follows the mouse, or leave it there (or click); felt surfaces give way"},
       {'[', 0, Command::kLensSmaller, "[  ]", "smaller and larger lens"},
       {']', 0, Command::kLensLarger, "", ""},
+      {'M', 0, Command::kMenu, "M", "a menu in space, for the mouse and a tracked stylus"},
       {'V', 0, Command::kVolume, "V", "volume"},
       {kRight, 0, Command::kSliceRight, "Left, Right", "move the sagittal slice of tensors"},
       {kLeft, 0, Command::kSliceLeft, "", ""},

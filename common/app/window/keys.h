@@ -39,6 +39,7 @@ enum class Command : std::uint8_t {
   kLens,  ///< a lens that the mouse moves
   kLensSmaller,
   kLensLarger,
+  kMenu,        ///< in space
   kVolume,      ///< shows or hides the volume
   kSliceRight,  ///< the slice across x, one voxel
   kSliceLeft,

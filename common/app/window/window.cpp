@@ -24,6 +24,7 @@
 #include "common/app/window/keys.h"
 #include "common/app/window/lens_control.h"
 #include "common/app/window/live_picture.h"
+#include "common/app/window/menu_control.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/plane_control.h"
 #include "common/app/window/plane_image_control.h"
@@ -264,6 +265,7 @@ class Window {
     show_scene(*scene_, job_kind_ != JobKind::kUpdate, view_);
     if (job_kind_ != JobKind::kUpdate) {
       plot_.forget();
+      menu_.hide();
       if (job_kind_ == JobKind::kOpen) region_control_ = RegionControl();
       view_edits_.forget();
       // Edits made while the input was being read belonged to the old one.
@@ -335,10 +337,12 @@ class Window {
     const auto handled = static_cast<std::ptrdiff_t>(glfw_.events().size());
     gui_->begin_frame(glfw_.events(), width, height, seconds);
     look();
+    menu_.place(view_.camera, picture_);
     // An orthographic picture has one eye, but a workbench's is never that.
     const bool two = has_two_eyes(view_) || (bench_ && !screens_);
     pointer_.over(two ? view_.stereo : StereoView{}, picture_);
     handle_events();
+    follow_menu();
     if (needs_camera_ && scene_) reset_camera();
     state_.scene = scene_ ? &*scene_ : nullptr;
     state_.job = job_->running() ? &job_->progress() : nullptr;
@@ -464,6 +468,22 @@ class Window {
                   view_.camera);
   }
 
+  /// What the stylus does to the menu, and what either hand has done to it.
+  void follow_menu() {
+    if (!menu_.shown()) return;
+    const auto& pointing = touch_->intent().pointing;
+    touch_->engage(pointing && menu_.point(*pointing, touch_->intent().acts));
+    for (const Command command : menu_.act(state_.settings, view_)) run_command(command);
+  }
+
+  void toggle_menu() {
+    if (!scene_) return;
+    std::vector<std::string> modes;
+    for (const HapticMode& mode : touch_->modes()) modes.push_back(mode.name);
+    menu_.toggle(*scene_, view_, modes);
+    touch_->engage(false);
+  }
+
   void reset_camera() {
     needs_camera_ = false;
     if (bench_) {
@@ -516,8 +536,9 @@ class Window {
       // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
       const bool of_lens =
           event.kind == InputKind::kPress && (lens_control_.followed() || color_lens_control_.followed());
-      if (!of_panel && !handle_region(event, pointer_.area()) &&
-          !handle_plane_image(event, pointer_.area()) && !(of_lens && handle_lens(event, pointer_.area())) &&
+      if (!of_panel && !menu_.handle(event, pointer_.area(), view_.camera) &&
+          !handle_region(event, pointer_.area()) && !handle_plane_image(event, pointer_.area()) &&
+          !(of_lens && handle_lens(event, pointer_.area())) &&
           !touch_control_->handle(event, pointer_.area(), view_, glfwGetTime(), io.WantCaptureMouse) &&
           !handle_lens(event, pointer_.area()) &&
           !(view_.tensors && slice_control_.handle(event, pointer_.area(), view_.camera, *view_.tensors))) {
@@ -632,6 +653,9 @@ class Window {
         break;
       case Command::kUndo:
         if (!undo_view_edit()) run_touch(command);
+        break;
+      case Command::kMenu:
+        toggle_menu();
         break;
       case Command::kVolume:
         if (view_.volume) view_.volume->shown = !view_.volume->shown;
@@ -772,6 +796,7 @@ class Window {
     // Those on a layer are its grain.
     const bool on_layer = scene_ && scene_->info->layers;
     if ((hand || !view_.surfaces.empty()) && !on_layer && touch_->choice().fade_rest) fade_lines(picture);
+    if (auto menu = menu_.drawn()) picture.signs.push_back(std::move(*menu));
     picture.notes = notes_of(touch_->notes(), length_unit(picture), next_mark());
     std::vector<std::vector<Vec3>> handled;
     if (touch_->planes())
@@ -826,6 +851,7 @@ class Window {
   SceneView view_;  // as the user wants it
   PictureArea picture_;
   Pointer pointer_;
+  MenuControl menu_;
   bool needs_camera_ = true;
   std::optional<SceneState> scene_;
   PanelState state_;

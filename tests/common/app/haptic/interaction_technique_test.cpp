@@ -188,6 +188,21 @@ TEST(ImmersiveTechnique, ShowsTheTipBesideTheHandAndOnASurface) {
   }
 }
 
+TEST(ImmersiveTechnique, PointsFromItsTipAlongTheStylus) {
+  WorkbenchGeometry file = bench(1.0);
+  file.tracker.reset();
+  ImmersiveTechnique technique(file, Vec3{0.0}, 0.25);
+  const Quat turn = rotation_by({0.4, -0.2, 0.9});
+  ASSERT_TRUE(technique.take(stylus({0.1, 0.2, 0.3}, turn), {}));
+  const auto& pointing = technique.intent().pointing;
+  ASSERT_TRUE(pointing.has_value());
+  EXPECT_EQ(pointing->origin, technique.intent().probe);
+  const Vec3 along = file.interaction.rotation * (turn * Vec3(0.0, 0.0, -1.0));
+  EXPECT_LT(glm::distance(pointing->direction, along), 1e-12) << "the tip is at -z of the sensor";
+  ASSERT_TRUE(technique.take(TrackedHands{}, {}));
+  EXPECT_FALSE(technique.intent().pointing.has_value()) << "it is not seen";
+}
+
 // What the mouse does to the view the hands follow: they stay where the data is shown.
 TEST(ImmersiveTechnique, IsWhereTheViewShowsTheData) {
   WorkbenchGeometry file = bench(1.0);

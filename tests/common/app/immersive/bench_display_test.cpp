@@ -90,11 +90,11 @@ TEST(BenchDisplay, CoversAPartOfAScreenByItsPixels) {
   BenchDisplay display(options);
   Camera camera = display.camera(kBox, 0.0);
   const BenchPlace before = place_of(camera, display.screen());
-  EXPECT_TRUE(display.cover(500.0, 200.0, 800.0, 600.0, camera));
-  EXPECT_FALSE(display.cover(500.0, 200.0, 800.0, 600.0, camera));
+  EXPECT_TRUE(display.cover(300.0, 100.0, 800.0, 600.0, camera));
+  EXPECT_FALSE(display.cover(300.0, 100.0, 800.0, 600.0, camera));
   const Screen& part = display.screen();
-  EXPECT_LT(glm::distance(part.upper_left, Vec3(-0.4, 0.8, 0.0)), 1e-12);
-  EXPECT_LT(glm::distance(part.lower_right, Vec3(0.4, 0.2, 0.0)), 1e-12);
+  EXPECT_LT(glm::distance(part.upper_left, Vec3(-0.6, 0.9, 0.0)), 1e-12);
+  EXPECT_LT(glm::distance(part.lower_right, Vec3(0.2, 0.3, 0.0)), 1e-12);
   const BenchPlace after = place_of(camera, part);
   for (const Vec3& q : {Vec3(0.0), Vec3(0.3, -0.2, 0.7)})
     EXPECT_LT(glm::distance(before(q), after(q)), 1e-12 * kBox.diagonal());

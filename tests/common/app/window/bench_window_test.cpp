@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "common/app/window/menu_control.h"
 #include "common/app/window/pointer.h"
 #include "common/render/render_image.h"
 #include "tests/common/app/window/touch_window.h"
@@ -101,6 +102,38 @@ TEST_F(BenchWindow, GrabsWhatIsSeenInTheHalfOfAnEye) {
   const WindowResult result = run();
   ASSERT_TRUE(result.probe.held);
   EXPECT_LT(glm::distance(result.probe.probe, place), 0.02 * idle.view.bounds.diagonal());
+}
+
+// The menu in space, under the mouse where it is drawn.
+TEST_F(BenchWindow, ShowsAMenuThatTheMouseWorks) {
+  const WindowResult idle = run();
+  ASSERT_TRUE(idle.view.show_axes);
+  Progress progress;
+  HelixModel again;
+  MenuControl menu;
+  std::vector<std::string> modes;
+  for (const HapticMode& mode : options_.touch.modes) modes.push_back(mode.name);
+  menu.toggle(again.start(progress), idle.view, modes);
+  const PictureArea picture = layout(options_.width, options_.height, 14.0F).picture;
+  menu.place(idle.view.camera, picture);
+  const SignView sign = *menu.drawn();
+  const auto move_to = [&](int frame, double u, double v) {
+    const Vec3 at = sign.origin + sign.unit * (u * sign.axes[0] - v * sign.axes[1]);
+    const Vec3 shown =
+        project(idle.view.camera, at, static_cast<int>(picture.width), static_cast<int>(picture.height));
+    move(frame, picture.left + shown.x, picture.top + shown.y);
+  };
+  options_.script.clear();
+  last_ = 0;
+  key_down(2, 'M');
+  move_to(4, 1.0, 2.5);                       // "Show" opens
+  move_to(6, SpaceMenu::kColumn + 1.5, 2.5);  // "axes"
+  at(8, {.kind = InputKind::kPress});
+  at(9, {.kind = InputKind::kRelease});
+  move_to(11, 1.0, 5.0);  // on to the sliders
+  const WindowResult result = run();
+  EXPECT_FALSE(result.view.show_axes);
+  EXPECT_EQ(result.view.camera, idle.view.camera) << "the mouse was the menu's";
 }
 
 // Two buffers where the display has such, else one line that says what to do.
