@@ -91,6 +91,24 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
       "  workbench monitor --device falcon --rate 100 --json\n");
 }
 
+void add_controls_verb(CLI::App& app, WorkbenchOptions& o) {
+  CLI::App& controls = *app.add_subcommand(
+      "controls",
+      "work a menu in space, its sliders and knobs, with a recorded stylus, and pick by ray and aperture");
+  add_common(controls, o);
+  controls.add_option("FILE", o.file, "recorded hands with the header t,x,y,z,qw,qx,qy,qz[,b0,...]")
+      ->required();
+  controls.add_option(
+      "--workbench", o.nominal,
+      "workbench.toml: distortion, tip of the stylus, and [interaction] middle, where the menu's "
+      "upper left corner is; default: at 0,0,0");
+  controls.add_option("--out", o.out, "table of what was pointed at, chosen, set and picked, a row a step");
+  controls.add_option("--picture", o.picture, "PNG of the menu as it was left");
+  controls.footer(
+      "Examples:\n  workbench controls hands.csv --out controls.csv --picture controls.png\n"
+      "  workbench controls hands.csv --workbench workbench.toml --json\n");
+}
+
 }  // namespace
 
 WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
@@ -172,6 +190,7 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
   stability.add_option("--out", o.out, "folder for the report")->required();
   stability.footer("Examples:\n  workbench stability --out stability\n");
   add_device_verbs(app, o);
+  add_controls_verb(app, o);
   app.require_subcommand(0, 1);
 
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

@@ -14,11 +14,12 @@
 namespace palpate {
 
 struct WorkbenchOptions {
-  std::string verb;  ///< "calibrate", "devices", "doctor", "example", "monitor", "report", "screen",
-                     ///< "stability"; empty: `text` is all
+  std::string verb;  ///< "calibrate", "controls", "devices", "doctor", "example", "monitor", "report",
+                     ///< "screen", "stability"; empty: `text` is all
   std::string text;  ///< --help or --version
   std::string kind;  ///< "tracker", "apparatus", "arm", "coregister", "pivot", "eyes"
   std::filesystem::path file, out, report, nominal;
+  std::filesystem::path picture;  ///< controls: of the menu as it was left
   bool json = false, quiet = false, force = false;
   bool example = false;  ///< made measurements in place of a file
   std::uint64_t seed = 1;

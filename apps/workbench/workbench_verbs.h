@@ -22,6 +22,7 @@ struct WorkbenchContext {
 /// @name Verbs. @throws Error.
 /// @{
 void run_calibrate(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_controls(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_example(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_workbench_report(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_screen(const WorkbenchOptions& options, const WorkbenchContext& context);
