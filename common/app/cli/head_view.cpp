@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMetres = 1e-3;   // a millimetre
 constexpr int kMostPixels = 8192;  // an edge of the picture: a driver may allow more, memory not
-constexpr std::string_view kReplay = "replay:", kHands = "hands", kAll = "all";
+constexpr std::string_view kHeadReplay = "replay:", kHeadOfHands = "hands", kAllScreens = "all";
 constexpr PictureSize kUsualSize{1280, 960};
 
 PictureSize parse_size(const std::string& text) {
@@ -104,8 +104,8 @@ PictureSize size_on(const ScreenGeometry& screen, StereoMode mode, const Options
 Eyes eyes_of(const WorkbenchGeometry& bench, std::size_t screen, const Options& options) {
   const std::string& head = options.view.head;
   HeadTracker tracker(bench, bench.screens[screen].corners, separation_of(options));
-  if (!head.starts_with(kReplay)) return tracker.eyes_on(parse_pose(head));
-  const std::vector<PoseSample> poses = read_poses(head.substr(kReplay.size()));
+  if (!head.starts_with(kHeadReplay)) return tracker.eyes_on(parse_pose(head));
+  const std::vector<PoseSample> poses = read_poses(head.substr(kHeadReplay.size()));
   const double begin = poses.front().time;
   const double time = options.view.head_time.value_or(poses.back().time);
   if (!(time >= begin)) {
@@ -149,7 +149,7 @@ void check_shape(const ScreenGeometry& screen, const ScreenPicture& picture) {
 }  // namespace
 
 std::vector<ScreenPicture> asked_pictures(const Options& options) {
-  if (options.view.head_time && !options.view.head.starts_with(kReplay))
+  if (options.view.head_time && !options.view.head.starts_with(kHeadReplay))
     throw usage_error("--head-time needs a recording of the head: try --head replay:head.csv");
   if (options.view.head.empty()) {
     if (!options.view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
@@ -157,7 +157,7 @@ std::vector<ScreenPicture> asked_pictures(const Options& options) {
     return {{.name = {}, .size = size, .stereo = stereo_of(options.view), .screen = std::nullopt}};
   }
   const WorkbenchGeometry bench = bench_of(options);
-  const bool all = options.view.screen == kAll;
+  const bool all = options.view.screen == kAllScreens;
   const std::size_t first = all ? 0 : screen_of(bench, options);
   const std::size_t end = all ? bench.screens.size() : first + 1;
   const Eyes eyes = eyes_of(bench, first, options);
@@ -198,9 +198,9 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
     return std::nullopt;
   }
   BenchDisplayOptions display{.bench = bench_of(options), .separation = separation_of(options)};
-  display.several = view.screen == kAll;
+  display.several = view.screen == kAllScreens;
   if (!display.several) display.screen = screen_of(display.bench, options);
-  if (head == kHands) {
+  if (head == kHeadOfHands) {
     std::vector<PoseSample> heads = heads_of(hands);
     if (heads.empty()) {
       throw usage_error(
@@ -208,8 +208,8 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
           "headqy,headqz: try --device hands:FILE.csv");
     }
     display.head = std::make_shared<ReplayPoses>(std::move(heads));
-  } else if (head.starts_with(kReplay)) {
-    display.head = std::make_shared<ReplayPoses>(read_poses(head.substr(kReplay.size())));
+  } else if (head.starts_with(kHeadReplay)) {
+    display.head = std::make_shared<ReplayPoses>(read_poses(head.substr(kHeadReplay.size())));
   } else if (std::isalpha(static_cast<unsigned char>(head.front())) != 0) {
     std::shared_ptr<DriverLink> link = open_device(parse_device(head)).link;
     if (link->poses() == nullptr) throw usage_error("--head " + head + ": that device tells no poses");
