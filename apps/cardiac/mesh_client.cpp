@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include <unistd.h>
-
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
+#include "common/base/machine_memory.h"
 #include "common/load/helper_process.h"
 #include "common/load/protocol_error.h"
 
@@ -21,12 +20,6 @@ constexpr std::uint64_t kMemoryPerTetgenPoint = 65536;
 constexpr double kBaseSeconds = 60.0;
 constexpr double kSecondsPerPoint = 1e-3;
 
-std::uint64_t machine_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
-                               : ~std::uint64_t{0};
-}
-
 const char* other_mesher(Mesher mesher) { return mesher == Mesher::kTetgen ? "delaunay" : "tetgen"; }
 
 }  // namespace
@@ -39,7 +32,7 @@ FinishedMesh run_mesher(const MeshJob& job, const std::string& file, Progress* p
   const auto points = static_cast<std::uint64_t>(job.wall.points.size());
   const std::uint64_t wanted =
       kBaseMemory + points * (job.mesher == Mesher::kTetgen ? kMemoryPerTetgenPoint : kMemoryPerPoint);
-  const LoadLimits limits{std::min(wanted, machine_memory() / 4 * 3),
+  const LoadLimits limits{std::min(wanted, usable_memory()),
                           kBaseSeconds + kSecondsPerPoint * static_cast<double>(points)};
   HelperProcess process(program, limits);
   MemoryFile memory;

@@ -4,10 +4,9 @@
 #include <system_error>
 #include <utility>
 
-#include <unistd.h>
-
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
+#include "common/base/machine_memory.h"
 #include "common/load/format.h"
 #include "common/load/helper_process.h"
 #include "common/load/protocol.h"
@@ -26,6 +25,12 @@ constexpr std::uint64_t kMemoryFactor = 32;
 constexpr double kBaseSeconds = 8.0;
 constexpr double kSecondsPerByte = 1.0 / 2e6;
 constexpr double kSecondsToFill = 60.0;  ///< the box of a sparse grid: 20 GB
+/// Curved elements: the fewest bytes that one takes in a (compressed) file, and what a sample of it takes.
+/// Their reader looks first whether the machine has the memory.
+constexpr double kBytesPerElement = 200.0;
+constexpr double kMemoryPerSample = 600.0;
+constexpr double kSecondsPerSample = 1e-5;
+constexpr int kRefineOfReader = 4;  ///< where none is asked for
 
 std::uint64_t size_of(const std::filesystem::path& path) {
   std::error_code error;
@@ -65,23 +70,28 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
   return bytes;
 }
 
-std::uint64_t machine_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long page = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
-                               : ~std::uint64_t{0};
+/// Places at which the curved elements of so many bytes may be sampled.
+double samples_of(std::uint64_t bytes, int refine) {
+  const double side = 1.0 + (refine > 0 ? refine : kRefineOfReader);
+  return static_cast<double>(bytes) / kBytesPerElement * side * side * side;
 }
 
-LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, Format format) {
+LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, Format format, int refine) {
+  const double samples = format == Format::kEx ? samples_of(bytes, refine) : 0.0;
   if (limits.memory_bytes == 0) {
-    const std::uint64_t most = machine_memory() / 4 * 3;
+    const std::uint64_t most = usable_memory();
     // A sparse grid takes as much as its box, whatever its file does; its reader looks first.
-    const std::uint64_t wanted =
-        format == Format::kVdb ? most : kBaseMemory + kMemoryFactor * std::min(bytes, std::uint64_t{1} << 50);
-    limits.memory_bytes = std::max(kBaseMemory, std::min(wanted, most));
+    const double wanted = format == Format::kVdb
+                              ? static_cast<double>(most)
+                              : static_cast<double>(kBaseMemory) +
+                                    static_cast<double>(kMemoryFactor) * static_cast<double>(bytes) +
+                                    kMemoryPerSample * samples;
+    limits.memory_bytes =
+        wanted < static_cast<double>(most) ? static_cast<std::uint64_t>(wanted) : std::max(kBaseMemory, most);
   }
   if (limits.seconds <= 0.0) {
-    limits.seconds = kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes);
+    limits.seconds =
+        kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes) + kSecondsPerSample * samples;
     if (format == Format::kVdb) limits.seconds += kSecondsToFill;
   }
   return limits;
@@ -165,7 +175,7 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
     throw usage_error(state->file + ": its reader " + state->helper +
                       " is not installed; build that target or install palpate again");
   }
-  state->limits = resolve(limits, input_bytes(request, format), format);
+  state->limits = resolve(limits, input_bytes(request, format), format, request.refine);
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });

@@ -3,8 +3,8 @@
 #include <fstream>
 
 #include <sys/utsname.h>
-#include <unistd.h>
 
+#include "common/base/machine_memory.h"
 #include "common/base/parallel.h"
 #include "common/base/version.h"
 
@@ -33,8 +33,7 @@ Machine this_machine() {
   machine.processor = value_in("/proc/cpuinfo", "model name", ':');
   if (machine.processor.empty()) machine.processor = "unknown processor";
   machine.cores = resolve_threads(0);
-  machine.memory_bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  machine.memory_bytes = machine_memory();
   machine.system = value_in("/etc/os-release", "PRETTY_NAME", '=');
   utsname names{};
   if (uname(&names) == 0) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/machine_memory.h"
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
 #include "loaders/cardiac/carp_reader.h"
@@ -107,7 +108,7 @@ class CardiacLoader : public Loader {
     ex::Model model;
     const std::vector<std::string> files = ex_files(named);
     for (const std::string& file : files) ex::read_ex_file(file, model);
-    ex::SampledModel sampled = ex::sample(model, refine, files.back());
+    ex::SampledModel sampled = ex::sample(model, refine, files.back(), usable_memory());
     info.notes = std::move(sampled.notes);
     info.exact_volume = ex::exact_volume(model, kQuadrature, files.back());
     info.notes.push_back("volume of the curved model " + short_number(info.exact_volume));

@@ -25,8 +25,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSamePlace = 1e-6;
 /// Angles that differ by more than this at one point are said to disagree [rad].
 constexpr double kSameAngle = 1e-6;
-/// Most places that a sampling may have.
-constexpr std::size_t kMostPlaces = 50'000'000;
+/// Memory for each place of a sampling, here and as some five tetrahedra where it is used; measured on the
+/// ventricles of a dog.
+constexpr double kBytesPerPlace = 2400.0;
 
 /// The shapes of all elements, with the field that says where they are and the one of their fibres.
 std::vector<ElementShape> shapes_of(const Model& model, const std::string& file, bool& with_fibres) {
@@ -119,6 +120,10 @@ std::vector<std::uint32_t> joined(const std::vector<Place>& places, const Lattic
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
       throw input_error({file, "", "leads to coordinates that are not finite"});
     positions.push_back(x);
+    // What is inside an element is no other's.
+    const std::size_t n = lattice.side, at = p % lattice.count();
+    const auto inside = [n](std::size_t i) { return i > 0 && i + 1 < n; };
+    if (inside(at % n) && inside(at / n % n) && inside(at / (n * n))) continue;
     // A collapsed edge is zero but for rounding: it must not count as a spacing.
     const bool real = std::isfinite(spacing[p]) && spacing[p] > 1e-9 * size;
     candidates.push_back({static_cast<std::uint32_t>(p), real ? spacing[p] : 1e-3 * size,
@@ -187,6 +192,21 @@ std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const L
   for (std::size_t p = 0; p < tags.size(); ++p)
     if (tags[p] != 0.0 && std::abs(depth[p] - (tags[p] - 1.0)) > kRounding) return {};
   return depth;
+}
+
+void check_memory(std::size_t elements, const Lattice& lattice, std::uint64_t memory,
+                  const std::string& file) {
+  const double places = static_cast<double>(elements) * static_cast<double>(lattice.count());
+  const double wanted = kBytesPerPlace * places;
+  if (wanted <= static_cast<double>(memory)) return;
+  const std::string side = std::to_string(lattice.side - 1);
+  throw input_error({file, "",
+                     "makes " + short_number(places) + " points of its " + counted(elements, "element") +
+                         ", sampled " + side + " x " + side + " x " + side + ", which take some " +
+                         short_number(std::round(1e-9 * wanted)) + " GB",
+                     "no more than the " + short_number(std::round(1e-9 * static_cast<double>(memory))) +
+                         " GB that this machine can give",
+                     "a smaller --refine"});
 }
 
 bool disagree(const Place& a, const Place& b) {
@@ -282,14 +302,12 @@ std::optional<Vec3> long_axis(const Model& model) {
   return model.elements.empty() ? std::nullopt : std::optional(Vec3{-1.0, 0.0, 0.0});
 }
 
-SampledModel sample(const Model& model, int refine, const std::string& file) {
+SampledModel sample(const Model& model, int refine, const std::string& file, std::uint64_t memory) {
   bool with_fibres = false;
   const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
   const Lattice lattice{static_cast<std::size_t>(refine) + 1};
   const auto cells_along = static_cast<std::size_t>(refine);
-  if (shapes.size() > kMostPlaces / lattice.count())
-    throw input_error(
-        {file, "", "has " + std::to_string(shapes.size()) + " elements", "fewer to be sampled"});
+  check_memory(shapes.size(), lattice, memory, file);
 
   std::vector<Place> places;
   places.reserve(shapes.size() * lattice.count());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,11 @@ struct SampledModel {
 /// Samples every element at (refine + 1)^3 places, equidistant in xi. Places of neighbouring elements that
 /// differ by less than 1e-9 of the model's size are one point; where elements disagree there on an angle
 /// (versions), the first one's is kept, and said.
-/// @throws Error (bad input) naming `file`: no element, no coordinates, parameters that are missing.
-[[nodiscard]] SampledModel sample(const Model& model, int refine, const std::string& file);
+/// @param memory in bytes that samples, and the tetrahedra made of them, may take.
+/// @throws Error (bad input) naming `file`: no element, no coordinates, parameters that are missing, more
+/// samples than the memory holds.
+[[nodiscard]] SampledModel sample(const Model& model, int refine, const std::string& file,
+                                  std::uint64_t memory = std::numeric_limits<std::uint64_t>::max());
 
 /// The volume of the model by Gauss-Legendre quadrature of `order` points along each axis of every element,
 /// in the cube of its unit. @throws as sample().

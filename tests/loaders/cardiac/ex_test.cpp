@@ -179,17 +179,24 @@ TEST(DogHeart, LayersRiseFromTheCavitiesOutwards) {
   EXPECT_GT(between, static_cast<std::size_t>(count[0]) / 2);
 }
 
-/// One element of unit size: coordinates in `system`, its eight nodes' values, a fibre angle.
-std::string node_file(const std::string& system, const std::array<Vec3, 8>& places, double angle) {
+constexpr std::array<const char*, 3> kAngleNames{"fibre angle", "imbrication angle", "sheet angle"};
+
+/// One element of unit size: coordinates in `system`, its eight nodes' values, their angles: one to three.
+std::string node_file(const std::string& system, const std::array<Vec3, 8>& places,
+                      const std::vector<double>& angles) {
   std::string text =
       " Group name: box\n #Fields=2\n 1) coordinates, coordinate, " + system +
       ", #Components=3\n   x. Value index= 1, #Derivatives= 0\n   y. Value index= 2, #Derivatives= "
-      "0\n   z. Value index= 3, #Derivatives= 0\n 2) fibres, anatomical, fibre, #Components=1\n   "
-      "fibre angle. Value index= 4, #Derivatives= 0\n";
+      "0\n   z. Value index= 3, #Derivatives= 0\n 2) fibres, anatomical, fibre, #Components=" +
+      std::to_string(angles.size()) + "\n";
+  for (std::size_t a = 0; a < angles.size(); ++a)
+    text += std::string("   ") + kAngleNames.at(a) + ". Value index= " + std::to_string(4 + a) +
+            ", #Derivatives= 0\n";
   for (std::size_t n = 0; n < 8; ++n) {
     text += " Node: " + std::to_string(n + 1) + "\n";
     for (int c = 0; c < 3; ++c) text += " " + std::to_string(places[n][c]);
-    text += "\n " + std::to_string(angle) + "\n";
+    for (const double angle : angles) text += "\n " + std::to_string(angle);
+    text += "\n";
   }
   return text;
 }
@@ -201,11 +208,14 @@ std::string component(const std::string& name, const std::string& modify = "no m
             ".  #Values=1\n       Value indices:     1\n       Scale factor indices:   0\n";
   return text;
 }
-std::string element_file(const std::string& system, const std::string& modify = "no modify") {
+std::string element_file(const std::string& system, const std::string& modify = "no modify",
+                         std::size_t angles = 1) {
+  std::string of_angles;
+  for (std::size_t a = 0; a < angles; ++a) of_angles += component(kAngleNames.at(a));
   return " Group name: box\n Shape.  Dimension=3\n #Scale factor sets= 0\n #Nodes= 8\n #Fields=2\n 1) "
          "coordinates, coordinate, " +
          system + ", #Components=3\n" + component("x") + component("y", modify) + component("z") +
-         " 2) fibres, anatomical, fibre, #Components=1\n" + component("fibre angle") +
+         " 2) fibres, anatomical, fibre, #Components=" + std::to_string(angles) + "\n" + of_angles +
          " Element:     7 0 0\n   Faces:\n   0 1 0\n   Nodes:\n 1 2 3 4 5 6 7 8\n";
 }
 
@@ -222,7 +232,7 @@ TEST(ExElement, FibreAngleTurnsFromTheFirstAxisToTheSecond) {
   for (std::size_t n = 0; n < 8; ++n)
     places[n] = Vec3(static_cast<double>(n & 1U) * 2.0, static_cast<double>((n >> 1U) & 1U),
                      static_cast<double>(n >> 2U));
-  const Model model = made(folder, node_file("rectangular cartesian", places, kPi / 6.0),
+  const Model model = made(folder, node_file("rectangular cartesian", places, {kPi / 6.0}),
                            element_file("rectangular cartesian"));
   const DataSet mesh = sample(model, 2, "box").mesh;
   const DataArray* fibre = mesh.find("fibre", Association::kPoint);
@@ -237,6 +247,61 @@ TEST(ExElement, FibreAngleTurnsFromTheFirstAxisToTheSecond) {
   EXPECT_NEAR(exact_volume(model, 3, "box"), 2.0, 1e-12);
 }
 
+// All three angles: turns about the normal, then about the sheet, then about the fibre, each of which the
+// turns before it carry along. In one file, as some programs write it.
+TEST(ExElement, ImbricationAndSheetAnglesTurnTheAxesOneAfterTheOther) {
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n)
+    places[n] =
+        Vec3(static_cast<double>(n & 1U), static_cast<double>((n >> 1U) & 1U), static_cast<double>(n >> 2U));
+  const std::vector<double> angles{0.5, 0.3, -0.7};
+  const auto file = folder.write("a.exfile", node_file("rectangular cartesian", places, angles) +
+                                                 element_file("rectangular cartesian", "no modify", 3));
+  Model model;
+  read_ex_file(file.string(), model);
+  const DataSet mesh = sample(model, 2, "box").mesh;
+  const auto about = [](int axis, double angle) {
+    const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+    Mat3 turn{1.0};
+    turn[next][next] = turn[last][last] = std::cos(angle);
+    turn[next][last] = std::sin(angle);
+    turn[last][next] = -std::sin(angle);
+    return turn;
+  };
+  const Mat3 axes = about(2, angles[0]) * about(1, angles[1]) * about(0, angles[2]);
+  constexpr double kDigits = 1e-6;  // of the file
+  constexpr std::array<const char*, 3> kNames{"fibre", "sheet", "normal"};
+  for (int a = 0; a < 3; ++a) {
+    const DataArray* direction = mesh.find(kNames.at(static_cast<std::size_t>(a)), Association::kPoint);
+    ASSERT_NE(direction, nullptr);
+    for (std::size_t p = 0; p < direction->tuples; ++p)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(direction->at(p, c), axes[a][c], kDigits) << kNames.at(static_cast<std::size_t>(a));
+  }
+}
+
+// 64 MB hold a 3 x 3 x 3 sampling, not one that makes a million points: said before it is begun.
+TEST(ExElement, ASamplingThatMemoryCannotHoldIsRefusedWithItsSize) {
+  const test::TempFolder folder;
+  std::array<Vec3, 8> places;
+  for (std::size_t n = 0; n < 8; ++n)
+    places[n] =
+        Vec3(static_cast<double>(n & 1U), static_cast<double>((n >> 1U) & 1U), static_cast<double>(n >> 2U));
+  const Model model =
+      made(folder, node_file("rectangular cartesian", places, {0.0}), element_file("rectangular cartesian"));
+  constexpr std::uint64_t kMemory = std::uint64_t{64} << 20;
+  EXPECT_NO_THROW((void)sample(model, 2, "a.exelem", kMemory));
+  try {
+    (void)sample(model, 99, "a.exelem", kMemory);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    for (const char* word : {"a.exelem", "1 element, sampled 99 x 99 x 99", "2 GB", "--refine"})
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+  }
+}
+
 TEST(ExElement, ARingOfCylindricalElementsClosesOverTheSeam) {
   // One element from 300 to 60 degrees: 120 degrees of a ring of radii 1 and 2 and height 1.
   const test::TempFolder folder;
@@ -247,11 +312,11 @@ TEST(ExElement, ARingOfCylindricalElementsClosesOverTheSeam) {
         Vec3(1.0 + static_cast<double>(n >> 2U), angle * kPi / 180.0, static_cast<double>((n >> 1U) & 1U));
   }
   const double sector = kPi * (4.0 - 1.0) / 3.0;
-  const Model model = made(folder, node_file("cylindrical polar", places, 0.0),
+  const Model model = made(folder, node_file("cylindrical polar", places, {0.0}),
                            element_file("cylindrical polar", "increasing in xi1"));
   EXPECT_NEAR(exact_volume(model, 8, "ring"), sector, 1e-4);  // six digits in the file
   const Model unmended =
-      made(folder, node_file("cylindrical polar", places, 0.0), element_file("cylindrical polar"));
+      made(folder, node_file("cylindrical polar", places, {0.0}), element_file("cylindrical polar"));
   EXPECT_NEAR(exact_volume(unmended, 8, "ring"), 2.0 * sector, 1e-4);
 }
 
@@ -264,7 +329,7 @@ TEST(ExElement, EdgesOnEitherSideOfTheSeamStayTogether) {
   for (std::size_t n = 0; n < 8; ++n)
     places[n] = Vec3(1.0 + static_cast<double>(n >> 2U), kAngles[n & 3U] * kPi / 180.0,
                      static_cast<double>((n >> 1U) & 1U));
-  const Model model = made(folder, node_file("cylindrical polar", places, 0.0),
+  const Model model = made(folder, node_file("cylindrical polar", places, {0.0}),
                            element_file("cylindrical polar", "decreasing in xi1"));
   const double mean_width = (37.0 + 41.0) / 2.0 * kPi / 180.0;
   EXPECT_NEAR(exact_volume(model, 8, "ring"), 0.5 * (4.0 - 1.0) * mean_width, 1e-4);
@@ -304,7 +369,7 @@ TEST(ExLayers, OneVentriclesDepthIsItsThirdAxisAndTwoVentriclesHaveNone) {
   for (std::size_t n = 0; n < 8; ++n)
     places[n] = Vec3(static_cast<double>(n & 1U), static_cast<double>((n >> 1U) & 1U),
                      3.0 * static_cast<double>(n >> 2U));
-  const DataSet box = sample(made(folder, node_file("rectangular cartesian", places, 0.0),
+  const DataSet box = sample(made(folder, node_file("rectangular cartesian", places, {0.0}),
                                   element_file("rectangular cartesian")),
                              2, "box")
                           .mesh;
@@ -312,8 +377,8 @@ TEST(ExLayers, OneVentriclesDepthIsItsThirdAxisAndTwoVentriclesHaveNone) {
   ASSERT_NE(depth, nullptr);
   const auto& positions = std::get<UnstructuredTopology>(box.topology).positions;
   for (std::size_t p = 0; p < depth->tuples; ++p) EXPECT_NEAR(depth->at(p), positions.at(p, 2) / 3.0, 1e-12);
-  EXPECT_FALSE(long_axis(
-      made(folder, node_file("rectangular cartesian", places, 0.0), element_file("rectangular cartesian"))));
+  EXPECT_FALSE(long_axis(made(folder, node_file("rectangular cartesian", places, {0.0}),
+                              element_file("rectangular cartesian"))));
 
   // Between the ventricles and in the right one's wall there is one element, elsewhere there are two.
   PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
@@ -424,7 +489,7 @@ TEST(ExReader, WhatLaterVersionsHaveMoreIsNamed) {
 TEST(ExReader, MistakesAreNamedWithFileAndLine) {
   const test::TempFolder folder;
   std::array<Vec3, 8> places{};
-  const std::string nodes = node_file("rectangular cartesian", places, 0.0);
+  const std::string nodes = node_file("rectangular cartesian", places, {0.0});
   const std::string elements = element_file("rectangular cartesian");
   const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
     const std::size_t at = text.find(what);

@@ -211,6 +211,11 @@ TEST(Tetgen, WhatIsOffIsNamed) {
   expect_refused(node, "2 directions");
   folder.write("a.axi", "1\n1 0 zero\n");
   expect_refused(node, "zero");
+  folder.write("a.axi", "1\n0 -2 0\n");  // Chaste's transversely isotropic muscle: fibres alone
+  Source source = open(folder.path("a.axi"));
+  const DataSet axi = source.read({"fibre"}).at(0);
+  EXPECT_EQ(axi.find("fibre", Association::kCell)->at(0, 1), -1.0);
+  EXPECT_EQ(axi.arrays.size(), 1U);
   std::filesystem::remove(folder.path("a.axi"));
   folder.write("a.ele", "1 4 0\n1 1 2 3 5\n");
   expect_refused(node, "from 1 to 4");
