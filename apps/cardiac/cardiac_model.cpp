@@ -8,8 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "apps/cardiac/usual_look.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/layer/wall_layer.h"
+#include "common/field/layer/wall_surfaces.h"
 #include "common/field/scalar_choice.h"
 #include "common/math/vec_text.h"
 
@@ -52,6 +55,22 @@ std::vector<std::string> scalars_of(const Input& input) {
   return labels;
 }
 
+/// In the order in which they are looked for: angles, the file's own scalars, how deep and how well defined
+/// fibres are, and last what lengths and components of vectors there are.
+std::vector<std::string> colors_of(const Input& input, bool sheets) {
+  std::vector<std::string> colors{"helix", "transverse"}, others;
+  if (sheets) colors.emplace_back("sheet");
+  for (const ScalarChoice& choice : scalar_choices(input.arrays())) {
+    if (choice.array == kLayerArray) continue;  // is the depth
+    const std::string label = label_of(choice, input.arrays());
+    const bool of_muscle = label == choice.array && choice.array != kSurfaceArray;
+    (of_muscle ? colors : others).push_back(label);
+  }
+  colors.insert(colors.end(), {"depth", "gap"});
+  colors.insert(colors.end(), others.begin(), others.end());
+  return colors;
+}
+
 }  // namespace
 
 CardiacModel::CardiacModel(Options options, std::string program)
@@ -70,6 +89,10 @@ CardiacContent CardiacModel::read(Input& input, const Options& options, Progress
   }
   content.heart = load_layered_heart(input, HeartOptions(), options.common.threads, &progress);
   return content;
+}
+
+void CardiacModel::complete(Options& options, Input& input, Progress& progress) const {
+  (void)choose_usual_look(input, options, &progress);
 }
 
 void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
@@ -139,9 +162,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
                         counted(depth.tet_mesh()->cells().size(), "tetrahedron"));
   info->layers = ValueRange{depth.lowest(), depth.highest()};
-  info->color_arrays = {"helix", "transverse", "gap", "depth"};
-  if (heart->heart().sheets) info->color_arrays.insert(info->color_arrays.begin() + 2, "sheet");
-  for (const std::string& name : scalars_of(input)) info->color_arrays.push_back(name);
+  info->color_arrays = colors_of(input, heart->heart().sheets != nullptr);
   if (info->times.size() > 1) {
     info->plotted = scalars_of(input);
     info->input = input.spec();
@@ -159,7 +180,9 @@ void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/,
   if (input.refine > 0) add_option(session, "refine", std::to_string(input.refine));
   if (input.cell_directions != usual.cell_directions)
     add_option(session, "cell-directions", input.cell_directions);
-  if (input.layer_cache != usual.layer_cache) add_option(session, "layer-cache", input.layer_cache);
+  add_option(session, "mesher", input.mesher);
+  if (input.largest_volume > 0.0) add_option(session, "largest-volume", exact_number(input.largest_volume));
+  if (input.cache != usual.cache) add_option(session, "cache", input.cache);
   add_option(session, "surface-markers", input.surface_markers);
   add_option(session, "layer", exact_number(settings.layer));
   add_option(session, "seeds", settings.seeds);

@@ -27,6 +27,7 @@ class CardiacModel final : public InputModel<CardiacContent> {
   [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Options& options,
                                    const SceneSettings& settings, const SceneState* before,
                                    Progress& progress) const override;
+  void complete(Options& options, Input& input, Progress& progress) const override;
   void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
   void describe_session(Session& session, const InputSpec& spec, const Options& options,
                         const SceneSettings& settings, const SceneView& view) const override;

@@ -7,6 +7,7 @@
 
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/series_range.h"
+#include "apps/cardiac/usual_look.h"
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 #include "common/base/error.h"
@@ -48,7 +49,7 @@ double sampled(const ScalarField& field, const Vec3& x, CellHint& hint) {
 
 std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, const HeartOptions& options, int threads,
                                                        Progress* progress) {
-  const std::string value = is_own_word(options.angle) ? std::string() : options.angle;
+  const std::string value = is_own_word(angle_of(options)) ? std::string() : options.angle;
   return std::make_shared<const LayeredHeart>(input.load_heart(threads, progress, value));
 }
 
@@ -74,15 +75,16 @@ Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
 AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOptions& options,
                        const std::shared_ptr<const ScalarField>& value)
     : heart_(std::move(heart)), options_(options), value_(value ? value : heart_->heart().value) {
+  options_.angle = angle_of(options);
   for (int i = 0; i < kWallAngleCount; ++i) {
     const auto angle = static_cast<WallAngle>(i);
-    if (name_of(angle) == options.angle) angle_ = angle;
+    if (name_of(angle) == options_.angle) angle_ = angle;
   }
   for (int i = 0; i < kAngleConventionCount; ++i) {
     const auto convention = static_cast<AngleConvention>(i);
     if (name_of(convention) == options.convention) convention_ = convention;
   }
-  if (!angle_ && !is_own_word(options.angle) && !value_)
+  if (!angle_ && !is_own_word(options_.angle) && !value_)
     throw usage_error("--angle " + options.angle + ": was not read with the heart");
   if (!angle_) return;
   if (!defines(convention_, *angle_))
@@ -194,7 +196,7 @@ LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>&
                         const LineArray* before) {
   auto array = std::make_shared<LineArray>();
   std::shared_ptr<const ScalarField> value;
-  if (!is_own_word(options.angle)) {
+  if (!is_own_word(angle_of(options))) {
     const ScalarChoice choice = choose_scalar(input.arrays(), options.angle, input.title());
     const std::vector<DataSet> blocks = input.read({choice.array});
     const auto& grid = heart->heart().fibres->grid();
@@ -261,9 +263,10 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   view.bounds = depths.bounds();
   view.lines = scene.layer.lines;
   view.title = input.title();
-  const std::string& angle = options.heart.angle;
+  const std::string angle = angle_of(options.heart);
   view.subtitle = "fibres at depth " + short_number(scene.layer.depth) + ", " + angle +
                   (view.style.array->unit.empty() ? "" : " angle (" + options.heart.convention + ")");
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
   view.units = units_of(input);
   const Projection projection =

@@ -2,6 +2,7 @@
 #include "apps/cardiac/cardiac_modes.h"
 #include "apps/cardiac/heart_verbs.h"
 #include "apps/cardiac/open_verb.h"
+#include "apps/cardiac/remesh.h"
 #include "common/app/cli/verbs.h"
 
 int main(int argc, char** argv) {
@@ -23,53 +24,59 @@ int main(int argc, char** argv) {
                     "feel along a recorded path"},
                    {"cardiac report heart.exelem.gz --out report", "error against run time, on this heart"},
                    {"cardiac --example list", "the built-in hearts"}},
-      .verbs = {
-          info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
-                     {"cardiac info mesh.pts --explain", "and what each verb would load"}}),
-          trace_fibres_verb(
-              {{"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
-                "on the layer half way through the wall; with depth, gap and helix angle at each point"},
-               {"cardiac trace mesh.ele --seeds line:0,0,-5,0,8,-5,20 --max-length 10 --out fibres.csv",
-                "through the wall, as the fibres go; 10 data units each way"},
-               {"cardiac trace --example ventricle --layer 0.9 --seeds grid:8,8,8 --json --out outer.vtp",
-                "a built-in heart; the counts as JSON"}}),
-          probe_verb(cardiac_modes(),
-                     {{"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
-                       "held to layers, and on them to fibres as in grooves"},
-                      {"cardiac probe --example ventricle --path path.csv --mode friction --json",
-                       "dragged the harder, the more fibres leave the layer; the summary as JSON"}}),
-          map_angles_verb(
-              {{"cardiac map heart.exelem.gz --angle helix --out helix.vtu", "as a mesh for ParaView"},
-               {"cardiac map mesh.pts --angle sheet --convention bayer --axis 0,0,1 --out sheet.csv",
-                "by another convention, with the long axis stated"},
-               {"cardiac map mesh.pts activation.dat --angle activation --layer 0.9 --contour-spacing 5 "
-                "--out "
-                "isochrones.vtp",
-                "isochrones, 5 ms apart; --contours 10,20,30 names them"},
-               {"cardiac map heart.exelem.gz --angle gap --json", "where fibres are undefined, in numbers"}}),
-          series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
-                        "a potential over time at a place; --at again for another one"},
-                       {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
-          convert_verb({{"cardiac convert --example wave --out wave.pts",
-                         "for openCARP: mesh, fibres, potential.igb, activation.dat"},
-                        {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
-          mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu",
-                      "eight cells along each axis of an element"},
-                     {"cardiac mesh heart.exelem.gz --mesher tetgen --json",
-                      "fill the surfaces anew; the report alone, as JSON"}}),
-          render_layers_verb(
-              {{"cardiac render heart.exelem.gz --layer 0.5 --out heart.png", "helix angle on a layer"},
-               {"cardiac render --example ventricle --cut 0,1,0,0 --camera 0,20,0,1 --out half.png",
-                "cut open"},
-               {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out felt.png",
-                "with what a hand on that path has felt"}}),
-          heart_report_verb({{"cardiac report heart.exelem.gz --out report",
-                              "errors of volume, layers, angles, fibres and friction beside run time"},
-                             {"cardiac report --example ventricle --quick --out report",
-                              "the built-in ventricle, in a few seconds"}}),
-          open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
-                     {"cardiac --example ventricle", "a built-in heart"},
-                     {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
-      }};
+      .verbs =
+          {
+              info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
+                         {"cardiac info mesh.pts --explain", "and what each verb would load"}}),
+              trace_fibres_verb(
+                  {{"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
+                    "on the layer half way through the wall; with depth, gap and helix angle at each point"},
+                   {"cardiac trace mesh.ele --seeds line:0,0,-5,0,8,-5,20 --max-length 10 --out fibres.csv",
+                    "through the wall, as the fibres go; 10 data units each way"},
+                   {"cardiac trace --example ventricle --layer 0.9 --seeds grid:8,8,8 --json --out outer.vtp",
+                    "a built-in heart; the counts as JSON"}}),
+              probe_verb(cardiac_modes(),
+                         {{"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
+                           "held to layers, and on them to fibres as in grooves"},
+                          {"cardiac probe --example ventricle --path path.csv --mode friction --json",
+                           "dragged the harder, the more fibres leave the layer; the summary as JSON"}}),
+              map_angles_verb(
+                  {{"cardiac map heart.exelem.gz --angle helix --out helix.vtu", "as a mesh for ParaView"},
+                   {"cardiac map mesh.pts --angle sheet --convention bayer --axis 0,0,1 --out sheet.csv",
+                    "by another convention, with the long axis stated"},
+                   {"cardiac map mesh.pts activation.dat --angle activation --layer 0.9 --contour-spacing 5 "
+                    "--out "
+                    "isochrones.vtp",
+                    "isochrones, 5 ms apart; --contours 10,20,30 names them"},
+                   {"cardiac map heart.exelem.gz --angle gap --json",
+                    "where fibres are undefined, in numbers"}}),
+              series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
+                            "a potential over time at a place; --at again for another one"},
+                           {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
+              convert_verb(
+                  {{"cardiac convert --example wave --out wave.pts",
+                    "for openCARP: mesh, fibres, potential.igb, activation.dat"},
+                   {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
+              mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu",
+                          "eight cells along each axis of an element"},
+                         {"cardiac mesh heart.exelem.gz --mesher tetgen --json",
+                          "fill the surfaces anew; the report alone, as JSON"}}),
+              render_layers_verb(
+                  {{"cardiac render heart.exelem.gz --layer 0.5 --out heart.png", "helix angle on a layer"},
+                   {"cardiac render --example ventricle --cut 0,1,0,0 --camera 0,20,0,1 --out half.png",
+                    "cut open"},
+                   {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out felt.png",
+                    "with what a hand on that path has felt"}}),
+              heart_report_verb({{"cardiac report heart.exelem.gz --out report",
+                                  "errors of volume, layers, angles, fibres and friction beside run time"},
+                                 {"cardiac report --example ventricle --quick --out report",
+                                  "the built-in ventricle, in a few seconds"}}),
+              open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
+                         {"cardiac --example ventricle", "a built-in heart"},
+                         {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",
+                          "on the tetrahedra of 'mesh', which are kept for the next opening"},
+                         {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
+          },
+      .complete = [](Options& options) { options.input.remesher = remesher_of(options); }};
   return run_explorer(cardiac, argc, argv);
 }

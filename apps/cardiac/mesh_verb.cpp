@@ -1,10 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/cardiac/heart_verbs.h"
-#include "apps/cardiac/wall_mesh.h"
+#include "apps/cardiac/remesh.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
@@ -93,6 +95,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   if (!given.out.empty()) check_mesh_output(given.out, given.common.force);
   Options options = given;
   if (options.input.refine == 0) options.input.refine = kMeshRefine;
+  options.input.remesher = nullptr;  // it is made here, with its counts
   Input input = open_input(options, context);
   if (!input.not_volume().empty())
     throw input_error({input.title(), "", input.not_volume(), "a mesh of the wall"});
@@ -100,28 +103,19 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   std::vector<std::string> names;
   for (const ArrayInfo& array : input.arrays())
     if (array.association == Association::kPoint) names.push_back(array.name);
-  std::optional<HeartChoice> choice;
-  if (!fibre_choices(input.arrays()).empty()) {
-    choice = input.heart_choice();
-    choice->constant_cells = false;  // points is where the output has them
-    for (const std::string& name : choice->arrays())
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
-  const std::vector<DataSet> blocks = input.read_timed(names, &context.progress);
-  if (blocks.size() != 1)
-    throw input_error({input.title(), "", "has " + counted(blocks.size(), "block"), "one mesh"});
+  const std::optional<HeartChoice> choice = choice_for_mesh(input);
+  for (const std::string& name : choice ? choice->arrays() : std::vector<std::string>())
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  const DataSet block = read_wall(input, names, &context.progress);
 
   Stopwatch watch;
-  WallMesh mesh =
-      make_wall_mesh(blocks.front(), choice ? &*choice : nullptr,
-                     {.mesher = options.heart.mesher == "tetgen" ? Mesher::kTetgen : Mesher::kDelaunay,
-                      .largest_volume = options.heart.largest_volume,
-                      .threads = options.common.threads},
-                     input.title(), &context.progress);
+  const WallMeshOptions with = wall_mesh_options(options, WallFilling::kDelaunay);
+  WallMesh mesh = mesh_of(input, block, choice, with, &context.progress);
+  carry_arrays(block, mesh);
   MeshSummary summary;
   summary.input = input.title();
   summary.output = options.out.string();
-  summary.mesher = mesh.kept ? "none: the file's own tetrahedra are kept" : options.heart.mesher;
+  summary.mesher = mesh.kept ? "none: the file's own tetrahedra are kept" : name_of(with.mesher);
   summary.cells_volume = mesh.cells_volume;
   summary.exact_volume = input.file()->exact_volume;
   summary.outside = mesh.counts.outside;
@@ -169,7 +163,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
 Verb mesh_verb(std::vector<UsageExample> examples) {
   return {.name = "mesh",
           .summary = "fill the wall with tetrahedra, and say how good they are",
-          .groups = {.mesher = true, .out = true},
+          .groups = {.out = true},
           .examples = std::move(examples),
           .run = run_mesh};
 }

@@ -4,6 +4,7 @@
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/usual_look.h"
 #include "common/app/cli/picture.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
@@ -32,7 +33,10 @@ void check(const Options& options) {
   (void)touch_settings(options.touch);
 }
 
-DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
+DrawnScene make_scene(Input& input, const Options& given, const VerbContext& context, double aspect) {
+  Options options = given;
+  const std::string chosen = choose_usual_look(input, options, &context.progress);
+  if (!chosen.empty()) context.console.note(chosen);
   const auto heart = load_layered_heart(input, HeartOptions(), options.common.threads, &context.progress);
   LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);
   DrawnScene drawn;

@@ -47,21 +47,27 @@ std::vector<double> point_values(const ScalarField& field) {
   return values;
 }
 
+std::vector<std::size_t> spread_steps(const Input& input) {
+  const std::vector<std::size_t> order = steps_in_order(input.times());
+  std::set<std::size_t> places;
+  for (std::size_t n = 0; n < kSteps; ++n) places.insert(n * (order.size() - 1) / (kSteps - 1));
+  std::vector<std::size_t> steps;
+  for (const std::size_t place : places) steps.push_back(order[place]);
+  return steps;
+}
+
 std::optional<ValueRange> series_range(Input& input, const ScalarChoice& choice, const ScalarField& now,
                                        const std::shared_ptr<const FieldGrid>& grid,
                                        const std::optional<ValueRange>& before, int threads) {
-  const std::size_t count = input.times().size();
-  if (count < 2) return std::nullopt;
+  if (input.times().size() < 2) return std::nullopt;
   std::optional<ValueRange> range = before;
   widen(range, now);
   if (before) return range;
-  std::set<std::size_t> steps;
-  for (std::size_t n = 0; n < kSteps; ++n) steps.insert(n * (count - 1) / (kSteps - 1));
-  steps.erase(input.time().step);
-  const std::vector<std::size_t> order = steps_in_order(input.times());
+  const std::size_t shown = input.time().step;
   const StepsAside aside(input);
-  for (const std::size_t step : steps) {
-    input.set_time_step(order[step]);
+  for (const std::size_t step : spread_steps(input)) {
+    if (step == shown) continue;
+    input.set_time_step(step);
     const std::vector<DataSet> blocks = input.read({choice.array});
     widen(range, *make_scalar_field(grid, blocks.front(), choice, input.title(), threads));
   }

@@ -23,6 +23,9 @@ namespace palpate {
                                                      const std::shared_ptr<const FieldGrid>& grid,
                                                      const std::optional<ValueRange>& before, int threads);
 
+/// Up to five steps of a series, spread over it in the order of time, the first and the last among them.
+[[nodiscard]] std::vector<std::size_t> spread_steps(const Input& input);
+
 /// As stored, at the points of its mesh.
 [[nodiscard]] std::vector<double> point_values(const ScalarField& field);
 

@@ -14,6 +14,7 @@
 #include "common/field/heart/same_points.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/math/symmetric3.h"
+#include "common/scene/remesher.h"
 
 namespace palpate {
 namespace {
@@ -36,13 +37,6 @@ std::size_t leave_flat_ones_out(const std::vector<Vec3>& points, std::vector<Tet
   return all - tets.size();
 }
 
-bool tetrahedra_alone(const DataSet& block) {
-  const auto* cells = std::get_if<UnstructuredTopology>(&block.topology);
-  return cells != nullptr && std::all_of(cells->types.begin(), cells->types.end(), [](std::uint8_t type) {
-           return type == kVtkTetrahedron || type == kVtkQuadraticTetrahedron;
-         });
-}
-
 /// Leaves points without a cell out; for each that is left, which one it was.
 std::vector<std::uint32_t> compact(std::vector<Vec3>& points, std::vector<TetMesh::Tet>& tets) {
   std::vector<std::uint32_t> number(points.size(), kUnused), was;
@@ -60,36 +54,27 @@ std::vector<std::uint32_t> compact(std::vector<Vec3>& points, std::vector<TetMes
   return was;
 }
 
-/// The numbers of the file at the points that are left of it.
-void carry_arrays(const DataSet& block, const SplitMesh& split, const std::vector<std::uint32_t>& was,
-                  WallMesh& mesh) {
+/// For each point that is left, which one of the file it is.
+std::vector<std::uint32_t> points_of_file(const SplitMesh& split, const std::vector<std::uint32_t>& was) {
   std::vector<std::uint32_t> input_of(split.points.size(), kUnused);
   for (std::size_t p = 0; p < split.point_of_input.size(); ++p) {
     const std::uint32_t q = split.point_of_input[p];
     if (q < input_of.size() && input_of[q] == kUnused) input_of[q] = static_cast<std::uint32_t>(p);
   }
-  for (const DataArray& array : block.arrays) {
-    if (array.association != Association::kPoint) continue;
-    MeshColumn column{.name = array.name, .components = static_cast<std::size_t>(array.components)};
-    column.values.reserve(column.components * was.size());
-    for (const std::uint32_t q : was) {
-      const std::uint32_t from = input_of[q];
-      for (int c = 0; c < array.components; ++c)
-        column.values.push_back(from < array.tuples ? array.at(from, c) : kNaN);
-    }
-    mesh.columns.push_back(std::move(column));
-  }
-}
-
-bool has(const WallMesh& mesh, const std::string& name) {
-  return std::any_of(mesh.columns.begin(), mesh.columns.end(),
-                     [&](const MeshColumn& column) { return column.name == name; });
+  std::vector<std::uint32_t> from;
+  from.reserve(was.size());
+  for (const std::uint32_t q : was) from.push_back(input_of[q]);
+  return from;
 }
 
 /// Directions and, where the heart has one, depth at the points that have none yet.
-void sample_heart(const Heart& heart, WallMesh& mesh) {
-  const auto add_directions = [&mesh](const char* name, const TensorField& field) {
-    if (has(mesh, name)) return;
+void sample_heart(const Heart& heart, const DataSet& block, const HeartChoice& choice, WallMesh& mesh) {
+  const bool new_points = mesh.point_of_file.empty();
+  const auto missing = [&](const std::string& name) {
+    return new_points || block.find(name, Association::kPoint) == nullptr;
+  };
+  const auto add_directions = [&](const std::string& name, const TensorField& field) {
+    if (!missing(name)) return;
     MeshColumn column{.name = name, .components = 3};
     CellHint hint;
     for (const Vec3& x : mesh.points) {
@@ -100,9 +85,9 @@ void sample_heart(const Heart& heart, WallMesh& mesh) {
     }
     mesh.columns.push_back(std::move(column));
   };
-  add_directions("fibre", *heart.fibres);
-  if (heart.sheets) add_directions("sheet", *heart.sheets);
-  if (has(mesh, kLayerArray) || !heart.layer) return;
+  add_directions(choice.fibre.array, *heart.fibres);
+  if (heart.sheets) add_directions(choice.sheet.array, *heart.sheets);
+  if (!heart.layer || !missing(kLayerArray)) return;
   MeshColumn depth{.name = kLayerArray};
   CellHint hint;
   for (const Vec3& x : mesh.points) {
@@ -113,6 +98,35 @@ void sample_heart(const Heart& heart, WallMesh& mesh) {
 }
 
 }  // namespace
+
+std::string name_of(WallFilling mesher) {
+  switch (mesher) {
+    case WallFilling::kCells:
+      return "cells";
+    case WallFilling::kTetgen:
+      return "tetgen";
+    case WallFilling::kDelaunay:
+      break;
+  }
+  return "delaunay";
+}
+
+WallFilling wall_filling_from_name(const std::string& name) {
+  for (const auto mesher : {WallFilling::kCells, WallFilling::kDelaunay, WallFilling::kTetgen})
+    if (name_of(mesher) == name) return mesher;
+  throw usage_error("--mesher " + name + ": cells, delaunay or tetgen is expected");
+}
+
+bool has_cell_directions(const HeartChoice& choice) noexcept {
+  return choice.fibre.association == Association::kCell || choice.sheet.association == Association::kCell;
+}
+
+bool tetrahedra_alone(const DataSet& block) {
+  const auto* cells = std::get_if<UnstructuredTopology>(&block.topology);
+  return cells != nullptr && std::all_of(cells->types.begin(), cells->types.end(), [](std::uint8_t type) {
+           return type == kVtkTetrahedron || type == kVtkQuadraticTetrahedron;
+         });
+}
 
 WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const WallMeshOptions& options,
                         const std::string& file, Progress* progress) {
@@ -132,15 +146,17 @@ WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const W
   if (split.folded_cells > 0)
     mesh.notes.push_back(counted(split.folded_cells, "cell") + " folded over themselves");
 
-  if (mesh.kept) {
+  const bool new_points = !mesh.kept && options.mesher == WallFilling::kTetgen;
+  if (mesh.kept || options.mesher == WallFilling::kCells) {
     mesh.points = split.points;
     mesh.tets = std::move(split.tets);
     if (const std::size_t flat = leave_flat_ones_out(mesh.points, mesh.tets, file); flat > 0)
       mesh.notes.push_back(std::to_string(flat) + " tetrahedra without a volume left out");
   } else {
-    MeshJob job{.mesher = options.mesher, .largest_volume = options.largest_volume};
+    MeshJob job{.mesher = new_points ? Mesher::kTetgen : Mesher::kDelaunay,
+                .largest_volume = options.largest_volume};
     constexpr double kCoarser = 2.0;
-    if (job.mesher == Mesher::kTetgen && job.largest_volume == 0.0)
+    if (new_points && job.largest_volume == 0.0)
       job.largest_volume = kCoarser * mesh.cells_volume / static_cast<double>(split.tets.size());
     job.wall = {split.points, std::move(split.tets), std::move(split.source_cell)};
     mesh.counts = run_mesher(job, file, progress);
@@ -148,25 +164,33 @@ WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const W
     mesh.points = mesh.counts.points.empty() ? split.points : std::exchange(mesh.counts.points, {});
     if (!mesh.counts.note.empty()) mesh.notes.push_back(mesh.counts.note);
   }
-  const bool new_points = !mesh.kept && options.mesher == Mesher::kTetgen;
   const std::size_t all = mesh.points.size();
   const std::vector<std::uint32_t> was = compact(mesh.points, mesh.tets);
   if (was.size() < all) mesh.notes.push_back(counted(all - was.size(), "point") + " without a cell left out");
   for (TetMesh::Tet& tet : mesh.tets)
     if (six_volumes(mesh.points, tet) < 0.0) std::swap(tet[2], tet[3]);
 
-  if (!new_points) carry_arrays(block, split, was, mesh);
-  const bool of_cells = choice != nullptr && (choice->fibre.association == Association::kCell ||
-                                              choice->sheet.association == Association::kCell);
-  if (choice != nullptr && (new_points || of_cells)) {
+  if (!new_points) mesh.point_of_file = points_of_file(split, was);
+  if (choice != nullptr && (new_points || has_cell_directions(*choice))) {
     if (progress != nullptr) progress->begin("fibres and layers of the cells", 0);
     const Heart heart = make_heart(block, *choice, file, options.threads, LayersNeeded::kIfPossible);
-    sample_heart(heart, mesh);
+    sample_heart(heart, block, *choice, mesh);
     if (new_points)
       mesh.notes.emplace_back(
           "fibres, sheets and depth are those of where points lie; other arrays left out");
   }
   return mesh;
+}
+
+void carry_arrays(const DataSet& block, WallMesh& mesh) {
+  if (mesh.point_of_file.empty()) return;
+  for (const DataArray& array : carried_arrays(block, mesh.point_of_file)) {
+    MeshColumn column{.name = array.name, .components = static_cast<std::size_t>(array.components)};
+    column.values.reserve(column.components * array.tuples);
+    for (std::size_t p = 0; p < array.tuples; ++p)
+      for (int c = 0; c < array.components; ++c) column.values.push_back(array.at(p, c));
+    mesh.columns.push_back(std::move(column));
+  }
 }
 
 DataSet data_set_of(const WallMesh& mesh) {

@@ -2,6 +2,7 @@
 /// mesher.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,21 +17,37 @@ namespace palpate {
 struct WallMesh {
   std::vector<Vec3> points;        ///< data coordinates; every one has a cell
   std::vector<TetMesh::Tet> tets;  ///< positively oriented
-  std::vector<MeshColumn> columns;
-  bool kept = false;          ///< the file's own tetrahedra
-  FinishedMesh counts;        ///< of the mesher; its points and tetrahedra are empty
-  double cells_volume = 0.0;  ///< of the cells that were meshed
+  /// For each point which of the file's it is: the file's point arrays are those of these. Empty where all
+  /// points are new (TetGen's).
+  std::vector<std::uint32_t> point_of_file;
+  std::vector<MeshColumn> columns;  ///< arrays of points that the file does not give
+  bool kept = false;                ///< the file's own tetrahedra
+  FinishedMesh counts;              ///< of the mesher; its points and tetrahedra are empty
+  double cells_volume = 0.0;        ///< of the cells that were meshed
   std::vector<std::string> notes;
 };
 
+/// What fills the wall.
+enum class WallFilling : std::uint8_t { kCells, kDelaunay, kTetgen };
+
+/// "cells", "delaunay", "tetgen": the words of --mesher.
+[[nodiscard]] std::string name_of(WallFilling mesher);
+/// @throws Error (usage) for another word.
+[[nodiscard]] WallFilling wall_filling_from_name(const std::string& name);
+
 struct WallMeshOptions {
-  Mesher mesher = Mesher::kDelaunay;
+  WallFilling mesher = WallFilling::kDelaunay;  ///< kCells: the tetrahedra that the file's cells split into
   double largest_volume = 0.0;  ///< tetgen; 0: twice the mean volume of the tetrahedra that cells split into
   int threads = 0;
 };
 
-/// Point arrays come along where the points of the file do (delaunay, and tetrahedra that are kept);
-/// directions of cells are brought to the points as outer products. TetGen's points get the fibres, sheets
+/// Whether cells have fibres or sheets, which are brought to the points.
+[[nodiscard]] bool has_cell_directions(const HeartChoice& choice) noexcept;
+
+/// Whether all cells are tetrahedra, which are kept.
+[[nodiscard]] bool tetrahedra_alone(const DataSet& block);
+
+/// Directions of cells are brought to the points as outer products. TetGen's points get the fibres, sheets
 /// and depth of where they lie. The file's own tetrahedra are mended where that is possible: points at one
 /// place are joined, inverted cells turned and those without a volume left out. @param choice of fibres;
 /// null: there are none.
@@ -39,6 +56,9 @@ struct WallMeshOptions {
 [[nodiscard]] WallMesh make_wall_mesh(const DataSet& block, const HeartChoice* choice,
                                       const WallMeshOptions& options, const std::string& file,
                                       Progress* progress);
+
+/// Appends the file's point arrays to the mesh's columns, where its points are the file's.
+void carry_arrays(const DataSet& block, WallMesh& mesh);
 
 /// The mesh as a loader would hand it over.
 [[nodiscard]] DataSet data_set_of(const WallMesh& mesh);

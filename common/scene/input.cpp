@@ -12,6 +12,7 @@
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/field_on_grid.h"
 #include "common/load/volume_block.h"
+#include "common/scene/layer_cache.h"
 #include "common/scene/raw_file.h"
 
 namespace palpate {
@@ -120,6 +121,7 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
     input.open_example();
   }
   input.time_ = choose_time(input.times(), spec.time);
+  if (spec.remesher && input.not_volume_.empty()) input.remesh(progress);
   if (input.spec_.kind == FieldKind::kScalar) {
     for (const ScalarChoice& choice : scalar_choices(input.arrays_))
       input.fields_.push_back(label_of(choice, input.arrays_));
@@ -174,6 +176,25 @@ void Input::open_example() {
   made_info_->blocks.push_back(describe_image(std::get<UniformTopology>(made_->topology), arrays_.front()));
 }
 
+void Input::remesh(Progress* progress) {
+  Remeshed made = spec_.remesher(*this, progress);
+  FileInfo info = *file();
+  const std::vector<ArrayInfo> of_file = std::move(arrays_);
+  info.blocks = {describe_mesh(made.mesh)};
+  arrays_ = info.blocks.front().arrays;
+  for (ArrayInfo array : of_file) {
+    if (made.point_of_file.empty() || array.association != Association::kPoint ||
+        made.mesh.find(array.name, array.association) != nullptr)
+      continue;
+    array.tuples = made.point_of_file.size();
+    arrays_.push_back(std::move(array));
+  }
+  info.blocks.front().arrays = arrays_;
+  info.notes.insert(info.notes.end(), made.notes.begin(), made.notes.end());
+  made_info_ = std::move(info);
+  remeshed_ = std::move(made);
+}
+
 std::string Input::file_name() const { return source_ ? spec_.files.front().string() : title_; }
 
 void Input::check_volume() const {
@@ -182,8 +203,8 @@ void Input::check_volume() const {
 }
 
 const FileInfo* Input::file() const noexcept {
-  if (source_) return &source_->info();
-  return made_info_ ? &*made_info_ : nullptr;
+  if (made_info_) return &*made_info_;
+  return source_ ? &source_->info() : nullptr;
 }
 
 std::vector<std::string> Input::notes() const {
@@ -256,6 +277,24 @@ std::string Input::choice_sentence() const {
 }
 
 std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress* progress) {
+  if (!remeshed_) return read_file(names, progress);
+  const DataSet& made = remeshed_->mesh;
+  DataSet mesh{.name = made.name, .topology = made.topology, .arrays = {}, .visible = {}};
+  std::vector<std::string> of_file;
+  for (const std::string& name : names) {
+    const DataArray* own = made.find(name, Association::kPoint);
+    if (own != nullptr) mesh.arrays.push_back(*own);
+    if (own == nullptr && !remeshed_->point_of_file.empty()) of_file.push_back(name);
+  }
+  if (!of_file.empty()) {
+    for (const DataSet& block : read_file(of_file, progress))
+      for (DataArray& array : carried_arrays(block, remeshed_->point_of_file))
+        mesh.arrays.push_back(std::move(array));
+  }
+  return {std::move(mesh)};
+}
+
+std::vector<DataSet> Input::read_file(const std::vector<std::string>& names, Progress* progress) {
   if (made_) return {*made_};
   if (made_heart_) return {made_heart_->read(names, time_.step)};
   return source_->read(names, time_.step, progress);
@@ -334,7 +373,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
-  LayerCache cache(file_name(), source_ ? spec_.layer_caching : LayerCaching::kOff, threads);
+  LayerCache cache(file_name(), source_ ? spec_.keeping : Keeping::kOff, threads);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
   heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
   heart.axis = file()->long_axis;

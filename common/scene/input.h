@@ -20,7 +20,8 @@
 #include "common/field/tensor/tensor_source.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
-#include "common/scene/layer_cache.h"
+#include "common/scene/kept_file.h"
+#include "common/scene/remesher.h"
 #include "common/scene/tensor_image.h"
 
 namespace palpate {
@@ -46,9 +47,10 @@ struct InputSpec {
   TensorWords tensor;  ///< how tensors are read and fitted
   int refine = 0;      ///< LoadRequest::refine
   std::string series;  ///< LoadRequest::series
-  bool constant_cells = false;  ///< HeartChoice::constant_cells
-  LayerCaching layer_caching = LayerCaching::kOff;
-  std::string surface_markers;  ///< LoadRequest::surface_markers
+  bool constant_cells = false;      ///< HeartChoice::constant_cells
+  Keeping keeping = Keeping::kOff;  ///< of layers that took time to solve
+  std::string surface_markers;      ///< LoadRequest::surface_markers
+  Remesher remesher;  ///< fills hearts with tetrahedra of its own; empty: the file's cells are taken
 };
 
 /// A time step and whether it is the very one that was asked for.
@@ -143,6 +145,8 @@ class Input {
  private:
   void open_example();
   void open_files(Progress* progress);
+  void remesh(Progress* progress);
+  [[nodiscard]] std::vector<DataSet> read_file(const std::vector<std::string>& names, Progress* progress);
   [[nodiscard]] std::string file_name() const;
   void check_volume() const;
 
@@ -152,7 +156,8 @@ class Input {
   std::optional<Source> source_;
   std::optional<DataSet> made_;  ///< a built-in volume
   std::optional<HeartExample> made_heart_;
-  std::optional<FileInfo> made_info_;
+  std::optional<Remeshed> remeshed_;
+  std::optional<FileInfo> made_info_;  ///< where it is not the source's
   std::vector<ArrayInfo> arrays_;
   std::vector<std::string> fields_;
   std::string not_volume_;

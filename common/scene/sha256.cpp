@@ -1,5 +1,6 @@
 #include "common/scene/sha256.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/parallel.h"
 
 namespace palpate {
 namespace {
@@ -98,6 +100,23 @@ std::string sha256_of(std::string_view bytes) {
   Sha256 sum;
   sum.update(bytes);
   return sum.finish();
+}
+
+std::string sha256_in_pieces(std::span<const std::string_view> runs, std::string_view words, int threads) {
+  constexpr std::size_t kPiece = std::size_t{1} << 22;  // bytes
+  std::string text(words);
+  std::vector<std::string_view> pieces;
+  for (std::string_view run : runs) {
+    text += " " + std::to_string(run.size());
+    for (; !run.empty(); run.remove_prefix(std::min(run.size(), kPiece)))
+      pieces.push_back(run.substr(0, kPiece));
+  }
+  std::vector<std::string> digests(pieces.size());
+  parallel_for(pieces.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) digests[n] = sha256_of(pieces[n]);
+  });
+  for (const std::string& digest : digests) text += "\n" + digest;
+  return sha256_of(text);
 }
 
 std::string sha256_of_file(const std::filesystem::path& file, const Progress* progress) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,12 @@ namespace palpate {
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256_of(std::string_view bytes);
+
+/// Checksum of several runs of bytes and of `words`, which threads share among them: SHA-256 of the words,
+/// the runs' sizes and the checksums of their pieces of 4 MB. It is none of `sha256sum`'s.
+/// @param threads as parallel_for(); they change nothing.
+[[nodiscard]] std::string sha256_in_pieces(std::span<const std::string_view> runs, std::string_view words,
+                                           int threads);
 
 /// Checksum of a file's content.
 /// @throws Error (bad input) where it cannot be read; Cancelled.

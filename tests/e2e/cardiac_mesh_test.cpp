@@ -18,7 +18,8 @@ TEST_F(CardiacMesh, TheDogsWallConvergesToTheCurvedModelsVolumeAtSecondOrder) {
   PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
   std::vector<double> errors;
   for (const char* refine : {"2", "4", "8"}) {
-    const Json mesh = json({"mesh", elements.string(), "--refine", refine, "--out", "heart.vtu", "--force"});
+    const Json mesh = json(
+        {"mesh", elements.string(), "--refine", refine, "--cache", "off", "--out", "heart.vtu", "--force"});
     EXPECT_NEAR(mesh["volume_exact"].get<double>(), 198'965.6508, 1e-3);
     errors.push_back(std::abs(mesh["volume_error"].get<double>()));
     EXPECT_EQ(mesh["components"], 1);
@@ -53,7 +54,7 @@ TEST_F(CardiacMesh, ItsMeshIsAHeartAgain) {
 TEST_F(CardiacMesh, TheDogsAxisComesAlongWithItsMesh) {
   PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
   const Json model = json({"map", elements.string(), "--refine", "4"});
-  (void)json({"mesh", elements.string(), "--refine", "4", "--out", "heart.vtu"});
+  (void)json({"mesh", elements.string(), "--refine", "4", "--cache", "off", "--out", "heart.vtu"});
   const Json mesh = json({"map", "heart.vtu"});
   EXPECT_EQ(mesh["axis"], model["axis"]);
   EXPECT_EQ(mesh["axis"], Json({-1.0, 0.0, 0.0}));
@@ -72,7 +73,7 @@ TEST_F(CardiacMesh, TheDogsAxisComesAlongWithItsMesh) {
 // with --refine 8, up to 3.7 with 4.
 TEST_F(CardiacMesh, LayersOfTheDogsMeshKeepBetweenItsSurfaces) {
   PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
-  (void)json({"mesh", elements.string(), "--refine", "4", "--out", "heart.vtu"});
+  (void)json({"mesh", elements.string(), "--refine", "4", "--cache", "off", "--out", "heart.vtu"});
   const Json map = json({"map", "heart.vtu", "--angle", "helix", "--axis=-1,0,0"});
   const Json& bands = map["bands"];
   EXPECT_EQ(bands.front()["depth"], 0.0);
@@ -80,6 +81,38 @@ TEST_F(CardiacMesh, LayersOfTheDogsMeshKeepBetweenItsSurfaces) {
   // As the measured angles at the model's nodes: +77 on the inner, -58 degrees on the outer surface.
   EXPECT_NEAR(bands.front()["mean"].get<double>(), 77.0, 5.0) << map;
   EXPECT_NEAR(bands.back()["mean"].get<double>(), -58.0, 5.0);
+}
+
+// Opened on the mesher's tetrahedra a heart is the one that `mesh` writes, the second time from what the
+// first has kept.
+TEST_F(CardiacMesh, HeartsOpenOnTheMeshersTetrahedraAndKeepThem) {
+  PALPATE_NEED_DATA(elements, "cardiac/canine-heart/heart.exelem.gz");
+  for (const char* part : {"heart.exelem.gz", "heart.exnode.gz"})
+    std::filesystem::copy_file(elements.parent_path() / part, folder_.path(part));
+  const std::vector<std::string> filled{"heart.exelem.gz", "--refine", "3",     "--mesher",
+                                        "delaunay",        "--cache",  "always"};
+  const auto with = [&](std::vector<std::string> command) {
+    command.insert(command.begin() + 1, filled.begin(), filled.end());
+    return command;
+  };
+  const Json written = json(with({"mesh", "--out", "heart.vtu"}));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("heart.palpate.mesh")));
+  const Json info = json(with({"info"}));
+  EXPECT_NE(info["notes"].dump().find("mesh taken from"), std::string::npos) << info["notes"];
+  EXPECT_NE(info["notes"].dump().find("by delaunay in place of 3240 cells"), std::string::npos);
+  const Json opened = json(with({"map"})), read = json({"map", "heart.vtu"});
+  EXPECT_EQ(opened["points"], written["points"]);
+  EXPECT_EQ(opened["bands"], read["bands"]);
+  EXPECT_NE(opened["bands"], json({"map", "heart.exelem.gz", "--refine", "3"})["bands"]);
+
+  const auto depths = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"map",   "--example", "ventricle", "--angle",
+                                     "depth", "--out",     "d.csv",     "--force"};
+    command.insert(command.end(), more.begin(), more.end());
+    (void)json(command);
+    return read_file(folder_.path("d.csv"));
+  };
+  EXPECT_EQ(depths({"--mesher", "delaunay"}), depths({})) << "points and their arrays are the file's";
 }
 
 TEST_F(CardiacMesh, SurfacesThatTouchAreRefusedByTetgenAndNotByDelaunay) {

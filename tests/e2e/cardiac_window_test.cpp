@@ -263,11 +263,38 @@ class CardiacColors : public ::testing::Test {
 };
 
 TEST_F(CardiacColors, KeepTheirRangeWhileTheSeriesPlays) {
+  options_.heart.angle.clear();
+  options_.input.time = "first";
   CardiacModel model(options_, "cardiac");
   const ValueRange first = range_at(model, std::nullopt);
+  EXPECT_EQ(settings_.color_array, "potential");
+  EXPECT_EQ(settings_.time_step, 0U) << "as it is asked for";
   EXPECT_LT(first.lower, -75.0) << "at rest, as all is at the start";
   EXPECT_GT(first.upper, 0.0) << "excited, as nothing is yet";
   for (const std::size_t step : {3U, 20U, 40U, 60U, 80U, 0U}) EXPECT_EQ(range_at(model, step), first) << step;
+}
+
+// Muscle half way through the wall runs around it, white in the map of angles, and all is at rest at the
+// start of a wave: neither is a picture to open with.
+TEST_F(CardiacColors, OfASeriesShowWhatChangesWhereItHasSpread) {
+  options_.heart.angle.clear();
+  CardiacModel model(options_, "cardiac");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  EXPECT_EQ(state.settings.color_array, "potential");
+  const auto [lowest, highest] = std::ranges::minmax(state.color_array->values);
+  EXPECT_GT(highest - lowest, 80.0F) << "[mV] at rest and excited";
+  // Angles first, then what the file has; not what is of no use to anybody before all else.
+  const std::vector<std::string> first(state.info->color_arrays.begin(),
+                                       state.info->color_arrays.begin() + 6);
+  EXPECT_EQ(first,
+            (std::vector<std::string>{"helix", "transverse", "sheet", "potential", "activation", "depth"}));
+
+  options_.heart.angle = "helix";
+  CardiacModel helix(options_, "cardiac");
+  const SceneState asked = helix.start(progress);
+  EXPECT_EQ(asked.settings.color_array, "helix");
+  EXPECT_EQ(asked.settings.time_step, 0U);
 }
 
 TEST_F(CardiacColors, HaveTheRangeThatIsAskedFor) {
@@ -302,16 +329,20 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
     std::filesystem::copy(entry.path(), folder_.path());
   const std::filesystem::path file = folder_.path(mesh.filename());
   const std::vector<std::pair<std::string, std::string>> given{
-      {"refine", "6"},        {"cell-directions", "constant"}, {"layer-cache", "always"},
-      {"layer", "0.25"},      {"seeds", "random:3"},           {"step", "0.015625"},
-      {"least-gap", "0.125"}, {"angle", "transverse"},         {"contour-spacing", "10"},
-      {"range", "-30,30"}};
+      {"refine", "6"},           {"cell-directions", "constant"},
+      {"cache", "always"},       {"layer", "0.25"},
+      {"seeds", "random:3"},     {"step", "0.015625"},
+      {"least-gap", "0.125"},    {"angle", "transverse"},
+      {"contour-spacing", "10"}, {"range", "-30,30"},
+      {"mesher", "cells"},       {"largest-volume", "2.5"}};
   Options options;
   options.common.threads = 1;
   options.input.files = {file};
   options.input.refine = 6;
   options.input.cell_directions = "constant";
-  options.input.layer_cache = "always";
+  options.input.cache = "always";
+  options.input.mesher = "cells";
+  options.input.largest_volume = 2.5;
   options.tracing.seeds = "random:3";
   options.tracing.step = 0.015625;
   options.heart.layer = "0.25";

@@ -94,7 +94,6 @@ class VerbParser {
     if (verb.groups.contours) add_contour_options(scene_options_, options_.heart);
     if (verb.groups.series) add_series_options(scene_options_, options_.series);
     if (verb.groups.plot) add_plot_option(scene_options_, options_.series);
-    if (verb.groups.mesher) add_mesher_options(scene_options_, options_.heart);
     if (verb.groups.view) add_view_options(scene_options_, options_, explorer.kind);
     if (verb.groups.touch) add_touch_options(scene_options_, options_.touch, explorer.kind);
     if (verb.groups.notes) add_notes();
@@ -171,8 +170,12 @@ class VerbParser {
             "DICOM: which series of the folder, by its number in the list or its UID; default: that of FILE",
             "N|UID", group);
     }
-    scene("--time", input.time, "time step: first, last, or a time (the nearest step is taken and named)",
-          "first|last|T", group);
+    scene(
+        "--time", input.time,
+        std::string(
+            "time step: first, last, or a time (the nearest step is taken and named); default first") +
+            (kind == FieldKind::kFibre ? ", in windows and pictures one at which its scalar has spread" : ""),
+        "first|last|T", group);
     app_.add_option("--session", options_.session,
                     "take files and options from a saved session; typed options win")
         ->type_name("FILE.toml")

@@ -43,7 +43,6 @@ struct VerbGroups {
   bool contours = false;  ///< --contours, --contour-spacing of a layer
   bool series = false;    ///< --value, --at, --along
   bool plot = false;      ///< --plot
-  bool mesher = false;    ///< --mesher, --largest-volume
   bool view = false;
   bool touch = false;
   bool path = false;    ///< --path
@@ -79,6 +78,9 @@ struct Explorer {
   std::vector<Verb> verbs;
   /// The verb that `<app> FILE` and `<app>` alone stand for.
   std::string default_verb = "open";
+  /// Completes options, once they are parsed, by what only the program knows; may be empty. @throws Error
+  /// (usage).
+  std::function<void(Options&)> complete = {};
 };
 
 /// Parses the command line, runs the verb and turns errors into one line and an exit code. Ctrl-C cancels the

@@ -3,6 +3,20 @@
 namespace palpate {
 namespace {
 
+void add_mesher_options(SceneOptions& options, InputOptions& input) {
+  options
+      .add("--mesher", input.mesher,
+           "what fills the wall with tetrahedra: cells, as they split into them (default but of mesh); "
+           "delaunay "
+           "(default of mesh) joins their points anew; tetgen keeps the surfaces alone",
+           "cells|delaunay|tetgen", "Input")
+      ->check(CLI::IsMember({"cells", "delaunay", "tetgen"}));
+  options
+      .add("--largest-volume", input.largest_volume,
+           "of a tetrahedron, with tetgen; default: twice the mean of the cells that are there", "V", "Input")
+      ->check(CLI::NonNegativeNumber);
+}
+
 void add_refine_option(SceneOptions& options, InputOptions& input) {
   constexpr int kFinest = 64;
   options
@@ -43,8 +57,9 @@ void add_angle_options(SceneOptions& options, HeartOptions& heart) {
   const char* group = "Angles";
   options.add(
       "--angle", heart.angle,
-      "helix (default), transverse, sheet; gap (how well fibres are defined), depth; or a scalar of the "
-      "file, such as a potential",
+      "helix, transverse, sheet; gap (how well fibres are defined), depth; or a scalar of the file, such as "
+      "a "
+      "potential; default helix, in windows and pictures of a time series the first scalar that changes",
       "helix|transverse|sheet|gap|depth|NAME", group);
   options
       .add("--convention", heart.convention,
@@ -84,22 +99,9 @@ void add_contour_options(SceneOptions& options, HeartOptions& heart) {
   add_contour_spacing(options, heart);
 }
 
-void add_mesher_options(SceneOptions& options, HeartOptions& heart) {
-  const char* group = "Mesh";
-  options
-      .add("--mesher", heart.mesher,
-           "delaunay (default) joins the points of the wall's cells; tetgen keeps its surfaces and fills it "
-           "anew",
-           "delaunay|tetgen", group)
-      ->check(CLI::IsMember({"delaunay", "tetgen"}));
-  options
-      .add("--largest-volume", heart.largest_volume,
-           "of a tetrahedron, with tetgen; default: twice the mean of the cells that are there", "V", group)
-      ->check(CLI::NonNegativeNumber);
-}
-
 void add_heart_input_options(SceneOptions& options, InputOptions& input) {
   add_refine_option(options, input);
+  add_mesher_options(options, input);
   options
       .add("--cell-directions", input.cell_directions,
            "directions of cells (.lon, .ortho, .bases): recovered (default) brings their outer products to "
@@ -108,10 +110,10 @@ void add_heart_input_options(SceneOptions& options, InputOptions& input) {
            "recovered|constant", "Input")
       ->check(CLI::IsMember({"recovered", "constant"}));
   options
-      .add("--layer-cache", input.layer_cache,
-           "keep solved layers in NAME.palpate.layers beside the file for the next opening: auto (default, "
-           "where they "
-           "took more than half a second), always, off",
+      .add("--cache", input.cache,
+           "keep solved layers and made meshes in NAME.palpate.layers and NAME.palpate.mesh beside the file "
+           "for "
+           "the next opening: auto (default, where they took more than half a second), always, off",
            "auto|always|off", "Input")
       ->check(CLI::IsMember({"auto", "always", "off"}));
   options.add(

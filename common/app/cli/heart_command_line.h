@@ -15,11 +15,9 @@ void add_layer_option(SceneOptions& options, HeartOptions& heart);
 /// Which angle, and what it is measured from. Binds the options to `heart`, which outlives `options`.
 void add_angle_options(SceneOptions& options, HeartOptions& heart);
 
-/// What fills a wall with tetrahedra. Binds the options to `heart`, which outlives `options`.
-void add_mesher_options(SceneOptions& options, HeartOptions& heart);
-
-/// How finely curved elements are sampled, what directions of cells are taken as, and which triangles of a
-/// file are surfaces. Binds the options to `input`, which outlives `options`.
+/// How finely curved elements are sampled, what fills their wall with tetrahedra, what directions of cells
+/// are taken as, which triangles of a file are surfaces, and what is kept for the next opening. Binds the
+/// options to `input`, which outlives `options`.
 void add_heart_input_options(SceneOptions& options, InputOptions& input);
 
 /// Which scalar over time, and where. Binds the options to `series`, which outlives `options`.

@@ -54,9 +54,7 @@ class InputModel : public WindowModel {
     options.common = options_.common;
     options.input.files = files.files;
     options.input.solution = files.solution;
-    SceneState state = show(options, progress);
-    options_ = std::move(options);
-    return state;
+    return show(std::move(options), progress);
   }
 
   SceneState update(const SceneSettings& settings, Progress& progress) final {
@@ -128,6 +126,10 @@ class InputModel : public WindowModel {
     return std::nullopt;
   }
 
+  /// Fills in options that were not given by what a new input holds, and may choose its time step.
+  /// @throws Error, Cancelled.
+  virtual void complete(Options& /*options*/, Input& /*input*/, Progress& /*progress*/) const {}
+
   /// Fills in the settings that a new input starts with, but for its field and time step.
   virtual void begin(SceneSettings& /*settings*/, const Input& /*input*/, const Options& /*options*/) const {}
 
@@ -144,9 +146,10 @@ class InputModel : public WindowModel {
   [[nodiscard]] const Scene* scene() const noexcept { return scene_ ? &*scene_ : nullptr; }
 
  private:
-  SceneState show(const Options& options, Progress& progress) {
+  SceneState show(Options options, Progress& progress) {
     progress.begin("opening", 0);
     Input input = Input::open(input_spec(options.input, kind_), &progress);
+    complete(options, input, progress);
     Content content = read(input, options, progress);
     SceneSettings settings;
     begin(settings, input, options);
@@ -154,6 +157,7 @@ class InputModel : public WindowModel {
     settings.time_step = input.time().step;
     SceneState state = present(input, content, options, settings, nullptr, progress);
     scene_.emplace(Scene{std::move(input), std::move(content), std::move(state)});
+    options_ = std::move(options);
     return scene_->shown;
   }
 

@@ -12,6 +12,7 @@
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/linear_mode.h"
 #include "common/load/raw_layout.h"
+#include "common/scene/remesher.h"
 #include "common/scene/tensor_words.h"
 
 namespace palpate {
@@ -32,14 +33,17 @@ struct InputOptions {
   std::optional<std::filesystem::path> solution;
   std::string example;
   std::string field;
-  std::string time = "first";
+  std::string time;    ///< first, last or a time; empty: the verb's default
   int refine = 0;      ///< cells along each axis of a curved element; 0: the loader's own choice
   RawWords raw;        ///< --raw-size and its like
   TensorWords tensor;  ///< --bval, --tensor-order and their like
   std::string series;  ///< LoadRequest::series
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
-  std::string layer_cache = "auto";           ///< layer_caching_from_name()
-  std::string surface_markers;                ///< LoadRequest::surface_markers
+  std::string mesher;  ///< what fills a heart's wall: cells, delaunay, tetgen; empty: the verb's default
+  double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
+  Remesher remesher;            ///< of the two, where the program has one
+  std::string cache = "auto";   ///< keeping_from_name()
+  std::string surface_markers;  ///< LoadRequest::surface_markers
 };
 
 /// Where lines start and how they are traced.
@@ -137,9 +141,9 @@ struct TractLook {
 
 /// What of a heart is traced, drawn and mapped.
 struct HeartOptions {
-  std::string layer;                    ///< depth from 0 inner to 1 outer; empty: the verb's default
-  std::string axis;                     ///< x,y,z from apex to base; empty: as the wall opens
-  std::string angle = "helix";          ///< name_of(WallAngle), gap, depth
+  std::string layer;  ///< depth from 0 inner to 1 outer; empty: the verb's default
+  std::string axis;   ///< x,y,z from apex to base; empty: as the wall opens
+  std::string angle;  ///< name_of(WallAngle), gap, depth, a scalar; empty: the verb's default
   std::string convention = "streeter";  ///< name_of(AngleConvention)
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
   double contours = 0.0;                ///< distance of lines of equal value on a layer; 0: none
@@ -148,8 +152,6 @@ struct HeartOptions {
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;
-  std::string mesher = "delaunay";  ///< delaunay, tetgen
-  double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
 };
 
 /// What is looked at over time.

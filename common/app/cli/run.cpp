@@ -95,6 +95,7 @@ int run_explorer(const Explorer& explorer, int argc, char** argv) {
       console.finish();
       return 0;
     }
+    if (explorer.complete) explorer.complete(parsed.options);
   } catch (const Error& error) {
     const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
     Console(explorer.name, json, false).fail(error.what(), static_cast<int>(error.code()));

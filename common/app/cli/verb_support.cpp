@@ -33,8 +33,9 @@ InputSpec input_spec(const InputOptions& options, FieldKind kind) {
           .refine = options.refine,
           .series = options.series,
           .constant_cells = options.cell_directions == "constant",
-          .layer_caching = layer_caching_from_name(options.layer_cache),
-          .surface_markers = options.surface_markers};
+          .keeping = keeping_from_name(options.cache),
+          .surface_markers = options.surface_markers,
+          .remesher = options.remesher};
 }
 
 bool list_examples(const Options& options, const VerbContext& context) {

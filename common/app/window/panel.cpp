@@ -207,19 +207,32 @@ void draw_color(PanelState& state, const SceneState& scene, SceneView& view) {
   std::string& array = state.settings.color_array;
   const std::string now = array.empty() ? std::string(name_of(style.color_by)) : array;
   if (ImGui::BeginCombo("by", now.c_str())) {
-    for (int i = 0; i < kColorByCount; ++i) {
-      const auto by = static_cast<ColorBy>(i);
-      if (by == ColorBy::kArray) continue;
-      if (ImGui::Selectable(std::string(name_of(by)).c_str(), array.empty() && by == style.color_by)) {
-        style.color_by = by;
-        style.range.reset();
-        style.logarithmic.reset();
-        array.clear();
+    const auto list_quantities = [&] {
+      for (int i = 0; i < kColorByCount; ++i) {
+        const auto by = static_cast<ColorBy>(i);
+        if (by == ColorBy::kArray) continue;
+        if (ImGui::Selectable(std::string(name_of(by)).c_str(), array.empty() && by == style.color_by)) {
+          style.color_by = by;
+          style.range.reset();
+          style.logarithmic.reset();
+          array.clear();
+        }
       }
-    }
+    };
     // These have to be sampled first: the colours follow when that is done.
-    for (const std::string& name : scene.info->color_arrays) {
-      if (ImGui::Selectable(name.c_str(), name == array)) array = name;
+    const auto list_arrays = [&] {
+      for (const std::string& name : scene.info->color_arrays) {
+        if (ImGui::Selectable(name.c_str(), name == array)) array = name;
+      }
+    };
+    // A heart is looked at for what its muscle does, a flow for its lines.
+    if (scene.info->layers) {
+      list_arrays();
+      ImGui::Separator();
+      list_quantities();
+    } else {
+      list_quantities();
+      list_arrays();
     }
     ImGui::EndCombo();
   }

@@ -403,7 +403,8 @@ class MesherProgram : public testing::Test {
 
 TEST_F(MesherProgram, CarriesArraysAndTheFilesOwnTetrahedra) {
   const DataSet hexahedra = ventricle_mesh({}, {.wall = 3, .along = 8, .around = 16});
-  const WallMesh made = make_wall_mesh(hexahedra, nullptr, {}, "ventricle", nullptr);
+  WallMesh made = make_wall_mesh(hexahedra, nullptr, {}, "ventricle", nullptr);
+  carry_arrays(hexahedra, made);
   EXPECT_FALSE(made.kept);
   EXPECT_GT(made.counts.shared, made.counts.outside);
   const auto depth = std::find_if(made.columns.begin(), made.columns.end(),

@@ -31,11 +31,11 @@ class LayerCacheTest : public testing::Test {
   [[nodiscard]] std::filesystem::path kept() const { return folder_.path("heart.palpate.layers"); }
   /// Keeps those of `mesh`. @return what the file holds then.
   std::string keep(const DataSet& mesh) const {
-    LayerCache(input(), LayerCaching::kAlways).keep(mesh, solved(mesh), 0.0);
+    LayerCache(input(), Keeping::kAlways).keep(mesh, solved(mesh), 0.0);
     return test::read_file(kept());
   }
   [[nodiscard]] bool found(const DataSet& mesh) const {
-    return LayerCache(input(), LayerCaching::kAlways).find(mesh).has_value();
+    return LayerCache(input(), Keeping::kAlways).find(mesh).has_value();
   }
   test::TempFolder folder_;
 };
@@ -44,7 +44,7 @@ TEST_F(LayerCacheTest, TheSameMeshHasTheSameLayersToTheLastBit) {
   const DataSet mesh = wall();
   EXPECT_FALSE(found(mesh)) << "nothing is there yet";
   (void)keep(mesh);
-  LayerCache cache(input(), LayerCaching::kAuto);
+  LayerCache cache(input(), Keeping::kAuto);
   EXPECT_EQ(cache.file(), kept());
   const auto layer = cache.find(mesh);
   ASSERT_TRUE(layer);
@@ -106,12 +106,12 @@ TEST_F(LayerCacheTest, DamagedFilesAreIgnoredAndWrittenAnew) {
 TEST_F(LayerCacheTest, NothingIsKeptWhereThatIsNotWorthItOrNotWanted) {
   const DataSet mesh = wall();
   const WallLayer layer = solved(mesh);
-  LayerCache(input(), LayerCaching::kAuto).keep(mesh, layer, 0.1);
-  LayerCache(input(), LayerCaching::kOff).keep(mesh, layer, 100.0);
+  LayerCache(input(), Keeping::kAuto).keep(mesh, layer, 0.1);
+  LayerCache(input(), Keeping::kOff).keep(mesh, layer, 100.0);
   EXPECT_FALSE(std::filesystem::exists(kept()));
-  LayerCache(input(), LayerCaching::kAuto).keep(mesh, layer, 1.0);
+  LayerCache(input(), Keeping::kAuto).keep(mesh, layer, 1.0);
   EXPECT_TRUE(std::filesystem::exists(kept()));
-  EXPECT_FALSE(LayerCache(input(), LayerCaching::kOff).find(mesh));
+  EXPECT_FALSE(LayerCache(input(), Keeping::kOff).find(mesh));
 }
 
 // No folder to write to, or one that should not be: said, and the heart opens all the same. Root may write to
@@ -121,7 +121,7 @@ TEST_F(LayerCacheTest, AFolderThatCannotBeWrittenIsSaid) {
   std::filesystem::create_directory(folder_.path("shut"));
   std::filesystem::permissions(folder_.path("shut"), std::filesystem::perms(0555));
   for (const auto& file : {std::filesystem::path("/proc/heart.pts"), folder_.path("shut/heart.pts")}) {
-    LayerCache cache(file, LayerCaching::kAlways);
+    LayerCache cache(file, Keeping::kAlways);
     EXPECT_FALSE(cache.find(mesh));
     cache.keep(mesh, solved(mesh), 9.0);
     ASSERT_EQ(cache.notes().size(), 1U);
@@ -150,7 +150,7 @@ TEST_F(LayerCacheTest, HeartsTakeWhatWasKept) {
     LayerCache& cache_;
   };
   const HeartChoice choice{.fibre = {"fibre", Association::kPoint}, .surface = true};
-  LayerCache cache(input(), LayerCaching::kAlways);
+  LayerCache cache(input(), Keeping::kAlways);
   Counted counted(cache);
   const Heart first = make_heart(wall(), choice, "wall", 0, LayersNeeded::kAlways, &counted);
   const Heart second = make_heart(wall(), choice, "wall", 0, LayersNeeded::kAlways, &counted);
