@@ -114,10 +114,12 @@ void choose_plotted(PanelState& state, const SceneInfo& info) {
     ImGui::SetTooltip("read once, then the curve follows the hand at once; else step by step");
 }
 
-void draw_seeds(PanelState& state) {
+/// @param speed whether the field has one.
+void draw_seeds(PanelState& state, bool speed) {
   static const std::vector<std::string> kKinds{"grid", "random", "speed", "other"};
+  static const std::vector<std::string> kWithoutSpeed{"grid", "random", "other"};
   std::string kind = kKinds[static_cast<std::size_t>(state.seeds.kind)];
-  if (choose("seeds", kind, kKinds)) {
+  if (choose("seeds", kind, speed ? kKinds : kWithoutSpeed)) {
     // `other` starts from the text of what was chosen before.
     state.seeds.text = seeds_text(state.seeds);
     state.seeds.kind =
@@ -149,7 +151,7 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   const SceneInfo& info = *scene.info;
   choose("field", settings.field, info.fields);
   draw_time(state, info.times);
-  draw_seeds(state);
+  draw_seeds(state, true);
   static const std::vector<std::string> kDirections{"forward", "backward", "both"};
   choose("direction", settings.direction, kDirections);
   choose("integrator", settings.integrator, info.integrators);
@@ -181,7 +183,7 @@ void draw_layer(PanelState& state, const SceneState& scene) {
   choose("field", settings.field, info.fields);
   draw_time(state, info.times);
   (void)slider("depth", settings.layer, info.layers->lower, info.layers->upper, "%.2f");
-  draw_seeds(state);
+  draw_seeds(state, false);
   choose_plotted(state, info);
   double spacing = settings.contours;
   if (ImGui::InputDouble("contour spacing", &spacing, 0.0, 0.0, "%.4g",

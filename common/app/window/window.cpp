@@ -345,7 +345,8 @@ class Window {
     follow_menu();
     if (needs_camera_ && scene_) reset_camera();
     state_.scene = scene_ ? &*scene_ : nullptr;
-    state_.job = job_->running() ? &job_->progress() : nullptr;
+    state_.job =
+        job_->running() && (job_kind_ != JobKind::kUpdate || is_slow()) ? &job_->progress() : nullptr;
     state_.marking = touch_control_->marking();
     state_.grabbed = touch_control_->grabbed() || touch_control_->waiting();
     const bool looking =
@@ -742,6 +743,10 @@ class Window {
     if (has_times())
       state_.settings.time_step = step_beside(scene_->info->times, state_.settings.time_step, on);
   }
+
+  /// Of an update: its progress is shown. One that comes and goes would move the panel under the mouse with
+  /// each step of a series that plays, which "Stop" ends.
+  [[nodiscard]] bool is_slow() const { return !state_.playing && job_->seconds() > kPatience; }
 
   [[nodiscard]] bool has_times() const { return scene_ && scene_->info->times.size() > 1; }
 
