@@ -65,7 +65,8 @@ std::uint64_t input_bytes(const LoadRequest& request, Format format) {
        !error && it != std::filesystem::recursive_directory_iterator() && entries < kMaxEntries;
        it.increment(error), ++entries) {
     if (it.depth() > 4) it.disable_recursion_pending();
-    bytes += size_of(it->path());
+    const bool own = it->path().filename().string().find(".palpate.") != std::string::npos;
+    if (!own) bytes += size_of(it->path());  // what is kept for the next opening is no input
   }
   return bytes;
 }
