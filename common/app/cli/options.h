@@ -221,7 +221,7 @@ struct Options {
   std::filesystem::path replay;  ///< open, probe: a recording to be played back
   std::filesystem::path out;
   std::string size;  ///< WxH; empty: 1280x960, or that of the screen
-  int repeat = 0;  ///< render: frames to be timed after the first one
+  int repeat = 0;    ///< render: frames to be timed after the first one
   std::string effort = "normal";
   std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl
   std::string measure = "fa";         ///< measure: name_of(TensorMeasure)
