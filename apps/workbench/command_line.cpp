@@ -22,7 +22,9 @@ constexpr const char* kExamples =
     "  workbench screen --distance 0.7 --position-error 5,5 --orientation-error 1\n"
     "  workbench stability --out stability                   how stiff walls may be\n"
     "  workbench devices                                     what is plugged in\n"
-    "  workbench doctor --device falcon                      whether it works, and what to do if not\n";
+    "  workbench doctor --device falcon                      whether it works, and what to do if not\n"
+    "  workbench feel --device simulated:falcon --effect groove      how truly it shows a groove\n"
+    "  workbench tune --device falcon:enable=pedal --out workbench.toml   how stiff it may be\n";
 
 constexpr const char* kCalibrateExamples =
     "Measurements (CSV with a header; metres, radians, unit quaternions):\n"
@@ -58,6 +60,67 @@ void add_kind(CLI::App& verb, WorkbenchOptions& o) {
       ->check(CLI::IsMember({"tracker", "apparatus", "arm", "coregister", "pivot", "eyes"}));
 }
 
+void add_workbench(CLI::App& verb, WorkbenchOptions& o) {
+  verb.add_option("--workbench", o.workbench,
+                  "workbench.toml whose [device.NAME], [tuned.NAME] and [interaction] are used");
+}
+
+/// Verbs that show a force.
+void add_force_verbs(CLI::App& app, WorkbenchOptions& o) {
+  constexpr const char* kDevice =
+      "simulated[:premium3|falcon|ideal][,hand=relaxed|firm], or a driver as for doctor";
+  CLI::App& feel = *app.add_subcommand("feel", "reference effects, to judge how truly a device shows them");
+  add_common(feel, o);
+  feel.add_option("--device", o.device, std::string(kDevice) + "; with --path none is needed");
+  feel.add_option("--effect", o.effect,
+                  "wall (through the middle, pushed into along -z), groove (along x) or sphere (25 mm)")
+      ->transform(words<FeelEffect>(
+          {{"wall", FeelEffect::kWall}, {"groove", FeelEffect::kGroove}, {"sphere", FeelEffect::kSphere}}));
+  feel.add_option("--stiffness", o.stiffness, "[N/m]; default 400")->check(CLI::Range(1.0, 1e5));
+  feel.add_option("--damping", o.damping, "[N s/m]; default 0")->check(CLI::Range(0.0, 1e3));
+  feel.add_option("--servo-rate", o.servo_rate, "[Hz]; default 1000")->check(CLI::Range(100.0, 10000.0));
+  feel.add_option("--seconds", o.seconds, "how long; default 3")->check(CLI::Range(0.1, 86400.0));
+  feel.add_option("--rate", o.rate, "read-outs a second; default 10")->check(CLI::Range(0.1, 1000.0));
+  feel.add_option("--path", o.path,
+                  "a recorded hand in place of a live one: a table t,x,y,z in seconds and metres");
+  feel.add_option("--out", o.out, "with --path: log of every step, as that of the explorers' probe");
+  add_workbench(feel, o);
+  feel.footer(
+      "On a terminal F12 or any other key switches the force off, `a` on again, `q` ends.\n"
+      "Examples:\n  workbench feel --device simulated:falcon --effect groove --seconds 20\n"
+      "  workbench feel --device falcon:enable=pedal --stiffness 800 --workbench workbench.toml\n"
+      "  workbench feel --device simulated:falcon --path hand.csv --out log.csv\n");
+
+  CLI::App& tune =
+      *app.add_subcommand("tune", "the stiffness that a device bears, unheld, at several places");
+  add_common(tune, o);
+  tune.add_option("--device", o.device, kDevice)->required();
+  tune.add_option("--places", o.tune.places, "1, 7 (middle and axes) or 27 of its workspace; default 7")
+      ->check(CLI::IsMember({1, 7, 27}));
+  tune.add_option("--least", o.tune.least, "stiffness to begin with [N/m]; default 100")
+      ->check(CLI::Range(1.0, 1e5));
+  tune.add_option("--most", o.tune.most, "stiffness not to go beyond [N/m]; default 3000")
+      ->check(CLI::Range(1.0, 1e5));
+  tune.add_option("--knock", o.tune.knock,
+                  "hardest push at each step; more than twice the arm's friction is enough [N]; default 3")
+      ->check(CLI::Range(0.01, 20.0));
+  tune.add_option("--margin", o.tune.margin, "part of what is found that explorers may use; default 0.7")
+      ->check(CLI::Range(0.05, 1.0));
+  tune.add_option("--servo-rate", o.servo_rate, "[Hz]; default 1000")->check(CLI::Range(100.0, 10000.0));
+  tune.add_option("--patience", o.patience, "seconds in which a real device must become ready; default 30")
+      ->check(CLI::Range(0.1, 3600.0));
+  tune.add_option("--out", o.out, "workbench.toml whose [tuned.NAME] is written; the rest of it stays");
+  add_workbench(tune, o);
+  tune.footer(
+      "The arm moves by itself: clear its way, let go of it, and keep a hand on F12; any key ends the run "
+      "without\n"
+      "force. A point draws it to each place, is made stiffer by quarters and knocks, until the arm does not "
+      "come\n"
+      "to rest. Explorers with --workbench use no more than the written stiffness on that device.\n"
+      "Examples:\n  workbench tune --device simulated:falcon --json\n"
+      "  workbench tune --device falcon:enable=pedal --out workbench.toml\n");
+}
+
 /// Verbs of devices in the hand.
 void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   constexpr const char* kDevice =
@@ -75,6 +138,7 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   doctor.add_option("--seconds", o.seconds, "of measurement; default 3")->check(CLI::Range(0.1, 3600.0));
   doctor.add_option("--patience", o.patience, "seconds in which it must become ready; default 30")
       ->check(CLI::Range(0.1, 3600.0));
+  add_workbench(doctor, o);
   doctor.footer(
       "Ends with 0 where every device that it found, or the one of --device, is ready, else with 1.\n"
       "Examples:\n  workbench doctor\n  workbench doctor --device "
@@ -86,6 +150,7 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   monitor.add_option("--device", o.device, kDevice)->required();
   monitor.add_option("--seconds", o.seconds, "how long; default 3")->check(CLI::Range(0.1, 86400.0));
   monitor.add_option("--rate", o.rate, "read-outs a second; default 10")->check(CLI::Range(0.1, 1000.0));
+  add_workbench(monitor, o);
   monitor.footer(
       "Examples:\n  workbench monitor --device spacemouse --seconds 60\n"
       "  workbench monitor --device falcon --rate 100 --json\n");
@@ -191,6 +256,7 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
   stability.footer("Examples:\n  workbench stability --out stability\n");
   add_device_verbs(app, o);
   add_controls_verb(app, o);
+  add_force_verbs(app, o);
   app.require_subcommand(0, 1);
 
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
@@ -217,6 +283,11 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
     o.noise = {.pose_position = 0.4e-3, .pose_orientation = 1.5e-3, .marker = 0.5e-3};
   }
   if (noise_option->count() > 0) o.noise = {1e-3 * noise[0], noise[1] * kDegree, 1e-3 * noise[2]};
+  if (o.verb == "feel" && o.device.empty() && o.path.empty())
+    throw usage_error("feel needs a device, or a recorded hand: try --device simulated, or --path hand.csv");
+  if (o.verb == "feel" && !o.out.empty() && o.path.empty())
+    throw usage_error("feel writes a log of a recorded hand alone: give --path, or leave --out away");
+  if (o.verb == "tune" && o.tune.least > o.tune.most) throw usage_error("tune: --least is above --most");
   if (o.verb == "calibrate" && o.example == !o.file.empty())
     throw usage_error("calibrate " + o.kind + " needs a table of measurements, or --example for made ones");
   if (verbs.empty() && o.out.empty()) o.force = true;  // the first five minutes: a demonstration is replaced

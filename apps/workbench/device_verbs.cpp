@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/workbench/bench_device.h"
 #include "apps/workbench/link_check.h"
 #include "apps/workbench/workbench_verbs.h"
+#include "common/app/cli/bench_option.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/device/driver_library.h"
@@ -224,6 +226,7 @@ void run_devices(const WorkbenchOptions& options, const WorkbenchContext& contex
 }
 
 void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context) {
+  const WorkbenchGeometry bench = bench_of(options.workbench);
   const Survey seen = survey(options.device);
   std::string text = devices_text(seen);
   Json json = devices_json(seen);
@@ -235,7 +238,7 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   text += std::string("real-time priority is ") + (real_time ? "allowed\n" : "refused\n");
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
-    const DeviceText named = parse_device(device);
+    const DeviceText named = device_at_bench(device, bench);
     const OpenedDevice opened = open_device(named);
     const auto work = [&](DriverLink& link, const std::string& name) {
       context.progress.begin("working the device", 0);
@@ -266,7 +269,8 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
 }
 
 void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const std::unique_ptr<DriverLink> link = open_device(parse_device(options.device)).link;
+  const std::unique_ptr<DriverLink> link =
+      open_device(device_at_bench(options.device, bench_of(options.workbench))).link;
   const std::int64_t start = monotonic_ns();
   const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
   Json samples = Json::array();

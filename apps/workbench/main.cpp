@@ -29,9 +29,12 @@ int run(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) line += " " + argument;
   const WorkbenchContext context{console, progress, line};
   const std::map<std::string, void (*)(const WorkbenchOptions&, const WorkbenchContext&)> verbs{
-      {"calibrate", run_calibrate},     {"controls", run_controls}, {"example", run_example},
-      {"report", run_workbench_report}, {"screen", run_screen},     {"stability", run_stability_verb},
-      {"devices", run_devices},         {"doctor", run_doctor},     {"monitor", run_monitor},
+      {"calibrate", run_calibrate}, {"controls", run_controls},
+      {"example", run_example},     {"report", run_workbench_report},
+      {"screen", run_screen},       {"stability", run_stability_verb},
+      {"devices", run_devices},     {"doctor", run_doctor},
+      {"monitor", run_monitor},     {"feel", run_feel},
+      {"tune", run_tune},
   };
   try {
     verbs.at(options.verb)(options, context);

@@ -29,6 +29,8 @@ void run_screen(const WorkbenchOptions& options, const WorkbenchContext& context
 void run_stability_verb(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_devices(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_feel(const WorkbenchOptions& options, const WorkbenchContext& context);
+void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context);
 void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context);
 /// @}
 

@@ -8,23 +8,15 @@
 #include <sstream>
 #include <utility>
 
-#include <toml++/toml.h>
-
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/calibration/workbench_section.h"
 
 namespace palpate {
 namespace {
-
-std::string line_of(const toml::node& node) { return "line " + std::to_string(node.source().begin.line); }
-
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place,
-                         const std::string& found, const std::string& expected) {
-  throw input_error({path.string(), place, found, expected, ""});
-}
 
 toml::table parsed(const std::string& text, const std::filesystem::path& path) {
   try {
@@ -46,92 +38,8 @@ std::string contents(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// One section, its keys checked.
-class Section {
- public:
-  Section(const toml::table& table, std::string name, const std::filesystem::path& path,
-          std::initializer_list<const char*> known)
-      : table_(table), name_(std::move(name)), path_(path) {
-    for (const auto& [key, node] : table) {
-      const std::string word(key.str());
-      if (std::find(known.begin(), known.end(), word) != known.end()) continue;
-      std::string words;
-      for (const char* k : known) words += (words.empty() ? "" : ", ") + std::string(k);
-      refuse(path, line_of(node), "unknown key '" + word + "' in [" + name_ + "]", words);
-    }
-  }
-
-  [[nodiscard]] bool has(const char* key) const { return table_.contains(key); }
-  [[nodiscard]] const toml::node& at(const char* key) const {
-    const toml::node* node = table_.get(key);
-    if (!node) refuse(path_, line_of(table_), "[" + name_ + "] has no '" + key + "'", key);
-    return *node;
-  }
-  [[nodiscard]] std::vector<double> numbers(const toml::node& node, std::size_t count,
-                                            bool may_be_nan = false) const {
-    std::vector<double> out;
-    const toml::array* array = node.as_array();
-    for (std::size_t i = 0; array && i < array->size(); ++i) {
-      const auto value = (*array)[i].value<double>();
-      if (value && (std::isfinite(*value) || (may_be_nan && std::isnan(*value)))) out.push_back(*value);
-    }
-    if (!array || out.size() != count || array->size() != count)
-      refuse(path_, line_of(node), "not " + std::to_string(count) + " numbers in [" + name_ + "]",
-             std::to_string(count) + " finite numbers in brackets");
-    return out;
-  }
-  [[nodiscard]] Vec3 vector(const toml::node& node, bool may_be_nan = false) const {
-    const auto x = numbers(node, 3, may_be_nan);
-    return {x[0], x[1], x[2]};
-  }
-  [[nodiscard]] Vec3 vector(const char* key) const { return vector(at(key)); }
-  [[nodiscard]] double number(const char* key) const {
-    const auto value = at(key).value<double>();
-    if (!value || !std::isfinite(*value)) refuse(path_, line_of(at(key)), "no number", "a finite number");
-    return *value;
-  }
-  /// Empty where it is no text.
-  [[nodiscard]] std::string word(const char* key) const {
-    return at(key).value_exact<std::string>().value_or("");
-  }
-  [[nodiscard]] const toml::array& array(const char* key) const {
-    const toml::array* array = at(key).as_array();
-    if (!array) refuse(path_, line_of(at(key)), "no list", "a list in brackets");
-    return *array;
-  }
-  [[nodiscard]] std::vector<Vec3> vectors(const char* key, std::size_t count) const {
-    const toml::array& list = array(key);
-    if (list.size() != count)
-      refuse(path_, line_of(list), std::to_string(list.size()) + " entries in '" + key + "'",
-             std::to_string(count));
-    return all_vectors(key);
-  }
-  [[nodiscard]] std::vector<Vec3> all_vectors(const char* key, bool may_be_nan = false) const {
-    std::vector<Vec3> out;
-    for (const toml::node& node : array(key)) out.push_back(vector(node, may_be_nan));
-    return out;
-  }
-  [[nodiscard]] Quat rotation() const {
-    const auto q = numbers(at("rotation"), 4);
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    constexpr double kSlack = 1e-3;
-    if (std::abs(length - 1.0) > kSlack)
-      refuse(path_, line_of(at("rotation")), "a quaternion of length " + short_number(length), "1");
-    return Quat{q[0], q[1], q[2], q[3]} / length;
-  }
-  [[nodiscard]] Rigid motion() const { return {rotation(), vector("translation")}; }
-  [[noreturn]] void refuse_at(const char* key, const std::string& found, const std::string& expected) const {
-    refuse(path_, line_of(at(key)), found, expected);
-  }
-
- private:
-  const toml::table& table_;
-  std::string name_;
-  const std::filesystem::path& path_;
-};
-
 /// The plane of the first screen, or the one that is given.
-Vec4 surface_of(const Section& s, const std::vector<ScreenGeometry>& screens) {
+Vec4 surface_of(const WorkbenchSection& s, const std::vector<ScreenGeometry>& screens) {
   if (s.at("surface").is_string()) {
     if (s.word("surface") != "screen")
       s.refuse_at("surface", "'" + s.word("surface") + "'", "\"screen\", or a plane [nx, ny, nz, d]");
@@ -145,7 +53,7 @@ Vec4 surface_of(const Section& s, const std::vector<ScreenGeometry>& screens) {
   return Vec4{x[0], x[1], x[2], x[3]} / length;
 }
 
-InteractionGeometry interaction_of(const Section& s, const std::vector<ScreenGeometry>& screens) {
+InteractionGeometry interaction_of(const WorkbenchSection& s, const std::vector<ScreenGeometry>& screens) {
   InteractionGeometry out;
   if (s.has("technique")) {
     const std::string technique = s.at("technique").value<std::string>().value_or("");
@@ -195,7 +103,7 @@ InteractionGeometry interaction_of(const Section& s, const std::vector<ScreenGeo
 }
 
 /// Seconds, from 0 or above it to HeadGeometry::kLongest.
-double seconds_of(const Section& s, const char* key, bool may_be_zero) {
+double seconds_of(const WorkbenchSection& s, const char* key, bool may_be_zero) {
   const double value = s.number(key);
   if (!(value >= 0.0 && value <= HeadGeometry::kLongest && (may_be_zero || value > 0.0)))
     s.refuse_at(key, short_number(value),
@@ -204,7 +112,7 @@ double seconds_of(const Section& s, const char* key, bool may_be_zero) {
   return value;
 }
 
-HeadGeometry head_of(const Section& s) {
+HeadGeometry head_of(const WorkbenchSection& s) {
   HeadGeometry out;
   if (s.has("source")) {
     out.source = s.word("source");
@@ -227,7 +135,7 @@ HeadGeometry head_of(const Section& s) {
 }
 
 /// Two whole numbers of a size that screens have.
-std::array<int, 2> pixel_pair(const Section& s, const char* key, double least) {
+std::array<int, 2> pixel_pair(const WorkbenchSection& s, const char* key, double least) {
   const auto given = s.numbers(s.at(key), 2);
   constexpr double kMost = 65536.0;
   std::array<int, 2> out{};
@@ -240,7 +148,7 @@ std::array<int, 2> pixel_pair(const Section& s, const char* key, double least) {
   return out;
 }
 
-ScreenGeometry screen_of(const Section& s) {
+ScreenGeometry screen_of(const WorkbenchSection& s) {
   ScreenGeometry out{.corners = {s.vector("lower_left"), s.vector("lower_right"), s.vector("upper_left")},
                      .name = {}};
   if (const std::string fault = fault_of(out.corners); !fault.empty())
@@ -267,7 +175,7 @@ ScreenGeometry screen_of(const Section& s) {
   return out;
 }
 
-TrackerCorrection tracker_of(const Section& s) {
+TrackerCorrection tracker_of(const WorkbenchSection& s) {
   TrackerCorrection out;
   if (s.has("degree")) {
     const double degree = s.number("degree");
@@ -295,7 +203,7 @@ TrackerCorrection tracker_of(const Section& s) {
   return out;
 }
 
-DhhChain arm_of(const Section& s) {
+DhhChain arm_of(const WorkbenchSection& s) {
   DhhChain out;
   for (const toml::node& node : s.array("rows")) {
     const auto numbers = s.numbers(node, kDhhQuantities + 1);
@@ -328,6 +236,32 @@ DhhChain arm_of(const Section& s) {
   return out;
 }
 
+/// A section's name in its parts: "tuned.falcon" is the table `falcon` of `tuned`; none of both has a dot
+/// before that.
+struct SectionName {
+  explicit SectionName(const std::string& name)
+      : outer(name.substr(0, name.find('.'))),
+        inner(outer.size() < name.size() ? name.substr(outer.size() + 1) : "") {}
+
+  /// Null where there is none. Throws nothing: an outer part that is no table holds none.
+  [[nodiscard]] const toml::node* in(const toml::table& root) const {
+    const toml::node* node = root.get(outer);
+    if (inner.empty() || !node) return node;
+    const toml::table* table = node->as_table();
+    return table ? table->get(inner) : nullptr;
+  }
+  void erase_from(toml::table& root) const {
+    if (inner.empty()) {
+      root.erase(outer);
+    } else if (toml::table* table = root[outer].as_table()) {
+      table->erase(inner);
+      if (table->empty()) root.erase(outer);
+    }
+  }
+
+  std::string outer, inner;
+};
+
 std::string row_text(std::initializer_list<double> values) {
   std::string out;
   for (const double value : values) out += (out.empty() ? "[" : ", ") + exact_number(value);
@@ -353,17 +287,17 @@ std::string motion_text(const Rigid& motion) {
          "\n";
 }
 
-/// First lines of all tables that stand outside `name`, from 1.
-void collect_headers(const toml::table& table, const std::string& skip, std::vector<std::size_t>& lines) {
+/// First lines of all tables that stand outside `skip`, from 1.
+void collect_headers(const toml::table& table, const toml::node* skip, std::vector<std::size_t>& lines) {
   for (const auto& [key, node] : table) {
-    if (key.str() == skip) continue;
+    if (&node == skip) continue;
     if (const toml::table* inner = node.as_table(); inner && !inner->is_inline()) {
       lines.push_back(inner->source().begin.line);
-      collect_headers(*inner, "", lines);
+      collect_headers(*inner, skip, lines);
     } else if (const toml::array* array = node.as_array(); array && array->is_array_of_tables()) {
       for (const toml::node& element : *array) {
         lines.push_back(element.source().begin.line);
-        collect_headers(*element.as_table(), "", lines);
+        collect_headers(*element.as_table(), skip, lines);
       }
     }
   }
@@ -397,30 +331,30 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
     if (!table)
       refuse(path, line_of(*node), std::string("'") + name + "' is no section",
              std::string("[") + name + "]");
-    read(Section(*table, name, path, known));
+    read(WorkbenchSection(*table, name, path, known));
   };
   WorkbenchGeometry out;
   section("tracker",
           {"degree", "center", "scale", "position", "orientation", "table_count", "table_lower",
            "table_spacing", "table_position", "table_orientation"},
-          [&](const Section& s) { out.tracker = tracker_of(s); });
-  section("apparatus", {"rotation", "translation", "markers"}, [&](const Section& s) {
+          [&](const WorkbenchSection& s) { out.tracker = tracker_of(s); });
+  section("apparatus", {"rotation", "translation", "markers"}, [&](const WorkbenchSection& s) {
     out.apparatus = {s.motion(), s.all_vectors("markers", true)};
   });
-  section("arm", {"rows", "free"}, [&](const Section& s) { out.arm = arm_of(s); });
-  section("coregistration", {"rotation", "translation", "sensor"}, [&](const Section& s) {
+  section("arm", {"rows", "free"}, [&](const WorkbenchSection& s) { out.arm = arm_of(s); });
+  section("coregistration", {"rotation", "translation", "sensor"}, [&](const WorkbenchSection& s) {
     out.coregistration = {s.motion(), s.vector("sensor")};
   });
-  section("stylus", {"tip"}, [&](const Section& s) { out.stylus = s.vector("tip"); });
-  section("eyes", {"left", "right"}, [&](const Section& s) {
+  section("stylus", {"tip"}, [&](const WorkbenchSection& s) { out.stylus = s.vector("tip"); });
+  section("eyes", {"left", "right"}, [&](const WorkbenchSection& s) {
     out.eyes.emplace();
     if (s.has("left")) out.eyes->left = s.vector("left");
     if (s.has("right")) out.eyes->right = s.vector("right");
   });
   const auto add_screen = [&](const toml::table& table) {
-    ScreenGeometry screen = screen_of(
-        Section(table, "screen", path,
-                {"lower_left", "lower_right", "upper_left", "name", "pixels", "position", "stereo"}));
+    ScreenGeometry screen = screen_of(WorkbenchSection(
+        table, "screen", path,
+        {"lower_left", "lower_right", "upper_left", "name", "pixels", "position", "stereo"}));
     const bool twice = std::any_of(out.screens.begin(), out.screens.end(), [&](const ScreenGeometry& other) {
       return !screen.name.empty() && other.name == screen.name;
     });
@@ -439,14 +373,16 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
       refuse(path, line_of(*node), "'screen' is no section", "[screen], or [[screen]] for each of several");
     }
   }
+  out.device_options = device_options_of(root, path);
+  out.tuned = tuned_of(root, path);
   section("head",
           {"source", "resting_eye", "sensor_latency", "display_latency", "latency", "predict",
            "velocity_window", "freeze", "glide"},
-          [&](const Section& s) { out.head = head_of(s); });
+          [&](const WorkbenchSection& s) { out.head = head_of(s); });
   section("interaction",
           {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
            "enabling_button", "enabling_device", "tip_offset", "surface"},
-          [&](const Section& s) { out.interaction = interaction_of(s, out.screens); });
+          [&](const WorkbenchSection& s) { out.interaction = interaction_of(s, out.screens); });
   return out;
 }
 
@@ -509,7 +445,8 @@ std::string section_text(const EyesGeometry& eyes) {
 
 bool has_section(const std::filesystem::path& path, const std::string& name) {
   std::error_code ignored;
-  return std::filesystem::exists(path, ignored) && parsed(contents(path), path).contains(name);
+  return std::filesystem::exists(path, ignored) &&
+         SectionName(name).in(parsed(contents(path), path)) != nullptr;
 }
 
 void write_section(const std::filesystem::path& path, const std::string& name, const std::string& text,
@@ -518,8 +455,9 @@ void write_section(const std::filesystem::path& path, const std::string& name, c
   const bool exists = std::filesystem::exists(path, ignored);
   const std::string before = exists ? contents(path) : "";
   const toml::table old = parsed(before, path);
+  const SectionName section(name);
   std::string after;
-  if (const toml::node* node = old.get(name)) {
+  if (const toml::node* node = section.in(old)) {
     if (!replace)
       throw usage_error(path.string() + " has a section [" + name + "] already; use --force to replace it");
     const toml::table* table = node->as_table();
@@ -527,7 +465,7 @@ void write_section(const std::filesystem::path& path, const std::string& name, c
       throw usage_error(path.string() + ": " + line_of(*node) + ": '" + name +
                         "' is not written as a section; remove it by hand");
     std::vector<std::size_t> headers;
-    collect_headers(old, name, headers);
+    collect_headers(old, node, headers);
     const std::vector<std::string> lines = lines_of(before);
     const std::size_t first = table->source().begin.line - 1;
     std::size_t last = lines.size();
@@ -547,9 +485,12 @@ void write_section(const std::filesystem::path& path, const std::string& name, c
   // Whatever a file may look like: nothing of it is lost, or nothing is written.
   toml::table rest = parsed(after, path), was = old;
   toml::table given = parsed(text, path);
-  const bool as_given = *rest[name].as_table() == *given[name].as_table();
-  rest.erase(name);
-  was.erase(name);
+  const toml::node *put = section.in(rest), *asked = section.in(given);
+  const toml::table* there = put ? put->as_table() : nullptr;
+  const toml::table* wanted = asked ? asked->as_table() : nullptr;
+  const bool as_given = there && wanted && *there == *wanted;
+  section.erase_from(rest);
+  section.erase_from(was);
   if (rest != was || !as_given)
     throw usage_error(path.string() + ": [" + name + "] cannot be replaced alone; remove it by hand");
   OutputFile file(path, true);

@@ -56,8 +56,11 @@
 ///   enabling_device = "pedal"      # optional: the driver of another device that has this button
 ///   tip_offset = [x, y, z]         # optional [m]: from the tip in the hand to its picture, in the tracker's
 ///                                  # frame; of a device that is laid over the view: right, up, to the user
-///   surface = "screen"             # optional: the tip moves on the first screen alone, or on a plane n.x = d
+///   surface = "screen"             # optional: the tip moves on the first screen alone, or on a plane n.x =
+///   d
 ///                                  # of the tracker's frame, [nx, ny, nz, d]
+///
+///   [device.NAME], [tuned.NAME]    # of a device in the hand: workbench_devices.h
 ///
 /// Other sections belong to others and are left alone.
 #pragma once
@@ -68,6 +71,7 @@
 #include <string>
 #include <vector>
 
+#include "common/calibration/workbench_devices.h"
 #include "common/geometry/screen.h"
 #include "common/geometry/stereo_mode.h"
 #include "common/kinematics/dhh_chain.h"
@@ -138,6 +142,8 @@ struct WorkbenchGeometry {
   std::vector<ScreenGeometry> screens;  ///< in the order of the file
   HeadGeometry head;
   InteractionGeometry interaction;
+  std::vector<DeviceOptions> device_options;
+  std::vector<TunedDevice> tuned;
 };
 
 /// @throws Error (bad input) naming the line of what is not TOML, unknown, missing, or of a wrong kind or
@@ -155,7 +161,8 @@ struct WorkbenchGeometry {
 [[nodiscard]] std::string section_text(const EyesGeometry& eyes);
 /// @}
 
-/// Whether `path` holds the section already. A file that does not exist holds none.
+/// Whether `path` holds the section already; "tuned.falcon" is the table of a device. A file that does not
+/// exist holds none.
 /// @throws Error (bad input) where it is not TOML.
 [[nodiscard]] bool has_section(const std::filesystem::path& path, const std::string& name);
 

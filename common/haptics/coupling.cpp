@@ -45,4 +45,9 @@ std::string stiffness_warning(const WallLoop& loop, double stiffness, double dam
          " ms leaves: an unheld arm may start to swing";
 }
 
+std::string tuned_note(double asked, double most) {
+  return "a stiffness of " + short_number(asked) + " N/m is held to " + short_number(most) +
+         " N/m, what workbench tune found that the device bears";
+}
+
 }  // namespace palpate

@@ -54,4 +54,7 @@ struct StiffnessBound {
 /// One line that names the limit, for a stiffness above it; empty for others.
 [[nodiscard]] std::string stiffness_warning(const WallLoop& loop, double stiffness, double damping);
 
+/// One line for a stiffness that is held to what `workbench tune` found.
+[[nodiscard]] std::string tuned_note(double asked, double most);
+
 }  // namespace palpate

@@ -4,24 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "common/haptics/constraint/half_space.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/wall_loop.h"
 
 namespace palpate {
 namespace {
-
-/// Keeps its proxy at x <= 0.
-class VirtualWall final : public Constraint {
- public:
-  void apply(const ChainSettings& /*settings*/) noexcept override {}
-  void reset() noexcept override {}
-  void update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
-    link.proxy = {std::min(probe.x, 0.0), probe.y, probe.z};
-    if (probe.x <= 0.0) return;
-    link.state = HoldState::kHeld;
-    link.jacobian[0][0] = 0.0;
-  }
-};
 
 /// Swings narrower than this [m] are none: a few micrometres, and what an encoder's step hides of any motion.
 double narrowest_swing(const DeviceProfile& device) { return 5e-6 + 1.5 * device.encoder_step; }
@@ -33,7 +21,7 @@ std::unique_ptr<ProxyChain> wall_chain(const WallCase& wall) {
   settings.passivity.from_links = wall.controlled ? 1.0 : ChainStep::kMaxLinks + 1.0;
   settings.passivity.max_damping = 0.5 * wall.device.mass * wall.rate;
   std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(std::make_unique<VirtualWall>());
+  links.push_back(std::make_unique<HalfSpaceConstraint>(Vec3{0.0}, Vec3{-1.0, 0.0, 0.0}));
   return std::make_unique<ProxyChain>(std::move(links), settings);
 }
 

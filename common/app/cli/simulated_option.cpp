@@ -60,6 +60,10 @@ DeviceLimits simulated_limits(const SimulatedDeviceOptions& device, const Device
   return limits;
 }
 
+std::string device_key(const SimulatedDeviceOptions& device) {
+  return "simulated:" + std::string(device.profile.name);
+}
+
 std::string title_of(const SimulatedDeviceOptions& device) {
   return std::string(device.profile.title) + " in a " + (device.hand == kFirmHand ? "firm" : "relaxed") +
          " hand";

@@ -19,6 +19,9 @@ namespace palpate {
 /// left open: a simulated arm stands wherever the data is placed.
 [[nodiscard]] DeviceLimits simulated_limits(const SimulatedDeviceOptions& device, const DeviceLimits& asked);
 
+/// "simulated:falcon": what workbench.toml knows it by.
+[[nodiscard]] std::string device_key(const SimulatedDeviceOptions& device);
+
 /// "PHANToM Premium 3.0 class in a relaxed hand"
 [[nodiscard]] std::string title_of(const SimulatedDeviceOptions& device);
 

@@ -218,6 +218,11 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   const Workspace workspace = touch_workspace(
       options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
+  const TunedDevice* tuned = simulated ? find_tuned(bench.tuned, device_key(*simulated)) : nullptr;
+  if (tuned != nullptr && summary.settings.stiffness > tuned->stiffness) {
+    console.note(tuned_note(summary.settings.stiffness, tuned->stiffness));
+    summary.settings.stiffness = tuned->stiffness;
+  }
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
   // Of a heart the tensors are its fibres, which no column tells of.
   ProbeLog::Measured logged{

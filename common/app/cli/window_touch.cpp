@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/app/cli/bench_option.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/summaries.h"
@@ -45,18 +46,23 @@ DeviceLimits linked_limits(const DriverLink& link, const DeviceLimits& asked) {
   return limits;
 }
 
+/// The stiffness that was found for the device, and a word where more is asked for.
+void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeSessionOptions& touch) {
+  const TunedDevice* tuned = find_tuned(touch.workbench.tuned, device);
+  if (tuned == nullptr) return;
+  touch.most_stiffness = tuned->stiffness;
+  const double asked = touch.choice.settings.stiffness;
+  if (asked > tuned->stiffness) context.console.note(tuned_note(asked, tuned->stiffness));
+}
+
 /// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own.
 void take_link(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
-  DeviceText text = parse_device(options.device);
-  const InteractionGeometry& bench = touch.workbench.interaction;
-  if (!text.button && text.enable.empty()) {
-    text.button = bench.enabling_button;
-    text.enable = bench.enabling_device;
-  }
+  const DeviceText text = device_at_bench(options.device, touch.workbench);
   OpenedDevice opened = open_device(text);
   touch.link = std::move(opened.link);
   touch.enabling = std::move(opened.enabling);
   touch.limits = linked_limits(*touch.link, touch.limits);
+  hold_to_tuned(text.name, context, touch);
   touch.limits.enabling_button = touch.enabling.sample_button();
   if (const std::string held = description_of(touch.enabling, text); !held.empty()) {
     context.console.note("there is force only " + held);
@@ -117,7 +123,9 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   if (touch.simulated) {
     touch.limits = simulated_limits(*touch.simulated, touch.limits);
     context.console.note("simulated: " + title_of(*touch.simulated));
-    const ChainSettings& settings = touch.choice.settings;
+    hold_to_tuned(device_key(*touch.simulated), context, touch);
+    ChainSettings settings = touch.choice.settings;
+    settings.stiffness = std::min(settings.stiffness, touch.most_stiffness);
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);

@@ -53,6 +53,7 @@ Workspace ProbeSession::workspace() const {
 /// The settings as the chain gets them: without tick marks their interval is zero.
 ChainSettings ProbeSession::chain_settings() const {
   ChainSettings settings = choice_.settings;
+  settings.stiffness = std::min(settings.stiffness, options_.most_stiffness);
   if (!choice_.ticks || !has_flow()) {
     settings.ticks.interval = 0.0;
   } else if (settings.ticks.interval == 0.0) {

@@ -5,6 +5,7 @@
 /// do nothing.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -59,6 +60,8 @@ struct ProbeSessionOptions {
   /// A real device, laid over the field as the view shows it; in place of mouse, path and simulation. None:
   /// null.
   std::shared_ptr<DriverLink> link;
+  /// What the device bears, as `workbench tune` found it [N/m]: the chain gets no more.
+  double most_stiffness = HUGE_VAL;
   /// Its dead-man switch; `limits` name its sample_button().
   EnablingSwitch enabling;
   /// Where the run is recorded; empty: nowhere. Its header says what `recorded` holds.
@@ -116,8 +119,8 @@ class ProbeSession {
   /// Where the stiffness is more than the device can show: one line that names the limit. Empty where it is
   /// not, and for devices that show no force.
   [[nodiscard]] std::string stiffness_note() const;
-  /// The stiffest wall that the device can show, "passive up to 200 N/m (hold of the servo)"; empty for
-  /// devices that show no force.
+  /// The stiffest wall that the device can show, "passive up to 200 N/m (hold of the servo)" or what it was
+  /// tuned to; empty for devices that show no force, and where nothing is known.
   [[nodiscard]] std::string passive_limit() const;
   /// Lowest and highest of what curves of mode `linear` take [data units]; 0 and 1 while there is no data.
   /// Steepness up to that of all values within an eighth of the diagonal, which little exceeds.

@@ -1,6 +1,7 @@
 // What a ProbeSession says of its settings: limits, ranges of curves, options of the command line.
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/app/haptic/grid_mode.h"
 #include "common/app/haptic/probe_session.h"
@@ -10,12 +11,16 @@
 namespace palpate {
 
 std::string ProbeSession::stiffness_note() const {
+  const double asked = choice_.settings.stiffness;
+  if (asked > options_.most_stiffness) return tuned_note(asked, options_.most_stiffness);
   if (!options_.simulated) return {};
-  return stiffness_warning(wall_loop(options_.simulated->profile, options_.servo_rate),
-                           choice_.settings.stiffness, choice_.settings.damping);
+  return stiffness_warning(wall_loop(options_.simulated->profile, options_.servo_rate), asked,
+                           choice_.settings.damping);
 }
 
 std::string ProbeSession::passive_limit() const {
+  if (std::isfinite(options_.most_stiffness))
+    return "tuned: up to " + short_number(options_.most_stiffness) + " N/m";
   if (!options_.simulated) return {};
   const StiffnessBound bound =
       stiffness_bound(wall_loop(options_.simulated->profile, options_.servo_rate), choice_.settings.damping);

@@ -233,6 +233,54 @@ TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
   names("[interaction]\ntip_offset = 3\n", "line 2", "3 finite numbers");
 }
 
+TEST_F(WorkbenchFileTest, KnowsDevicesByTheirNames) {
+  write(
+      "# ours\n[device.falcon]\ngain = 3620\nthigh = 0.0603\nfirmware = 'f.bin'\n\n# next\n[stylus]\n"
+      "tip = [0, 0, 1]\n");
+  const std::string before = text();
+  TunedDevice falcon{.device = "falcon", .stiffness = 700.0, .rate = 1000.0, .places = {{{0.1, 0, -1}, 1e3}}};
+  const TunedDevice arm{.device = "simulated:ideal", .stiffness = 1.0 / 3.0, .rate = 500.0, .places = {}};
+  write_section(path_, "tuned.falcon", section_text(falcon), false);
+  write_section(path_, "tuned.simulated:ideal", section_text(arm), false);
+  EXPECT_THROW(write_section(path_, "tuned.falcon", section_text(falcon), false), Error);
+  falcon.stiffness = 650.0;
+  write_section(path_, "tuned.falcon", section_text(falcon), true);
+  EXPECT_TRUE(has_section(path_, "tuned.falcon"));
+  EXPECT_FALSE(has_section(path_, "tuned.omega"));
+  EXPECT_TRUE(text().starts_with(before));
+
+  const WorkbenchGeometry back = read_workbench(path_);
+  ASSERT_EQ(back.tuned.size(), 2U);
+  ASSERT_NE(find_tuned(back.tuned, "falcon"), nullptr);
+  EXPECT_EQ(find_tuned(back.tuned, "falcon")->stiffness, 650.0);
+  EXPECT_EQ(find_tuned(back.tuned, "falcon")->places[0].stiffness, 1e3);
+  EXPECT_EQ(find_tuned(back.tuned, "simulated:ideal")->stiffness, 1.0 / 3.0);
+  EXPECT_EQ(find_tuned(back.tuned, "simulated:ideal")->rate, 500.0);
+  EXPECT_EQ(find_tuned(back.tuned, "omega"), nullptr);
+
+  // What the command line says comes first, and is all that other devices get.
+  using Options = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(with_device_options(back.device_options, "falcon", {{"gain", "4000"}}),
+            (Options{{"firmware", "f.bin"}, {"thigh", "0.0603"}, {"gain", "4000"}}));
+  EXPECT_EQ(with_device_options(back.device_options, "omega", {{"gain", "4000"}}),
+            (Options{{"gain", "4000"}}));
+}
+
+TEST_F(WorkbenchFileTest, RefusesDevicesThatMakeNoSense) {
+  const auto names = [this](const std::string& content, const char* line, const char* word) {
+    const std::string said = refusal(content);
+    EXPECT_NE(said.find(line), std::string::npos) << said;
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+  };
+  names("[device]\ngain = 3\n", "line 2", "[device.NAME]");
+  names("device = 3\n", "line 1", "[device.NAME]");
+  names("[device.falcon]\ngain = [1, 2]\n", "line 2", "option of the driver");
+  names("[tuned.falcon]\nrate = 1000\n", "line 1", "stiffness");
+  names("[tuned.falcon]\nstiffness = -3\n", "line 2", "above zero");
+  names("[tuned.falcon]\nstiffness = 3\nplaces = [[1, 2, 3]]\n", "line 3", "4 numbers");
+  names("[tuned.falcon]\nstiff = 3\n", "line 2", "stiffness");
+}
+
 TEST_F(WorkbenchFileTest, NamesTheLineOfWhatIsWrong) {
   EXPECT_NE(refusal("[stylus]\ntip = [1, 2\n").find("line"), std::string::npos);
   const std::string unknown = refusal("a = 1\n[stylus]\ntop = [1, 2, 3]\n");

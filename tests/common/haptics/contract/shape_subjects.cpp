@@ -1,5 +1,5 @@
-// Sphere, circle, segment, polyline and haptic grid under the contract, on ways that lead through the places
-// where their nearest point leaps.
+// Wall, sphere, circle, segment, polyline and haptic grid under the contract, on ways that lead through the
+// places where their nearest point leaps.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "common/haptics/constraint/circle.h"
 #include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/grid_axis.h"
+#include "common/haptics/constraint/half_space.h"
 #include "common/haptics/constraint/polyline.h"
 #include "common/haptics/constraint/sphere.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
@@ -34,6 +35,21 @@ Vec3 through_the_middle(double s) {
   if (s < 0.5) return {0.25 - s, 0.0, 0.0};
   const double angle = kTurn * (s - 0.5);
   return {-0.25 * std::cos(angle), 0.25 * std::sin(angle), 0.2 * std::sin(2.0 * angle)};
+}
+
+/// In and out of the wall z < 0, and along it.
+ContractSubject half_space() {
+  ContractSubject subject;
+  subject.name = "HalfSpace";
+  subject.make = [](const Placement& at) {
+    return std::make_shared<HalfSpaceConstraint>(at.point(Vec3{0.0}), at.direction({0.0, 0.0, 3.0}));
+  };
+  subject.path = [](double s) { return Vec3{s, 0.1 * s, 0.05 * std::cos(3.0 * kTurn * s) - 0.01}; };
+  subject.off_feature = [](const Vec3& probe, const LinkUpdate& link) {
+    return glm::distance(link.proxy, Vec3{probe.x, probe.y, std::max(probe.z, 0.0)});
+  };
+  subject.smooth_at = {0.05, 0.16, 0.3, 0.5};
+  return subject;
 }
 
 ContractSubject sphere() {
@@ -180,7 +196,7 @@ ContractSubject grid_axis(bool teeth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ConstraintContract,
-                         ::testing::Values(sphere(), circle(), segment(), polyline(), detents(),
+                         ::testing::Values(half_space(), sphere(), circle(), segment(), polyline(), detents(),
                                            grid_axis(false), grid_axis(true)),
                          subject_name);
 

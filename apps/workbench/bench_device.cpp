@@ -1,0 +1,60 @@
+#include "apps/workbench/bench_device.h"
+
+#include <cmath>
+#include <utility>
+
+#include "common/app/cli/bench_option.h"
+#include "common/app/cli/simulated_option.h"
+#include "common/base/error.h"
+#include "common/device/replay_device.h"
+
+namespace palpate {
+
+bool SampleClock::read(double now, DeviceSample& sample) noexcept {
+  if (!device_.read(now, sample)) return false;
+  const double age = now - sample.time;
+  age_.store(age, std::memory_order_relaxed);
+  if (sample.time != last_) {
+    constexpr double kNanoseconds = 1e9;
+    ages_.add(static_cast<std::int64_t>(kNanoseconds * age));
+    last_ = sample.time;
+  }
+  return true;
+}
+
+BenchDevice::BenchDevice(const std::string& text, const WorkbenchGeometry& bench) {
+  if (text == "mouse" || text.starts_with("mouse:"))
+    throw usage_error(
+        "a mouse shows no force: try --device simulated, or feel effects in the explorers' windows");
+  const DeviceText named = device_at_bench(text, bench);
+  OpenedDevice opened = open_device(named);
+  key_ = named.name;
+  held_ = description_of(opened.enabling, named);
+  held_by_itself_ = opened.enabling.button != DeviceLimits::kNoButton && !opened.enabling.link;
+  DeviceLimits limits = opened.link->limits();
+  limits.enabling_button = opened.enabling.sample_button();
+  linked_ = std::make_unique<LinkedDevice>(std::move(opened.link), opened.enabling);
+  // Its reach is kept by the placed device; a device of valuators steers within a box of its own.
+  limits.reach_lower = Vec3{-HUGE_VAL};
+  limits.reach_upper = Vec3{HUGE_VAL};
+  constexpr double kSteered = 0.05;  // [m]
+  placed_ =
+      std::make_unique<PlacedDevice>(*linked_, limits, Placement{}, Box{Vec3{-kSteered}, Vec3{kSteered}});
+  clock_ = std::make_unique<SampleClock>(*placed_);
+}
+
+BenchDevice::BenchDevice(const SimulatedDeviceOptions& simulated, Device* leader)
+    : key_(device_key(simulated)) {
+  if (leader == nullptr) {
+    nobody_ = std::make_unique<ReplayDevice>(std::vector<DeviceSample>{});
+    leader = nobody_.get();
+  }
+  simulated_ = std::make_unique<SimulatedDevice>(simulated, *leader);
+  clock_ = std::make_unique<SampleClock>(*simulated_);
+}
+
+WorkbenchGeometry bench_of(const std::filesystem::path& file) {
+  return file.empty() ? WorkbenchGeometry{} : read_workbench(file);
+}
+
+}  // namespace palpate

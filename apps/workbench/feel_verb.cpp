@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/workbench/bench_device.h"
+#include "apps/workbench/force_keys.h"
+#include "apps/workbench/workbench_verbs.h"
+#include "common/app/cli/probe_log.h"
+#include "common/app/cli/simulated_option.h"
+#include "common/base/error.h"
+#include "common/base/output_file.h"
+#include "common/base/text.h"
+#include "common/device/probe_path.h"
+#include "common/device/replay_device.h"
+#include "common/haptics/coupling.h"
+#include "common/report/html.h"
+#include "common/servo/servo_loop.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilli = 1e3;
+
+/// What is measured beside the effect; zeros where there is no clock.
+struct Timing {
+  double servo_rate = 0.0;              ///< [Hz] that was reached
+  double sample_rate = 0.0;             ///< [Hz] of new samples
+  double age_p50 = 0.0, age_p99 = 0.0;  ///< [ms] of a new sample when the servo takes it
+  double late_p99 = 0.0;                ///< [ms] from deadline to wake-up
+  double update_p99 = 0.0;              ///< [ms] processor time of a tick
+};
+
+double histogram_ms(std::uint64_t ns) { return 1e-6 * static_cast<double>(ns); }
+
+std::string score_text(const FeelScore& score, const WorkbenchOptions& o, const Timing* timing) {
+  std::string text = std::string(name_of(o.effect)) + " of " + short_number(o.stiffness) +
+                     " N/m: " + counted(score.steps(), "step") + ", " + std::to_string(score.in_contact()) +
+                     " in contact\n";
+  text += "  stretch    at most " + three_digits(kMilli * score.deepest()) + " mm under at most " +
+          three_digits(score.largest_force()) + " N\n";
+  text += "  stiffness  " + three_digits(score.felt_stiffness()) + " N/m shown\n";
+  text +=
+      "  energy     at most " + three_digits(kMilli * score.most_given()) + " mJ to the hand by a contact\n";
+  if (timing != nullptr) {
+    text += "  rate       " + three_digits(timing->servo_rate) + " Hz of the servo, " +
+            three_digits(timing->sample_rate) + " new samples a second\n";
+    text += "  latency    samples half within " + three_digits(timing->age_p50) + " ms, 99 % within " +
+            three_digits(timing->age_p99) + " ms; steps 99 % within " + three_digits(timing->late_p99) +
+            " ms of their time, " + three_digits(timing->update_p99) + " ms of work\n";
+  }
+  for (const StabilityCase& c : score.cases()) {
+    text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
+            short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
+  }
+  return text;
+}
+
+Json score_json(const FeelScore& score, const WorkbenchOptions& o, const std::string& device,
+                const Timing* timing) {
+  Json cases = Json::array();
+  for (const StabilityCase& c : score.cases()) {
+    cases.push_back({{"case", c.row.name},
+                     {"measured", c.row.measured},
+                     {"limit", c.row.limit},
+                     {"unit", c.unit},
+                     {"holds", c.row.holds}});
+  }
+  Json json{{"effect", name_of(o.effect)},
+            {"device", device},
+            {"stiffness_n_per_m", o.stiffness},
+            {"steps", score.steps()},
+            {"steps_in_contact", score.in_contact()},
+            {"deepest_m", score.deepest()},
+            {"max_force_n", score.largest_force()},
+            {"shown_stiffness_n_per_m", score.felt_stiffness()},
+            {"free_force_n", score.free_force()},
+            {"leak", score.leak()},
+            {"most_given_j", score.most_given()},
+            {"faults", score.faults()},
+            {"cases", cases}};
+  if (timing != nullptr) {
+    json["servo_rate_hz"] = timing->servo_rate;
+    json["sample_rate_hz"] = timing->sample_rate;
+    json["sample_age_ms_p50"] = timing->age_p50;
+    json["sample_age_ms_p99"] = timing->age_p99;
+    json["late_ms_p99"] = timing->late_p99;
+    json["update_ms_p99"] = timing->update_p99;
+  }
+  return json;
+}
+
+/// Stiffness of `options` held to what is known of the device.
+void hold_to_tuned(const WorkbenchGeometry& geometry, const std::string& key, WorkbenchOptions& o,
+                   const Console& console) {
+  const TunedDevice* tuned = find_tuned(geometry.tuned, key);
+  if (tuned == nullptr || o.stiffness <= tuned->stiffness) return;
+  console.note(tuned_note(o.stiffness, tuned->stiffness));
+  o.stiffness = tuned->stiffness;
+}
+
+std::string device_name(const std::optional<SimulatedDeviceOptions>& simulated) {
+  return simulated ? device_key(*simulated) : "path";
+}
+
+/// A hand on a recorded path: the path itself, or a simulated hand that wants to be on it.
+FeelScore feel_path(const WorkbenchOptions& o, const std::optional<SimulatedDeviceOptions>& simulated,
+                    const WorkbenchContext& context) {
+  const std::vector<PathRow> path = read_probe_path(o.path.string());
+  const Workspace metres(1.0, LocalFrame{});
+  std::optional<OutputFile> file;
+  std::optional<ProbeLog> log;
+  if (!o.out.empty()) {
+    file.emplace(o.out, o.force);
+    log.emplace(*file, metres, 1, ProbeLog::Measured{});
+  }
+  FeelScore score(o.stiffness);
+  const DeviceLimits limits = simulated ? simulated->limits : DeviceLimits{};
+  HandStepper stepper(feel_chain(o.effect, o.stiffness, o.damping), limits);
+  const auto take = [&](const HandInput& hand) {
+    const HandStep step = stepper.step(hand);
+    score.add(step);
+    if (log) log->add({hand.time, hand.sample.position, hand.sample.buttons}, step, 0.0);
+    return step.force;
+  };
+  context.progress.begin("feeling", path.size());
+  if (!simulated) {
+    for (const PathRow& row : path) {
+      (void)take({.time = row.time, .present = true, .sample = {row.time, row.position, row.buttons}});
+      context.progress.advance();
+      context.progress.check();
+    }
+  } else if (!path.empty()) {
+    ReplayDevice leader(samples_of(path, 1.0), limits);
+    BenchDevice bench(*simulated, &leader);
+    HandInput hand{.present = true};
+    for (std::size_t n = 0;; ++n) {
+      hand.time = path.front().time + static_cast<double>(n) / o.servo_rate;
+      if (!bench.device().read(hand.time, hand.sample)) break;
+      bench.device().command(take(hand));
+      context.progress.check();
+    }
+  }
+  if (file) {
+    file->finish();
+    context.console.note(o.out.string() + ": " + counted(score.steps(), "row"));
+  }
+  return score;
+}
+
+std::string readout(double time, const HandStep& step, double age, double rate) {
+  const auto column = [](const std::string& text) {
+    constexpr std::size_t kWidth = 9;
+    return std::string(text.size() < kWidth ? kWidth - text.size() : 1, ' ') + text;
+  };
+  const auto rounded = [](double value, double unit) {
+    return short_number(std::round(value * unit) / unit + 0.0);
+  };
+  std::string text = column(rounded(time, 100.0)) + " s ";
+  if (!step.present) return text + "  no hand\n";
+  for (int a = 0; a < 3; ++a) text += column(rounded(kMilli * step.probe[a], 100.0));
+  const bool holds = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
+  const double stretch = holds ? glm::distance(step.chain.proxy(step.probe), step.probe) : 0.0;
+  text += " mm" + column(rounded(kMilli * stretch, 100.0)) + " mm in" +
+          column(rounded(glm::length(step.force), 100.0)) + " N" + column(rounded(rate, 1.0)) + " Hz" +
+          column(rounded(kMilli * age, 10.0)) + " ms  " + std::string(name_of(step.state));
+  if (step.cut != ForceCut::kNone) text += ", " + std::string(name_of(step.cut));
+  return text + "\n";
+}
+
+FeelScore feel_live(BenchDevice& bench, const WorkbenchOptions& o, const WorkbenchContext& context,
+                    Timing& timing) {
+  FeelScore score(o.stiffness);
+  ForceKeys keys;
+  if (keys.listening()) context.console.note("F12 or any key: no force; a: force again; q: end");
+  if (!bench.held().empty()) context.console.note("there is force only " + bench.held());
+  ServoState state;
+  double elapsed = 0.0;
+  {
+    ServoLoop servo(bench.device(), feel_chain(o.effect, o.stiffness, o.damping), "feel",
+                    {.rate = o.servo_rate});
+    const std::int64_t start = monotonic_ns();
+    std::string said;
+    double next = 0.0;
+    for (bool ended = false; !ended && elapsed < o.seconds;) {
+      constexpr std::int64_t kLook = 5;  // [ms]
+      std::this_thread::sleep_for(std::chrono::milliseconds(kLook));
+      elapsed = 1e-9 * static_cast<double>(monotonic_ns() - start);
+      context.progress.check();
+      switch (keys.pressed()) {
+        case ForceKeys::Key::kForceOff:
+          servo.force_off();
+          break;
+        case ForceKeys::Key::kArm:
+          servo.arm();
+          break;
+        case ForceKeys::Key::kQuit:
+          servo.force_off();
+          ended = true;
+          break;
+        case ForceKeys::Key::kNone:
+          break;
+      }
+      servo.collect_retired();
+      (void)servo.read(state);
+      for (HandStep step; servo.pop_step(step);) score.add(step);
+      if (bench.linked() != nullptr) {
+        if (std::string advice = bench.linked()->advice(); advice != said) {
+          said = std::move(advice);
+          if (!said.empty()) context.console.note(said);
+        }
+      }
+      if (elapsed < next) continue;
+      next = elapsed + 1.0 / o.rate;
+      const double rate = static_cast<double>(state.statistics.ticks) / std::max(elapsed, 1e-3);
+      context.console.print(readout(elapsed, state.hand, bench.device().age(), rate));
+    }
+  }
+  const TimeHistogram& ages = bench.device().ages();
+  timing = {.servo_rate = static_cast<double>(state.statistics.ticks) / elapsed,
+            .sample_rate = static_cast<double>(ages.count()) / elapsed,
+            .age_p50 = histogram_ms(ages.percentile_ns(0.5)),
+            .age_p99 = histogram_ms(ages.percentile_ns(0.99)),
+            .late_p99 = histogram_ms(state.statistics.lateness.percentile_ns(0.99)),
+            .update_p99 = histogram_ms(state.statistics.update.percentile_ns(0.99))};
+  return score;
+}
+
+}  // namespace
+
+void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
+  WorkbenchOptions options = given;
+  const WorkbenchGeometry geometry = bench_of(options.workbench);
+  std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
+  if (simulated) {
+    simulated->limits = safe_limits(simulated->profile);
+    // Back and forth through the effect, by itself.
+    constexpr double kReach = 0.015;  // [m]
+    if (options.path.empty()) simulated->wander = WanderingPath{Vec3{0.0}, Vec3{kReach}};
+    hold_to_tuned(geometry, device_key(*simulated), options, context.console);
+  }
+  if (!options.path.empty()) {
+    if (!simulated && !options.device.empty())
+      throw usage_error("a recorded hand is felt by itself, or on a simulated arm: leave --device " +
+                        options.device + " away, or try --device simulated:falcon");
+    const FeelScore score = feel_path(options, simulated, context);
+    context.console.print(score_text(score, options, nullptr));
+    context.console.print_json(score_json(score, options, device_name(simulated), nullptr)
+                                   .dump(2, ' ', false, Json::error_handler_t::replace));
+    return;
+  }
+  std::unique_ptr<BenchDevice> bench;
+  if (simulated) {
+    bench = std::make_unique<BenchDevice>(*simulated, nullptr);
+  } else {
+    bench = std::make_unique<BenchDevice>(options.device, geometry);
+    hold_to_tuned(geometry, bench->key(), options, context.console);
+  }
+  Timing timing;
+  const FeelScore score = feel_live(*bench, options, context, timing);
+  context.console.print(score_text(score, options, &timing));
+  context.console.print_json(
+      score_json(score, options, bench->key(), &timing).dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace palpate

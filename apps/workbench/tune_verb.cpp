@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/workbench/bench_device.h"
+#include "apps/workbench/force_keys.h"
+#include "apps/workbench/workbench_verbs.h"
+#include "common/app/cli/simulated_option.h"
+#include "common/base/error.h"
+#include "common/base/output_file.h"
+#include "common/base/text.h"
+#include "common/report/html.h"
+#include "common/servo/servo_loop.h"
+#include "common/servo/tuning_run.h"
+#include "common/servo/wall_loop.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TuningPlan plan_of(const WorkbenchOptions& o, const DeviceLimits& limits) {
+  // Half of the cap, so that a knock is shown as it is asked for.
+  return {.places = tuning_places(limits, o.tune.places),
+          .rate = o.servo_rate,
+          .least = o.tune.least,
+          .most = o.tune.most,
+          .knock = std::min(o.tune.knock, 0.5 * limits.force_cap)};
+}
+
+std::string place_text(const Vec3& x) {
+  std::string text;
+  for (int a = 0; a < 3; ++a) text += (a ? ", " : "") + short_number(std::round(1e4 * x[a]) / 10.0 + 0.0);
+  return text + " mm";
+}
+
+std::string result_text(const TuningResult& at) {
+  std::string text = "  " + place_text(at.place);
+  text.resize(std::max<std::size_t>(text.size() + 2, 30), ' ');
+  switch (at.end) {
+    case TuningEnd::kUntried:
+      return text + "untried\n";
+    case TuningEnd::kStuck:
+      return text + "the knock does not move the arm: its friction is larger, give a larger --knock\n";
+    case TuningEnd::kNotReached:
+      return text + "not reached: something holds the arm, or its friction is larger than --least draws\n";
+    case TuningEnd::kMost:
+      return text + "bears " + three_digits(at.stable) + " N/m, the most that was tried\n";
+    case TuningEnd::kSwings:
+    case TuningEnd::kGrows:
+    case TuningEnd::kRunsAway:
+      break;
+  }
+  return text + "bears " + three_digits(at.stable) + " N/m; " + three_digits(at.unstable) + " " +
+         (at.end == TuningEnd::kSwings  ? "does not come to rest"
+          : at.end == TuningEnd::kGrows ? "gives more energy than the arm loses"
+                                        : "runs away") +
+         "\n";
+}
+
+Json result_json(const TuningResult& at) {
+  return {{"place_m", {at.place.x, at.place.y, at.place.z}},
+          {"stable_n_per_m", at.stable},
+          {"unstable_n_per_m", at.unstable},
+          {"leak", at.leak},
+          {"end", name_of(at.end)}};
+}
+
+/// Works a real device until the tuner is done. @throws Error, Cancelled: without a force then.
+TuningNews tune_live(BenchDevice& bench, const TuningPlan& plan, const WorkbenchOptions& options,
+                     const WorkbenchContext& context) {
+  ForceKeys keys;
+  const auto channel = std::make_shared<StiffnessTuner::Channel>();
+  ServoLoop servo(bench.device(), tuning_chain(plan, channel), "tune", {.rate = plan.rate});
+  TuningNews news;
+  ServoState state;
+  std::string said;
+  std::size_t told = 0;
+  bool begun = false;
+  constexpr std::int64_t kLook = 20;  // [ms]
+  const std::int64_t start = monotonic_ns();
+  while (!news.done) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(kLook));
+    context.progress.check();
+    if (keys.pressed() != ForceKeys::Key::kNone) {
+      servo.force_off();
+      throw work_error("the force was switched off; nothing is written");
+    }
+    servo.collect_retired();
+    (void)servo.read(state);
+    (void)channel->read(news);
+    if (std::string advice = bench.linked()->advice(); advice != said) {
+      said = std::move(advice);
+      if (!said.empty()) context.console.note(said);
+    }
+    const bool shown = lets_tune(state.hand.cut);
+    if (begun && !shown) {
+      servo.force_off();
+      throw work_error("the force was cut (" + std::string(name_of(state.hand.cut)) +
+                       (bench.held().empty() ? "" : "; there is force only " + bench.held()) +
+                       "); nothing is written");
+    }
+    begun = begun || (shown && state.hand.present);
+    if (!begun && 1e-9 * static_cast<double>(monotonic_ns() - start) > options.patience)
+      throw work_error("the device did not become ready; `workbench doctor` says why");
+    for (; told < news.place && told < news.count; ++told)
+      context.console.print(result_text(news.results[told]));
+  }
+  return news;
+}
+
+}  // namespace
+
+void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) {
+  const WorkbenchGeometry geometry = bench_of(options.workbench);
+  TuningNews news;
+  TuningPlan plan;
+  std::string key, text;
+  std::optional<StiffnessBound> bound;
+  const auto check_out = [&] {
+    if (options.out.empty()) return;
+    check_output(options.out, true);
+    if (!options.force && has_section(options.out, "tuned." + key))
+      throw usage_error(options.out.string() + " has a section [tuned." + key +
+                        "] already; use --force to replace it");
+  };
+  if (std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device)) {
+    simulated->hand = kUnheld;
+    simulated->limits = safe_limits(simulated->profile);
+    simulated->wander = WanderingPath{};  // stands in the middle until it is drawn away
+    BenchDevice bench(*simulated, nullptr);
+    key = bench.key();
+    check_out();
+    plan = plan_of(options, simulated->limits);
+    plan.most = std::max(plan.least, std::min(plan.most, simulated->profile.max_stiffness));
+    news = run_tuning(bench.device(), plan, &context.progress);
+    bound = stiffness_bound(wall_loop(simulated->profile, plan.rate), 0.0);
+    for (std::size_t i = 0; i < news.count; ++i) text += result_text(news.results[i]);
+  } else {
+    BenchDevice bench(options.device, geometry);
+    key = bench.key();
+    check_out();
+    if (bench.held_by_itself())
+      throw usage_error("tune moves the arm by itself, and there is force only " + bench.held() +
+                        ": put the switch on another device (--device " + key +
+                        ":enable=pedal), or stay at the device's own switch (" + key + ":button=none)");
+    plan = plan_of(options, bench.linked()->limits());
+    context.console.note("the arm will move by itself; any key ends this without force");
+    news = tune_live(bench, plan, options, context);
+  }
+  const std::optional<double> found = tuned_stiffness(news, options.tune.margin);
+  Json places = Json::array();
+  TunedDevice tuned{.device = key, .stiffness = 0.0, .rate = plan.rate, .places = {}};
+  for (std::size_t i = 0; i < news.count; ++i) {
+    places.push_back(result_json(news.results[i]));
+    if (says_something(news.results[i].end))
+      tuned.places.push_back({news.results[i].place, news.results[i].stable});
+  }
+  Json json{{"device", key},
+            {"rate_hz", plan.rate},
+            {"knock_n", plan.knock},
+            {"margin", options.tune.margin},
+            {"stiffness_n_per_m", found ? Json(*found) : Json(nullptr)},
+            {"places", places}};
+  if (bound) {
+    json["bound_n_per_m"] = bound->stiffness;
+    json["bound_by"] = name_of(bound->limit);
+  }
+  if (found) {
+    tuned.stiffness = *found;
+    if (!options.out.empty()) {
+      write_section(options.out, "tuned." + key, section_text(tuned), options.force);
+      json["out"] = options.out.string();
+    }
+    text += key + ": " + three_digits(*found) + " N/m may be used, " + short_number(options.tune.margin) +
+            " of the least that it bears";
+    text += bound ? "; passive up to " + three_digits(bound->stiffness) + " N/m (" +
+                        std::string(name_of(bound->limit)) + ")\n"
+                  : "\n";
+    if (!options.out.empty()) text += "  -> [tuned." + key + "] of " + options.out.string() + "\n";
+  }
+  context.console.print(text);
+  context.console.print_json(json.dump(2, ' ', false, Json::error_handler_t::replace));
+  if (!found) throw work_error(key + ": no stiffness was found that it bears; the lines above say why");
+}
+
+}  // namespace palpate

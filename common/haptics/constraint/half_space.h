@@ -1,0 +1,27 @@
+/// A wall: the probe is free on one side of a plane, and the proxy stays on it.
+///
+///   p = x - min(0, d) n,   d = (x - o) . n,   J = 1 - n n^T where d < 0, else 1                         (1)
+///
+/// n points out of the wall, into the free space (what eq. 6.7 of Ikits 2006 calls the positive side). The
+/// force is that of eq. 6.7 without a threshold: continuous, and never a pull.
+#pragma once
+
+#include "common/haptics/constraint.h"
+
+namespace palpate {
+
+class HalfSpaceConstraint final : public Constraint {
+ public:
+  /// @param point o on the plane [m]  @param outward n, not zero.
+  HalfSpaceConstraint(const Vec3& point, const Vec3& outward);
+
+  void apply(const ChainSettings& /*settings*/) noexcept override {}
+  void reset() noexcept override {}
+  void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override;
+
+ private:
+  Vec3 point_;
+  Mat3 axes_;  ///< n first
+};
+
+}  // namespace palpate
