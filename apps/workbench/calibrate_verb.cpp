@@ -36,7 +36,19 @@ Calibrated tracker(const WorkbenchOptions& o) {
   TrackerFit fit = calibrate_tracker(
       table, {.method = o.method, .degree = o.degree, .loss = o.loss, .table_nodes = o.nodes});
   std::string text = fit.correction.spline.centers.empty() ? section_text(fit.correction) : "";
-  return {std::move(fit.report), "tracker", std::move(text)};
+  std::vector<DistortionPicture> pictures;
+  if (!o.pictures.empty()) {
+    // A table alone has no polynomial to follow.
+    const bool fitted = fit.correction.position.degree >= 0;
+    const TrackerCorrection smooth =
+        fitted ? fit.correction
+               : fit_tracker(table.rows, {.method = TrackerMethod::kPolynomial, .degree = o.degree},
+                             table.source);
+    pictures.push_back(position_error_lines(table.rows, smooth.position, o.seed));
+    pictures.push_back(orientation_error_icons(table.rows));
+    pictures.push_back(field_distortion_icons(table.rows));
+  }
+  return {std::move(fit.report), "tracker", std::move(text), std::move(pictures)};
 }
 
 Calibrated arm(const WorkbenchOptions& o) {
@@ -50,7 +62,7 @@ Calibrated arm(const WorkbenchOptions& o) {
   const auto table =
       o.example ? made_arm(o.seed) : read_arm_measurements(o.file.string(), nominal.joint_count);
   ArmFit fit = calibrate_arm(table, nominal, {.offsets_only = o.offsets_only, .loss = o.loss});
-  return {std::move(fit.report), "arm", section_text(fit.chain)};
+  return {std::move(fit.report), "arm", section_text(fit.chain), {}};
 }
 
 Calibrated registration(const WorkbenchOptions& o) {
@@ -60,13 +72,15 @@ Calibrated registration(const WorkbenchOptions& o) {
       table, apparatus ? RegistrationKind::kApparatus : RegistrationKind::kCoregistration,
       {.noise = o.noise, .loss = o.loss});
   if (!apparatus)
-    return {fit.report, "coregistration",
-            section_text(CoregistrationGeometry{fit.instrument_from_pose, fit.markers.at(0)})};
+    return {fit.report,
+            "coregistration",
+            section_text(CoregistrationGeometry{fit.instrument_from_pose, fit.markers.at(0)}),
+            {}};
   std::vector<Vec3> markers = fit.markers;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     if (!fit.seen[m]) markers[m] = Vec3{NAN};
   }
-  return {fit.report, "apparatus", section_text(ApparatusGeometry{fit.instrument_from_pose, markers})};
+  return {fit.report, "apparatus", section_text(ApparatusGeometry{fit.instrument_from_pose, markers}), {}};
 }
 
 }  // namespace
@@ -79,14 +93,14 @@ Calibrated calibrated(const WorkbenchOptions& o) {
         o.example ? MeasurementTable<PivotMeasurement>{"made measurements", synthetic_pivot(o.seed).rows}
                   : read_pivot_measurements(o.file.string());
     PivotFit fit = calibrate_pivot(table, {.loss = o.loss});
-    return {std::move(fit.report), "stylus", stylus_section_text(fit.tip)};
+    return {std::move(fit.report), "stylus", stylus_section_text(fit.tip), {}};
   }
   if (o.kind == "eyes") {
     const auto table = o.example ? MeasurementTable<SightingMeasurement>{"made measurements",
                                                                          synthetic_sightings(o.seed).rows}
                                  : read_sightings(o.file.string());
     EyeFit fit = calibrate_eyes(table, {.loss = o.loss});
-    return {std::move(fit.report), "eyes", section_text(EyesGeometry{fit.left, fit.right})};
+    return {std::move(fit.report), "eyes", section_text(EyesGeometry{fit.left, fit.right}), {}};
   }
   return registration(o);
 }
@@ -111,9 +125,15 @@ void run_calibrate(const WorkbenchOptions& options, const WorkbenchContext& cont
   if (!options.report.empty())
     write_sections(options, context, options.report, "workbench: " + done.report.kind,
                    {calibration_section(done.report)}, {}, watch.seconds());
+  if (!options.pictures.empty()) {
+    context.progress.begin("drawing", 0);
+    write_distortion_pictures(done.pictures, options.pictures, context.command_line, options.force);
+  }
   std::string text = fit_text(done.report);
   if (!options.out.empty()) text += "  -> [" + done.section + "] of " + options.out.string() + "\n";
   if (!options.report.empty()) text += "  -> " + (options.report / "index.html").string() + "\n";
+  for (const DistortionPicture& picture : done.pictures)
+    text += "  -> " + (options.pictures / picture.file).string() + "\n";
   context.console.print(text);
   context.console.print_json(fit_json(done.report, options.out.string()));
 }

@@ -38,6 +38,7 @@ constexpr const char* kCalibrateExamples =
     "line)\n"
     "Examples:\n"
     "  workbench calibrate tracker poses.csv --degree 4 --method combined --out workbench.toml\n"
+    "  workbench calibrate tracker poses.csv --pictures pictures\n"
     "  workbench calibrate arm grid.csv --nominal workbench.toml --out workbench.toml --force\n"
     "  workbench calibrate coregister --example --json\n";
 
@@ -193,6 +194,9 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
   calibrate.add_flag("--example", o.example, "made measurements of known truth in place of FILE");
   calibrate.add_option("--out", o.out, "workbench.toml whose section is written; the rest of it stays");
   calibrate.add_option("--report", o.report, "folder for a report with pictures");
+  calibrate.add_option(
+      "--pictures", o.pictures,
+      "tracker: folder for pictures of the distortion: streamlines, icons of orientation and field");
   calibrate.add_option("--loss", o.loss, "how measurements far from the fit count: square, huber or cauchy")
       ->transform(
           words<Loss>({{"square", Loss::kSquare}, {"huber", Loss::kHuber}, {"cauchy", Loss::kCauchy}}));
@@ -253,7 +257,14 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
       *app.add_subcommand("stability", "how stiff walls may be, by rate, damping, delay, encoder");
   add_common(stability, o);
   stability.add_option("--out", o.out, "folder for the report")->required();
-  stability.footer("Examples:\n  workbench stability --out stability\n");
+  stability.add_option(
+      "--model", o.model,
+      "device that is swept: premium3, falcon, ideal (default), or a file that describes one: "
+      "NAME.toml with mass, damping, friction, encoder_step, sensor_delay, actuator_delay, "
+      "peak_force, max_stiffness in SI units");
+  stability.footer(
+      "Examples:\n  workbench stability --out stability\n"
+      "  workbench stability --model arm.toml --out stability\n");
   add_device_verbs(app, o);
   add_controls_verb(app, o);
   add_force_verbs(app, o);
@@ -283,6 +294,8 @@ WorkbenchOptions parse_workbench(const std::vector<std::string>& arguments) {
     o.noise = {.pose_position = 0.4e-3, .pose_orientation = 1.5e-3, .marker = 0.5e-3};
   }
   if (noise_option->count() > 0) o.noise = {1e-3 * noise[0], noise[1] * kDegree, 1e-3 * noise[2]};
+  if (!o.pictures.empty() && o.kind != "tracker")
+    throw usage_error("--pictures shows the distortion of a tracker: try calibrate tracker");
   if (o.verb == "feel" && o.device.empty() && o.path.empty())
     throw usage_error("feel needs a device, or a recorded hand: try --device simulated, or --path hand.csv");
   if (o.verb == "feel" && !o.out.empty() && o.path.empty())

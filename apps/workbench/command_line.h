@@ -26,7 +26,7 @@ struct WorkbenchOptions {
                      ///< "report", "screen", "stability", "tune"; empty: `text` is all
   std::string text;  ///< --help or --version
   std::string kind;  ///< "tracker", "apparatus", "arm", "coregister", "pivot", "eyes"
-  std::filesystem::path file, out, report, nominal;
+  std::filesystem::path file, out, report, nominal, pictures;
   std::filesystem::path picture;  ///< controls: of the menu as it was left
   bool json = false, quiet = false, force = false;
   bool example = false;  ///< made measurements in place of a file
@@ -50,6 +50,7 @@ struct WorkbenchOptions {
   double stiffness = 400.0;  ///< [N/m] feel
   double damping = 0.0;      ///< [N s/m] feel
   TuneSettings tune;
+  std::string model = "ideal";  ///< stability: a class of devices, or a file that describes one
 };
 
 /// @throws Error (usage).

@@ -1,10 +1,12 @@
 #include <nlohmann/json.hpp>
 
+#include "apps/workbench/device_file.h"
 #include "apps/workbench/fit_text.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
+#include "common/report/html.h"
 #include "common/report/report.h"
 #include "common/report/stability_sweep.h"
 
@@ -70,13 +72,19 @@ void run_workbench_report(const WorkbenchOptions& options, const WorkbenchContex
 void run_stability_verb(const WorkbenchOptions& options, const WorkbenchContext& context) {
   const Stopwatch watch;
   check_report_folder(options.out, options.force);
-  const WallStability wall = run_wall_stability(options.threads, &context.progress);
+  const auto device = described_device(options.model);
+  const WallStability wall = run_wall_stability(options.threads, &context.progress, device->profile);
   write_sections(options, context, options.out, "workbench: stability", wall_sections(wall), wall.cases,
                  watch.seconds());
-  std::string text = "stability of walls -> " + (options.out / "index.html").string() + "\n";
+  std::string text = "stability of walls on " + std::string(wall.swept.title) + " -> " +
+                     (options.out / "index.html").string() + "\n";
   for (const StabilityCase& c : wall.cases)
     text += std::string(c.row.holds ? "  holds  " : "  FAILS  ") + c.row.name + ": " +
             short_number(c.row.measured) + ", limit " + short_number(c.row.limit) + " " + c.unit + "\n";
+  for (const DeviceRow& row : wall.devices)
+    text += "  " + std::string(row.device.title) + ": passive up to " + three_digits(row.stiffness.bound) +
+            " N/m, swings unheld from " + three_digits(row.stiffness.unheld) + ", in a relaxed hand from " +
+            three_digits(row.stiffness.relaxed) + " N/m\n";
   context.console.print(text);
   context.console.print_json(folder_json(options.out, watch.seconds()));
 }

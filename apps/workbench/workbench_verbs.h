@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/workbench/command_line.h"
+#include "apps/workbench/distortion_pictures.h"
 #include "common/app/cli/console.h"
 #include "common/base/progress.h"
 #include "common/calibration/fit_report.h"
@@ -37,8 +38,9 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
 /// A calibration and the section of workbench.toml that it gives.
 struct Calibrated {
   FitReport report;
-  std::string section;  ///< its name: "tracker"
-  std::string text;     ///< the section
+  std::string section;                      ///< its name: "tracker"
+  std::string text;                         ///< the section
+  std::vector<DistortionPicture> pictures;  ///< of a tracker, where they are asked for
 };
 [[nodiscard]] Calibrated calibrated(const WorkbenchOptions& options);
 

@@ -31,7 +31,14 @@ class Rows {
   [[nodiscard]] double number() {
     const double value = any();
     if (!std::isfinite(value)) reader_.refuse("a value that is not finite", "numbers");
+    require_plausible(value);
     return value;
+  }
+  /// Squares of larger ones would leave a fit without an answer; no bench has such.
+  void require_plausible(double value) const {
+    constexpr double kMost = 1e3;  // [m], [rad]
+    if (std::abs(value) > kMost)
+      reader_.refuse("a value of " + short_number(value), "metres and radians, below 1000 in size");
   }
   [[nodiscard]] Vec3 vector() {
     const double x = number(), y = number(), z = number();
@@ -106,7 +113,9 @@ MeasurementTable<MarkerMeasurement> read_marker_measurements(const std::string& 
     MarkerMeasurement measurement{.pose = rows.pose(), .markers = {}};
     for (auto& marker : measurement.markers) {
       const double x = rows.any(), y = rows.any(), z = rows.any();
-      if (is_finite({x, y, z})) marker = Vec3{x, y, z};
+      if (!is_finite({x, y, z})) continue;
+      for (const double value : {x, y, z}) rows.require_plausible(value);
+      marker = Vec3{x, y, z};
     }
     out.rows.push_back(measurement);
   }

@@ -16,6 +16,15 @@ namespace {
 /// What all sweeps start from: 2 b / T = 4000 N/m, and b T / m = 0.02.
 WallCase base_case() { return {.device = find_profile("ideal"), .gap = 1e-3, .seconds = 3.0}; }
 
+/// Hard enough to move every class of device against its friction, hand and all.
+WallCase device_case(const DeviceProfile& device) {
+  WallCase wall = base_case();
+  wall.device = device;
+  wall.push = 2.0;
+  wall.gap = 2e-3;
+  return wall;
+}
+
 struct Swept {
   std::string name, unit;
   double shown;
@@ -42,15 +51,19 @@ std::vector<Swept> all_swept() {
        "ms",
        1e3,
        {1.25e-4, 2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3},
-       [](WallCase& w, double v) { w.device.actuator_delay = v; }},
-      // With the friction of a small arm, without which no stiffness is passive on an encoder at all.
+       [](WallCase& w, double v) {
+         w.device.sensor_delay = 0.0;
+         w.device.actuator_delay = v;
+       }},
+      // With the friction of a small arm at least, without which no stiffness is passive on an encoder at
+      // all.
       {"encoder step",
        "mm",
        1e3,
        {1e-5, 2e-5, 5e-5, 1e-4, 2e-4},
        [](WallCase& w, double v) {
          w.device.encoder_step = v;
-         w.device.friction = 0.05;
+         w.device.friction = std::max(w.device.friction, 0.05);
        }},
   };
 }
@@ -120,8 +133,10 @@ std::vector<StabilityCase> wall_cases() {
 
 }  // namespace
 
-WallStability run_wall_stability(int threads, Progress* progress) {
+WallStability run_wall_stability(int threads, Progress* progress, const DeviceProfile& device) {
   WallStability result;
+  result.swept = device;
+  const bool ideal = device.name == find_profile("ideal").name;
   struct Job {
     WallCase wall;
     double value;
@@ -135,21 +150,19 @@ WallStability run_wall_stability(int threads, Progress* progress) {
         result.sweeps.emplace_back(StiffnessSweep{swept.name, swept.unit, swept.shown, {}});
     sweep.rows.resize(swept.values.size());
     for (std::size_t n = 0; n < swept.values.size(); ++n) {
-      WallCase wall = base_case();
+      WallCase wall = ideal ? base_case() : device_case(device);
       swept.set(wall, swept.values[n]);
       jobs.push_back({wall, swept.values[n], &sweep.rows[n]});
     }
   }
-  const std::span<const DeviceProfile> devices = device_profiles();
+  std::vector<DeviceProfile> devices(device_profiles().begin(), device_profiles().end());
+  const bool known = std::any_of(devices.begin(), devices.end(),
+                                 [&](const DeviceProfile& each) { return each.name == device.name; });
+  if (!known) devices.push_back(device);
   result.devices.resize(devices.size());
   for (std::size_t n = 0; n < devices.size(); ++n) {
     result.devices[n].device = devices[n];
-    // Hard enough to move every class of device against its friction, hand and all.
-    WallCase wall = base_case();
-    wall.device = devices[n];
-    wall.push = 2.0;
-    wall.gap = 2e-3;
-    jobs.push_back({wall, 0.0, &result.devices[n].stiffness});
+    jobs.push_back({device_case(devices[n]), 0.0, &result.devices[n].stiffness});
   }
   if (progress) progress->begin("stability of a virtual wall", jobs.size());
   parallel_for(jobs.size(), threads, [&](std::size_t first, std::size_t last) {

@@ -44,6 +44,7 @@ struct DeviceRow {
 };
 
 struct WallStability {
+  DeviceProfile swept;  ///< what the sweeps start from
   std::vector<StiffnessSweep> sweeps;
   std::vector<DeviceRow> devices;
   std::vector<LedgerRow> ledger;
@@ -51,9 +52,12 @@ struct WallStability {
       cases;  ///< rows of the stability table: what the bench and the controller promise
 };
 
-/// Takes a few seconds, and needs no data: all of it is simulated. @param threads 0: all cores.
+/// Takes a few seconds, and needs no data: all of it is simulated. The ledger and the cases are those of the
+/// ideal device, of which theory knows everything.
+/// @param device that the sweeps start from, pushed as those of a class are. @param threads 0: all cores.
 /// @throws Cancelled.
-[[nodiscard]] WallStability run_wall_stability(int threads, Progress* progress);
+[[nodiscard]] WallStability run_wall_stability(int threads, Progress* progress,
+                                               const DeviceProfile& device = find_profile("ideal"));
 
 /// The same as parts of a report: the sweeps with their plots, devices and ledger.
 [[nodiscard]] std::vector<ReportSection> wall_sections(const WallStability& wall);

@@ -60,14 +60,21 @@ void add_measured(const std::string& subject, const std::string& parameter, cons
 
 ReportSection stiffness_section(const WallStability& wall) {
   ReportSection section{.title = "The stiffest wall"};
+  const DeviceProfile& swept = wall.swept;
+  const bool ideal = swept.name == find_profile("ideal").name;
   section.paragraphs = {
-      "A simulated arm (0.1 kg, 2 N s/m, no friction, unless swept) is pushed against a virtual wall by 1 N "
-      "from 1 mm away, through the very step that the servo takes, and its motion between ticks is exact. "
-      "Shown is the stiffness above which it goes on swinging for ever: alone, with the time-domain "
-      "passivity controller, and in a relaxed and a firm hand. The bound is 2 b / T without delay, b / (T/2 "
-      "+ t_d) with it, and with encoder steps also 2 f_c / step. The sweep of encoder steps has a friction "
-      "of "
-      "0.05 N.",
+      "A simulated arm (" + std::string(swept.title) + ": " + short_number(swept.mass) + " kg, " +
+          short_number(swept.damping) + " N s/m, " + short_number(swept.friction) +
+          " N of friction, unless swept) is pushed against a virtual wall by " +
+          (ideal ? "1 N from 1 mm away" : "2 N from 2 mm away") +
+          ", through the very step that the servo takes, and its motion between ticks is exact. "
+          "Shown is the stiffness above which it goes on swinging for ever: alone, with the time-domain "
+          "passivity controller, and in a relaxed and a firm hand. The bound is 2 b / T without delay, b / "
+          "(T/2 "
+          "+ t_d) with it, and with encoder steps also 2 f_c / step. The sweep of encoder steps has a "
+          "friction "
+          "of "
+          "0.05 N at least.",
       "The bound of passivity is kept by a device whatever the hand does, so that a friendly hand, friction "
       "and luck go beyond it. Devices of a class are pushed by 2 N from 2 mm away; what friction quiets here "
       "may still swing after a harder knock."};

@@ -63,9 +63,40 @@ TEST_F(Workbench, SaysWhatIsWrong) {
   const ProgramResult bad = run({"calibrate", "pivot", "bad.csv"});
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_NE(bad.err.find("line 3"), std::string::npos) << bad.err;
+  folder_.write("far.csv", "px,py,pz,qw,qx,qy,qz\n0,1e300,0,1,0,0,0\n");
+  const ProgramResult far = run({"calibrate", "pivot", "far.csv"});
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_NE(far.err.find("below 1000"), std::string::npos) << far.err;
   folder_.write("broken.toml", "[arm\n");
   EXPECT_EQ(run({"calibrate", "pivot", "--example", "--out", "broken.toml"}).exit_code, 3);
   EXPECT_EQ(read_file(folder_.path("broken.toml")), "[arm\n");
+}
+
+TEST_F(Workbench, DrawsTheDistortionOfATracker) {
+  const ProgramResult drawn = run({"calibrate", "tracker", "--example", "--pictures", "pictures"});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  for (const char* name : {"distortion_lines.png", "orientation_icons.png", "field_icons.png"}) {
+    const std::string png = read_file(folder_.path(std::string("pictures/") + name));
+    EXPECT_GT(png.size(), 20'000U) << name << ": a picture of something";
+    EXPECT_TRUE(png.starts_with("\x89PNG")) << name;
+  }
+  EXPECT_EQ(run({"calibrate", "tracker", "--example", "--pictures", "pictures"}).exit_code,
+            2);  // it is there
+  EXPECT_EQ(run({"calibrate", "arm", "--example", "--pictures", "others"}).exit_code, 2);
+}
+
+// A device of a file stands beside the classes; its bound is that of theory.
+TEST_F(Workbench, SweepsADeviceThatAFileDescribes) {
+  folder_.write("arm.toml", "title = 'our arm'\nmass = 0.2\ndamping = 1.5\n");
+  const ProgramResult swept = run({"stability", "--model", "arm.toml", "--out", "stability"});
+  EXPECT_EQ(swept.exit_code, 0) << swept.err;
+  EXPECT_NE(swept.out.find("our arm: passive up to 3e+03 N/m"), std::string::npos) << swept.out;
+  EXPECT_NE(swept.out.find("PHANToM"), std::string::npos) << swept.out;
+  folder_.write("bad.toml", "mass = 0.2\ndamping = -1\n");
+  const ProgramResult bad = run({"stability", "--model", "bad.toml", "--out", "other"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_NE(bad.err.find("line 2"), std::string::npos) << bad.err;
+  EXPECT_EQ(run({"stability", "--model", "omega", "--out", "other"}).exit_code, 2);
 }
 
 TEST_F(Workbench, ReadsOutTheEffectOfTrackingErrorsForAScreen) {

@@ -1,0 +1,45 @@
+/// Pictures of a tracker's distortion (Ikits 2006, sec. 4.2.6, figures 4.6 to 4.8), drawn off-screen.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/calibration/measurements.h"
+#include "common/kinematics/vector_polynomial.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+struct DistortionPicture {
+  std::string file;  ///< "distortion_lines.png"
+  SceneView view;
+};
+
+/// @name The three of them. Metres, in the tracker's frame, the transmitter as a box at the origin.
+/// @{
+/// Illuminated streamlines of the polynomial of the position error, from random seeds in the plane z = 0 of
+/// the transmitter, or where measurements are nearest to it; coloured by the size of the error. The reference
+/// varies opacity with it, too; here all lines are opaque, and the weak ones dark.
+[[nodiscard]] DistortionPicture position_error_lines(const std::vector<TrackerMeasurement>& rows,
+                                                     const VectorPolynomial& error, std::uint64_t seed);
+/// Arrows along the axis of each orientation error in a slice of the measurements across z, their length by
+/// the logarithm of its angle.
+[[nodiscard]] DistortionPicture orientation_error_icons(const std::vector<TrackerMeasurement>& rows);
+/// Arrows along what metal adds to the field of the transmitter's coil along x, as the readings tell it. A
+/// tracker that reads the pose (p_t, R_t) has seen R_t^T M(p_t), M the dipole of its three coils; at the
+/// true pose (p, R) that is a field R R_t^T M(p_t), and
+///   D = R R_t^T M(p_t) - M(p)
+/// is the distortion (synthetic_tracker.h has M). Its first column is drawn, in the same slice; relative to
+/// the undistorted one, whose fall with the cube of the distance would hide it.
+[[nodiscard]] DistortionPicture field_distortion_icons(const std::vector<TrackerMeasurement>& rows);
+/// @}
+
+/// Draws and writes them into the folder, which is made.
+/// @param command_line for the files' texts.
+/// @throws Error (usage) for a file that is there and not to be replaced, (work failed) without OpenGL.
+void write_distortion_pictures(const std::vector<DistortionPicture>& pictures,
+                               const std::filesystem::path& folder, const std::string& command_line,
+                               bool replace);
+
+}  // namespace palpate
