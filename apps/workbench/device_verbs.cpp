@@ -210,6 +210,34 @@ std::string atoms_text(double time, const DeviceAtoms& atoms) {
   return text + (any ? "\n" : " none\n");
 }
 
+/// A line for each station that is seen.
+std::string poses_text(double time, const PoseAtoms& poses) {
+  std::string text;
+  for (const PoseAtom& pose : poses.stations) {
+    if (!pose.valid) continue;
+    text += fixed(time, 2) + " s   station " + std::to_string(pose.station);
+    for (int a = 0; a < 3; ++a) text += fixed(1e3 * pose.position[a], 2);
+    text += " mm  turned";
+    for (const double part : {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z})
+      text += fixed(part, 4);
+    text += pose.buttons != 0 ? "   pressed\n" : "\n";
+  }
+  return text.empty() ? fixed(time, 2) + " s   no station is seen\n" : text;
+}
+
+Json poses_json(const PoseAtoms& poses) {
+  Json stations = Json::array();
+  for (const PoseAtom& pose : poses.stations) {
+    if (!pose.valid) continue;
+    stations.push_back(
+        {{"station", pose.station},
+         {"position_m", {pose.position.x, pose.position.y, pose.position.z}},
+         {"rotation_wxyz", {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z}},
+         {"buttons", pose.buttons}});
+  }
+  return stations;
+}
+
 Json atoms_json(double time, const DeviceAtoms& atoms) {
   Json json{{"seconds", time}, {"buttons", atoms.buttons}};
   if (atoms.has_position) json["position_m"] = {atoms.position.x, atoms.position.y, atoms.position.z};
@@ -285,10 +313,12 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
     }
     if (!fresh || now < next) continue;
     next = now + 1.0 / options.rate;
+    const PoseAtoms* const poses = link->poses();
     if (options.json) {
       samples.push_back(atoms_json(now, link->atoms()));
+      if (poses != nullptr) samples.back()["stations"] = poses_json(*poses);
     } else {
-      context.console.print(atoms_text(now, link->atoms()));
+      context.console.print(poses != nullptr ? poses_text(now, *poses) : atoms_text(now, link->atoms()));
     }
   }
   context.console.print_json(dumped({{"device", options.device},

@@ -33,7 +33,8 @@
 ///   stereo = "rows"                # optional: how it shows two eyes, as --stereo
 ///
 ///   [head]             # what follows the head before the screens; written by hand, as all below
-///   source = "hands"               # optional: as --head, "replay:FILE.csv" or the head of --device hands
+///   source = "hands"               # optional: as --head, "replay:FILE.csv" or the head of --device hands,
+///                                  # or of a tracker: head_station
 ///   resting_eye = [x, y, z]        # optional: between the eyes while the tracker does not see the head, in
 ///                                  # its frame; default: 0.6 m before the middle of the first screen
 ///   sensor_latency = 0.004         # optional [s]: from a motion to the time that the tracker gives it

@@ -76,5 +76,20 @@ TEST_F(WorkbenchDevices, TheMonitorReadsPositionsOut) {
   EXPECT_NE(text.err.find("pull the grip out"), std::string::npos) << text.err;
 }
 
+TEST_F(WorkbenchDevices, KnowATracker) {
+  const Json checked = json({"doctor", "--device", "polhemus_emulated", "--seconds", "0.5"});
+  EXPECT_EQ(checked["usable"], true) << checked;
+  EXPECT_EQ(checked["checks"][0]["place"], "usb 1-3");
+  EXPECT_GT(checked["checks"][0]["rounds"].get<int>(), 10);
+  const Json seen = json({"monitor", "--device", "polhemus_emulated", "--seconds", "2", "--rate", "20"});
+  ASSERT_GT(seen["samples"].size(), 3U);
+  const Json& stations = seen["samples"].back()["stations"];
+  ASSERT_EQ(stations.size(), 2U) << seen;
+  EXPECT_EQ(stations[1]["station"], 2);
+  EXPECT_NEAR(stations[0]["position_m"][0].get<double>(), 0.5, 0.11) << "where the emulated sensors are";
+  const ProgramResult text = run({"monitor", "--device", "polhemus_emulated", "--seconds", "2"});
+  EXPECT_NE(text.out.find("station 2"), std::string::npos) << text.out;
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -266,7 +266,9 @@ class VerbParser {
             "hands:FILE.csv, tracked hands at an immersive --workbench, "
             "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
             "wander, or a real device by its driver: "
-            "falcon[:firmware=FILE][,button=N|none][,enable=pedal], spacemouse; a Falcon shows force only "
+            "falcon[:firmware=FILE][,button=N|none][,enable=pedal], spacemouse, or, at an immersive "
+            "--workbench, "
+            "the tracker polhemus[:port=FILE][,hemisphere=+x]; a Falcon shows force only "
             "while its centre button, its button=N, or the pedal is held")
         ->type_name("D")
         ->group("Touch");

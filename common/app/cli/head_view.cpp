@@ -185,7 +185,7 @@ void take_head(const ScreenPicture& picture, SceneView& view) {
 }
 
 std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
-                                                    const std::vector<TrackedHands>& hands) {
+                                                    const ProbeSessionOptions& touch) {
   const ViewOptions& view = options.view;
   if (options.workbench.empty()) {
     if (!view.head.empty() || !view.screen.empty()) (void)bench_of(options);
@@ -200,8 +200,15 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
   BenchDisplayOptions display{.bench = bench_of(options), .separation = separation_of(options)};
   display.several = view.screen == kAllScreens;
   if (!display.several) display.screen = screen_of(display.bench, options);
-  if (head == kHeadOfHands) {
-    std::vector<PoseSample> heads = heads_of(hands);
+  if (head == kHeadOfHands && touch.tracker) {
+    const int station = display.bench.interaction.head_station;
+    if (station == InteractionGeometry::kNoStation) {
+      throw usage_error(options.workbench.string() +
+                        ": the head 'hands' of a tracker needs [interaction] head_station = N");
+    }
+    display.head = std::make_shared<StationPoses>(touch.tracker, station);
+  } else if (head == kHeadOfHands) {
+    std::vector<PoseSample> heads = heads_of(touch.hands);
     if (heads.empty()) {
       throw usage_error(
           "the head 'hands' needs a recording of hands with headx,heady,headz,headqw,headqx,"

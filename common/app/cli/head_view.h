@@ -9,8 +9,8 @@
 
 #include "common/app/cli/options.h"
 #include "common/app/haptic/probe_mouse.h"
+#include "common/app/haptic/probe_session.h"
 #include "common/app/immersive/bench_display.h"
-#include "common/device/tracked_hands.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -42,9 +42,9 @@ struct ScreenPicture {
 void take_head(const ScreenPicture& picture, SceneView& view);
 
 /// The display of a window: none where neither `--head` nor the workbench's [head] names a head to be
-/// followed. @param hands of `--device`, for the head "hands".
+/// followed. @param touch with the hands of `--device`, recorded or live, for the head "hands".
 /// @throws Error (usage), (bad input).
 [[nodiscard]] std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
-                                                                  const std::vector<TrackedHands>& hands);
+                                                                  const ProbeSessionOptions& touch);
 
 }  // namespace palpate

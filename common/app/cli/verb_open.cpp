@@ -28,7 +28,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const bool felt = !verb.modes.empty();
   ProbeSessionOptions touch;
   if (felt) touch = window_touch(verb.modes, options, context);
-  std::optional<BenchDisplayOptions> bench = bench_display_of(options, touch.hands);
+  std::optional<BenchDisplayOptions> bench = bench_display_of(options, touch);
   if (bench && !bench->several && stereo.mode == StereoMode::kNone)
     stereo.mode = bench->bench.screens[bench->screen].stereo;
   if (!window_available() && nothing_named) return headless_tour(verb.render, options, context, verb.next);

@@ -55,11 +55,24 @@ void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeS
   if (asked > tuned->stiffness) context.console.note(tuned_note(asked, tuned->stiffness));
 }
 
+[[noreturn]] void refuse_desktop(const Options& options) {
+  throw usage_error("--device " + options.device +
+                    " needs a workbench whose [interaction] has technique = \"immersive\": try --workbench "
+                    "workbench.toml");
+}
+[[noreturn]] void refuse_immersive(const Options& options) {
+  throw usage_error(options.workbench.string() +
+                    " has technique = \"immersive\", which needs tracked hands: try --device polhemus or "
+                    "hands:FILE.csv");
+}
+
 /// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own.
 void take_link(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
   const DeviceText text = device_at_bench(options.device, touch.workbench);
   OpenedDevice opened = open_device(text);
   touch.link = std::move(opened.link);
+  const DeviceAtoms& atoms = touch.link->atoms();
+  if (touch.link->poses() != nullptr && !atoms.has_position && !atoms.has_valuators) refuse_desktop(options);
   touch.enabling = std::move(opened.enabling);
   touch.limits = linked_limits(*touch.link, touch.limits);
   hold_to_tuned(text.name, context, touch);
@@ -69,20 +82,28 @@ void take_link(const Options& options, const VerbContext& context, ProbeSessionO
   }
 }
 
-/// Tracked hands and the workbench that they are at, where the workbench file asks for such.
+/// A real device: neither mouse nor simulation nor a file.
+bool is_driver(const Options& options, const ProbeSessionOptions& touch) {
+  return options.device != "mouse" && !touch.simulated && touch.path.empty() &&
+         !std::string_view(options.device).starts_with(kHands);
+}
+
+/// Tracked hands, of a file or of a tracker, and the workbench that they are at, where the workbench file
+/// asks for such.
 /// @throws Error (usage) where one of both is missing; (bad input).
 void take_workbench(const Options& options, ProbeSessionOptions& touch) {
   const std::string_view device = options.device;
   const bool hands = device.starts_with(kHands);
   if (!options.workbench.empty()) touch.workbench = read_workbench(options.workbench);
-  if (hands != touch.workbench.interaction.immersive) {
-    throw usage_error(hands ? "--device " + options.device +
-                                  " needs a workbench whose [interaction] has technique = \"immersive\": try "
-                                  "--workbench workbench.toml"
-                            : options.workbench.string() +
-                                  " has technique = \"immersive\", which needs tracked hands: try --device "
-                                  "hands:FILE.csv");
+  const bool immersive = touch.workbench.interaction.immersive;
+  if (hands && !immersive) refuse_desktop(options);
+  if (immersive && is_driver(options, touch)) {
+    std::shared_ptr<DriverLink> link = open_device(parse_device(options.device)).link;
+    if (link->poses() == nullptr) refuse_immersive(options);
+    touch.tracker = std::make_shared<LinkedDevice>(std::move(link));
+    return;
   }
+  if (immersive && !hands) refuse_immersive(options);
   if (!hands) return;
   touch.hands = read_hands(std::string(device.substr(kHands.size())));
   if (touch.hands.empty()) throw usage_error("--device " + options.device + ": there are no rows");
@@ -118,8 +139,8 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   touch.notes = annotations_of(options.touch.annotations, "--annotation");
   check_replay_options(options);
   touch.path = device_path(options.device);
-  take_workbench(options, touch);
   touch.simulated = simulated_option(options.device);
+  take_workbench(options, touch);
   if (touch.simulated) {
     touch.limits = simulated_limits(*touch.simulated, touch.limits);
     context.console.note("simulated: " + title_of(*touch.simulated));
@@ -129,7 +150,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
-  } else if (options.device != "mouse" && touch.path.empty() && touch.hands.empty()) {
+  } else if (!touch.tracker && is_driver(options, touch)) {
     take_link(options, context, touch);
   }
   if (!options.replay.empty()) {

@@ -12,6 +12,7 @@
 #include "common/app/haptic/probe_picture.h"
 #include "common/app/haptic/surface_drag.h"
 #include "common/base/text.h"
+#include "common/servo/live_hands.h"
 
 namespace palpate {
 namespace {
@@ -74,9 +75,14 @@ bool ProbeSession::set_field(NamedField open) {
   if (same) return false;
   let_go();
   open_ = std::move(open);
-  if (!options_.hands.empty()) {
+  if (!options_.hands.empty() || options_.tracker) {
     technique_ = std::make_unique<ImmersiveTechnique>(options_.workbench, open_.bounds().center(),
                                                       workspace().scale());
+    const InteractionGeometry& bench = options_.workbench.interaction;
+    if (!hands_ && options_.tracker) {
+      hands_ = std::make_unique<LiveHands>(options_.tracker,
+                                           HandStations{bench.stylus_station, bench.hand_station});
+    }
     if (!hands_) hands_ = std::make_unique<ReplayHands>(options_.hands);
   }
   // A heart's layer is in the picture with its fibres: all that are felt would lie over it.
@@ -305,7 +311,8 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   if (hands_ && !replay_) follow_hands(time);
   if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(intent().probe), buttons());
   if (placed_) placed_->place(placement(camera));
-  if (linked_) readout_.device = linked_->advice();
+  if (const LinkedDevice* const real = linked_ ? linked_.get() : options_.tracker.get())
+    readout_.device = real->advice();
   servo_->collect_retired();
   servo_->read(readout_.servo);
   if (faults_) readout_.fault = faults_->news().value_or(readout_.fault);

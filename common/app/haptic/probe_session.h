@@ -53,6 +53,8 @@ struct ProbeSessionOptions {
   std::vector<PathRow> path;
   /// Tracked hands in place of the mouse, by the workbench that they are at; none: the mouse.
   std::vector<TrackedHands> hands;
+  /// The same, live: a tracker whose stations `workbench` names. Null: none.
+  std::shared_ptr<LinkedDevice> tracker;
   WorkbenchGeometry workbench;
   /// A simulated arm and hand that follow mouse or path, and wander about the field while neither leads;
   /// none: the probe is where mouse or path are. Its limits and path are not looked at.
@@ -177,7 +179,8 @@ class ProbeSession {
   void note_line();
   /// Whether mouse and keys move the probe: not in a replay, nor with a path, tracked hands or a real device.
   [[nodiscard]] bool by_mouse() const noexcept {
-    return options_.path.empty() && options_.hands.empty() && !options_.link && !replaying();
+    return options_.path.empty() && options_.hands.empty() && !options_.tracker && !options_.link &&
+           !replaying();
   }
   [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
   /// Takes out the kept line at `index`. @pre index < kept().entries().size().

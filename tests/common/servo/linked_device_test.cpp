@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/servo/live_hands.h"
 #include "common/servo/placed_device.h"
 #include "common/servo/real_time.h"
 #include "common/servo/station_poses.h"
@@ -200,6 +201,31 @@ TEST_F(LinkedDeviceTest, CarriesTheSwitchOfAnotherDeviceInItsSamples) {
     DeviceSample sample;
     return device.read(now(), sample) && sample.buttons == 3U;
   }));
+}
+
+// Hands by the stations of a tracker; who is out of sight holds nothing.
+TEST_F(LinkedDeviceTest, GivesHandsByTheirStations) {
+  link_->tracks_ = true;
+  const auto device = std::make_shared<LinkedDevice>(link_);
+  LiveHands live(device, {.stylus = 2, .other = 5});
+  TrackedHands hands;
+  EXPECT_FALSE(live.read(0.0, hands)) << "none is in sight";
+  const auto show = [&](std::uint8_t station, double x, std::uint32_t buttons) {
+    link_->show(
+        {.time = now(), .position = {x, 0, 0}, .buttons = buttons, .station = station, .valid = true});
+  };
+  ASSERT_TRUE(comes([&] {
+    show(2, 1.0, 0b11);
+    return live.read(0.0, hands) && hands.stylus;
+  }));
+  EXPECT_EQ(hands.stylus->position.x, 1.0);
+  EXPECT_TRUE(hands.acts && hands.clutch);
+  EXPECT_TRUE(!hands.other && !hands.carries);
+  ASSERT_TRUE(comes([&] {
+    show(5, 2.0, 0b01);
+    return live.read(0.0, hands) && hands.other && !hands.stylus;
+  })) << "the stylus has fallen silent";
+  EXPECT_TRUE(!hands.acts && !hands.clutch && hands.carries);
 }
 
 class PlacedDeviceTest : public LinkedDeviceTest {
