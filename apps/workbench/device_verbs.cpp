@@ -200,6 +200,7 @@ std::string atoms_text(double time, const DeviceAtoms& atoms) {
   if (atoms.has_valuators) {
     for (const double value : atoms.valuators) text += fixed(value, 2);
   }
+  for (std::size_t i = 0; i < atoms.bend_count; ++i) text += fixed(atoms.bends[i], 2);
   text += "   buttons";
   bool any = false;
   for (unsigned i = 0; i < 32; ++i) {
@@ -242,6 +243,7 @@ Json atoms_json(double time, const DeviceAtoms& atoms) {
   Json json{{"seconds", time}, {"buttons", atoms.buttons}};
   if (atoms.has_position) json["position_m"] = {atoms.position.x, atoms.position.y, atoms.position.z};
   if (atoms.has_valuators) json["valuators"] = atoms.valuators;
+  for (std::size_t i = 0; i < atoms.bend_count; ++i) json["bends"].push_back(atoms.bends[i]);
   return json;
 }
 

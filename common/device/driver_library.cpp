@@ -72,7 +72,7 @@ DriverModule& open_new(const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& driver_names() {
-  static const std::vector<std::string> kNames{"falcon", "pedal", "pinchglove", "polhemus", "spacemouse"};
+  static const std::vector<std::string> kNames{"falcon", "dataglove", "pedal", "pinchglove", "polhemus", "spacemouse"};
   return kNames;
 }
 

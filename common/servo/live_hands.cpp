@@ -7,6 +7,7 @@
 #include "common/servo/real_time.h"
 
 namespace palpate {
+
 LiveHands::LiveHands(std::shared_ptr<LinkedDevice> tracker, const HandStations& stations)
     : tracker_(std::move(tracker)), stations_(stations) {
   PALPATE_CHECK(tracker_ && tracker_->tracks());

@@ -7,7 +7,7 @@ namespace palpate {
 namespace {
 
 constexpr std::string_view kFalconDriver = "falcon", kMouseDriver = "spacemouse", kPedalDriver = "pedal",
-                           kTrackerDriver = "polhemus";
+                           kTrackerDriver = "polhemus", kGloveDriver = "dataglove";
 constexpr std::string_view kUnloaded = "waits for its firmware, which its maker's software loads (fxload)";
 
 constexpr std::array kKnown{
@@ -55,6 +55,18 @@ constexpr std::array kKnown{
     KnownDevice{{0x0f44, 0xff12}, "Polhemus Liberty", kTrackerDriver, ""},
     KnownDevice{{0x0f44, 0xff20}, "Polhemus Liberty 2", kTrackerDriver, ""},
     KnownDevice{{0x0f44, 0xff21}, "Polhemus Liberty 2", "", kUnloaded},
+    KnownDevice{{0x5d70, 0x0000}, "5DT Data Glove 14, right", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0001}, "5DT Data Glove 14, left", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0010}, "5DT Data Glove 5, right", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0011}, "5DT Data Glove 5, left", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0002}, "5DT Data Glove 14, right, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0003}, "5DT Data Glove 14, left, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0012}, "5DT Data Glove 5, right, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0013}, "5DT Data Glove 5, left, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0006}, "5DT Data Glove 14, right, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0007}, "5DT Data Glove 14, left, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0016}, "5DT Data Glove 5, right, wireless", kGloveDriver, ""},
+    KnownDevice{{0x5d70, 0x0017}, "5DT Data Glove 5, left, wireless", kGloveDriver, ""},
     KnownDevice{{0x0f44, 0xcf01}, "Polhemus G4", "", "speaks through its maker's library only"},
 };
 

@@ -140,7 +140,10 @@ void PolhemusLink::set_up() noexcept {
     sent = send("U") && send("f") && send("e1,0\r");
     for (const char station : {'1', '2', '3', '4'}) {
       const std::string number(1, station);
-      sent = sent && send("H" + number + "," + zenith) && send("O" + number + ",2,11,16,0\r");
+      std::string hemisphere = "H" + number, order = "O" + number;
+      (hemisphere += ',') += zenith;
+      order += ",2,11,16,0\r";
+      sent = sent && send(hemisphere) && send(order);
     }
     sent = sent && send("C");
   } else {

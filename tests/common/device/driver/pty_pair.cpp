@@ -9,7 +9,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 namespace palpate::test {
@@ -28,12 +27,6 @@ PtyPair::PtyPair(std::shared_ptr<Speaker> speaker) : speaker_(std::move(speaker)
                     ::ptsname_r(master_, name.data(), name.size()) == 0;
   if (!made) throw std::runtime_error("no pseudo terminals");
   path_ = name.data();
-  // Until a driver has set the line up it must not echo.
-  termios line{};
-  if (::tcgetattr(master_, &line) == 0) {
-    ::cfmakeraw(&line);
-    ::tcsetattr(master_, TCSANOW, &line);
-  }
   speaker_->opened(steady_seconds());
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }

@@ -1,5 +1,6 @@
 /// A real pair of pseudo terminals: a driver opens one side as a serial line, a model speaks at the other,
-/// on a thread of its own and in real time.
+/// on a thread of its own and in real time. The line is as a system has it: it echoes, joins lines and obeys
+/// control characters until it is set up.
 #pragma once
 
 #include <memory>
