@@ -23,8 +23,9 @@ inline constexpr std::uint64_t kMostSparsePoints = std::uint64_t{1} << 34U;  ///
 /// Place of a voxel in its block, z fastest.
 [[nodiscard]] constexpr std::size_t block_offset(const Index3& v) noexcept {
   constexpr int kMask = kBlockSide - 1;
-  return static_cast<std::size_t>((v.x & kMask) * kBlockSide * kBlockSide + (v.y & kMask) * kBlockSide +
-                                  (v.z & kMask));
+  const auto x = static_cast<std::size_t>(v.x & kMask), y = static_cast<std::size_t>(v.y & kMask),
+             z = static_cast<std::size_t>(v.z & kMask);
+  return (x * kBlockSide + y) * kBlockSide + z;
 }
 
 /// The numbers of a block.
