@@ -63,7 +63,7 @@ HapticChain build_chain(const std::string& description, std::span<const HapticMo
                                  [&](const HapticMode& each) { return each.name == chain.mode; });
   if (mode == modes.end()) refuse(description, "there is no mode '" + chain.mode + "'");
   const Workspace workspace(chain.workspace_scale, open.frame());
-  return mode->make({open.field, workspace, chain.settings, threads, open.scalar, open.tensor});
+  return mode->make({open.field, workspace, chain.settings, threads, open.scalar, open.tensor, open.noise});
 }
 
 }  // namespace palpate

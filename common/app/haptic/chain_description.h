@@ -20,6 +20,7 @@ struct NamedField {
   std::string name;                          ///< field_key()
   std::shared_ptr<const ScalarField> scalar = nullptr;
   std::shared_ptr<const TensorField> tensor = nullptr;
+  std::shared_ptr<const ScalarField> noise = nullptr;  ///< as HapticScene
 
   [[nodiscard]] bool empty() const noexcept { return !field && !scalar && !tensor; }
   /// @name Of the fields that are there. @pre !empty()

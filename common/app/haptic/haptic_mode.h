@@ -39,6 +39,7 @@ struct HapticScene {
   int threads = 0;                            ///< for the preparation; 0: all cores
   std::shared_ptr<const ScalarField> scalar;  ///< what modes of a scalar work on; null where there is none
   std::shared_ptr<const TensorField> tensor = nullptr;  ///< of an image of tensors, else null
+  std::shared_ptr<const ScalarField> noise = nullptr;  ///< of `scalar`; null: it is measured where it is felt
 };
 
 /// The frame of the fields that are there. @pre One of them is.

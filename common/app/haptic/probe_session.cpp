@@ -11,6 +11,7 @@
 #include "common/app/haptic/linear_mode.h"
 #include "common/app/haptic/probe_picture.h"
 #include "common/app/haptic/surface_drag.h"
+#include "common/app/haptic/texture_link.h"
 #include "common/base/text.h"
 #include "common/servo/live_hands.h"
 
@@ -60,11 +61,25 @@ ChainSettings ProbeSession::chain_settings() const {
   } else if (settings.ticks.interval == 0.0) {
     settings.ticks.interval = default_tick_interval(*open_.field, workspace());
   }
+  settings.texture.by_noise = wants_texture() && noises_->of(open_.scalar).has_value();
   return settings;
 }
 
+bool ProbeSession::wants_texture() const {
+  return choice_.settings.texture.by_noise && open_.scalar && !has_flow() &&
+         has_texture(options_.modes[choice_.mode].name);
+}
+
+bool ProbeSession::measures_noise() const {
+  return servo_ && !replay_ && wants_texture() && !noises_->of(open_.scalar);
+}
+
+/// @throws Error as build_chain().
 HapticChain ProbeSession::build(const std::string& description) const {
-  return build_chain(description, options_.modes, open_, options_.threads);
+  NamedField open = open_;
+  if (parse_chain(description).settings.texture.by_noise && open.scalar)
+    open.noise = noises_->wait(open.scalar);
+  return build_chain(description, options_.modes, open, options_.threads);
 }
 
 bool ProbeSession::set_field(NamedField open) {
@@ -92,6 +107,7 @@ bool ProbeSession::set_field(NamedField open) {
   readout_ = {};
   if (!local_) local_ = std::make_unique<LocalLines>(wake_);
   if (!surfaces_) surfaces_ = std::make_unique<FeltSurfaces>(wake_);
+  if (!noises_) noises_ = std::make_unique<MeasuredNoise>(wake_, options_.threads);
   drawing_.reset();
   if (has_tensors()) drawing_.emplace(open_.tensor);
   clear_path();
@@ -159,6 +175,7 @@ void ProbeSession::restart_chain() {
       describe_chain(options_.modes[choice_.mode].name, workspace().scale(), chain_settings(), open_.name);
   HapticChain made = build(description);
   follow_chain(made);
+  textured_ = chain_settings().texture.by_noise;
   if (servo_) {
     servo_->swap_chain(std::move(made.chain), description);
   } else {
@@ -288,7 +305,7 @@ void ProbeSession::choose(const TouchChoice& choice) {
       choice.settings.linear.rebuilds(before.settings.linear) ||
       choice.settings.grid_axis.rebuilds(before.settings.grid_axis) ||
       choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline ||
-      choice.settings.texture.by_noise != before.settings.texture.by_noise) {
+      chain_settings().texture.by_noise != textured_) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
     servo_->set_settings(chain_settings());
@@ -306,6 +323,8 @@ void ProbeSession::clear_path() {
 
 void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
   if (!servo_) return;
+  if (measures_noise()) noises_->request(open_.scalar);
+  if (!replay_ && !textured_ && chain_settings().texture.by_noise) restart_chain();
   // Before planes are carried on: of that edit nothing can have been told yet.
   planes_.read(choice_.settings.plane_widget.edit);
   if (hands_ && !replay_) follow_hands(time);

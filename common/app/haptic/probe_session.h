@@ -25,6 +25,7 @@
 #include "common/app/haptic/immersive_technique.h"
 #include "common/app/haptic/kept_lines.h"
 #include "common/app/haptic/local_lines.h"
+#include "common/app/haptic/measured_noise.h"
 #include "common/app/haptic/probe_readout.h"
 #include "common/app/haptic/touch_choice.h"
 #include "common/app/haptic/tract_drawing.h"
@@ -167,6 +168,8 @@ class ProbeSession {
   /// What is drawn of them, unless it is switched off, and how far that is.
   [[nodiscard]] FeltSurfaces::Made surfaces() const;
   [[nodiscard]] std::optional<double> surfaces_fraction() const;
+  /// Whether the chain waits for the noise of the field, without whose texture it is felt until then.
+  [[nodiscard]] bool measures_noise() const;
 
   enum class Keeping : std::uint8_t { kKept, kAlready, kNothing };
   /// Keeps the line that is followed, or was last, with the forces felt along it; of tensors, the tracts that
@@ -210,6 +213,7 @@ class ProbeSession {
   [[nodiscard]] bool on_grid() const noexcept;
   void set_planes(const PlanePoses& poses);
   [[nodiscard]] ChainSettings chain_settings() const;
+  [[nodiscard]] bool wants_texture() const;
   [[nodiscard]] HapticChain build(const std::string& description) const;
   void restart_chain();
   void start_replay();
@@ -249,6 +253,7 @@ class ProbeSession {
   std::shared_ptr<const ScalarField> surfaces_of_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, replayed_isovalues_;
   std::shared_ptr<const ScalarField> noise_;  ///< felt as a texture: HapticChain
+  bool textured_ = false;                     ///< the chain that is felt was built with it
   HandPlanes planes_;
   bool pressed_ = false, elsewhere_ = false;
   AnnotationList notes_;
@@ -268,6 +273,7 @@ class ProbeSession {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FaultRecorder> faults_;
   std::unique_ptr<FeltSurfaces> surfaces_;
+  std::unique_ptr<MeasuredNoise> noises_;
   std::vector<HapticChain> replay_chains_;  ///< what is drawn of the chains of the replay, in order
   std::unique_ptr<ReplaySource> replay_;
   std::unique_ptr<ServoLoop> servo_;  // last: its thread uses the above

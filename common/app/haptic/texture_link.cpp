@@ -1,5 +1,6 @@
 #include "common/app/haptic/texture_link.h"
 
+#include "common/app/haptic/linear_mode.h"
 #include "common/base/error.h"
 #include "common/field/noise_field.h"
 #include "common/haptics/constraint/noise_texture.h"
@@ -7,11 +8,16 @@
 
 namespace palpate {
 
+bool has_texture(std::string_view mode) noexcept {
+  return mode == kIsosurfaceMode || mode == "density" || mode == kLinearMode;
+}
+
 std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Constraint>>& links,
                                                const HapticScene& scene,
                                                const IsosurfaceConstraint* surface) {
   if (!scene.settings.texture.by_noise || !scene.scalar) return nullptr;
-  std::shared_ptr<const ScalarField> noise = make_noise_field(*scene.scalar, scene.threads);
+  std::shared_ptr<const ScalarField> noise =
+      scene.noise ? scene.noise : make_noise_field(*scene.scalar, scene.threads);
   if (noise) links.push_back(std::make_unique<NoiseTexture>(noise, scene.workspace, surface));
   return noise;
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/app/haptic/haptic_mode.h"
@@ -10,6 +11,9 @@
 #include "common/haptics/constraint/texture_settings.h"
 
 namespace palpate {
+
+/// Whether the mode of that name appends a texture where one is asked for.
+[[nodiscard]] bool has_texture(std::string_view mode) noexcept;
 
 /// Appends a texture by the noise of scene.scalar to `links` where scene.settings.texture asks for one.
 /// @param surface as of NoiseTexture.

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "common/app/haptic/linear_mode.h"
+#include "common/app/haptic/texture_link.h"
 #include "common/app/window/curve_editor.h"
 #include "common/app/window/panel_parts.h"
 
@@ -102,9 +103,12 @@ void edit_anisotropy(AnisotropySettings& settings) {
 void edit_texture(TextureSettings& settings, std::string_view mode, const ProbeSession& session) {
   // Noise of an image hardly exceeds a tenth of the range of its values.
   constexpr double kMostNoise = 0.1, kCoarsest = 0.005;
-  const bool textured = mode == kIsosurfaceMode || mode == "density" || mode == kLinearMode;
-  if (!textured || !session.scalar() || session.has_flow()) return;
+  if (!has_texture(mode) || !session.scalar() || session.has_flow()) return;
   ImGui::Checkbox("noise as a texture", &settings.by_noise);
+  if (session.measures_noise()) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("measuring");
+  }
   if (!settings.by_noise) return;
   draw_curve_editor({.name = "grain", .measure = "noise", .unit = "mm", .units = kMillimetres},
                     {.high_measure = kMostNoise, .high_value = kCoarsest}, settings.grain);

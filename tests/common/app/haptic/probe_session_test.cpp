@@ -12,7 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/app/haptic/texture_link.h"
 #include "common/base/error.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/servo/recording.h"
 #include "tests/common/app/haptic/sample_modes.h"
 #include "tests/common/trace/helix_field.h"
@@ -276,6 +278,57 @@ TEST(ProbeSession, ChoicesTakeEffectWhileTheHandIsOn) {
   hand.session.choose(choice);
   hand.frame();
   EXPECT_EQ(hand.view.seeds, nullptr);
+}
+
+// The chain gets its texture when the noise is measured, and the next one at once; modes without one do
+// without.
+TEST(ProbeSession, NoiseIsMeasuredOnceAndFeltThen) {
+  const auto scalar =
+      make_scalar_field({volume_example("blob")}, ScalarChoice{.array = kVolumeArray}, "blob");
+  int textured = 0, plain = 0;
+  ProbeSessionOptions options;
+  for (const char* name : {"density", "other"}) {
+    options.modes.push_back(
+        {name, name, [&](const HapticScene& scene) -> HapticChain {
+           std::vector<std::unique_ptr<Constraint>> links;
+           links.push_back(std::make_unique<IsotropicDrag>());
+           auto noise = add_texture(links, scene);
+           ++(noise ? textured : plain);
+           HapticChain made{std::make_unique<ProxyChain>(std::move(links), scene.settings), {}};
+           made.noise = std::move(noise);
+           return made;
+         }});
+  }
+  ProbeSession session(std::move(options), [] {});
+  NamedField open{.field = nullptr, .name = "blob"};
+  open.scalar = scalar;
+  ASSERT_TRUE(session.set_field(open));
+  ProbeView view;
+  const auto frames = [&](const std::function<bool()>& happened) {
+    for (int i = 0; i < 10000 && !happened(); ++i) {
+      session.update(0.01 * i, make_camera(scalar->bounds(), {}, 1.0), ColorBy::kUniform, view);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return happened();
+  };
+  const auto choose = [&](bool by_noise, std::size_t mode) {
+    TouchChoice choice = session.choice();
+    choice.settings.texture.by_noise = by_noise;
+    choice.mode = mode;
+    session.choose(choice);
+  };
+  EXPECT_EQ(plain, 1);
+  choose(true, 0);
+  EXPECT_EQ(textured, 0) << "it does not wait for that";
+  ASSERT_TRUE(frames([&] { return textured > 0; }));
+  EXPECT_FALSE(session.measures_noise());
+  choose(false, 0);
+  EXPECT_EQ(plain, 2);
+  choose(true, 0);
+  EXPECT_EQ(textured, 2) << "at once";
+  choose(true, 1);
+  EXPECT_EQ(plain, 3);
+  EXPECT_FALSE(session.measures_noise());
 }
 
 TEST(ProbeSession, ARecordedRunIsReplayedIdentically) {
