@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "common/app/window/lens_control.h"
+#include "common/app/window/panel_parts.h"
 
 namespace palpate {
 namespace {
@@ -28,23 +29,25 @@ std::optional<double> reach_of(const ConvexShape& shape) {
 
 enum class LensWish : std::uint8_t { kNone, kMove, kRemove };
 
-/// @param coarser what lies outside is of coarser voxels.
-LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarser) {
+void draw_lens_size(Lens& lens, const Box& bounds) {
+  constexpr ImGuiSliderFlags kFlags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetTreeNodeToLabelSpacing());
   if (lens.screen) {
     ImGui::SliderScalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle,
-                        &kLargestCircle, "%.2f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+                        &kLargestCircle, "%.2f", kFlags);
     ImGui::SameLine();
   } else if (const auto reach = reach_of(lens.shape)) {
     constexpr double kLeast = 1e-3, kMost = 1.0;  // diagonals
     const double least = kLeast * bounds.diagonal(), most = kMost * bounds.diagonal();
     double wanted = *reach;
-    if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g",
-                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+    if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g", kFlags))
       lens.shape = scaled(lens.shape, wanted / *reach);
-    }
     ImGui::SameLine();
   }
-  ImGui::TextUnformatted(lens.screen ? "on the screen" : kind_of(lens.shape));
+}
+
+/// @param coarser what lies outside is of coarser voxels.
+void draw_inside(Lens& lens, const Lens& model, bool coarser) {
   if (!lens.cut) {
     constexpr double kPlain = 1.0, kMostEnlarged = 8.0, kFewest = 0.5, kMost = 16.0;
     Lens enlarged = lens;
@@ -71,6 +74,18 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarse
     lens.transfer = model.transfer;
     lens.colored = model.colored;
   }
+}
+
+/// @param unfolded at first. @param coarser as draw_inside().
+LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool unfolded, bool coarser) {
+  unfolded = draw_fold(unfolded);
+  if (unfolded) draw_lens_size(lens, bounds);
+  ImGui::TextUnformatted(lens.screen ? "on the screen" : kind_of(lens.shape));
+  if (unfolded) {
+    draw_inside(lens, model, coarser);
+  } else {
+    ImGui::SameLine();
+  }
   LensWish wish = LensWish::kNone;
   if (ImGui::SmallButton("move")) wish = LensWish::kMove;
   if (ImGui::IsItemHovered())
@@ -85,13 +100,17 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool coarse
 
 std::optional<std::size_t> draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
   std::optional<std::size_t> gone, taken;
+  constexpr float kRows = 14.0F;
+  const bool scrolls = begin_list("lenses", view.lenses.size(), kRows);
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const LensWish wish = draw_lens(view.lenses[i], model, bounds, view.context.level > 0);
+    const LensWish wish =
+        draw_lens(view.lenses[i], model, bounds, view.lenses.size() <= kShortList, view.context.level > 0);
     if (wish == LensWish::kMove) taken = i;
     if (wish == LensWish::kRemove) gone = i;
     ImGui::PopID();
   }
+  if (scrolls) ImGui::EndChild();
   if (gone) view.lenses.erase(view.lenses.begin() + static_cast<std::ptrdiff_t>(*gone));
   if (view.lenses.size() == kMostLenses) {
     ImGui::TextDisabled("%d lenses: no more are possible", static_cast<int>(kMostLenses));

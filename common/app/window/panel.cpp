@@ -299,10 +299,11 @@ void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume,
       choose_transfer("colours", "from the histogram", state.settings.transfer, volume.transfer,
                       *volume.image, histogram, state.transfer_file, value_at_probe(state));
   draw_rays(volume);
-  const bool of_hand = state.touch != nullptr && state.touch->planes();
-  if (!of_hand && !volume.cuts.empty()) {
+  const bool has_planes = state.touch != nullptr && state.touch->planes();
+  const auto of_hand = has_planes ? static_cast<std::size_t>(state.touch->planes()->poses.count) : 0;
+  if (of_hand < volume.cuts.size()) {
     section("CUTS");
-    edit_cuts(volume.cuts);
+    edit_cuts(volume.cuts, of_hand);
   }
   if (!volume.cuts.empty()) {
     section("ON PLANES");

@@ -1,6 +1,8 @@
 /// Small parts that panels share.
 #pragma once
 
+#include <cstddef>
+
 #include <imgui.h>
 
 namespace palpate {
@@ -13,6 +15,27 @@ inline bool slider(const char* label, double& value, double lower, double upper,
                    ImGuiSliderFlags flags = 0) {
   return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
                              flags | ImGuiSliderFlags_AlwaysClamp);
+}
+
+/// Longer lists begin folded, and scroll in a window of their own.
+inline constexpr std::size_t kShortList = 8;
+
+/// An arrow before what comes next in its row, which folds the rows that belong to it. By the ids that are
+/// pushed. @param at_first until the user has pressed it. @return whether these rows are to be drawn.
+inline bool draw_fold(bool at_first) {
+  ImGui::SetNextItemOpen(at_first, ImGuiCond_Once);
+  const bool open =
+      ImGui::TreeNodeEx("##fold", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding);
+  ImGui::SameLine();
+  return open;
+}
+
+/// Begins the window of a list of `count` entries, where it is long. @param rows that it shows at once.
+/// @return whether ImGui::EndChild() is to follow the list.
+inline bool begin_list(const char* name, std::size_t count, float rows) {
+  if (count <= kShortList) return false;
+  ImGui::BeginChild(name, {0.0F, rows * ImGui::GetFrameHeightWithSpacing()});
+  return true;
 }
 
 }  // namespace palpate

@@ -82,13 +82,19 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
   std::optional<int> gone;
   for (int i = 0; i < poses.count; ++i) {
     ImGui::PushID(i);
-    if (static_cast<std::size_t>(i) < cuts.size())
-      ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(),
-                      &cuts[static_cast<std::size_t>(i)].on);
+    const bool unfolded = draw_fold(true);
+    const std::string name = "plane " + std::to_string(i + 1);
+    if (static_cast<std::size_t>(i) < cuts.size()) {
+      ImGui::Checkbox((name + " cuts").c_str(), &cuts[static_cast<std::size_t>(i)].on);
+    } else {
+      ImGui::TextUnformatted(name.c_str());
+    }
     PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
-    if (const auto wanted = edit_pose(pose, session, camera)) {
-      pose = *wanted;
-      edited = true;
+    if (unfolded) {
+      if (const auto wanted = edit_pose(pose, session, camera)) {
+        pose = *wanted;
+        edited = true;
+      }
     }
     if (poses.count > 1) {
       ImGui::SameLine();
@@ -115,23 +121,31 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
   if (edited) session.put_planes(poses);
 }
 
-void edit_cuts(std::vector<CuttingPlane>& cuts) {
+void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first) {
+  constexpr float kRows = 8.0F;
   std::optional<std::size_t> gone;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    ImGui::PushID(static_cast<int>(i));
-    CuttingPlane& cut = cuts[i];
-    ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
-    if (ImGui::IsItemHovered()) {
-      const Vec3& n = cut.kept.outward;
-      ImGui::SetTooltip("away what lies beyond %.4g x + %.4g y + %.4g z = %.6g", n.x, n.y, n.z,
-                        cut.kept.offset);
+  const bool scrolls = begin_list("cuts", cuts.size() - first, kRows);
+  ImGuiListClipper shown;
+  shown.Begin(static_cast<int>(cuts.size() - first));
+  while (shown.Step()) {
+    for (int row = shown.DisplayStart; row < shown.DisplayEnd; ++row) {
+      const std::size_t i = first + static_cast<std::size_t>(row);
+      ImGui::PushID(row);
+      CuttingPlane& cut = cuts[i];
+      ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
+      if (ImGui::IsItemHovered()) {
+        const Vec3& n = cut.kept.outward;
+        ImGui::SetTooltip("away what lies beyond %.4g x + %.4g y + %.4g z = %.6g", n.x, n.y, n.z,
+                          cut.kept.offset);
+      }
+      ImGui::SameLine();
+      if (ImGui::SmallButton("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
+      ImGui::SameLine();
+      if (ImGui::SmallButton("remove")) gone = i;
+      ImGui::PopID();
     }
-    ImGui::SameLine();
-    if (ImGui::SmallButton("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
-    ImGui::SameLine();
-    if (ImGui::SmallButton("remove")) gone = i;
-    ImGui::PopID();
   }
+  if (scrolls) ImGui::EndChild();
   if (gone) cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(*gone));
 }
 

@@ -1,6 +1,7 @@
 /// The part of the touch panel about cutting planes: their numbers, and what puts them somewhere in one go.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,9 @@ namespace palpate {
 /// Draws nothing in modes without planes. @param camera for planes that face the view. @param cuts of the
 /// picture, the first ones for the planes: whether they cut.
 void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingPlane> cuts);
-/// Planes that cut while no hand moves them.
-void edit_cuts(std::vector<CuttingPlane>& cuts);
+/// Planes that cut and that no hand moves. @param first of them: those before it are the hand's.
+/// @pre first <= cuts.size().
+void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first);
 /// What is drawn on planes: the values, their grey levels and lines of equal value.
 /// @param histogram of the values, for a window to begin with; may be null.
 void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram);

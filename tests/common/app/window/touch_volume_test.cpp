@@ -51,6 +51,9 @@ constexpr double kIsovalueY = 213.0, kSliderRight = 160.0, kAddX = 50.0, kAddY =
 /// Cuts across the axes of the grid [pixels].
 constexpr double kCutX = 95.0, kCutY = 322.0;
 
+/// A plane of the widget, and what stands below it when it is folded [pixels].
+constexpr double kFoldX = 24.0, kFoldY = 202.0, kAddPlaneX = 40.0, kAddPlaneY = 225.0;
+
 class TouchVolume : public TouchWindowTest {
  protected:
   void SetUp() override {
@@ -174,6 +177,29 @@ TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
   const WindowResult undone = run();
   EXPECT_LT(glm::distance(undone.view.volume->cuts[0].kept.outward, cut.kept.outward), 1e-12);
   EXPECT_EQ(undone.message, "undone");
+}
+
+// The arrow before a plane folds its numbers: what stands below comes up to where it is pressed then.
+TEST_F(TouchVolume, APlaneFoldsInThePanel) {
+  options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
+  click(next(), kFoldX, kFoldY);
+  click(next(), kAddPlaneX, kAddPlaneY);
+  last_ += kPause;
+  const WindowResult result = run();
+  ASSERT_TRUE(result.view.volume);
+  EXPECT_EQ(result.view.volume->cuts.size(), 2U);
+}
+
+// Measured on a thread of its own; once it is, the hand feels and reads it.
+TEST_F(TouchVolume, TheNoiseIsFeltWhenItIsMeasured) {
+  options_.touch.choice.mode = mode_of("density");
+  options_.touch.choice.settings.texture.by_noise = true;
+  grab();
+  last_ += 3 * kPause;
+  const WindowResult result = run();
+  EXPECT_TRUE(result.probe.held);
+  ASSERT_TRUE(result.probe.noise);
+  EXPECT_GT(*result.probe.noise, 0.0);
 }
 
 TEST_F(TouchVolume, AButtonCutsAcrossAnAxisOfTheGridAtTheProxy) {
