@@ -250,6 +250,66 @@ TEST_F(GridCut, PartsAreWrittenInTheirPlacesAndOpenAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("x.nrrd")));
 }
 
+// More shapes than a uniform block of shaders has room for, each of them seen: holes in a white block, in a
+// picture and in what is left of it, as options and from a session.
+TEST_F(GridCut, CutsByAsManyShapesAsAreAsked) {
+  constexpr int kSide = 16, kHoles = 40;
+  constexpr double kRadius = 0.75;
+  std::string voxels(std::size_t{kSide} * kSide * kSide, '\xc8');
+  voxels.front() = '\0';
+  folder_.write("block_16x16x16_uint8.raw", voxels);
+  std::string shapes, opaque = "points:0,1,1,1,0/150,1,1,1,1/255,1,1,1,1";
+  std::vector<std::string> typed;
+  for (int i = 0; i < kHoles; ++i) {
+    const std::string x = std::to_string(1 + 2 * (i % 7)), z = std::to_string(1 + 2 * (i / 7));
+    const std::string through =
+        "cylinder:" + x + ",-1," + z + "," + x + ",16," + z + "," + std::to_string(kRadius);
+    (shapes += i > 0 ? ";" : "") += through + ",cut";
+    typed.insert(typed.end(), {"--lens", through + ",cut"});
+  }
+  folder_.write("s.toml",
+                "format = 1\nprogram = \"grid\"\n[[input]]\nfile = \"block_16x16x16_uint8.raw\"\n"
+                "[scene]\nprojection = \"orthographic\"\nshading = \"off\"\ntransfer-function = \"" +
+                    opaque + "\"\nlens = \"" + shapes + "\"\n");
+  const Json part = json({"clip", "--session", "s.toml", "--out", "part.nrrd"});
+  EXPECT_EQ(part["outside"], kHoles * kSide) << "the voxels on its middle line";
+
+  const auto picture = [&](const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--camera", "0,0,0,1", "--size", "128x128", "--out", name});
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return read_picture(folder_.path(name));
+  };
+  const Picture seen = picture("seen.png", {"render", "--session", "s.toml"});
+  std::vector<std::string> words{
+      "render", "block_16x16x16_uint8.raw", "--projection", "orthographic", "--shading",
+      "off",    "--transfer-function",      opaque};
+  const Picture whole = picture("whole.png", words);
+  words.insert(words.end(), typed.begin(), typed.end());
+  EXPECT_EQ(picture("typed.png", words).rgb, seen.rgb);
+
+  // The block is in the middle of the picture, its voxels at 0 and 15 on its borders.
+  const double middle = 0.5 * whole.width;
+  int left = 0;
+  while (left < whole.width / 2 && whole.at(left, whole.height / 2)[0] < 250) ++left;
+  const double pixels = (whole.width - 2.0 * left) / (kSide - 1);
+  ASSERT_GT(pixels, 3.0);
+  int holes = 0;
+  for (int i = 0; i < 49; ++i) {
+    const auto is_cut = [&](double x) {
+      const auto right = static_cast<int>(middle + pixels * (x - 0.5 * (kSide - 1)));
+      const auto down = static_cast<int>(middle - pixels * (1.0 + 2.0 * (i / 7) - 0.5 * (kSide - 1)));
+      return std::abs(seen.at(right, down)[0] - whole.at(right, down)[0]) > 60;
+    };
+    const double x = 1.0 + 2.0 * (i % 7);
+    holes += is_cut(x) ? 1 : 0;
+    EXPECT_FALSE(is_cut(x) && i >= kHoles) << i;
+    EXPECT_FALSE(is_cut(x + 1.0)) << "between two holes, " << i;
+  }
+  constexpr int kWritten = 4;  // title, axes and colour bar lie over some
+  EXPECT_GE(holes, kHoles - kWritten);
+}
+
 TEST_F(GridCut, ACoronalSliceOfARealHeadHasItsRightOnTheRight) {
   PALPATE_NEED_DATA(head, "grid/head-mr/avg152T1_RL_nifti.nii.gz");
   const Json slice = json({"slice", head.string(), "--plane", "coronal:-20", "--out", "slice.nii.gz"});

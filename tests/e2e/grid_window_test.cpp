@@ -142,6 +142,33 @@ TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
   EXPECT_EQ(again.view.camera.axes, made.view.camera.axes);
 }
 
+// More planes and shapes than are few: the picture of a window, its lists and its session hold all of them.
+TEST_F(GridWindow, AsManyPlanesAndShapesAsASessionHolds) {
+  constexpr int kCount = 20;
+  std::string shapes;
+  for (int i = 0; i < kCount; ++i)
+    shapes += "halfspace:" + std::to_string(i % 3 - 1) + "," + std::to_string(i) + "," +
+              std::to_string(kCount - i) + "," + std::to_string(3000 + i) + ",cut;";
+  for (int i = 0; i < kCount; ++i)
+    shapes += (i > 0 ? ";sphere:" : "sphere:") + std::to_string(20 + 3 * i) + ",30," +
+              std::to_string(40 + 5 * i) + ",8,cut";
+  folder_.write("many.toml",
+                "format = 1\nprogram = \"grid\"\n[[input]]\nfile = \"tooth.nhdr\"\n[scene]\nlens = \"" +
+                    shapes + "\"\nsamples = \"1\"\n");
+  at({.kind = InputKind::kKeyDown, .key = 'S', .modifiers = kModifierControl});
+  const WindowResult result = open({"open", "--session", folder_.path("many.toml").string()}, "many");
+  ASSERT_TRUE(result.view.volume);
+  EXPECT_EQ(result.view.volume->cuts.size(), std::size_t{kCount});
+  EXPECT_EQ(result.view.volume->lenses.size(), std::size_t{kCount});
+  ASSERT_EQ(result.message.rfind("saved ", 0), 0U) << result.message;
+  script_.clear();
+  next_ = 4;
+  const WindowResult again =
+      open({"open", "--session", folder_.path("tooth.palpate.toml").string()}, "many_again");
+  EXPECT_EQ(again.view.volume->cuts, result.view.volume->cuts);
+  EXPECT_EQ(again.view.volume->lenses, result.view.volume->lenses);
+}
+
 // The button held on the grid carries the scene along one axis; let go, view and hand stay where they are.
 TEST_F(GridWindow, TheHandCarriesTheViewAlongOneAxisOfTheGrid) {
   const std::string tooth = folder_.path("tooth.nhdr").string();

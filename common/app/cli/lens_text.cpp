@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/math/normal_length.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -153,7 +154,7 @@ ConvexShape parse_beyond(std::string_view text, const std::string& asked) {
   const std::string refusal = asked + ": nx,ny,nz,d is expected, for what lies where n.x > d";
   const auto v = parse_numbers(text, 4, refusal);
   const Vec3 normal = vec_at(v, 0);
-  const double length = glm::length(normal);
+  const double length = normal_length(normal);
   if (!(length > 0.0) || !std::isfinite(length)) throw usage_error(refusal + "; n must not be zero");
   ConvexShape shape;
   shape.half_spaces.push_back({-normal / length, -v[3] / length});

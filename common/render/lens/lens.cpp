@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/math/normal_length.h"
 
 namespace palpate {
 namespace {
@@ -189,7 +190,7 @@ ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces) {
   PALPATE_CHECK(faces.size() <= kMostHalfSpaces);
   ConvexShape shape;
   for (const ConvexShape::HalfSpace& face : faces) {
-    const double length = glm::length(face.outward);
+    const double length = normal_length(face.outward);
     shape.half_spaces.push_back({face.outward / length, face.offset / length});
   }
   return shape;

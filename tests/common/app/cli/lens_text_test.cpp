@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -142,6 +143,31 @@ TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   EXPECT_FALSE(lenses[1].shading);
   options.clips.assign(kMostCuts - 1, "0,0,1,5");
   EXPECT_THROW((void)make_parts(options, focus), Error) << "one plane too many";
+}
+
+// However often they are saved and opened.
+TEST(Lenses, OfFacesComeBackToTheBit) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> number;
+  for (int i = 0; i < 300; ++i) {
+    std::string face, faces;
+    for (int k = 0; k < 4; ++k) {
+      face.clear();
+      for (int c = 0; c < 4; ++c) face += (c > 0 ? "," : "") + exact_number(number(random));
+      faces += (k > 0 ? "," : "") + face;
+    }
+    VolumeOptions options;
+    options.lenses = {"halfspace:" + face + ",cut", "polyhedron:" + faces};
+    VolumeView view;
+    const VolumeParts first = make_parts(options, std::nullopt);
+    view.cuts = first.cuts;
+    view.lenses = first.lenses;
+    const std::string saved = lenses_text(view);
+    options.lenses = {saved.substr(0, saved.find(';')), saved.substr(saved.find(';') + 1)};
+    const VolumeParts again = make_parts(options, std::nullopt);
+    ASSERT_EQ(again.cuts, first.cuts) << saved;
+    ASSERT_EQ(again.lenses[0].shape, first.lenses[0].shape) << saved;
+  }
 }
 
 // What a session keeps makes the same lenses again, whatever the context's rays are.
