@@ -12,6 +12,7 @@
 #include "common/app/window/window.h"
 #include "common/base/parallel.h"
 #include "common/base/version.h"
+#include "common/render/gl/gpu_objects.h"
 
 namespace palpate {
 namespace {
@@ -63,7 +64,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const WindowResult result = run_user_window(*model, std::move(window),
                                               [&](const std::string& line) { context.console.note(line); });
   if (felt) tell_of_touch(result, context);
-  if (options.common.explain) context.console.print(model->measured());
+  if (options.common.explain) context.console.print(gpu_text(result.gpu) + model->measured());
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

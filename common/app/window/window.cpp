@@ -44,6 +44,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/geometry/box_edges.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
 
@@ -126,6 +127,7 @@ class Window {
     if (bench_) result.latency = bench_->latency();
     std::tie(result.width, result.height) = glfw_.size();
     result.median_frame_ms = live_->median_milliseconds();
+    result.gpu = gpu_objects();
     return result;
   }
 
@@ -593,9 +595,7 @@ class Window {
   // While the probe is grabbed the mouse is its own.
   bool handle_region(const InputEvent& event, const PictureArea& area) {
     if (!has_region() || (touch_control_->grabbed() && event.kind != InputKind::kMove)) return false;
-    const bool taken = region_control_.handle(event, area, view_.camera, view_.bounds);
-    if (region_control_.dragging()) live_->lens_moved(glfwGetTime());
-    return taken;
+    return region_control_.handle(event, area, view_.camera, view_.bounds);
   }
 
   bool handle_plane_image(const InputEvent& event, const PictureArea& area) {

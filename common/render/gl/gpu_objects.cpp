@@ -106,7 +106,7 @@ std::string gpu_text(const std::vector<GpuObject>& objects) {
   std::string shaders, memory;
   std::uint64_t sum = 0;
   for (const GpuObject& object : objects) {
-    const std::string what = object.what.empty() ? "of the labels" : object.what;
+    const std::string what = object.what.empty() ? "of labels and panels" : object.what;
     if (object.kind == Kind::kProgram) {
       shaders += (shaders.empty() ? "" : ", ") + what;
       continue;

@@ -92,6 +92,16 @@ TEST_F(VolumeWindow, ShowsTheVolumeItsSizeAndWhereThePatientLies) {
   EXPECT_EQ(result.view.volume_label, "scalars");
   EXPECT_TRUE(result.view.anatomical);
   EXPECT_EQ(result.view.camera.projection, Projection::kOrthographic);
+  // As --explain lists it: what this volume takes, and no shader of lenses.
+  const auto has = [&](GpuObject::Kind kind, const std::string& what) {
+    return std::ranges::any_of(result.gpu, [&](const GpuObject& object) {
+      return object.kind == kind && object.what.starts_with(what) &&
+             (kind == GpuObject::Kind::kProgram || object.bytes > 0);
+    });
+  };
+  EXPECT_TRUE(has(GpuObject::Kind::kProgram, "volume/shaded.frag"));
+  EXPECT_FALSE(has(GpuObject::Kind::kProgram, "volume/lenses.frag"));
+  EXPECT_TRUE(has(GpuObject::Kind::kTexture, "voxels"));
 }
 
 TEST_F(VolumeWindow, SavesTheViewOfTheVolume) {
