@@ -333,8 +333,8 @@ struct SceneRenderer::State {
 
   // With a probe, or with tracts that there is no time for in one picture, what stays is drawn once and kept;
   // each picture begins with a copy of it. Tracts, and the probe's path, are added to it bit by bit. The
-  // order is that of drawing everything, so the picture is the same. A volume stays, too: the hand is seen
-  // through it, and need not wait for its rays.
+  // order is that of drawing everything, so the picture is the same. The volume, which the probe is in, comes
+  // last; it may keep a picture of its own.
   void draw_over_still_part(const SceneView& view, const LineDraw& base, float unit,
                             const ViewTransform& transform, double tract_milliseconds) {
     const bool other_path = view.probe && update_probe(view);
@@ -352,30 +352,40 @@ struct SceneRenderer::State {
       still = view;
       still_path = 0;
     }
-    if (unseen) {
-      show_growing(view, other);
-    } else if (other && shows_volume(view)) {
-      draw_volume(view);
-    }
+    const bool grown = unseen && show_growing(other);
     if (view.probe) still_path = probe->draw_settled_path(line_program, view, unit, still_path);
     target.copy_still_to_scene();
     target.bind_scene();
-    if (!view.probe) return;
-    probe->draw_path_end(line_program, view, unit);
-    probe->draw(line_program, view, base, unit);
+    if (view.probe) {
+      probe->draw_path_end(line_program, view, unit);
+      probe->draw(line_program, view, base, unit);
+    }
+    if (!shows_volume(view)) return;
+    if (grown) {
+      time_volume(view);
+    } else {
+      draw_volume(view);
+    }
+    if (view.probe) probe->draw_through(line_program, view, base, unit);
   }
 
   // Takes over what has grown, where it is worth it: rays through a volume take no more time than tracts.
-  void show_growing(const SceneView& view, bool first) {
+  // @return whether it has.
+  bool show_growing(bool first) {
     target.bind_still();
     unseen_tract_ms += tract_ms;
     const bool due = progress.worth_showing() && unseen_tract_ms > 0.0 &&
                      (unseen_tract_ms >= volume_ms || progress.complete());
-    if (!first && !due) return;
+    if (!first && !due) return false;
     target.copy_growing_to_still();
     still_path = 0;
     unseen_tract_ms = 0.0;
-    if (!shows_volume(view)) return;
+    return true;
+  }
+
+  // As draw_volume(), over tracts that have come to stay.
+  void time_volume(const SceneView& view) {
+    if (volume) volume->forget_picture();
     glFinish();
     const Stopwatch watch;
     draw_volume(view);
@@ -456,8 +466,9 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   if (!s.stereo) s.stereo = std::make_unique<StereoPass>();
   s.stereo->begin(view.stereo.mode, width, height);
   s.stop_tracts = {};
-  const StereoEyes eyes = stereo_eyes(view.camera, view.stereo, view.bounds);
   SceneView seen = view;
+  if (seen.volume) seen.volume->keep_picture = false;  // the eyes take turns
+  const StereoEyes eyes = stereo_eyes(view.camera, view.stereo, view.bounds);
   for (std::size_t i = 0; i < eyes.cameras.size(); ++i) {
     seen.camera = eyes.cameras[i];
     s.still.reset();
@@ -501,6 +512,14 @@ bool SceneRenderer::prepare_slabs(std::size_t cut) {
   glUseProgram(0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return more;
+}
+
+bool SceneRenderer::kept_volume() const noexcept {
+  return state_->draws_volume && state_->volume && state_->volume->kept_picture();
+}
+
+void SceneRenderer::forget_volume() {
+  if (state_->volume) state_->volume->forget_picture();
 }
 
 void SceneRenderer::forget_slabs() {

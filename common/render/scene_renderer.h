@@ -21,8 +21,9 @@ struct TractShare {
 /// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
 /// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
 /// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
-/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time. A
-/// volume belongs to what does not move: with a probe in the view it hides nothing of it, solid or not.
+/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time, and
+/// the volume, of which a picture of its own may be kept (VolumeView::keep_picture). The probe is in it: what
+/// lies before it veils it, and it shines through as through anything nearer.
 /// A view with two eyes is drawn once for each, then composed (stereo_pass.h). What stands still is kept for
 /// one eye alone, so that each of the two draws all of it, tracts without a limit of time. Needs an
 /// OpenGL 4.5 core context, the same at every call and at destruction.
@@ -51,6 +52,9 @@ class SceneRenderer {
   [[nodiscard]] bool made_slabs() const noexcept;
   bool prepare_slabs(std::size_t cut);
   void forget_slabs();
+  /// As VolumePass::kept_picture() and forget_picture().
+  [[nodiscard]] bool kept_volume() const noexcept;
+  void forget_volume();
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

@@ -39,6 +39,9 @@ bool reaches_out(int i) {
 #endif
 
 void main() {
+#ifndef CONTEXT
+  if (is_kept()) discard;
+#endif
   Ray ray = pixel_ray();
   vec2 inside[kLensRoom];
   vec2 span = lens_span(ray, inside);

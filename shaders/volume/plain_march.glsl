@@ -18,6 +18,7 @@
 layout(location = 0) out vec4 color;  // associated
 
 void main() {
+  if (is_kept()) discard;
   Ray ray = pixel_ray();
   if (!(ray.first < ray.last)) discard;
   color = vec4(0.0);

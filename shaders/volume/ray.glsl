@@ -29,6 +29,17 @@ ivec2 opaque_pixel() {
 #else
 ivec2 opaque_pixel() { return ivec2(gl_FragCoord.xy); }
 #endif
+
+#ifndef CONTEXT
+// Whether this pixel shows the volume already, as it was kept (common/render/volume/kept_volume.h): what is opaque there
+// has not moved.
+layout(location = 40) uniform bool has_kept;
+layout(binding = 8) uniform sampler2D still_depth;  // opaque_depth when it was kept
+bool is_kept() {
+  return has_kept && texelFetch(opaque_depth, opaque_pixel(), 0).x == texelFetch(still_depth, opaque_pixel(), 0).x;
+}
+#endif
+
 #ifdef TILES
 vec2 picture_pixel() { return kTilePixels * gl_FragCoord.xy; }
 #else

@@ -30,7 +30,13 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
   budget_.show(volume, volume && !view.volume->lenses.empty());
   const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
   view = with_quality(std::move(view), quality);
-  if (view.volume) view.volume->storage.upload = kBrickUpload;
+  if (view.volume) {
+    view.volume->storage.upload = kBrickUpload;
+    const bool stands =
+        shown_.volume && shown_.camera == view.camera && same_picture(*shown_.volume, *view.volume);
+    if (!stands || width != width_ || height != height_) local_.begin();
+    view.volume->keep_picture = !moving && local_.on();
+  }
   if (dirty_ || width != width_ || height != height_ || !same_picture(view, shown_) ||
       quality.resolution != figures_.quality.resolution || !renderer_.complete()) {
     const bool patient = !moving && moment.interrupted;
@@ -44,6 +50,8 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(figures_.milliseconds);
+    if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume()))
+      renderer_.forget_volume();
     figures_.quality = quality;
     milliseconds_.push_back(figures_.milliseconds);
     figures_.frames_per_second = moment.seconds > last_drawn_ ? 1.0 / (moment.seconds - last_drawn_) : 0.0;

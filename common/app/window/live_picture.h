@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/render/frame_budget.h"
+#include "common/render/local_redraw.h"
 #include "common/render/scene_renderer.h"
 #include "common/render/scene_view.h"
 #include "common/render/tract/tract_progress.h"
@@ -63,6 +64,7 @@ class LivePicture {
 
   SceneRenderer renderer_;
   FrameBudget budget_;
+  LocalRedraw local_;
   TractTime tract_time_;  // what is left of tracts then is added by the next pictures
   SceneView shown_;       // as it was drawn last
   int width_ = 0, height_ = 0;

@@ -4,7 +4,6 @@
 
 #include "common/render/gl/program.h"
 #include "common/render/glyph/arrow_mesh.h"
-#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 namespace {
@@ -24,7 +23,7 @@ void describe(const GlVertexArray& array, GLuint location, GLint components, std
 
 }  // namespace
 
-void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity) {
+void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity, GlyphPart part) {
   if (arrows.empty()) return;
   if (!program_) {
     program_ = compile_program("glyph/arrow.vert", "glyph/arrow.frag");
@@ -42,7 +41,7 @@ void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity
   glUseProgram(program_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kArrowsBinding, instances.name());
   glBindVertexArray(vertex_array_.name());
-  draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
+  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
     glUniform1f(kOpacity, opacity);
     glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(corner_count_),
                           static_cast<GLsizei>(arrows.size()));

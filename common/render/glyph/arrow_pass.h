@@ -7,6 +7,7 @@
 #include "common/math/vec.h"
 #include "common/render/color_map.h"
 #include "common/render/gl/object.h"
+#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 
@@ -25,9 +26,10 @@ struct ArrowInstance {
 
 class ArrowPass {
  public:
-  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there.
+  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there. Of
+  /// GlyphPart::kSeenAgain that of all.
   /// @pre The frame's uniform block is bound to 0.
-  void draw(std::span<const ArrowInstance> arrows, float hidden_opacity);
+  void draw(std::span<const ArrowInstance> arrows, float hidden_opacity, GlyphPart part = GlyphPart::kAll);
 
  private:
   GlProgram program_;  // compiled at the first use

@@ -113,6 +113,31 @@ void ProbePass::draw_path_end(LineProgram& program, const SceneView& view, float
   draw_path(program, view, unit, trail_.size() - 2, trail_.size() - 1);
 }
 
+// With s = see_through, C and a colour and opacity of the volume before it and P its own colour, this makes
+// C + (1 - a) P, the volume over it, into (1 - s) C + (1 - (1 - s) a) P: the share of 1 - s that nearer
+// things have of what shines through them.
+void ProbePass::draw_through(LineProgram& program, const SceneView& view, const LineDraw& base, float unit) {
+  const auto see_through = static_cast<float>(std::clamp(view.probe->style.see_through, 0.0, 1.0));
+  if (!(see_through > 0.0F)) return;
+  const DepthClamp clamp;
+  if (shown_followed_) {
+    LineDraw how = base;
+    how.fading = 0.0F;
+    how.min_width = 1.0F;
+    how.lift = kLineLift;
+    how.width = static_cast<float>(view.probe->style.followed_width) * unit;
+    how.coloring = coloring_of(view.style, followed_has_values_);
+    how.color = palette_of(view.background).plain_line;
+    how.opacity = see_through;
+    how.seen_again = true;
+    program.use(color_map_of(view.style));
+    followed_.draw(how);
+  }
+  arrow_pass_.draw(glyphs_.arrows, see_through, GlyphPart::kSeenAgain);
+  tensor_mesh_.draw(glyphs_.tensors, true, see_through, GlyphPart::kSeenAgain);
+  sphere_pass_.draw(glyphs_.spheres, 0.0F, see_through, GlyphPart::kSeenAgain);
+}
+
 void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw& base, float unit) {
   const ProbeView& probe = *view.probe;
   const Palette& colors = palette_of(view.background);

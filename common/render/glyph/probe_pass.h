@@ -37,6 +37,10 @@ class ProbePass {
   /// Draws the last bit of the path, which still changes.
   void draw_path_end(LineProgram& program, const SceneView& view, float unit) const;
 
+  /// Draws again, faintly, what is in sight of what shines through nearer things: over a volume, which may
+  /// lie before it. Without depth. Parameters as of draw().
+  void draw_through(LineProgram& program, const SceneView& view, const LineDraw& base, float unit);
+
   /// Draws all but the path.
   /// @param base tolerance and direction of the scene's lines.
   void draw(LineProgram& program, const SceneView& view, const LineDraw& base, float unit);

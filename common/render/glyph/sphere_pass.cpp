@@ -3,7 +3,6 @@
 #include <epoxy/gl.h>
 
 #include "common/render/gl/program.h"
-#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 namespace {
@@ -13,7 +12,8 @@ constexpr GLuint kSpheresBinding = 0;
 constexpr GLsizei kCorners = 4;
 }  // namespace
 
-void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity) {
+void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity,
+                      GlyphPart part) {
   if (spheres.empty()) return;
   if (!program_) {
     program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag");
@@ -23,7 +23,7 @@ void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width,
   glUseProgram(program_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpheresBinding, instances.name());
   glBindVertexArray(no_vertices_.name());
-  draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
+  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
     glUniform1f(kHaloUniform, opacity < 1.0F ? 0.0F : halo_width);
     glUniform1f(kOpacityUniform, opacity);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));

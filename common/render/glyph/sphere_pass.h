@@ -7,6 +7,7 @@
 #include "common/math/vec.h"
 #include "common/render/color_map.h"
 #include "common/render/gl/object.h"
+#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 
@@ -21,9 +22,11 @@ struct SphereInstance {
 class SpherePass {
  public:
   /// @param halo_width [pixels] in the colour of the background around each.
-  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there.
+  /// @param hidden_opacity where something nearer hides them; 0: nothing of them is seen there. Of
+  /// GlyphPart::kSeenAgain that of all.
   /// @pre The frame's uniform block is bound to 0.
-  void draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity);
+  void draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity,
+            GlyphPart part = GlyphPart::kAll);
 
  private:
   GlProgram program_;  // compiled at the first use

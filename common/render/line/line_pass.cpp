@@ -114,8 +114,9 @@ void LineSet::arrange(const Arrangement& wanted) {
 
 void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
-  // What shines through is too faint for its order to matter: no second arrangement for it.
-  const bool transparent = how.opacity < 1.0F && !how.hidden_part;
+  // What shines through is too faint for its order to matter, what is seen again has its depths: no second
+  // arrangement for them.
+  const bool transparent = how.opacity < 1.0F && !how.hidden_part && !how.seen_again;
   // Points are left out by the first values alone: with others all are there.
   arrange({has_lens_values_ ? 0.0 : how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 

@@ -24,6 +24,8 @@ struct LineDraw {
   std::optional<Rgb> halo_color;  ///< where absent, the background's: a gap around nearer lines
   /// Only where something nearer hides the lines; they shine through by `opacity`.
   bool hidden_part = false;
+  /// Once more over what was drawn before them since, by `opacity`; they are in the depths already.
+  bool seen_again = false;
   /// Brings lines nearer in depth alone, in half widths: of two along one curve it decides which is seen.
   float lift = 0.0F;
   float dimming = 0.0F;  ///< share of the background at any depth

@@ -8,7 +8,6 @@
 #include <epoxy/gl.h>
 
 #include "common/render/gl/program.h"
-#include "common/render/glyph/glyph_draw.h"
 
 namespace palpate {
 namespace {
@@ -56,7 +55,8 @@ TensorGlyphMesh::Mesh TensorGlyphMesh::make_mesh(int bands) {
   return mesh;
 }
 
-void TensorGlyphMesh::draw(std::span<const TensorGlyph> glyphs, bool fine, float hidden_opacity) {
+void TensorGlyphMesh::draw(std::span<const TensorGlyph> glyphs, bool fine, float hidden_opacity,
+                           GlyphPart part) {
   if (glyphs.empty()) return;
   if (!program_) {
     program_ = compile_program("tensor/glyph.vert", "tensor/glyph.frag");
@@ -71,7 +71,7 @@ void TensorGlyphMesh::draw(std::span<const TensorGlyph> glyphs, bool fine, float
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glEnable(GL_CULL_FACE);
-  draw_hidden_then_seen(hidden_opacity, [&](float opacity) {
+  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
     glUniform1f(kOpacity, opacity);
     glDrawElementsInstanced(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_SHORT, nullptr,
                             static_cast<GLsizei>(glyphs.size()));

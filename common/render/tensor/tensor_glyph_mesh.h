@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/render/gl/object.h"
+#include "common/render/glyph/glyph_draw.h"
 #include "common/render/tensor/tensor_glyphs.h"
 
 namespace palpate {
@@ -12,9 +13,11 @@ namespace palpate {
 class TensorGlyphMesh {
  public:
   /// Draws `glyphs`, opaque and with depth. @param fine with facets that do not show on large glyphs.
-  /// @param hidden_opacity of what something nearer hides; 0: hidden is hidden.
+  /// @param hidden_opacity of what something nearer hides; 0: hidden is hidden. Of
+  /// GlyphPart::kSeenAgain that of all.
   /// @pre The frame's uniform block is bound to 0.
-  void draw(std::span<const TensorGlyph> glyphs, bool fine, float hidden_opacity = 0.0F);
+  void draw(std::span<const TensorGlyph> glyphs, bool fine, float hidden_opacity = 0.0F,
+            GlyphPart part = GlyphPart::kAll);
 
  private:
   /// Facets of the sphere: twice as many around as from pole to pole.

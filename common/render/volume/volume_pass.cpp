@@ -19,6 +19,7 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/volume/context_picture.h"
+#include "common/render/volume/kept_volume.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/shape_block.h"
 #include "common/render/volume/slab_cache.h"
@@ -93,6 +94,8 @@ struct VolumePass::State {
   std::unique_ptr<SlabCache> slabs;
   std::size_t moving_cut = 0;  // of `slabs`
   bool made_slabs = false;
+  std::unique_ptr<KeptVolume> kept;
+  bool kept_picture = false;  // by the last draw()
 
   const GlProgram& program_of(Reach reach) {
     GlProgram& program = programs[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
@@ -142,6 +145,7 @@ struct VolumePass::State {
     bind_volume(volume, shapes);
     glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
     glUniform1i(volume_shader::kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
+    if (!context) glUniform1i(volume_shader::kHasKept, 0);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(no_vertices.name());
   }
@@ -200,6 +204,37 @@ struct VolumePass::State {
     bind(program, volume_block, shape_block, opaque_depth);
     set_slab(slab);
   }
+
+  // Casts rays over the framebuffer that is bound, but for those that `seen` shows already.
+  void draw_volume(bool slab, std::uint32_t opaque_depth, const FrameBlock& block, const KeptVolume* seen) {
+    if (context) {
+      context->draw(opaque_depth, block);
+      context->show();
+    }
+    if (asks_tiles)
+      glBindTextureUnit(volume_shader::kTiles, textures.tiles().draw(*shown.image, frame, block));
+    if (slab) {
+      begin_slab(opaque_depth);
+    } else {
+      const Reach reach = !context               ? Reach::kAll
+                          : blends_values(shown) ? Reach::kBlendedLenses
+                                                 : Reach::kLenses;
+      bind(program_of(reach), volume_block, shape_block, opaque_depth);
+      if (context) context->bind();
+    }
+    if (seen != nullptr) {
+      glBindTextureUnit(volume_shader::kStillDepth, seen->depth());
+      glUniform1i(volume_shader::kHasKept, 1);
+    }
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (context) {
+      draw_tiles(context->grid());
+    } else {
+      cast_rays();
+    }
+    glDisable(GL_BLEND);
+  }
 };
 
 VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
@@ -216,7 +251,10 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   view.storage = storage_of_whole(asked);
   const std::uint64_t voxels = s.textures.changes();
   s.textures.update(view, make_brick_sight(block, frame));
-  if (s.textures.changes() != voxels) s.slabs.reset();
+  if (s.textures.changes() != voxels) {
+    s.slabs.reset();
+    s.kept.reset();
+  }
   view.storage = asked.storage;
   view = s.textures.drawn(std::move(view));
   s.asked = asked.image;
@@ -247,32 +285,23 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
 void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   State& s = *state_;
   PALPATE_CHECK(s.textures.image() != nullptr);
-  s.made_slabs = false;
+  s.made_slabs = s.kept_picture = false;
   s.cost.slab_bytes = 0;
   const bool slabs = !s.context && s.uses_slabs(block, opaque_depth != 0);
-  if (s.context) {
-    s.context->draw(opaque_depth, block);
-    s.context->show();
-  }
-  if (s.asks_tiles)
-    glBindTextureUnit(volume_shader::kTiles, s.textures.tiles().draw(*s.shown.image, s.frame, block));
-  if (slabs) {
-    s.begin_slab(opaque_depth);
+  const bool stands = s.drawn_view && s.drawn_block == block && same_picture(*s.drawn_view, s.shown);
+  if (opaque_depth != 0 && KeptVolume::possible(s.shown) && bricks().complete() && (stands || !slabs)) {
+    if (!s.kept || !s.kept->fits(s.shown, block)) {
+      s.kept = std::make_unique<KeptVolume>(s.shown, block, opaque_depth,
+                                            [&] { s.draw_volume(slabs, opaque_depth, block, nullptr); });
+      s.kept_picture = true;
+    }
+    s.kept->show(opaque_depth);
+    if (!s.kept_picture) s.draw_volume(slabs, opaque_depth, block, s.kept.get());
   } else {
-    const Reach reach = !s.context               ? Reach::kAll
-                        : blends_values(s.shown) ? Reach::kBlendedLenses
-                                                 : Reach::kLenses;
-    s.bind(s.program_of(reach), s.volume_block, s.shape_block, opaque_depth);
-    if (s.context) s.context->bind();
+    s.kept.reset();
+    s.draw_volume(slabs, opaque_depth, block, nullptr);
   }
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (s.context) {
-    draw_tiles(s.context->grid());
-  } else {
-    s.cast_rays();
-  }
-  glDisable(GL_BLEND);
+  s.cost.kept_bytes = s.kept ? s.kept->bytes() : 0;
   s.drawn_view = s.shown;
   s.drawn_block = block;
   s.drawn_depth = opaque_depth;
@@ -311,6 +340,10 @@ std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
 BrickShare VolumePass::bricks() const noexcept { return state_->textures.bricks_held(); }
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }
+
+bool VolumePass::kept_picture() const noexcept { return state_->kept_picture; }
+
+void VolumePass::forget_picture() { state_->kept.reset(); }
 
 void VolumePass::forget_slabs() {
   state_->slabs.reset();

@@ -1,0 +1,60 @@
+/// Local rendering (Ikits 2006, sec. 5.1): while camera and volume stand still, the picture of the volume is
+/// kept apart from what is opaque, with the depths z_0 at which its rays ended. It is laid over opaque things
+/// wherever these are as deep as they were; where one has moved, z != z_0, the ray is cast anew:
+///
+///   picture = K over opaque where z = z_0,   else the ray up to z over opaque                       (1)
+///
+/// K has one sample a pixel, as rays do, and 16 bits a component; what is opaque keeps its own samples. So
+/// (1) is the picture of a full redraw, but for the rounding of K.
+#pragma once
+
+#include <cstdint>
+
+#include "common/render/frame_block.h"
+#include "common/render/gl/framebuffer.h"
+#include "common/render/gl/object.h"
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+/// Needs the context current in which it was made.
+class KeptVolume {
+ public:
+  /// Whether (1) holds for such a view. Not where the context of lenses is a smaller picture: its pixels are
+  /// told apart by opaque things beside them, moved ones too.
+  [[nodiscard]] static bool possible(const VolumeView& view);
+
+  /// Has a picture of `view` made and keeps it.
+  /// @param opaque_depth as of VolumePass::draw(), not 0; copied.
+  /// @param draw draws the volume over a framebuffer that is bound and clear. Framebuffer and viewport are
+  /// kept.
+  template <typename Draw>
+  KeptVolume(const VolumeView& view, const FrameBlock& block, std::uint32_t opaque_depth, const Draw& draw)
+      : KeptVolume(view, block, opaque_depth) {
+    const FramebufferGuard before;
+    begin();
+    draw();
+  }
+
+  /// Whether what is kept is the picture of `view` from there.
+  [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block) const;
+  /// z_0, for shaders/volume/ray.glsl.
+  [[nodiscard]] std::uint32_t depth() const noexcept { return depth_.name(); }
+  /// Draws K over the framebuffer that is bound, where z = z_0.
+  void show(std::uint32_t opaque_depth);
+  [[nodiscard]] std::uint64_t bytes() const noexcept;
+
+ private:
+  KeptVolume(const VolumeView& view, const FrameBlock& block, std::uint32_t opaque_depth);
+  void begin() const;
+
+  VolumeView view_;
+  FrameBlock block_;
+  int width_ = 0, height_ = 0;
+  GlTexture picture_, depth_;
+  GlFramebuffer framebuffer_;
+  GlVertexArray no_vertices_;
+  GlProgram program_;
+};
+
+}  // namespace palpate
