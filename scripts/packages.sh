@@ -9,7 +9,7 @@ packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev li
 # The loaders' helper programs.
 packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libopenvdb-dev zlib1g-dev"
 # The drivers of devices: modules that only --device opens.
-packages_drivers="libusb-1.0-0-dev"
+packages_drivers="libusb-1.0-0-dev libboost-dev"
 # The mesher of cardiac.
 packages_mesher="libcgal-dev libtet1.5-dev"
 # The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.

@@ -126,7 +126,8 @@ void add_force_verbs(CLI::App& app, WorkbenchOptions& o) {
 void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   constexpr const char* kDevice =
       "driver and its options: falcon[:firmware=FILE][,button=N|none][,enable=pedal], "
-      "spacemouse[:invert=LETTERS], pedal";
+      "spacemouse[:invert=LETTERS], pedal, vrpn:NAME@HOST[:PORT][,cap=N], inverse3[:host=NAME][,port=N], "
+      "dhd[:library=FILE], openhaptics[:library=FILE]";
   CLI::App& devices = *app.add_subcommand("devices", "devices that are plugged in, and drivers for them");
   add_common(devices, o);
   devices.add_option("--device", o.device, kDevice);
@@ -154,7 +155,8 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   add_workbench(monitor, o);
   monitor.footer(
       "Examples:\n  workbench monitor --device spacemouse --seconds 60\n"
-      "  workbench monitor --device falcon --rate 100 --json\n");
+      "  workbench monitor --device falcon --rate 100 --json\n"
+      "  workbench monitor --device vrpn:Tracker0@lab,sensor=1\n");
 }
 
 void add_controls_verb(CLI::App& app, WorkbenchOptions& o) {

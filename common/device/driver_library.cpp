@@ -17,6 +17,11 @@
 namespace palpate {
 namespace {
 
+/// The Debian package that a build needs for a driver.
+std::string_view needed_by(std::string_view driver) {
+  return driver == "inverse3" ? "libboost-dev" : "libusb-1.0-0-dev";
+}
+
 /// The Debian package of a library that the loader of modules did not find.
 std::string package_of(const std::string& message) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kPackages{
@@ -42,7 +47,8 @@ DriverModule& open_new(const std::string& name) {
     const bool should_be =
         std::find(driver_names().begin(), driver_names().end(), name) != driver_names().end();
     if (should_be) {
-      throw work_error("the driver '" + name + "' was left out of this build; it needs libusb-1.0-0-dev");
+      throw work_error("the driver '" + name + "' was left out of this build; it needs " +
+                       std::string(needed_by(name)));
     }
     throw usage_error("unknown device '" + name +
                       "'; known are mouse, replay:FILE.csv, hands:FILE.csv, simulated and the drivers " +
@@ -72,7 +78,9 @@ DriverModule& open_new(const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& driver_names() {
-  static const std::vector<std::string> kNames{"falcon", "dataglove", "pedal", "pinchglove", "polhemus", "spacemouse"};
+  static const std::vector<std::string> kNames{"falcon",   "dataglove",  "pedal", "pinchglove",
+                                               "polhemus", "spacemouse", "vrpn",  "inverse3",
+                                               "dhd",      "openhaptics"};
   return kNames;
 }
 
@@ -100,6 +108,10 @@ DeviceText parse_device(std::string_view text) {
   const std::string said = "--device " + std::string(text) + ": ";
   for (const std::string_view item : split(text.substr(colon + 1), ',')) {
     const std::size_t equals = item.find('=');
+    if (equals == std::string_view::npos && item.find('@') != std::string_view::npos) {
+      device.options.emplace_back("at", item);
+      continue;
+    }
     if (equals == 0 || equals == std::string_view::npos) {
       throw usage_error(said + "OPTION=VALUE is expected, found '" + std::string(item) + "'");
     }

@@ -21,7 +21,8 @@ namespace palpate {
 /// which package is missing, or that it is of another build.
 [[nodiscard]] DriverModule& open_driver(const std::string& name);
 
-/// A device as the command line names it: `NAME[:OPTION=VALUE[,OPTION=VALUE…]]`. Two options are nobody's
+/// A device as the command line names it: `NAME[:OPTION=VALUE[,OPTION=VALUE…]]`. An address with an @ stands
+/// for the option `at`: `vrpn:Tracker0@lab`. Two options are nobody's
 /// own, they say what the dead-man switch is: `button=N|none` and `enable=NAME`, another device.
 struct DeviceText {
   std::string name;

@@ -97,6 +97,7 @@ const std::vector<Foreign> kForeign{
     {std::regex("^nanovdb/"), {"loaders/vdb/", "common/field/grid/"}, "NanoVDB"},
     {std::regex("^(CGAL/|tetgen)"), {"apps/cardiac/mesher/"}, "CGAL or TetGen"},
     {std::regex("^libusb"), {"common/device/driver/"}, "libusb"},
+    {std::regex("^boost/"), {"common/device/driver/beast_transport.cpp"}, "Boost"},
 };
 
 std::vector<fs::path> sources() {

@@ -266,10 +266,13 @@ class VerbParser {
             "hands:FILE.csv, tracked hands at an immersive --workbench, "
             "simulated[:DEVICE][,hand=relaxed|firm][,button=N], an arm and a hand that follow the mouse or "
             "wander, or a real device by its driver: "
-            "falcon[:firmware=FILE][,button=N|none][,enable=pedal], spacemouse, or, at an immersive "
-            "--workbench, "
-            "the tracker polhemus[:port=FILE][,hemisphere=+x]; a Falcon shows force only "
-            "while its centre button, its button=N, or the pedal is held")
+            "falcon[:firmware=FILE][,button=N|none][,enable=pedal], spacemouse, "
+            "vrpn:NAME@HOST[:PORT][,cap=N], "
+            "inverse3[:host=NAME], dhd[:library=FILE] (Force Dimension), openhaptics[:library=FILE], or, at "
+            "an "
+            "immersive --workbench, the tracker polhemus[:port=FILE][,hemisphere=+x]; an arm shows force "
+            "only "
+            "while its button, its button=N, or the pedal is held")
         ->type_name("D")
         ->group("Touch");
     add_rate();

@@ -47,6 +47,8 @@ TEST_F(DriverLibrary, ReadsDevicesOfTheCommandLine) {
   EXPECT_EQ(text.options, (DriverOptions{{"firmware", "/a/b.bin"}, {"gain", "3500"}}));
   EXPECT_TRUE(parse_device("falcon").options.empty());
   EXPECT_THROW((void)parse_device("falcon:gain"), Error);
+  EXPECT_EQ(parse_device("vrpn:Tracker0@lab:4000,sensor=1").options,
+            (DriverOptions{{"at", "Tracker0@lab:4000"}, {"sensor", "1"}}));
   EXPECT_THROW((void)parse_device("falcon:=3"), Error);
 }
 

@@ -1,32 +1,21 @@
 /// The module of the Pinch Glove. A serial line tells nobody what is at its end, so it finds none by itself.
-#include <exception>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "common/device/driver/pinch_link.h"
+#include "common/device/driver/plain_module.h"
 #include "common/device/driver/serial_line.h"
 
 namespace palpate {
 namespace {
 
-class PinchModule final : public DriverModule {
- public:
-  [[nodiscard]] std::string help() const override { return pinch_help(); }
-  std::unique_ptr<DriverLink> make_link(const DriverOptions& options, std::string& error) noexcept override {
-    try {
-      const PinchSettings settings = pinch_settings(options);
-      return std::make_unique<PinchLink>(std::make_unique<SerialLine>(settings.port, settings.baud));
-    } catch (const std::exception& problem) {
-      error = problem.what();
-      return nullptr;
-    }
-  }
-  std::vector<FoundDevice> find(std::string& /*error*/) noexcept override { return {}; }
-};
-
 DriverModule* pinch_module(std::string& /*error*/) noexcept {
-  static PinchModule module;
+  static PlainModule module(
+      [](const DriverOptions& options) {
+        const PinchSettings settings = pinch_settings(options);
+        return std::make_unique<PinchLink>(std::make_unique<SerialLine>(settings.port, settings.baud));
+      },
+      pinch_help());
   return &module;
 }
 
