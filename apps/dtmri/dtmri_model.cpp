@@ -10,6 +10,7 @@
 #include "common/app/cli/view_tracts.h"
 #include "common/base/error.h"
 #include "common/field/color_transfer_file.h"
+#include "common/field/region_transfer_file.h"
 
 namespace palpate {
 namespace {
@@ -78,7 +79,7 @@ DtmriContent DtmriModel::read(Input& input, const Options& options, Progress& pr
       input, {.tensors = make_tensor_view(voxels, options.tensors), .tracts = {}}, options, 1.0);
   SceneState state = begin_state(input, {});
   state.info = info_of(input, view);
-  state.lens = direction_lens(options.volume, *view.volume->image);
+  state.looks = {direction_lens(options.volume, *view.volume->image)};
   state.volume = std::move(view.volume);
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
@@ -176,11 +177,14 @@ void DtmriModel::describe_session(Session& session, const InputSpec& spec, const
   if (view.volume) {
     const VolumeView& volume = *view.volume;
     add_option(session, "volume", !volume.shown ? "none" : volume.colored ? "direction" : "fa");
-    add_option(session, "transfer-function", transfer_words(volume.transfer));
+    add_option(session, "transfer-function",
+               volume.regions ? region_words(*volume.regions) : transfer_words(volume.transfer));
     const auto lens = std::find_if(volume.lenses.begin(), volume.lenses.end(),
-                                   [](const Lens& one) { return one.transfer && !one.cut; });
+                                   [](const Lens& one) { return (one.transfer || one.regions) && !one.cut; });
     add_option(session, "focus-tf",
-               lens == volume.lenses.end() ? options.volume.focus : transfer_words(*lens->transfer));
+               lens == volume.lenses.end() ? options.volume.focus
+               : lens->regions             ? region_words(*lens->regions)
+                                           : transfer_words(*lens->transfer));
     describe_rays(session, volume);
   }
   describe_projection(session, view);

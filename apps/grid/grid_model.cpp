@@ -4,6 +4,7 @@
 
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/plane_image_text.h"
+#include "common/app/cli/volume_fields.h"
 
 namespace palpate {
 
@@ -11,7 +12,10 @@ GridModel::GridModel(Options options, std::string program)
     : InputModel(std::move(options), std::move(program), FieldKind::kScalar) {}
 
 TangibleVolume GridModel::read(Input& input, const Options& options, Progress& progress) const {
-  return load_tangible_volume(input, options.common.threads, &progress);
+  TangibleVolume volume = load_tangible_volume(input, options.common.threads, &progress);
+  input.set_beside(names_beside(input, options.volume));
+  volume.beside = load_beside(input, options.volume, &progress);
+  return volume;
 }
 
 void GridModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
@@ -25,22 +29,24 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   Options with = options;
   with.volume.transfer = settings.transfer;
   with.volume.focus = settings.focus;
-  SceneView view = make_volume_scene(input, volume.image, with, 1.0);
+  SceneView view = make_volume_scene(input, volume, with, 1.0);
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->bounds = view.bounds;
   info->outline = view.outline;
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, settings);
   state.info = std::move(info);
-  state.lens.transfer = focus_transfer_of(settings.focus, *volume.image, options.common.threads);
-  state.lens.samples_per_voxel = view.volume->samples_per_voxel;
-  state.lens.shading = view.volume->shading;
+  state.looks = lens_looks(*view.volume, settings.focus, options.common.threads);
+  if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
   state.volume = std::move(view.volume);
   state.felt_scalar = volume.field;
   // Another time step of a field keeps its colours, or a film would flicker.
   const bool same_colors = before != nullptr && settings.field == before->settings.field &&
                            settings.transfer == before->settings.transfer;
-  if (same_colors) state.volume->transfer = before->volume->transfer;
+  if (same_colors) {
+    state.volume->transfer = before->volume->transfer;
+    state.volume->regions = before->volume->regions;
+  }
   return state;
 }
 

@@ -48,6 +48,12 @@ int main(int argc, char** argv) {
                 {"grid render head.nii.gz --lens box:0,-90,-72,90,90,108,cut --lens sphere:0,-40,10,35 "
                  "--focus-tf mr --out lens.png",
                  "cut open, with a lens of its own transfer function"},
+                {"grid render tooth.nhdr --focus-tf boundaries --lens sphere:51,20,90,28 --out borders.png",
+                 "borders between kinds of matter, by value and gradient, in a lens"},
+                {"grid render ct.nii.gz --transfer-function ct --lens "
+                 "sphere:0,0,0,60,field=pet.nii.gz,tf=density "
+                 "--out both.png",
+                 "another volume in a lens, on its own grid"},
                 {"grid render tooth.nhdr --isovalue 900 --path path.csv --out felt.png",
                  "with a surface, and what a hand on that path has felt of it"},
                 {"grid render --example shells --transfer-function shells.csv --out shells.png",

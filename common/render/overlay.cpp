@@ -262,13 +262,37 @@ void draw_line_colors(const Pen& pen, const SceneView& view, const ColorLegend& 
   }
 }
 
+// Of each value what is most opaque of it, whatever its gradient.
+std::vector<ColorSample> deepest_colors(const RegionTransfer& regions, const ValueRange& range,
+                                        std::size_t count) {
+  constexpr int kRows = 64;
+  std::vector<ColorSample> samples(count);
+  const PlaceRange places = regions.extent();
+  if (places.empty()) return samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value =
+        std::lerp(range.lower, range.upper, static_cast<double>(i) / static_cast<double>(count - 1));
+    double deepest = 0.0;
+    for (int row = 0; row <= kRows; ++row) {
+      const double gradient = std::max(0.0, places.upper.y) * row / kRows;
+      const RegionTransfer::Sample sample = regions.at({value, gradient});
+      if (!(sample.depth > deepest)) continue;
+      deepest = sample.depth;
+      samples[i] = {sample.color, 1.0 - std::exp(-sample.depth)};
+    }
+  }
+  return samples;
+}
+
 // The values of a volume: their colours, and beside them how opaque they are.
 void draw_volume_colors(const Pen& pen, const SceneView& view, float right, float middle, float length) {
   const VolumeView& volume = *view.volume;
   const ValueRange range{volume.image->lowest, volume.image->highest};
   if (!(range.lower < range.upper)) return;
   constexpr std::size_t kEntries = 128;
-  const std::vector<ColorSample> samples = volume.transfer.table(range.lower, range.upper, kEntries);
+  const std::vector<ColorSample> samples = volume.regions
+                                               ? deepest_colors(*volume.regions, range, kEntries)
+                                               : volume.transfer.table(range.lower, range.upper, kEntries);
   std::vector<Rgb> colors;
   colors.reserve(samples.size());
   for (const ColorSample& sample : samples)

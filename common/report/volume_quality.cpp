@@ -132,11 +132,12 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   const OffscreenContext context;
   quality.renderer = gl_description();
   VolumePicture picture(pixels, pixels, VolumePicture::Context::kCurrent);
-  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 18 : 23);
+  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 20 : 25);
 
   VolumeView best = given;
   best.samples_per_voxel = 32.0;
   for (Lens& lens : best.lenses) lens.samples_per_voxel = 32.0;
+  best.far_sampling = 1.0;
   best.table_entries = 512;
   best.skip_empty = best.stop_where_opaque = false;
   const FloatImage converged = picture.draw(best, camera);
@@ -154,6 +155,11 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     VolumeView view = given;
     view.samples_per_voxel = samples;
     measure("samples a voxel", samples, view);
+  }
+  for (const double ratio : {2.0, 4.0}) {
+    VolumeView view = given;
+    view.far_sampling = ratio;
+    measure("times fewer samples at the far end", ratio, view);
   }
   for (const int entries : {16, 32, 64, 128, 256}) {
     VolumeView view = given;

@@ -7,6 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
@@ -133,8 +134,28 @@ Input Input::open(const InputSpec& spec, Progress* progress) {
   } else if (input.file() && input.not_volume_.empty()) {
     for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
+  input.part_fields();
   input.seconds_open_ = watch.seconds();
   return input;
+}
+
+bool Input::names_field(const std::string& name) const {
+  return std::find(fields_.begin(), fields_.end(), name) != fields_.end() ||
+         std::any_of(arrays_.begin(), arrays_.end(),
+                     [&](const ArrayInfo& array) { return array.name == name; });
+}
+
+// Several scalars of a volume in one word; a name may have a comma of its own.
+void Input::part_fields() {
+  const bool whole = std::find(fields_.begin(), fields_.end(), spec_.field) != fields_.end();
+  if (spec_.kind != FieldKind::kScalar || whole) return;
+  const std::string words = spec_.field;
+  bool first = true;
+  for (const std::string_view name : split(words, ',')) {
+    if (!first) spec_.beside.emplace_back(name);
+    if (first) spec_.field = name;
+    first = false;
+  }
 }
 
 void Input::open_files(Progress* progress) {

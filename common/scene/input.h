@@ -40,8 +40,10 @@ struct InputSpec {
   std::vector<std::filesystem::path> files;
   std::optional<std::filesystem::path> solution;  ///< PLOT3D
   std::string example;                            ///< in place of files
-  std::string field;                              ///< empty: the likeliest one
-  std::string time = "first";                     ///< first, last or a time
+  /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `beside`.
+  std::string field;
+  std::vector<std::string> beside;  ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
+  std::string time = "first";       ///< first, last or a time
   FieldKind kind = FieldKind::kVector;
   RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
   TensorWords tensor;  ///< how tensors are read and fitted
@@ -90,6 +92,8 @@ class Input {
   [[nodiscard]] const std::string& not_volume() const noexcept { return not_volume_; }
   /// Names of all fields of spec().kind that can be made, the default first; none without a volume.
   [[nodiscard]] const std::vector<std::string>& fields() const noexcept { return fields_; }
+  /// Whether `name` is one of them, or the bare name of an array that makes one.
+  [[nodiscard]] bool names_field(const std::string& name) const;
   [[nodiscard]] const std::vector<double>& times() const noexcept;
   [[nodiscard]] const TimeChoice& time() const noexcept { return time_; }
   /// Moves to another time step. @pre step < times().size().
@@ -97,6 +101,8 @@ class Input {
 
   /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
   void set_field(std::string name) { spec_.field = std::move(name); }
+  /// Chooses what InputSpec::beside has.
+  void set_beside(std::vector<std::string> names) { spec_.beside = std::move(names); }
 
   /// The recipe of the vector field that spec().field means. @pre file().
   /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field or no volume.
@@ -147,6 +153,7 @@ class Input {
   void open_files(Progress* progress);
   void remesh(Progress* progress);
   [[nodiscard]] std::vector<DataSet> read_file(const std::vector<std::string>& names, Progress* progress);
+  void part_fields();
   [[nodiscard]] std::string file_name() const;
   void check_volume() const;
 

@@ -8,6 +8,7 @@
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/scalar_choice.h"
 #include "common/load/format.h"
 
 namespace palpate {
@@ -65,9 +66,15 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
                                                              byte_size(array.type);
     const bool in_field = std::find(wanted.begin(), wanted.end(), array.name) != wanted.end();
     const bool colors = array.name == use.color_array;
+    const bool in_lens = std::any_of(use.beside.begin(), use.beside.end(), [&](const std::string& name) {
+      return input.names_field(name) &&
+             choose_scalar(input.arrays(), name, input.title()).array == array.name;
+    });
     const std::string what = kArray + array.name;
     if (in_field) {
       plan.push_back(used(what, field, bytes, array_milliseconds(bytes)));
+    } else if (in_lens) {
+      plan.push_back(used(what, "another field, for lenses", bytes, array_milliseconds(bytes)));
     } else if (colors) {
       plan.push_back(used(what, "colours the lines", bytes, array_milliseconds(bytes)));
     } else if (use.all_arrays) {
@@ -75,6 +82,13 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
     } else {
       plan.push_back(left_out(what, "nothing asks for it", bytes));
     }
+  }
+}
+
+// Voxels of other files.
+void plan_beside(const Input& input, const SceneUse& use, Needs& plan) {
+  for (const std::string& name : use.beside) {
+    if (!input.names_field(name)) plan.push_back(used("voxels of " + name, "another field, for lenses"));
   }
 }
 
@@ -91,6 +105,7 @@ void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Ne
   for (const std::string& helper : others) plan.push_back(left_out(kHelper + helper, "not for this format"));
 
   plan_arrays(input, use, plan);
+  plan_beside(input, use, plan);
   if (file.times.size() > 1) {
     plan.push_back(
         left_out(std::to_string(file.times.size() - 1) + " other time steps", "one is shown at a time"));

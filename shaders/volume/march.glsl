@@ -60,6 +60,9 @@ float layer_for(float samples, Ray ray) {
   return clamp(layer, 1.0, volume.lengths.y - 1.0);
 }
 
+#ifdef FAR
+#include "volume/far.glsl"
+#endif
 #ifdef SLABS
 #include "volume/slab_march.glsl"
 #else
@@ -67,6 +70,11 @@ float layer_for(float samples, Ray ray) {
 struct Walk {
   float d;
   float layer;  // of all tables
+#ifdef FAR
+  float tables;   // where its tables begin, `step` the layer of d there
+  float step;
+  float stretch;  // samples that the last step went over
+#endif
   float n;      // the present sample, and its value
   float front;
   float last;   // the sample at which the walk ends
@@ -74,7 +82,14 @@ struct Walk {
 
 // Goes to the next sample, over samples up to `inside` in one step; at the last one it stays.
 vec4 walk_on(inout Walk walk, Ray ray, float inside) {
+#ifdef FAR
+  float stride = far_stride(walk.n, walk.d, (volume.lengths.y - 1.0) / walk.step);
+  float next = min(max(walk.n + stride, inside), walk.last);
+  walk.stretch = next - walk.n;
+  walk.layer = walk.tables + walk.step * min(walk.stretch, stride);
+#else
   float next = min(max(walk.n + 1.0, inside), walk.last);
+#endif
   float back = value_at(point_at(ray, next * walk.d));
   bool blank = inside > walk.n || next == walk.n || isnan(walk.front + back);
   vec4 seen = texture(tables, vec3(walk.front, back, walk.layer)) * (blank ? 0.0 : 1.0);
@@ -93,6 +108,11 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   walk.layer = first_layer + layer;
   walk.n = floor(from / walk.d) + 1.0;
   walk.last = ceil(to / walk.d) - 1.0;
+#ifdef FAR
+  walk.tables = first_layer;
+  walk.step = layer;
+  walk.stretch = 1.0;
+#endif
   bool leaps = field.bricks.w > 0.5;
 #ifdef BLENDED
   leaps = leaps && blended < 0;  // coarser voxels reach into bricks that are empty
@@ -112,7 +132,12 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
       seen = walk_on(walk, ray, inside);
       if (seen.a > 0.0) break;
     }
-    gather(seen, ray.direction, part, point_at(ray, (walk.n - 0.5) * walk.d), gathered);
+#ifdef FAR
+    float middle = walk.n - 0.5 * walk.stretch;
+#else
+    float middle = walk.n - 0.5;
+#endif
+    gather(seen, ray.direction, part, point_at(ray, middle * walk.d), gathered);
 #else
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);

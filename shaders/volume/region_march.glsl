@@ -50,7 +50,11 @@ void march_regions(Ray ray, vec4 part, float from, float to, inout vec4 gathered
     float n = floor(t / d + 1e-3);
     // The last sample that is still in empty bricks.
     float inside = leaps ? floor(end_of_empty(ray, t, float(transfer.w)) / d) : n;
+#ifdef FAR
+    float next = min(max(n + far_stride(n, d, 64.0), inside) * d, to);
+#else
     float next = min(max(n + 1.0, inside) * d, to);
+#endif
     Sample back = sample_at(point_at(ray, next));
     vec4 seen = vec4(0.0);
     if (!(inside > n)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.z), next - t);

@@ -17,6 +17,7 @@ struct Field {
 layout(std140, binding = 1) uniform Volume {
   vec4 lengths;   // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end; w: 1 ask tiles
   ivec4 counts;   // x: lenses, y: cuts
+  vec4 far;       // x: nearest t of the volume of the context; y: 1 / depth of it in t; z: log2 of how many times as long steps are at its far end
   ivec4 transfers[kTransferRoom];  // x: field, y: 1 by regions, z: first layer of its tables, w: z of its map of empty bricks
   Field fields[FIELDS];
 } volume;

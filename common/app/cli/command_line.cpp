@@ -160,8 +160,11 @@ class VerbParser {
     scene("--example", input.example, "a built-in data set in place of FILE; 'list' lists them", "NAME",
           group);
     scene("--field", input.field,
-          "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named",
-          "NAME", group);
+          "the " + std::string(name_of(kind)) + " field; without it the likeliest one is taken and named" +
+              (kind == FieldKind::kScalar
+                   ? "; more of them behind commas, or files, are there for lenses and the probe, up to four"
+                   : ""),
+          kind == FieldKind::kScalar ? "NAME,..." : "NAME", group);
     if (kind == FieldKind::kScalar) add_raw_options(scene_options_, input.raw);
     if (kind == FieldKind::kFibre) add_heart_input_options(scene_options_, input);
     if (kind == FieldKind::kTensor) add_tensor_input_options(scene_options_, input.tensor);

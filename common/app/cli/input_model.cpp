@@ -44,6 +44,7 @@ void describe_projection(Session& session, const SceneView& view) {
 void describe_rays(Session& session, const VolumeView& volume) {
   add_option(session, "lens", lenses_text(volume));
   add_option(session, "samples", exact_number(volume.samples_per_voxel));
+  if (volume.far_sampling > 1.0) add_option(session, "far-sampling", exact_number(volume.far_sampling));
   if (volume.context.viewport < 1.0)
     add_option(session, "context-viewport", exact_number(volume.context.viewport));
   if (volume.storage.memory > 0)

@@ -64,6 +64,7 @@ class InputModel : public WindowModel {
       Content content = scene.content;
       if (!same_content(settings, before)) {
         scene.input.set_field(settings.field);
+        scene.input.set_beside(settings.beside);
         scene.input.set_time_step(settings.time_step);
         content = read(scene.input, options_, progress);
       }
@@ -72,6 +73,7 @@ class InputModel : public WindowModel {
       scene.shown = std::move(state);
     } catch (...) {
       scene.input.set_field(before.field);
+      scene.input.set_beside(before.beside);
       scene.input.set_time_step(before.time_step);
       throw;
     }
@@ -83,7 +85,9 @@ class InputModel : public WindowModel {
     const InputSpec& spec = scene_->input.spec();
     Session session = begin_session(spec, program_);
     add_option(session, "example", spec.example);
-    add_option(session, "field", settings.field);
+    std::string fields = settings.field;
+    for (const std::string& name : settings.beside) fields += "," + name;
+    add_option(session, "field", fields);
     const auto& times = scene_->input.times();
     if (times.size() > 1) add_option(session, "time", exact_number(times[settings.time_step]));
     add_option(session, "series", spec.series);
@@ -137,9 +141,9 @@ class InputModel : public WindowModel {
   virtual void describe_session(Session& session, const InputSpec& spec, const Options& options,
                                 const SceneSettings& settings, const SceneView& view) const = 0;
 
-  /// Whether both settings mean the same field at the same time.
+  /// Whether both settings mean the same fields at the same time.
   [[nodiscard]] static bool same_content(const SceneSettings& a, const SceneSettings& b) {
-    return a.field == b.field && a.time_step == b.time_step;
+    return a.field == b.field && a.beside == b.beside && a.time_step == b.time_step;
   }
 
   /// What is open; null before start().
@@ -154,6 +158,7 @@ class InputModel : public WindowModel {
     SceneSettings settings;
     begin(settings, input, options);
     settings.field = input.field_label();
+    settings.beside = input.spec().beside;
     settings.time_step = input.time().step;
     SceneState state = present(input, content, options, settings, nullptr, progress);
     scene_.emplace(Scene{std::move(input), std::move(content), std::move(state)});

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/field/color_transfer_file.h"
+#include "common/field/region_transfer_file.h"
 #include "common/math/normal_length.h"
 #include "common/scene/seeds.h"
 
@@ -18,7 +21,7 @@ constexpr const char* kGrammar =
     "a lens is sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), cylinder:x,y,z,x,y,z,r, "
     "polyhedron:nx,ny,nz,d,nx,ny,nz,d,..., halfspace:nx,ny,nz,d or screen:x,y,r, and behind it ',cut' where "
     "it cuts away, "
-    "',magnify=M', ',blend=B', ',samples=N' or ',shading=on' or 'off'";
+    "',magnify=M', ',blend=B', ',samples=N', ',shading=on' or 'off', ',field=NAME' or last ',tf=NAME|FILE'";
 
 Vec3 vec_at(const std::vector<double>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
@@ -165,6 +168,12 @@ LensWords parse_lens(const std::string& text) {
   LensWords words;
   const std::string& all = text;
   std::string_view rest = text;
+  constexpr std::string_view kTransfer = ",tf=";
+  if (const std::size_t at = rest.find(kTransfer); at != std::string_view::npos) {
+    words.transfer = rest.substr(at + kTransfer.size());
+    if (words.transfer.empty()) throw usage_error("--lens " + all + ": " + kGrammar);
+    rest = rest.substr(0, at);
+  }
   // What is said of the lens stands behind its numbers, and begins with a letter.
   const auto says = [&](std::string_view word, std::string_view what) {
     if (what == "cut") {
@@ -177,6 +186,8 @@ LensWords parse_lens(const std::string& text) {
       words.lens.transition = number_from(0.0, 1.0, what, "--lens " + all + ": blend");
     } else if (word == "samples") {
       words.samples = number_from(0.01, 64.0, what, "--lens " + all + ": samples");
+    } else if (word == "field" && !what.empty()) {
+      words.field = what;
     } else if (word == "shading" && (what == "on" || what == "off")) {
       words.shading = what == "on";
     } else {
@@ -204,6 +215,11 @@ LensWords parse_lens(const std::string& text) {
     says(word, equal == std::string_view::npos ? word : said[i].substr(equal + 1));
   }
   const Lens& lens = words.lens;
+  if (lens.cut && !(words.field.empty() && words.transfer.empty()))
+    throw usage_error("--lens " + all + ": what is cut away shows nothing; leave out ',field' and ',tf'");
+  if (lens.transition > 0.0 && !words.field.empty())
+    throw usage_error("--lens " + all +
+                      ": values blend with those of one field; leave out ',blend' or ',field'");
   if (words.off && !(lens.cut && is_half_space(lens.shape)))
     throw usage_error("--lens " + all + ": only a half-space that cuts can be off");
   if (!lens.cut && lens.magnification > 1.0 && !magnifies(lens))
@@ -224,6 +240,12 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   if (lens.samples_per_voxel != view.samples_per_voxel)
     *text += ",samples=" + exact_number(lens.samples_per_voxel);
   if (lens.shading != view.shading) *text += lens.shading ? ",shading=on" : ",shading=off";
+  if (lens.field > 0) *text += ",field=" + view.fields[lens.field - 1].name;
+  if (lens.own_transfer && lens.regions) {
+    *text += ",tf=" + region_words(*lens.regions);
+  } else if (lens.own_transfer && lens.transfer && !lens.transfer->points().empty()) {
+    *text += ",tf=" + transfer_words(*lens.transfer);
+  }
   return text;
 }
 
@@ -241,8 +263,9 @@ std::string lenses_text(const VolumeView& view) {
   return all;
 }
 
-VolumeParts make_parts(const VolumeOptions& options, const std::optional<ColorTransfer>& focus) {
+VolumeParts make_parts(const VolumeOptions& options, const Lens& model) {
   VolumeParts parts;
+  std::vector<std::pair<Lens, LensWords>> lenses;
   for (const std::string& plane : options.clips)
     parts.cuts.push_back({.kept = kept_beside(parse_beyond(plane, "--clip " + plane))});
   for (const std::string& text : options.lenses) {
@@ -251,12 +274,19 @@ VolumeParts make_parts(const VolumeOptions& options, const std::optional<ColorTr
       parts.cuts.push_back({.kept = kept_beside(words.lens.shape), .on = !words.off});
       continue;
     }
-    Lens& lens = parts.lenses.emplace_back(words.lens);
+    Lens& lens = lenses.emplace_back(words.lens, words).first;
     lens.samples_per_voxel = words.samples.value_or(options.samples);
     lens.shading = words.shading.value_or(options.shading);
-    if (!lens.cut) lens.transfer = focus;
+    if (lens.cut) continue;
+    lens.transfer = model.transfer;
+    lens.regions = model.regions;
   }
-  std::stable_partition(parts.lenses.begin(), parts.lenses.end(), [](const Lens& lens) { return lens.cut; });
+  std::stable_partition(lenses.begin(), lenses.end(), [](const auto& one) { return one.first.cut; });
+  for (const auto& [lens, words] : lenses) {
+    parts.lenses.push_back(lens);
+    parts.fields.push_back(words.field);
+    parts.transfers.push_back(words.transfer);
+  }
   if (parts.lenses.size() > kMostLenses) {
     throw usage_error("--lens: " + std::to_string(parts.lenses.size()) + " lenses; at most " +
                       std::to_string(kMostLenses) + " are possible");

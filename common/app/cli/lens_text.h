@@ -5,8 +5,9 @@
 ///   screen:x,y,r (a circle on the screen, in heights of the picture from its middle, y up)
 ///
 /// and behind it, in any order, ",cut": cut away, and ",off" with it where a half-space does not for now;
-/// ",magnify=M"; ",blend=B" (Lens::transition); ",samples=N" a voxel; ",shading=on" or "off", each as outside
-/// the lens where it is not said. Places and lengths in data units.
+/// ",magnify=M"; ",blend=B" (Lens::transition); ",samples=N" a voxel; ",shading=on" or "off"; ",field=NAME",
+/// another scalar (volume_fields.h): each as outside the lens where it is not said; at the end of all
+/// ",tf=W", a transfer function of its own (volume_transfer_of()). Places and lengths in data units.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,9 @@ struct LensWords {
   Lens lens;
   std::optional<double> samples;  ///< a voxel
   std::optional<bool> shading;
-  bool off = false;  ///< a half-space that would cut
+  std::string field;     ///< empty: that of the context
+  std::string transfer;  ///< empty: that of all lenses
+  bool off = false;      ///< a half-space that would cut
 };
 /// @throws Error (usage) for words of another kind, and for a shape without size.
 [[nodiscard]] LensWords parse_lens(const std::string& text);
@@ -41,12 +44,13 @@ struct LensWords {
 
 struct VolumeParts {
   std::vector<Lens> lenses;
+  std::vector<std::string> fields, transfers;  ///< LensWords::field and transfer of each lens
   std::vector<CuttingPlane> cuts;
 };
 /// What `--lens` and `--clip` ask for: half-spaces that cut are planes; other lenses that cut come first, so
 /// that they cut the others too.
-/// @param focus transfer function of lenses that do not cut; absent: that of the context.
+/// @param model whose transfer function lenses have that do not cut.
 /// @throws Error (usage) also for more lenses or planes than a picture can have.
-[[nodiscard]] VolumeParts make_parts(const VolumeOptions& options, const std::optional<ColorTransfer>& focus);
+[[nodiscard]] VolumeParts make_parts(const VolumeOptions& options, const Lens& model = {});
 
 }  // namespace palpate

@@ -104,6 +104,7 @@ struct VolumeOptions {
   std::optional<double> window, level;  ///< of them; absent: default_window()
   std::string contours;                 ///< v,v,...: lines of equal value on these planes
   double samples = 4.0;                 ///< per voxel along a ray
+  double far_sampling = 1.0;            ///< VolumeView::far_sampling
   double context_viewport = 1.0;        ///< ContextQuality::viewport
   int context_level = 0;                ///< ContextQuality::level
   double gpu_memory = 0.0;              ///< that voxels may take there [2^20 bytes]; 0: no bound

@@ -66,6 +66,7 @@ void measure_error(const SceneView& view, const Image& image, RenderSummary& sum
     SceneView finer = view;
     finer.volume->samples_per_voxel *= kFiner;
     finer.volume->context = {};
+    finer.volume->far_sampling = 1.0;
     for (Lens& lens : finer.volume->lenses) lens.samples_per_voxel *= kFiner;
     finer.volume->skip_empty = false;
     finer.volume->stop_where_opaque = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/base/output_file.h"
 #include "common/device/probe_path.h"
@@ -9,6 +10,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/value_histogram.h"
 #include "common/haptics/workspace.h"
+#include "common/render/volume/volume_view.h"
 #include "common/servo/hand_step.h"
 
 namespace palpate {
@@ -20,6 +22,7 @@ class ProbeLog {
     const TensorField* tensors = nullptr;  ///< force, cl, cp, cs and fa
     const ScalarField* scalar = nullptr;   ///< value, and below: the part of all values that are lower
     const ScalarField* noise = nullptr;    ///< noise, as a part of the range of the values
+    std::vector<VolumeField> beside;       ///< other scalars: value:NAME for each
   };
   ProbeLog(OutputFile& file, const Workspace& workspace, int links, const Measured& measured);
 

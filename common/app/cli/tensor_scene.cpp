@@ -67,7 +67,11 @@ void check_tensor_options(const Options& options) {
 
 Lens direction_lens(const VolumeOptions& options, const VolumeImage& image) {
   Lens lens;
-  lens.transfer = options.focus.empty() ? anisotropy_body() : focus_transfer_of(options.focus, image, 0);
+  if (options.focus.empty()) {
+    lens.transfer = anisotropy_body();
+  } else {
+    take_transfer(focus_transfer_of(options.focus, image, 0), lens);
+  }
   lens.samples_per_voxel = options.samples;
   lens.shading = options.shading;
   lens.colored = true;
@@ -79,15 +83,24 @@ VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const 
   VolumeView volume;
   volume.image = make_anisotropy_volume(std::move(voxels));
   volume.colored = options.tensors.volume == "direction";
-  volume.transfer = !with.transfer.empty() ? color_transfer_of(with.transfer, *volume.image, 0)
-                    : volume.colored       ? anisotropy_body()
-                                           : anisotropy_veil();
+  volume.transfer = volume.colored ? anisotropy_body() : anisotropy_veil();
+  if (!with.transfer.empty()) {
+    VolumeTransfer transfer = volume_transfer_of(with.transfer, *volume.image, 0);
+    volume.transfer = std::move(transfer.colors);
+    volume.regions = std::move(transfer.regions);
+  }
   volume.samples_per_voxel = with.samples;
+  volume.far_sampling = with.far_sampling;
   volume.context.viewport = with.context_viewport;
   volume.context.level = with.context_level;
   volume.shading = with.shading;
   const Lens model = direction_lens(with, *volume.image);
-  VolumeParts parts = make_parts(with, model.transfer);
+  VolumeParts parts = make_parts(with, model);
+  const auto said = [](const std::string& one) { return !one.empty(); };
+  if (std::any_of(parts.fields.begin(), parts.fields.end(), said) ||
+      std::any_of(parts.transfers.begin(), parts.transfers.end(), said)) {
+    throw usage_error("--lens: lenses of a tensor image show its directions; leave out ',field' and ',tf'");
+  }
   volume.lenses = std::move(parts.lenses);
   volume.cuts = std::move(parts.cuts);
   for (Lens& lens : volume.lenses) lens.colored = !lens.cut;

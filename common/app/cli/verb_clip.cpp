@@ -142,7 +142,7 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.measured = measured_costs(input, nullptr);
-  drawn.view = make_volume_scene(input, image, options, aspect);
+  drawn.view = make_volume_scene(input, {.image = image}, options, aspect);
   return drawn;
 }
 

@@ -9,6 +9,7 @@
 #include "common/app/cli/simulated_option.h"
 #include "common/app/cli/slice_plane.h"
 #include "common/app/cli/touch_options.h"
+#include "common/app/cli/volume_fields.h"
 #include "common/app/haptic/chain_description.h"
 #include "common/app/haptic/felt_surfaces.h"
 #include "common/app/haptic/grid_mode.h"
@@ -98,6 +99,7 @@ struct FeltInput {
   double diagonal = 0.0;
   const TetMesh* mesh = nullptr;
   std::vector<std::string> notes;
+  std::vector<VolumeField> beside;  ///< other scalars of a volume, which are logged
 };
 
 FeltInput load_felt(Input& input, const Options& options, const VerbContext& context) {
@@ -128,6 +130,7 @@ FeltInput load_felt(Input& input, const Options& options, const VerbContext& con
   } else if (context.explorer.kind == FieldKind::kScalar) {
     felt.scalar = input.load_scalar(options.common.threads, &context.progress);
     describe(*felt.scalar);
+    felt.beside = load_beside(input, options.volume, &context.progress);
   } else {
     felt.field = input.load_field(options.common.threads, &context.progress);
     describe(*felt.field);
@@ -227,7 +230,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   // Of a heart the tensors are its fibres, which no column tells of.
   ProbeLog::Measured logged{
       .tensors = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr,
-      .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr};
+      .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr,
+      .beside = felt.beside};
   if (context.explorer.kind == FieldKind::kFibre && !recording) {
     IsosurfaceSettings& layers = summary.settings.isosurface;
     if (layers.isovalues.count == 0) layers.isovalues = default_layers(*felt.scalar);

@@ -5,6 +5,7 @@
 #include "common/app/cli/picture.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/volume_fields.h"
 #include "common/app/cli/volume_scene.h"
 #include "common/app/haptic/annotation_list.h"
 #include "common/app/haptic/probe_picture.h"
@@ -17,7 +18,10 @@ namespace {
 
 SceneUse use_of(const Options& options, const Input& input) {
   (void)input.scalar_choice();  // an unknown --field is refused before anything is read
-  return {.verb = "render", .threads = resolve_threads(options.common.threads), .drawing = true};
+  return {.verb = "render",
+          .threads = resolve_threads(options.common.threads),
+          .drawing = true,
+          .beside = names_beside(input, options.volume)};
 }
 
 const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
@@ -44,9 +48,9 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
                       const VerbContext& context, double aspect) {
   DrawnScene drawn;
   const bool touched = !options.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
-  const TangibleVolume volume = touched
-                                    ? load_tangible_volume(input, options.common.threads, &context.progress)
-                                    : TangibleVolume{load_volume(input, &context.progress), nullptr};
+  TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
+                                  : TangibleVolume{.image = load_volume(input, &context.progress)};
+  volume.beside = load_beside(input, options.volume, &context.progress);
   const auto& image = volume.image;
   if (touched && !volume.field) {
     throw input_error({input.title(), "", "is flat: it has no inside to be felt", "a volume", ""});
@@ -55,7 +59,8 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.measured = measured_costs(input, nullptr);
-  drawn.view = make_volume_scene(input, image, options, aspect);
+  drawn.view = make_volume_scene(input, volume, options, aspect);
+  if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
   drawn.view.notes = notes_of(AnnotationList(annotations_of(options.touch.annotations, "--annotation")),
                               length_unit(drawn.view), std::nullopt);
   if (touched) show_touch(drawn.view, modes, volume, options, context);

@@ -5,6 +5,7 @@
 
 #include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/volume_fields.h"
 #include "common/app/cli/volume_scene.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
@@ -53,7 +54,8 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
     console.print(plan_text(plan_scene(
         input, {.verb = "report", .threads = resolve_threads(options.common.threads), .drawing = true})));
   }
-  const SceneView scene = make_volume_scene(input, load_volume(input, &context.progress), options, 1.0);
+  const SceneView scene =
+      make_volume_scene(input, load_seen_volume(input, options.volume, &context.progress), options, 1.0);
   Report report = begin_report(input, context);
   report.scene.push_back(scene.subtitle + ".");
   const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, &context.progress);

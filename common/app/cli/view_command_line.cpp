@@ -9,6 +9,13 @@ constexpr const char* kGroup = "View";
 
 void add_rays(SceneOptions& options, VolumeOptions& volume) {
   options.add("--samples", volume.samples, "samples a voxel along each ray; default 4", "N", kGroup);
+  options
+      .add("--far-sampling", volume.far_sampling,
+           "how many times as far apart samples are where the volume is farthest from the viewer, by powers "
+           "of "
+           "two; default 1",
+           "F", kGroup)
+      ->check(CLI::Range(1.0, 16.0));
   options.add("--shading", volume.shading,
               "light surfaces by the gradient of the values: on (default) or off", "on|off", kGroup);
 }
@@ -23,8 +30,11 @@ void add_lenses(SceneOptions& options, VolumeOptions& volume, const char* focus)
       "behind it ',cut' cuts it away (',off' with it: a half-space does not for now), "
       "',magnify=M' enlarges, ',blend=B' has values go over into those of --context-level along that share "
       "of the "
-      "way to its middle, ',samples=N' and ',shading=on' or 'off' are its own; may be repeated, the first "
-      "one wins",
+      "way to its middle, ',samples=N' and ',shading=on' or 'off' are its own, ',field=NAME' shows another "
+      "scalar of the file, or "
+      "of another one (FILE or FILE:NAME), on its own grid, and last ',tf=' its own transfer function, as "
+      "--focus-tf has it; may be repeated, the "
+      "first one wins",
       "SHAPE", kGroup);
   options.add(
       "--context-viewport", volume.context_viewport,
@@ -84,7 +94,11 @@ void add_projection(SceneOptions& options, VolumeOptions& volume) {
 void add_volume(SceneOptions& options, VolumeOptions& volume) {
   options.add("--transfer-function,--context-tf", volume.transfer,
               "which colour and opacity values have: density, mr, ct, or a file with the header "
-              "value,red,green,blue,opacity; without it one is made from the histogram",
+              "value,red,green,blue,opacity; or regions of value and gradient magnitude: boundaries, "
+              "'regions:SHAPE/SHAPE...' or a file with a shape a row, box,V,M,V,M,R,G,B,A,S, "
+              "ellipse,V,M,V,M,R,G,B,A,S or triangle,V,M,V,M,V,M,R,G,B,A,S (corners, colour, opacity, soft "
+              "border; after 'fractions' in parts of the data's ranges); without it one is made from the "
+              "histogram",
               "NAME|FILE", kGroup);
   add_lenses(options, volume, "the same inside lenses; without it the denser half of what is seen outside");
   add_rays(options, volume);

@@ -13,11 +13,14 @@
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/plane_image_text.h"
+#include "common/app/cli/volume_fields.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/color_transfer_file.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
+#include "common/field/region_transfer_file.h"
 #include "common/field/value_histogram.h"
+#include "common/render/volume/value_gradient.h"
 #include "common/scene/volume_source.h"
 
 namespace palpate {
@@ -61,23 +64,42 @@ ColorTransfer density_from(const ValueHistogram& histogram, double lower, double
   return make_color_transfer(ColorPreset::kDensity, lower, upper);
 }
 
-ColorTransfer named_transfer(const std::string& name, const VolumeImage& image) {
-  if (auto transfer = transfer_from_words(name)) return *transfer;
+// @throws Error (usage) for another word.
+ColorPreset preset_of(const std::string& name) {
+  for (int i = 0; i < kColorPresetCount; ++i) {
+    const auto preset = static_cast<ColorPreset>(i);
+    if (name == name_of(preset)) return preset;
+  }
+  throw usage_error("unknown transfer function '" + name + "'; known: density, mr, ct, " + kBoundariesPreset +
+                    ", or a file");
+}
+
+VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image, int threads) {
+  const DataRange range = [&] { return place_range(image, threads); };
+  if (auto transfer = transfer_from_words(name)) return {*transfer, {}};
+  if (auto regions = regions_from_words(name, range)) return {{}, std::move(regions)};
+  if (name == kBoundariesPreset) return {{}, spread(boundary_regions(), range())};
   const bool values = image.lowest <= image.highest;
   const double lower = values ? image.lowest : 0.0;
   const double upper = values ? image.highest : 0.0;
   std::error_code ignored;
-  if (std::filesystem::exists(name, ignored)) return read_color_transfer(name, lower, upper);
-  return make_color_transfer(color_preset_from_name(name), lower, upper);
+  if (std::filesystem::exists(name, ignored)) {
+    if (is_region_file(name)) return {{}, read_regions(name, range)};
+    return {read_color_transfer(name, lower, upper), {}};
+  }
+  return {make_color_transfer(preset_of(name), lower, upper), {}};
 }
 
 void check_transfer(const std::string& name) {
   std::error_code ignored;
-  if (name.empty() || transfer_from_words(name) || std::filesystem::exists(name, ignored)) return;
+  const auto any_range = [] { return PlaceRange{{0.0, 0.0}, {1.0, 1.0}}; };
+  if (name.empty() || name == kBoundariesPreset || transfer_from_words(name) ||
+      regions_from_words(name, any_range) || std::filesystem::exists(name, ignored))
+    return;
   // A word is a preset; what looks like a path was meant as one.
   if (name.find_first_of("./") != std::string::npos)
     throw input_error({name, "", "no such file", "a transfer function", ""});
-  (void)color_preset_from_name(name);
+  (void)preset_of(name);
 }
 
 }  // namespace
@@ -98,12 +120,20 @@ ColorTransfer default_focus_transfer(const VolumeImage& image, int threads) {
   return density_from(dense, denser, denser);
 }
 
-ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
-  return name.empty() ? default_color_transfer(image, threads) : named_transfer(name, image);
+void take_transfer(VolumeTransfer transfer, Lens& lens) {
+  lens.regions = std::move(transfer.regions);
+  lens.transfer.reset();
+  if (!lens.regions) lens.transfer = std::move(transfer.colors);
 }
 
-ColorTransfer focus_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
-  return name.empty() ? default_focus_transfer(image, threads) : named_transfer(name, image);
+VolumeTransfer volume_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  if (name.empty()) return {default_color_transfer(image, threads), {}};
+  return named_transfer(name, image, threads);
+}
+
+VolumeTransfer focus_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  if (name.empty()) return {default_focus_transfer(image, threads), {}};
+  return named_transfer(name, image, threads);
 }
 
 void check_volume_options(const VolumeOptions& options) {
@@ -118,7 +148,7 @@ void check_volume_options(const VolumeOptions& options) {
                       " is expected");
   check_transfer(options.transfer);
   check_transfer(options.focus);
-  (void)make_parts(options, std::nullopt);
+  for (const std::string& transfer : make_parts(options).transfers) check_transfer(transfer);
   (void)plane_images_of(options);
 }
 
@@ -142,7 +172,7 @@ DataSet load_volume_block(Input& input, Progress* progress) {
 
 TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress) {
   const Voxels voxels = read_voxels(input, progress);
-  TangibleVolume volume{voxels.image, nullptr};
+  TangibleVolume volume{.image = voxels.image};
   const Index3& n = voxels.image->points;
   if (std::min({n.x, n.y, n.z}) < 2) return volume;
   if (progress) progress->begin("preparing the field", 0);
@@ -155,8 +185,9 @@ ImageSpace space_of(const Input& input) {
   return file != nullptr && file->anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
 }
 
-SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,
-                            const Options& options, double aspect) {
+SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Options& options,
+                            double aspect) {
+  const std::shared_ptr<const VolumeImage>& image = shown.image;
   SceneView view;
   view.bounds = image->bounds();
   view.outline = image_outline(image->origin, image->axes, image->lower(), image->upper());
@@ -171,24 +202,26 @@ SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImag
       options.view, view.bounds, aspect,
       options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
   VolumeView volume;
-  volume.transfer = color_transfer_of(options.volume.transfer, *image, options.common.threads);
+  volume.image = image;
+  volume.fields = shown.beside;
+  VolumeTransfer transfer = volume_transfer_of(options.volume.transfer, *image, options.common.threads);
+  volume.transfer = std::move(transfer.colors);
+  volume.regions = std::move(transfer.regions);
   volume.samples_per_voxel = options.volume.samples;
+  volume.far_sampling = options.volume.far_sampling;
   volume.context.viewport = options.volume.context_viewport;
   volume.context.level = options.volume.context_level;
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
-    VolumeParts parts =
-        make_parts(options.volume, focus_transfer_of(options.volume.focus, *image, options.common.threads));
-    volume.lenses = std::move(parts.lenses);
-    volume.cuts = std::move(parts.cuts);
+    const std::vector<Lens> looks = lens_looks(volume, options.volume.focus, options.common.threads);
+    take_parts(volume, options.volume, looks, options.common.threads);
   }
   volume.planes = plane_images_of(options.volume);
   const bool asked = volume.planes.shown || options.volume.window || options.volume.level;
   if (asked && !volume.planes.window && image->lowest <= image->highest)
     complete_window(volume.planes, options.volume,
                     histogram_of(*image, image->lowest, options.common.threads));
-  volume.image = std::move(image);
   view.volume = std::move(volume);
   return view;
 }

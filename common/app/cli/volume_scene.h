@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/app/cli/options.h"
 #include "common/base/progress.h"
@@ -20,13 +22,26 @@ namespace palpate {
 /// one shows, as Otsu's threshold of those values parts it, so that a lens looks into things.
 [[nodiscard]] ColorTransfer default_focus_transfer(const VolumeImage& image, int threads);
 
-/// What `--transfer-function` names: a preset, a file, "points:" with the points themselves
-/// (transfer_words()), or nothing for default_color_transfer().
+/// A transfer function of values, or of values and gradient magnitudes.
+struct VolumeTransfer {
+  ColorTransfer colors;
+  std::optional<RegionTransfer> regions;  ///< in place of `colors`
+};
+/// Has a lens show what it says.
+void take_transfer(VolumeTransfer transfer, Lens& lens);
+
+/// What `--transfer-function` names: a preset, a file of either kind, "points:" or "regions:" with the points
+/// or regions themselves (transfer_words(), region_words()), or nothing for default_color_transfer().
 /// @throws Error (usage) for a word that is none of these, (bad input) for a file.
-[[nodiscard]] ColorTransfer color_transfer_of(const std::string& name, const VolumeImage& image, int threads);
+[[nodiscard]] VolumeTransfer volume_transfer_of(const std::string& name, const VolumeImage& image,
+                                                int threads);
 
 /// The same of `--focus-tf`, where nothing stands for default_focus_transfer().
-[[nodiscard]] ColorTransfer focus_transfer_of(const std::string& name, const VolumeImage& image, int threads);
+[[nodiscard]] VolumeTransfer focus_transfer_of(const std::string& name, const VolumeImage& image,
+                                               int threads);
+
+/// The preset of both measures, beside those of ColorPreset: boundary_regions().
+inline constexpr const char* kBoundariesPreset = "boundaries";
 
 /// Checks what can be checked of the options "Volume" before anything is read. @throws Error (usage).
 void check_volume_options(const VolumeOptions& options);
@@ -46,13 +61,14 @@ void check_volume_options(const VolumeOptions& options);
 struct TangibleVolume {
   std::shared_ptr<const VolumeImage> image;
   std::shared_ptr<const ScalarField> field;  ///< null where the image is flat: it has no inside
+  std::vector<VolumeField> beside;           ///< other scalars, to be drawn in lenses
 };
 /// @throws Error, Cancelled.
 [[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);
 
-/// A scene of `image` seen by the camera that `options` name.
+/// A scene of `volume` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
-[[nodiscard]] SceneView make_volume_scene(const Input& input, std::shared_ptr<const VolumeImage> image,
+[[nodiscard]] SceneView make_volume_scene(const Input& input, const TangibleVolume& volume,
                                           const Options& options, double aspect);
 
 }  // namespace palpate

@@ -29,6 +29,45 @@ std::optional<double> reach_of(const ConvexShape& shape) {
 
 enum class LensWish : std::uint8_t { kNone, kMove, kRemove };
 
+/// Has the lens show what `look` does.
+void take_look(Lens& lens, const Lens& look) {
+  lens.transfer = look.transfer;
+  lens.regions = look.regions;
+  lens.colored = look.colored;
+  lens.own_transfer = false;
+}
+
+/// Which field a lens shows, and whether by a transfer function of its own. An edit that would take more
+/// transfer functions than a picture can have is taken back.
+void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& looks,
+                const std::string& context, KeptHistogram& histograms) {
+  const Lens before = view.lenses[index];
+  Lens& lens = view.lenses[index];
+  if (!view.fields.empty()) {
+    const std::string now = lens.field == 0 ? context : view.fields[lens.field - 1].name;
+    if (ImGui::BeginCombo("shows", now.c_str())) {
+      for (std::size_t field = 0; field <= view.fields.size(); ++field) {
+        const std::string& name = field == 0 ? context : view.fields[field - 1].name;
+        if (!ImGui::Selectable(name.c_str(), lens.field == field) || field >= looks.size()) continue;
+        lens.field = field;
+        take_look(lens, looks[field]);
+      }
+      ImGui::EndCombo();
+    }
+  }
+  const Lens& look = looks[std::min(lens.field, looks.size() - 1)];
+  if (ImGui::Checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer)
+    take_look(lens, look);
+  if (lens.own_transfer) {
+    EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
+    if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
+      lens.transfer = own.colors;
+      lens.regions = own.regions;
+    }
+  }
+  if (transfers_of(view).size() > kMostTransfers) lens = before;
+}
+
 void draw_lens_size(Lens& lens, const Box& bounds) {
   constexpr ImGuiSliderFlags kFlags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetTreeNodeToLabelSpacing());
@@ -71,13 +110,13 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
     ImGui::SameLine();
   }
   if (ImGui::Checkbox("cut away", &lens.cut) && !lens.cut) {
-    lens.transfer = model.transfer;
-    lens.colored = model.colored;
+    lens.field = 0;
+    take_look(lens, model);
   }
 }
 
-/// @param unfolded at first. @param coarser as draw_inside().
-LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool unfolded, bool coarser) {
+/// @param unfolded at first; then, whether it is. @param coarser as draw_inside().
+LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfolded, bool coarser) {
   unfolded = draw_fold(unfolded);
   if (unfolded) draw_lens_size(lens, bounds);
   ImGui::TextUnformatted(lens.screen ? "on the screen" : kind_of(lens.shape));
@@ -98,16 +137,21 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool unfold
 
 }  // namespace
 
-std::optional<std::size_t> draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds) {
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
+                                           const std::string& context, const Box& bounds,
+                                           KeptHistogram& histograms) {
+  const Lens& model = looks.front();
   std::optional<std::size_t> gone, taken;
   constexpr float kRows = 14.0F;
   const bool scrolls = begin_list("lenses", view.lenses.size(), kRows);
   for (std::size_t i = 0; i < view.lenses.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const LensWish wish =
-        draw_lens(view.lenses[i], model, bounds, view.lenses.size() <= kShortList, view.context.level > 0);
+    bool unfolded = view.lenses.size() <= kShortList;
+    const LensWish wish = draw_lens(view.lenses[i], model, bounds, unfolded, view.context.level > 0);
     if (wish == LensWish::kMove) taken = i;
     if (wish == LensWish::kRemove) gone = i;
+    if (unfolded && !view.lenses[i].cut && !view.lenses[i].colored)
+      edit_shown(view, i, looks, context, histograms);
     ImGui::PopID();
   }
   if (scrolls) ImGui::EndChild();

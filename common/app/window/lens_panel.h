@@ -3,13 +3,19 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "common/app/window/transfer_panel.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
 
-/// @param model of new lenses (SceneState::lens). @param bounds of the scene.
+/// @param looks of new lenses, by Lens::field (SceneState::looks). @param bounds of the scene.
+/// @param context name of the field around lenses. @param histograms for transfer functions of single lenses.
 /// @return the lens that the mouse is to move from now on, a new one among them.
-std::optional<std::size_t> draw_lens_panel(VolumeView& view, const Lens& model, const Box& bounds);
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
+                                           const std::string& context, const Box& bounds,
+                                           KeptHistogram& histograms);
 
 }  // namespace palpate

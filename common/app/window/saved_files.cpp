@@ -9,6 +9,7 @@
 #include "common/base/output_file.h"
 #include "common/field/color_transfer_file.h"
 #include "common/field/grid/image_resample.h"
+#include "common/field/region_transfer_file.h"
 #include "common/load/write_annotations.h"
 #include "common/load/write_image.h"
 
@@ -41,11 +42,11 @@ std::size_t SavedFiles::unsaved(const KeptLines& lines) const {
       lines.entries(), [this](const KeptLines::Entry& entry) { return !saved_.contains(entry.line); }));
 }
 
-std::filesystem::path SavedFiles::save_transfer(const std::string& name,
-                                                const ColorTransfer& transfer) const {
+std::filesystem::path SavedFiles::save_transfer(const std::string& name, const Lens& look) const {
   std::filesystem::path path = folder_ / name;
   OutputFile file(path, false);
-  file.write(color_transfer_text(transfer));
+  file.write(look.regions ? regions_text(*look.regions)
+                          : color_transfer_text(look.transfer.value_or(ColorTransfer())));
   file.finish();
   return path;
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/app/haptic/kept_lines.h"
-#include "common/field/color_transfer.h"
 #include "common/geometry/annotation.h"
 #include "common/load/write_image.h"
+#include "common/render/lens/lens.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
 #include "common/render/volume/volume_image.h"
@@ -32,9 +32,8 @@ class SavedFiles {
   std::filesystem::path save_lines(const KeptLines& lines, std::string& name);
   /// How many of `lines` are in no file that this window has written.
   [[nodiscard]] std::size_t unsaved(const KeptLines& lines) const;
-  /// Saves a transfer function as a table under `name`.
-  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name,
-                                                    const ColorTransfer& transfer) const;
+  /// Saves a lens's transfer function under `name`: as a table, or its regions.
+  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& look) const;
   /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
   [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
                                                        const std::string& ending) const;

@@ -1,5 +1,7 @@
 #include "common/app/window/shown_scene.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -18,17 +20,34 @@ void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   if (!view.volume || !before || new_input) return;
   view.volume->shading = before->shading;
   view.volume->samples_per_voxel = before->samples_per_voxel;
+  view.volume->far_sampling = before->far_sampling;
   view.volume->shown = before->shown;
   view.volume->lenses = before->lenses;
   view.volume->cuts = before->cuts;
   view.volume->planes = before->planes;
   if (scene.tensors) {  // edited in the view alone
     view.volume->transfer = before->transfer;
+    view.volume->regions = before->regions;
     view.volume->colored = before->colored;
     return;
   }
+  // Lenses go on with their field by its name; one that is gone gives way to that of the context.
+  const std::vector<VolumeField>& fields = view.volume->fields;
   for (Lens& lens : view.volume->lenses) {
-    if (!lens.cut) lens.transfer = scene.lens.transfer;
+    if (lens.cut) continue;
+    const std::size_t field_before = lens.field;
+    if (lens.field > 0) {
+      const auto now = std::find_if(fields.begin(), fields.end(), [&](const VolumeField& field) {
+        return field.name == before->fields[lens.field - 1].name;
+      });
+      lens.field = now == fields.end() ? 0 : static_cast<std::size_t>(now - fields.begin()) + 1;
+    }
+    const bool gone = field_before > 0 && lens.field == 0;
+    if (lens.own_transfer && !gone) continue;
+    const Lens look = scene.look(lens.field);
+    lens.transfer = look.transfer;
+    lens.regions = look.regions;
+    lens.own_transfer = false;
   }
 }
 

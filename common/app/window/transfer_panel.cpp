@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "common/app/window/region_transfer_editor.h"
 #include "common/base/text.h"
 #include "common/field/color_transfer_file.h"
+#include "common/field/region_transfer_file.h"
 
 namespace palpate {
 namespace {
@@ -155,6 +158,25 @@ bool edit_color(ColorTransfer& transfer, int chosen) {
   return true;
 }
 
+constexpr const char* kOwnWords = "own points or regions";
+constexpr const char* kBoundariesName = "boundaries";
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (int i = 0; i < kColorPresetCount; ++i) names.emplace_back(name_of(static_cast<ColorPreset>(i)));
+  names.emplace_back(kBoundariesName);
+  return names;
+}
+
+/// The editor of the kind that `transfer` is. @return whether it changed.
+bool edit_either(EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
+                 KeptHistogram& histograms, std::optional<double> felt) {
+  if (transfer.regions)
+    return draw_region_editor("regions", histograms.places_of(image), *transfer.regions, felt);
+  return draw_transfer_editor("points", {image->lowest, image->highest}, histograms.of(image),
+                              transfer.colors, felt);
+}
+
 }  // namespace
 
 const ValueHistogram* KeptHistogram::of(const std::shared_ptr<const VolumeImage>& image) {
@@ -169,31 +191,57 @@ const ValueHistogram* KeptHistogram::of(const std::shared_ptr<const VolumeImage>
   return &histogram_;
 }
 
-bool choose_transfer(const char* label, const char* automatic, std::string& words, ColorTransfer& transfer,
-                     const VolumeImage& image, const ValueHistogram* histogram, std::string& file,
-                     std::optional<double> felt) {
-  constexpr const char* kOwn = "own points";
-  const bool own = words.starts_with("points:");
-  const std::string now = words.empty() ? automatic : own ? kOwn : words;
+const PlaceHistogram& KeptHistogram::places_of(const std::shared_ptr<const VolumeImage>& image) {
+  constexpr std::size_t kMostVoxels = 2'000'000, kColumns = 96, kRows = 48;
+  if (places_image_ != image) places_ = count_places(*image, kColumns, kRows, kMostVoxels);
+  places_image_ = image;
+  return places_;
+}
+
+bool choose_transfer(const char* label, const char* automatic, std::string& words, EditedTransfer& transfer,
+                     const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms,
+                     std::string& file, std::optional<double> felt) {
+  const bool own = words.starts_with("points:") || words.starts_with("regions:");
+  const std::string now = words.empty() ? automatic : own ? kOwnWords : words;
   ImGui::PushID(label);
   if (ImGui::BeginCombo(label, now.c_str())) {
     if (ImGui::Selectable(automatic, words.empty())) words.clear();
-    for (int i = 0; i < kColorPresetCount; ++i) {
-      const std::string name(name_of(static_cast<ColorPreset>(i)));
+    for (const std::string& name : preset_names()) {
       if (ImGui::Selectable(name.c_str(), words == name)) words = name;
     }
     ImGui::EndCombo();
   }
-  if (draw_transfer_editor("points", {image.lowest, image.highest}, histogram, transfer, felt))
-    words = transfer_words(transfer);
+  if (edit_either(transfer, image, histograms, felt))
+    words = transfer.regions ? region_words(*transfer.regions) : transfer_words(transfer.colors);
   ImGui::InputText("##file", &file);
   ImGui::SameLine();
   if (ImGui::SmallButton("load") && !file.empty()) words = file;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a table value,red,green,blue,opacity");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("a table value,red,green,blue,opacity, or regions of value and gradient");
   ImGui::SameLine();
   const bool save = ImGui::SmallButton("save");
   ImGui::PopID();
-  return save && !transfer.points().empty();
+  return save && (transfer.regions || !transfer.colors.points().empty());
+}
+
+bool choose_own_transfer(const char* label, EditedTransfer& transfer,
+                         const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms) {
+  const EditedTransfer before = transfer;
+  ImGui::PushID(label);
+  if (ImGui::BeginCombo(label, kOwnWords)) {
+    const bool values = image->lowest <= image->highest;
+    for (int i = 0; values && i < kColorPresetCount; ++i) {
+      const auto preset = static_cast<ColorPreset>(i);
+      if (ImGui::Selectable(std::string(name_of(preset)).c_str()))
+        transfer = {make_color_transfer(preset, image->lowest, image->highest), {}};
+    }
+    if (values && ImGui::Selectable(kBoundariesName))
+      transfer = {{}, spread(boundary_regions(), histograms.places_of(image).range)};
+    ImGui::EndCombo();
+  }
+  (void)edit_either(transfer, image, histograms, std::nullopt);
+  ImGui::PopID();
+  return !(transfer == before);
 }
 
 bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,

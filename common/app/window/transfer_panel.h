@@ -6,7 +6,9 @@
 #include <string>
 
 #include "common/app/window/transfer_edit.h"
+#include "common/field/region_transfer.h"
 #include "common/field/value_histogram.h"
+#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_image.h"
 
 namespace palpate {
@@ -19,21 +21,37 @@ class KeptHistogram {
   [[nodiscard]] const ValueHistogram* of(const std::shared_ptr<const VolumeImage>& image);
   /// What of() returned last; null before.
   [[nodiscard]] const ValueHistogram* last() const noexcept { return image_ ? &histogram_ : nullptr; }
+  /// Of values and gradient magnitudes, likewise. @pre not null.
+  [[nodiscard]] const PlaceHistogram& places_of(const std::shared_ptr<const VolumeImage>& image);
 
  private:
-  std::shared_ptr<const VolumeImage> image_;
+  std::shared_ptr<const VolumeImage> image_, places_image_;
   ValueHistogram histogram_;
+  PlaceHistogram places_;
+};
+
+/// A transfer function of values, or in its place one of values and gradient magnitudes.
+struct EditedTransfer {
+  ColorTransfer colors;
+  std::optional<RegionTransfer> regions;
+
+  bool operator==(const EditedTransfer&) const = default;
 };
 
 /// Chooses between what `words` may be (those of --transfer-function; empty: `automatic`) and lets the points
-/// be edited; what is edited goes into `words` and `transfer` alike.
+/// or regions be edited; what is edited goes into `words` and `transfer` alike.
 /// @param file name for the text field below, from which a function is loaded and to which it is saved.
 /// @param felt value at the probe, marked over the histogram; none: no hand is there.
 /// @return whether it is to be saved now.
 [[nodiscard]] bool choose_transfer(const char* label, const char* automatic, std::string& words,
-                                   ColorTransfer& transfer, const VolumeImage& image,
-                                   const ValueHistogram* histogram, std::string& file,
+                                   EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
+                                   KeptHistogram& histograms, std::string& file,
                                    std::optional<double> felt = std::nullopt);
+
+/// The same of one lens, without words and files: what is chosen and edited goes into `transfer`.
+/// @return whether it changed.
+bool choose_own_transfer(const char* label, EditedTransfer& transfer,
+                         const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms);
 
 /// Points are dragged; a double click adds one, a right click takes one out; the one that was touched last
 /// has its colour below.

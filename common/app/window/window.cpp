@@ -369,12 +369,15 @@ class Window {
     if (actions.save_picture) run_command(Command::kSavePicture);
     if (actions.save_session) run_command(Command::kSaveSession);
     if (actions.save_transfer && view_.volume) {
-      attempt([this] { return files_.save_transfer(state_.transfer_file, view_.volume->transfer); });
+      attempt([this] {
+        Lens context;
+        context.transfer = view_.volume->transfer;
+        context.regions = view_.volume->regions;
+        return files_.save_transfer(state_.transfer_file, context);
+      });
     }
     if (actions.save_focus && scene_) {
-      attempt([this] {
-        return files_.save_transfer(state_.focus_file, scene_->lens.transfer.value_or(ColorTransfer()));
-      });
+      attempt([this] { return files_.save_transfer(state_.focus_file, scene_->look(0)); });
     }
     if (actions.touch.grab) run_command(Command::kGrab);
     if (actions.touch.keep) run_command(Command::kKeepLine);
@@ -697,7 +700,7 @@ class Window {
       return;
     }
     if (!scene_ || !view_.volume) return;
-    say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->lens, *view_.volume),
+    say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->look(0), *view_.volume),
         false);
     live_->lens_moved(glfwGetTime());
   }

@@ -35,11 +35,12 @@ struct InputFiles {
 
 /// What the panel can change about the lines.
 struct SceneSettings {
-  std::string field;               ///< one of SceneInfo::fields
-  std::size_t time_step = 0;       ///< index into SceneInfo::times
-  std::string integrator;          ///< "dp54"; empty: the default for the grid
-  std::string seeds;               ///< grammar of --seeds: "grid:8,8,8"
-  std::string direction = "both";  ///< forward, backward, both
+  std::string field;                ///< one of SceneInfo::fields
+  std::vector<std::string> beside;  ///< of a volume: other scalars, for lenses (InputSpec::beside)
+  std::size_t time_step = 0;        ///< index into SceneInfo::times
+  std::string integrator;           ///< "dp54"; empty: the default for the grid
+  std::string seeds;                ///< grammar of --seeds: "grid:8,8,8"
+  std::string direction = "both";   ///< forward, backward, both
   double tolerance = 1e-6;
   double step = 0.0;        ///< as --step; 0: the default
   double max_length = 0.0;  ///< data units; 0: the default
@@ -92,7 +93,10 @@ struct SceneState {
   std::optional<VolumeView> volume;                ///< in place of lines
   std::optional<TensorView> tensors;               ///< likewise, also with a volume
   std::optional<TractView> tracts;                 ///< through them
-  Lens lens;                                       ///< how a new lens shows what is in it; its shape is none
+  /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
+  std::vector<Lens> looks;
+  /// The one of a field that has none: as around lenses.
+  [[nodiscard]] Lens look(std::size_t field) const { return field < looks.size() ? looks[field] : Lens(); }
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;

@@ -86,6 +86,7 @@ struct Lens {
   std::optional<ScreenCircle> screen;
   std::optional<ColorTransfer> transfer;  ///< absent: that of the context
   std::optional<RegionTransfer> regions;  ///< in place of `transfer`, of value and gradient magnitude
+  bool own_transfer = false;              ///< they are its own, not those of all lenses of a window
   /// Which of the scene's scalars is shown (VolumeView::fields): 0 is that of the context.
   std::size_t field = 0;
   double samples_per_voxel = 4.0;  ///< > 0

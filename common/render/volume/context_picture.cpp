@@ -35,6 +35,7 @@ VolumeView context_of(const VolumeView& view) {
     lens.colored = false;
   }
   context.table_entries = view.context.table_entries;
+  context.far_sampling = 1.0;
   context.storage = {};  // shared with the whole picture, or as coarse as its share of the memory asks for
   return context;
 }

@@ -89,7 +89,8 @@ StepLengths step_lengths(const VolumeView& view) noexcept {
     fewest = std::min(fewest, lens.samples_per_voxel);
     most = std::max(most, lens.samples_per_voxel);
   }
-  return {std::min(longest / fewest, kStepRatio * (shortest / most)), view.table_lengths};
+  const double far = samples_less_far(view) ? view.far_sampling : 1.0;
+  return {std::min(far * longest / fewest, kStepRatio * (shortest / most)), view.table_lengths};
 }
 
 NumberRange table_range(const VolumeView& view, std::size_t field) {
@@ -170,6 +171,18 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
                           places[i].first_brick_z};
   }
   return block;
+}
+
+glm::vec4 far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture) {
+  const Vec3 eye(Vec3f(picture.eye)), back(Vec3f(picture.back));
+  const bool perspective = picture.eye.w > 0.5F;
+  double nearest = HUGE_VAL, farthest = -HUGE_VAL;
+  for (const Vec3& corner : corners_in_scene(*view.image, frame)) {
+    const double t = perspective ? glm::distance(corner, eye) : -glm::dot(corner - eye, back);
+    nearest = std::min(nearest, t);
+    farthest = std::max(farthest, t);
+  }
+  return {nearest, 1.0 / (farthest - nearest), std::log2(view.far_sampling), 0.0};
 }
 
 }  // namespace palpate

@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include "common/render/camera.h"
+#include "common/render/frame_block.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -65,6 +66,7 @@ struct FieldBlock {
 struct VolumeBlock {
   glm::vec4 lengths{0.0F};
   glm::ivec4 counts{0};  ///< lenses, planes that cut
+  glm::vec4 far{0.0F};   ///< far_range()
   std::array<glm::ivec4, kMostTransfers> transfers{};
   std::array<FieldBlock, kMostFields> fields{};
 };
@@ -72,5 +74,9 @@ struct VolumeBlock {
 /// @param bricks an axis, of each field up to the last one that is shown. @pre view.image is not null.
 [[nodiscard]] VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
                                             const std::vector<Index3>& bricks);
+
+/// Between which t on its rays a picture sees the volume of the context, and how far samples may be apart
+/// there (shaders/volume/volume_block.glsl).
+[[nodiscard]] glm::vec4 far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture);
 
 }  // namespace palpate

@@ -152,6 +152,31 @@ double VolumeImage::number(std::size_t index) const noexcept {
   }
 }
 
+double VolumeImage::value_at(const Vec3& place) const noexcept {
+  // Powers of two keep tiny spacings from vanishing.
+  const double unit = power_of_two(binary_exponent(bounds().diagonal()));
+  const Vec3 g = glm::inverse(axes / unit) * ((place - origin) / unit);
+  const Vec3 first = lower(), last = upper();
+  for (int a = 0; a < 3; ++a) {
+    if (!(g[a] >= first[a] && g[a] <= last[a])) return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Vec3 inside = glm::clamp(g, Vec3(0.0), Vec3(points - 1));
+  const Index3 cell = glm::min(Index3(glm::floor(inside)), glm::max(points - 2, Index3(0)));
+  const Vec3 u = inside - Vec3(cell);
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Index3 bit{corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+    const Index3 p = glm::min(cell + bit, points - 1);
+    const Vec3 weight = glm::mix(1.0 - u, u, Vec3(bit));
+    sum += weight.x * weight.y * weight.z *
+           value(static_cast<std::size_t>(p.x) +
+                 static_cast<std::size_t>(points.x) *
+                     (static_cast<std::size_t>(p.y) +
+                      static_cast<std::size_t>(points.y) * static_cast<std::size_t>(p.z)));
+  }
+  return sum;
+}
+
 std::size_t VolumeImage::point_count() const noexcept {
   return static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
          static_cast<std::size_t>(points.z);

@@ -39,6 +39,8 @@ struct VolumeImage {
   /// The number at a point; @pre index < points.x * points.y * points.z.
   [[nodiscard]] double number(std::size_t index) const noexcept;
   [[nodiscard]] double value(std::size_t index) const noexcept { return offset + scale * number(index); }
+  /// At a place in data coordinates, trilinear; NaN outside and where a value about it is not finite.
+  [[nodiscard]] double value_at(const Vec3& place) const noexcept;
   [[nodiscard]] std::size_t point_count() const noexcept;
   /// Bytes of all numbers, those of sparse ones each by itself.
   [[nodiscard]] std::uint64_t byte_count() const noexcept { return point_count() * byte_size(type); }

@@ -112,7 +112,8 @@ struct VolumePass::State {
   }
 
   [[nodiscard]] bool keeps_slabs() const {
-    return shown.keep_slabs && !has_regions(shown) && fragment_of(Reach::kSlab, variant) != nullptr;
+    return shown.keep_slabs && !has_regions(shown) && !samples_less_far(shown) &&
+           fragment_of(Reach::kSlab, variant) != nullptr;
   }
 
   // Whether this picture can use what is kept, or begins to keep it.
@@ -261,6 +262,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.room = ShapeRoom::of(view);
   std::vector<std::string> defines = s.textures.shader_defines();
   defines.push_back(s.room.shader_define());
+  if (samples_less_far(view)) defines.emplace_back("FAR");
   if (defines != s.defines) {
     s.programs = {};
     s.planes = {};
@@ -270,8 +272,9 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
-  s.volume_block =
-      volume_shader::make_block_buffer(make_volume_block(view, frame, s.textures.field_bricks()));
+  VolumeBlock told = make_volume_block(view, frame, s.textures.field_bricks());
+  told.far = far_range(view, frame, block);
+  s.volume_block = volume_shader::make_block_buffer(told);
   s.shape_block = s.make_shapes(view);
   s.shown = view;
   if (!draws_context_alone(view)) {

@@ -12,11 +12,11 @@ namespace palpate {
 bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.regions == b.regions && a.fields == b.fields &&
          a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
-         a.shading == b.shading && a.lenses == b.lenses && a.cuts == b.cuts && a.planes == b.planes &&
-         a.colored == b.colored && a.shown == b.shown && a.table_entries == b.table_entries &&
-         a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
-         a.stop_where_opaque == b.stop_where_opaque && a.keep_slabs == b.keep_slabs &&
-         a.context == b.context && a.storage == b.storage;
+         a.far_sampling == b.far_sampling && a.shading == b.shading && a.lenses == b.lenses &&
+         a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
+         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
+         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
+         a.keep_slabs == b.keep_slabs && a.context == b.context && a.storage == b.storage;
 }
 
 FieldTransfer transfer_of(const VolumeView& view, const Lens& lens) {
@@ -62,6 +62,11 @@ bool has_colored_parts(const VolumeView& view) noexcept {
   if (view.image == nullptr || !view.image->colors) return false;
   return view.colored || std::any_of(view.lenses.begin(), view.lenses.end(),
                                      [](const Lens& lens) { return lens.colored && lens.field == 0; });
+}
+
+bool samples_less_far(const VolumeView& view) noexcept {
+  constexpr double kFewest = 2.0;  // samples are joined by powers of two
+  return view.far_sampling >= kFewest;
 }
 
 bool is_cut(const VolumeView& view) {

@@ -91,8 +91,12 @@ struct VolumeView {
   /// diagonal, whatever the number of voxels.
   double opacity_length = 0.0;
   double samples_per_voxel = 4.0;  ///< > 0, along the ray, outside lenses
-  bool shading = true;             ///< Phong, with gradients of the values as normals
-  bool colored = false;            ///< as Lens::colored, outside lenses
+  /// >= 1: where the volume is farthest from the viewer samples are so many times as far apart as where it is
+  /// nearest, in lenses too (Ikits 2006, ch. 9; shaders/volume/far.glsl). A context that is drawn alone has
+  /// samples of its own.
+  double far_sampling = 1.0;
+  bool shading = true;   ///< Phong, with gradients of the values as normals
+  bool colored = false;  ///< as Lens::colored, outside lenses
   bool shown = true;
   /// The first wins; at most kMostLenses, with kMostTransfers transfer functions between them and the
   /// context.
@@ -144,6 +148,9 @@ inline constexpr std::size_t kMostTransfers = 9;
 
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
+
+/// Whether samples far from the viewer are fewer.
+[[nodiscard]] bool samples_less_far(const VolumeView& view) noexcept;
 
 /// Whether some plane cuts.
 [[nodiscard]] bool is_cut(const VolumeView& view);

@@ -155,6 +155,36 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
   EXPECT_EQ(made.textures["colours of voxels"], 4U * 29U * 29U * 29U);
 }
 
+// Other fields and regions of value and gradient take their voxels and tables, and none that nobody shows.
+TEST(GpuObjects, OfFieldsAndRegionsAreThoseThatLensesShow) {
+  VolumeView view = byte_view();
+  const Names textures = names_of(made_for(view));
+  view.fields = {{sampled_view(shells, ScalarType::kUint16, 17).image, "shown"},
+                 {sampled_view(shells, ScalarType::kUint8, 33).image, "not shown"}};
+  Made made = made_for(view);
+  EXPECT_EQ(names_of(made), textures);
+  EXPECT_EQ(made.textures["voxels"], 29U * 29U * 29U);
+
+  view.lenses = {lenses()[0].lens};
+  view.lenses[0].field = 1;
+  made = made_for(view);
+  EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/lenses.frag"})) << "tiles know bricks of one field";
+  EXPECT_EQ(made.textures["voxels"], 29U * 29U * 29U + 2U * 17U * 17U * 17U);
+  EXPECT_EQ(made.textures["preintegrated tables"], 2U * 64U * 64U * 16U * 8U);
+  EXPECT_EQ(made.textures["empty bricks"], 4U * 4U * (4U + 2U));
+
+  view.lenses[0].regions = RegionTransfer({{.corners = {Vec2(0.2, 0.1), Vec2(0.8, 9.0), Vec2(0.0)}}});
+  made = made_for(view);
+  EXPECT_EQ(made.textures["preintegrated tables"], 64U * 64U * 16U * 8U);
+  EXPECT_EQ(made.textures["region tables"], 64U * 256U * 8U);
+
+  view.lenses.clear();
+  view.regions = RegionTransfer({{.corners = {Vec2(0.2, 0.1), Vec2(0.8, 9.0), Vec2(0.0)}}});
+  made = made_for(view);
+  EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag", "volume/tiles.frag"}));
+  EXPECT_EQ(made.textures.count("preintegrated tables"), 0U) << "nothing is preintegrated";
+}
+
 TEST(GpuObjects, AreNamedWithWhatTheyTake) {
   const std::string text = gpu_text({{.kind = Kind::kProgram, .what = "volume/volume.frag"},
                                      {.kind = Kind::kTexture, .what = "voxels", .bytes = 1000000},

@@ -124,7 +124,9 @@ TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   options.clips = {"0,0,1,5"};
   options.shading = false;
   const ColorTransfer focus = make_color_transfer(ColorPreset::kMr, 0.0, 1.0);
-  const VolumeParts parts = make_parts(options, focus);
+  Lens model;
+  model.transfer = focus;
+  const VolumeParts parts = make_parts(options, model);
   const std::vector<Lens>& lenses = parts.lenses;
   ASSERT_EQ(lenses.size(), 2U);
   ASSERT_EQ(parts.cuts.size(), 3U);
@@ -142,7 +144,7 @@ TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   EXPECT_EQ(lenses[1].transfer, focus);
   EXPECT_FALSE(lenses[1].shading);
   options.clips.assign(kMostCuts - 1, "0,0,1,5");
-  EXPECT_THROW((void)make_parts(options, focus), Error) << "one plane too many";
+  EXPECT_THROW((void)make_parts(options, model), Error) << "one plane too many";
 }
 
 // However often they are saved and opened.
@@ -159,15 +161,41 @@ TEST(Lenses, OfFacesComeBackToTheBit) {
     VolumeOptions options;
     options.lenses = {"halfspace:" + face + ",cut", "polyhedron:" + faces};
     VolumeView view;
-    const VolumeParts first = make_parts(options, std::nullopt);
+    const VolumeParts first = make_parts(options);
     view.cuts = first.cuts;
     view.lenses = first.lenses;
     const std::string saved = lenses_text(view);
     options.lenses = {saved.substr(0, saved.find(';')), saved.substr(saved.find(';') + 1)};
-    const VolumeParts again = make_parts(options, std::nullopt);
+    const VolumeParts again = make_parts(options);
     ASSERT_EQ(again.cuts, first.cuts) << saved;
     ASSERT_EQ(again.lenses[0].shape, first.lenses[0].shape) << saved;
   }
+}
+
+// Another field and a transfer function of its own, whose words may have any commas but no ';'.
+TEST(Lenses, NameAFieldAndATransferFunctionOfTheirOwn) {
+  const LensWords words =
+      parse_lens("sphere:0,0,0,1,samples=8,field=pet.nii.gz:scalars,tf=points:0,0,0,0,0/2,1,1,1,1");
+  EXPECT_EQ(words.field, "pet.nii.gz:scalars");
+  EXPECT_EQ(words.transfer, "points:0,0,0,0,0/2,1,1,1,1");
+  EXPECT_EQ(words.samples, 8.0);
+  EXPECT_EQ(parse_lens("box:0,0,0,1,1,1,tf=mr").transfer, "mr");
+  for (const char* bad : {"sphere:0,0,0,1,cut,field=a", "sphere:0,0,0,1,cut,tf=mr",
+                          "sphere:0,0,0,1,field=", "sphere:0,0,0,1,tf=", "sphere:0,0,0,1,field=a,field=b",
+                          "sphere:0,0,0,1,blend=0.5,field=a"})
+    EXPECT_THROW((void)parse_lens(bad), Error) << bad;
+  VolumeView view;
+  view.fields = {{nullptr, "a"}, {nullptr, "b"}};
+  Lens lens = words.lens;
+  lens.field = 2;
+  EXPECT_EQ(lens_text(lens, view), "sphere:0,0,0,1,field=b");
+  lens.own_transfer = true;
+  lens.transfer = ColorTransfer({{0.0, Vec3f(0.0F), 0.0}, {2.0, Vec3f(1.0F), 1.0}});
+  EXPECT_EQ(lens_text(lens, view), "sphere:0,0,0,1,field=b,tf=points:0,0,0,0,0/2,1,1,1,1");
+  lens.regions = RegionTransfer({{.corners = {Vec2(0.0), Vec2(2.0), Vec2(0.0)}}});
+  const auto text = lens_text(lens, view);
+  ASSERT_TRUE(text);
+  EXPECT_EQ(parse_lens(*text).transfer, "regions:box,0,0,2,2,1,1,1,0.5,0.25");
 }
 
 // What a session keeps makes the same lenses again, whatever the context's rays are.
@@ -177,7 +205,7 @@ TEST(Lenses, KeepRaysOfTheirOwn) {
   options.samples = 2.0;
   VolumeView view;
   view.samples_per_voxel = 2.0;
-  view.lenses = make_parts(options, std::nullopt).lenses;
+  view.lenses = make_parts(options).lenses;
   EXPECT_EQ(view.lenses[0].samples_per_voxel, 8.0);
   EXPECT_FALSE(view.lenses[0].shading);
   EXPECT_EQ(view.lenses[0].magnification, 3.0);

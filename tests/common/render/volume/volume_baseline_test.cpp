@@ -1,5 +1,8 @@
 // Pictures of volumes kept beside the tests, looked at by people.
 
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -8,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/render/volume/value_gradient.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/volume/sample_volumes.h"
 #include "tests/support/shared_data.h"
@@ -81,24 +85,63 @@ TEST(VolumeBaseline, LinesInside) {
   expect_baseline(view, "volume_lines");
 }
 
-TEST(VolumeBaseline, Tooth) {
-  PALPATE_NEED_DATA(file, "grid/tooth/tooth.raw");
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  ASSERT_EQ(bytes.size(), 2U * 103U * 94U * 161U);
-  std::vector<std::uint16_t> numbers;
-  for (std::size_t i = 0; i < bytes.size(); i += 2) {  // big endian
-    numbers.push_back(static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[i]) << 8U |
-                                                 static_cast<unsigned char>(bytes[i + 1])));
+// Around the lens by value, in it the borders of another field, where its values change fast.
+TEST(VolumeBaseline, AnotherFieldByRegions) {
+  VolumeView volume = lit_blobs();
+  volume.fields = {{sampled_view(shells, ScalarType::kFloat32, 41).image, "shells"}};
+  Lens lens{make_sphere({0.1, -0.4, 0.1}, 0.6)};
+  lens.field = 1;
+  lens.regions = spread(RegionTransfer({{.shape = TransferRegion::Shape::kTriangle,
+                                         .corners = {Vec2(0.5, 0.1), Vec2(0.2, 1.0), Vec2(0.8, 1.0)},
+                                         .color = {0.3F, 0.9F, 0.5F},
+                                         .opacity = 0.15,
+                                         .soft = 0.6}}),
+                        place_range(*volume.fields[0].image));
+  volume.lenses = {lens};
+  expect_baseline(scene_of(volume), "volume_another_field");
+}
+
+class ToothBaseline : public testing::Test {
+ protected:
+  static std::vector<std::uint16_t> read(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::vector<std::uint16_t> numbers;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {  // big endian
+      numbers.push_back(static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[i]) << 8U |
+                                                   static_cast<unsigned char>(bytes[i + 1])));
+    }
+    return numbers;
   }
-  VolumeView volume = view_of(block_of({103, 94, 161}, Vec3(1.0), std::move(numbers), ScalarType::kUint16));
-  volume.shading = true;
-  volume.samples_per_voxel = 2.0;
+
+  static VolumeView view_of_tooth(std::vector<std::uint16_t> numbers) {
+    VolumeView volume = view_of(block_of({103, 94, 161}, Vec3(1.0), std::move(numbers), ScalarType::kUint16));
+    volume.shading = true;
+    volume.samples_per_voxel = 2.0;
+    return volume;
+  }
+};
+
+TEST_F(ToothBaseline, ByValue) {
+  PALPATE_NEED_DATA(file, "grid/tooth/tooth.raw");
+  std::vector<std::uint16_t> numbers = read(file);
+  ASSERT_EQ(numbers.size(), 103U * 94U * 161U);
+  VolumeView volume = view_of_tooth(std::move(numbers));
   volume.transfer = ColorTransfer({{500.0, {0.6F, 0.3F, 0.2F}, 0.0},
                                    {800.0, {0.9F, 0.6F, 0.3F}, 0.08},
                                    {1000.0, {1.0F, 0.9F, 0.7F}, 0.1},
                                    {1300.0, {1.0F, 1.0F, 1.0F}, 0.5}});
   expect_baseline(scene_of(volume), "volume_tooth");
+}
+
+// What values alone do not part: the borders of dentin and enamel, the pulp between.
+TEST_F(ToothBaseline, ByValueAndGradient) {
+  PALPATE_NEED_DATA(file, "grid/tooth/tooth.raw");
+  std::vector<std::uint16_t> numbers = read(file);
+  ASSERT_EQ(numbers.size(), 103U * 94U * 161U);
+  VolumeView volume = view_of_tooth(std::move(numbers));
+  volume.regions = spread(boundary_regions(), place_range(*volume.image));
+  expect_baseline(scene_of(volume), "volume_tooth_boundaries");
 }
 
 }  // namespace
