@@ -112,7 +112,10 @@ VrpnLink::VrpnLink(StreamPlace& place, const VrpnSettings& settings)
       settings_(settings),
       limits_(limits_of(settings)),
       names_(settings_.address.name),
-      local_(settings.arm.force_cap, settings.stiffest, settings.radius) {}
+      local_(settings.arm.force_cap, settings.stiffest, settings.radius) {
+  // Before its server has said what it is, a device is taken for one whose pose moves a probe.
+  atoms_.has_position = true;
+}
 
 VrpnLink::~VrpnLink() { close(); }
 

@@ -123,6 +123,7 @@ TEST_F(VrpnLinkTest, SendsSpringsThatTheServersLoopShows) {
 TEST_F(VrpnLinkTest, IsATrackerWithoutForceUnlessACapIsNamed) {
   EXPECT_EQ(link_->poses(), nullptr);
   link_ = std::make_unique<VrpnLink>(place_, vrpn_settings({{"at", "Phantom0@lab"}, {"sensor", "1"}}));
+  EXPECT_TRUE(link_->atoms().has_position) << "a window asks before the server has said anything";
   get_ready();
   server_.press(3, true);
   run(1.0, kForce);
