@@ -53,9 +53,13 @@ void set_range(VolumeImage& image, double lowest, double highest) {
 void find_range(VolumeImage& image) {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   const std::size_t count = image.point_count();
+  image.all_finite = true;
   for (std::size_t i = 0; i < count; ++i) {
     const double v = image.number(i);
-    if (!std::isfinite(v)) continue;
+    if (!std::isfinite(v)) {
+      image.all_finite = false;
+      continue;
+    }
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
   }
@@ -79,6 +83,7 @@ void take_sparse(VolumeImage& image, std::shared_ptr<const SparseNumbers> number
   }
   image.type = ScalarType::kFloat32;
   image.sparse = std::move(numbers);
+  image.all_finite = range.not_finite == 0;
   if (some) {
     image.lowest = range.lowest;
     image.highest = range.highest;

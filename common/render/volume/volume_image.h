@@ -35,6 +35,7 @@ struct VolumeImage {
   double offset = 0.0;
   double lowest = 0.0;  ///< of the finite values; lowest > highest where there are none
   double highest = -1.0;
+  bool all_finite = false;  ///< each number is known to be finite
 
   /// The number at a point; @pre index < points.x * points.y * points.z.
   [[nodiscard]] double number(std::size_t index) const noexcept;

@@ -15,9 +15,11 @@ TEST(SparseBaseline, SparseShells) {
   volume.image = make_volume_image(block, block.arrays.front().name, "sparse-shells");
   ASSERT_NE(volume.image->sparse, nullptr);
   volume.shading = true;
-  volume.transfer = ColorTransfer({{0.05, {0.3F, 0.5F, 0.9F}, 0.0},
-                                   {0.3, {0.9F, 0.5F, 0.3F}, 0.3},
-                                   {0.9, {1.0F, 0.95F, 0.7F}, 0.9}});
+  volume.opacity_length = 0.01;
+  volume.transfer = ColorTransfer({{0.03, {0.3F, 0.5F, 0.9F}, 0.0},
+                                   {0.15, {0.5F, 0.7F, 0.9F}, 0.4},
+                                   {0.3, {0.9F, 0.6F, 0.3F}, 0.7},
+                                   {0.6, {1.0F, 0.95F, 0.7F}, 0.9}});
   volume.storage.memory = std::uint64_t{96} << 20U;
   volume.cuts = {{{{1.0, 0.0, 0.0}, 0.35}}};
   SceneView view;
