@@ -700,7 +700,8 @@ class Window {
       return;
     }
     if (!scene_ || !view_.volume) return;
-    say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->look(0), *view_.volume),
+    say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->look(0),
+                          *view_.volume),
         false);
     live_->lens_moved(glfwGetTime());
   }
