@@ -60,17 +60,17 @@ bool connect(TimedLoop& loop, beast::tcp_stream& stream, const WebAddress& addre
   beast::error_code error;
   bool done = false;
   resolver.async_resolve(address.host, std::to_string(address.port),
-                         [&](const beast::error_code& problem, Tcp::resolver::results_type found) {
+                         [&](const beast::error_code& problem, const Tcp::resolver::results_type& found) {
                            error = problem;
                            if (problem) {
                              done = true;
                              return;
                            }
-                           stream.async_connect(std::move(found), [&](const beast::error_code& refused,
-                                                                      const Tcp::endpoint& /*to*/) {
-                             error = refused;
-                             done = true;
-                           });
+                           stream.async_connect(
+                               found, [&](const beast::error_code& refused, const Tcp::endpoint& /*to*/) {
+                                 error = refused;
+                                 done = true;
+                               });
                          });
   if (!loop.run(done, seconds)) {
     // What is left of it refers to what ends with this function.
