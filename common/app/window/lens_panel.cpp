@@ -140,7 +140,7 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
 std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
                                            const std::string& context, const Box& bounds,
                                            KeptHistogram& histograms) {
-  const Lens& model = looks.front();
+  const Lens model = looks.empty() ? Lens() : looks.front();
   std::optional<std::size_t> gone, taken;
   constexpr float kRows = 14.0F;
   const bool scrolls = begin_list("lenses", view.lenses.size(), kRows);
@@ -150,7 +150,7 @@ std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<L
     const LensWish wish = draw_lens(view.lenses[i], model, bounds, unfolded, view.context.level > 0);
     if (wish == LensWish::kMove) taken = i;
     if (wish == LensWish::kRemove) gone = i;
-    if (unfolded && !view.lenses[i].cut && !view.lenses[i].colored)
+    if (unfolded && !looks.empty() && !view.lenses[i].cut && !view.lenses[i].colored)
       edit_shown(view, i, looks, context, histograms);
     ImGui::PopID();
   }

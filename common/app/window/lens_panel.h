@@ -11,7 +11,8 @@
 
 namespace palpate {
 
-/// @param looks of new lenses, by Lens::field (SceneState::looks). @param bounds of the scene.
+/// @param looks of new lenses, by Lens::field (SceneState::looks); empty: plain ones. @param bounds of the
+/// scene.
 /// @param context name of the field around lenses. @param histograms for transfer functions of single lenses.
 /// @return the lens that the mouse is to move from now on, a new one among them.
 std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
