@@ -29,7 +29,7 @@ DhdSettings dhd_settings(const DriverOptions& options) {
   DhdSettings settings;
   for (const auto& [name, value] : options) {
     if (name == "library") {
-      settings.library = value;
+      settings.file = value;
     } else if (name == "serial") {
       const auto parsed = number(value);
       constexpr double kMost = 65535.0;

@@ -20,8 +20,8 @@ namespace palpate {
 
 struct DhdSettings {
   ArmSettings arm;
-  std::string library;  ///< file of the library; empty: by its usual names
-  int serial = 0;       ///< of the device; 0: the first one
+  std::string file;  ///< of the library; empty: by its usual names
+  int serial = 0;    ///< of the device; 0: the first one
 
   static constexpr const char* kAxes = "yzx";  ///< its y points right, z up, x towards the user
   DhdSettings();

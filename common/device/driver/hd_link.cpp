@@ -28,7 +28,7 @@ HdSettings hd_settings(const DriverOptions& options) {
   HdSettings settings;
   for (const auto& [name, value] : options) {
     if (name == "library") {
-      settings.library = value;
+      settings.file = value;
     } else if (name == "name") {
       settings.name = value;
     } else if (!take_arm_option(settings.arm, "openhaptics", name, value)) {

@@ -24,8 +24,8 @@ namespace palpate {
 
 struct HdSettings {
   ArmSettings arm;
-  std::string library;  ///< file of the library; empty: by its usual names
-  std::string name;     ///< of the device as its driver has it; empty: the default one
+  std::string file;  ///< of the library; empty: by its usual names
+  std::string name;  ///< of the device as its driver has it; empty: the default one
 
   static constexpr const char* kAxes = "xyz";
   HdSettings();

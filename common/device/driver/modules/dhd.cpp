@@ -13,7 +13,7 @@ DriverModule* dhd_module(std::string& /*error*/) noexcept {
   static PlainModule module(
       [](const DriverOptions& options) {
         const DhdSettings settings = dhd_settings(options);
-        return std::make_unique<DhdLink>(open_dhd_library(settings.library), clock, settings);
+        return std::make_unique<DhdLink>(open_dhd_library(settings.file), clock, settings);
       },
       dhd_help());
   return &module;

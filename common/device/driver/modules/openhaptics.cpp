@@ -13,7 +13,7 @@ DriverModule* hd_module(std::string& /*error*/) noexcept {
   static PlainModule module(
       [](const DriverOptions& options) {
         const HdSettings settings = hd_settings(options);
-        return std::make_unique<HdLink>(open_hd_library(settings.library), clock, settings);
+        return std::make_unique<HdLink>(open_hd_library(settings.file), clock, settings);
       },
       hd_help());
   return &module;

@@ -85,7 +85,7 @@ TEST(DhdLibrary, SaysWhatToInstall) {
 
 TEST(DhdOptions, AreChecked) {
   const DhdSettings settings = dhd_settings({{"library", "/a/libdhd.so"}, {"serial", "12"}, {"cap", "3"}});
-  EXPECT_EQ(settings.library, "/a/libdhd.so");
+  EXPECT_EQ(settings.file, "/a/libdhd.so");
   EXPECT_EQ(settings.serial, 12);
   EXPECT_EQ(settings.arm.limits().force_cap, 3.0);
   for (const auto& [name, value] : DriverOptions{{"cap", "0"},
