@@ -31,8 +31,7 @@ bool DataGloveLink::round(const Vec3& /*force*/) noexcept {
   std::array<std::uint8_t, kGloveBytes> report{};
   const TransferResult got = connection_->read(reports_, report, kGloveReportTime);
   const double now = transport_.now();
-  if (got.status == TransferStatus::kGone ||
-      (!got.ok() && got.status != TransferStatus::kTimeout && ++misses_ >= kMostMisses)) {
+  if (given_up(got.status, kMostMisses, misses_)) {
     ++status_.faults;
     connection_.reset();
     path_.clear();

@@ -57,8 +57,7 @@ bool PedalLink::listen() noexcept {
   std::array<std::uint8_t, kPedalBytes> report{};
   const auto fails = [this](TransferStatus status) {
     // That a pedal refuses to be asked is no fault, as long as it speaks by itself.
-    if (status != TransferStatus::kGone && (status == TransferStatus::kTimeout || ++misses_ < kMostMisses))
-      return false;
+    if (!given_up(status, kMostMisses, misses_)) return false;
     ++status_.faults;
     connection_.reset();
     return true;

@@ -114,8 +114,7 @@ bool PinchLink::listen() noexcept {
       fresh = true;
     }
     status_.dropped += parser_.dropped() - before;
-  } else if (done.status == TransferStatus::kGone ||
-             (done.status != TransferStatus::kTimeout && ++misses_ >= kMostPinchMisses)) {
+  } else if (given_up(done.status, kMostPinchMisses, misses_)) {
     return close();
   }
   if (now - heard_ <= kSilence) return fresh;

@@ -5,7 +5,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::uint8_t kData = 0x80, kTimedData = 0x81, kText = 0x82, kEnd = 0x8F, kMark = 0x80;
+constexpr std::uint8_t kPinchData = 0x80, kTimedData = 0x81, kText = 0x82, kPinchEnd = 0x8F, kMark = 0x80;
 constexpr std::uint8_t kFingers = 0x1F;
 constexpr std::size_t kLongestText = 64;  // [bytes]
 
@@ -21,9 +21,9 @@ std::uint32_t from_thumb(std::uint8_t hand) noexcept {
 PinchNews PinchParser::push(std::uint8_t byte) noexcept {
   const bool inside = state_ == State::kContacts || state_ == State::kTimedContacts;
   if ((byte & kMark) != 0) {
-    if (byte == kEnd && state_ != State::kNone) return ended();
+    if (byte == kPinchEnd && state_ != State::kNone) return ended();
     // A message that begins within another one: the end of that was lost.
-    state_ = byte == kData        ? State::kContacts
+    state_ = byte == kPinchData   ? State::kContacts
              : byte == kTimedData ? State::kTimedContacts
              : byte == kText      ? State::kText
                                   : State::kNone;

@@ -234,8 +234,7 @@ bool PolhemusLink::send(std::string_view command) noexcept {
 }
 
 bool PolhemusLink::is_lost(const TransferResult& result) noexcept {
-  if (result.status == TransferStatus::kGone) return true;
-  return result.status != TransferStatus::kTimeout && ++misses_ >= kMostMisses;
+  return given_up(result.status, kMostMisses, misses_);
 }
 
 void PolhemusLink::publish(double now) noexcept {

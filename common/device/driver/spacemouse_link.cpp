@@ -69,8 +69,7 @@ bool SpaceMouseLink::round(const Vec3& /*force*/) noexcept {
   std::array<std::uint8_t, kLongestReport> report{};
   const TransferResult got = connection_->read(reports_, report, kReportTime);
   const double now = transport_.now();
-  if (got.status == TransferStatus::kGone ||
-      (!got.ok() && got.status != TransferStatus::kTimeout && ++misses_ >= kMostMisses)) {
+  if (given_up(got.status, kMostMisses, misses_)) {
     ++status_.faults;
     close();
     publish(now);

@@ -10,4 +10,10 @@ std::string_view name_of(TransferStatus status) noexcept {
   return kNames[static_cast<std::size_t>(status)];
 }
 
+bool given_up(TransferStatus status, int most, int& misses) noexcept {
+  if (status == TransferStatus::kGone) return true;
+  if (status == TransferStatus::kOk || status == TransferStatus::kTimeout) return false;
+  return ++misses >= most;
+}
+
 }  // namespace palpate

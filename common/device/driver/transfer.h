@@ -25,4 +25,9 @@ struct TransferResult {
   [[nodiscard]] bool ok() const noexcept { return status == TransferStatus::kOk; }
 };
 
+/// Whether a device is to be given up after a transfer: it is gone, or `most` have failed in a row. That
+/// nothing came within its time is no failure.
+/// @param misses that failed in a row, counted on; the caller begins anew after one that was ok.
+[[nodiscard]] bool given_up(TransferStatus status, int most, int& misses) noexcept;
+
 }  // namespace palpate

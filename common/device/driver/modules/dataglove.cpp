@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "common/base/error.h"
 #include "common/device/driver/dataglove_link.h"
 #include "common/device/driver/libusb_transport.h"
 #include "common/device/driver/usb_module.h"
@@ -13,12 +12,10 @@ namespace {
 DriverModule* dataglove_module(std::string& error) noexcept {
   std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
   if (!bus) return nullptr;
-  static UsbModule module(
+  static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
-        if (!options.empty()) {
-          throw usage_error("the driver dataglove has no options, found '" + options.front().first + "'");
-        }
+        expect_no_options("dataglove", options);
         return std::make_unique<DataGloveLink>(transport);
       },
       "");

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "common/device/driver/dhd_link.h"
-#include "common/device/driver/plain_module.h"
+#include "common/device/driver/link_module.h"
 
 namespace palpate {
 namespace {
 
 DriverModule* dhd_module(std::string& /*error*/) noexcept {
   static SystemLinkClock clock;
-  static PlainModule module(
+  static LinkModule module(
       [](const DriverOptions& options) {
         const DhdSettings settings = dhd_settings(options);
         return std::make_unique<DhdLink>(open_dhd_library(settings.file), clock, settings);

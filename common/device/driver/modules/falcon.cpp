@@ -12,7 +12,7 @@ namespace {
 DriverModule* falcon_module(std::string& error) noexcept {
   std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
   if (!bus) return nullptr;
-  static UsbModule module(
+  static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
         return std::make_unique<FalconLink>(transport, falcon_settings(options));

@@ -4,7 +4,7 @@
 
 #include "common/device/driver/beast_transport.h"
 #include "common/device/driver/inverse3_link.h"
-#include "common/device/driver/plain_module.h"
+#include "common/device/driver/link_module.h"
 
 namespace palpate {
 namespace {
@@ -31,7 +31,7 @@ std::vector<FoundDevice> find_inverse3(WebTransport& transport) {
 DriverModule* inverse3_module(std::string& error) noexcept {
   try {
     static const std::unique_ptr<WebTransport> transport = make_beast_transport();
-    static PlainModule module(
+    static LinkModule module(
         [](const DriverOptions& options) {
           return std::make_unique<Inverse3Link>(*transport, inverse3_settings(options));
         },

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "common/device/driver/hd_link.h"
-#include "common/device/driver/plain_module.h"
+#include "common/device/driver/link_module.h"
 
 namespace palpate {
 namespace {
 
 DriverModule* hd_module(std::string& /*error*/) noexcept {
   static SystemLinkClock clock;
-  static PlainModule module(
+  static LinkModule module(
       [](const DriverOptions& options) {
         const HdSettings settings = hd_settings(options);
         return std::make_unique<HdLink>(open_hd_library(settings.file), clock, settings);

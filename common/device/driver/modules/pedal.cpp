@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "common/base/error.h"
 #include "common/device/driver/libusb_transport.h"
 #include "common/device/driver/pedal_link.h"
 #include "common/device/driver/usb_module.h"
@@ -13,12 +12,10 @@ namespace {
 DriverModule* pedal_module(std::string& error) noexcept {
   std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
   if (!bus) return nullptr;
-  static UsbModule module(
+  static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
-        if (!options.empty()) {
-          throw usage_error("the driver pedal has no options, found '" + options.front().first + "'");
-        }
+        expect_no_options("pedal", options);
         return std::make_unique<PedalLink>(transport);
       },
       "");

@@ -2,15 +2,15 @@
 #include <memory>
 #include <string>
 
+#include "common/device/driver/link_module.h"
 #include "common/device/driver/pinch_link.h"
-#include "common/device/driver/plain_module.h"
 #include "common/device/driver/serial_line.h"
 
 namespace palpate {
 namespace {
 
 DriverModule* pinch_module(std::string& /*error*/) noexcept {
-  static PlainModule module(
+  static LinkModule module(
       [](const DriverOptions& options) {
         const PinchSettings settings = pinch_settings(options);
         return std::make_unique<PinchLink>(std::make_unique<SerialLine>(settings.port, settings.baud));

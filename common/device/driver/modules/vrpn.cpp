@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "common/device/driver/plain_module.h"
+#include "common/device/driver/link_module.h"
 #include "common/device/driver/tcp_place.h"
 #include "common/device/driver/vrpn_link.h"
 
@@ -28,7 +28,7 @@ class PlacedLink final : public DriverLink {
 };
 
 DriverModule* vrpn_module(std::string& /*error*/) noexcept {
-  static PlainModule module(
+  static LinkModule module(
       [](const DriverOptions& options) { return std::make_unique<PlacedLink>(vrpn_settings(options)); },
       vrpn_help());
   return &module;

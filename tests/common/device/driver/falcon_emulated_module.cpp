@@ -48,7 +48,7 @@ class WanderingFalcon final : public FakeDevice {
 DriverModule* emulated_module(std::string& /*error*/) noexcept {
   auto bus = std::make_unique<FakeUsb>(FakeUsb::Clock::kSystem);
   static FakeUsb& plugged = *bus;
-  static UsbModule module(
+  static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
         EmulatedFalcon emulated{.loaded = true};

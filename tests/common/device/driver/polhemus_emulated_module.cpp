@@ -16,7 +16,7 @@ namespace {
 DriverModule* emulated_tracker(std::string& /*error*/) noexcept {
   auto bus = std::make_unique<FakeUsb>(FakeUsb::Clock::kSystem);
   static FakeUsb& plugged = *bus;
-  static UsbModule module(
+  static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
         const auto tracker = std::make_shared<PolhemusEmulator>();

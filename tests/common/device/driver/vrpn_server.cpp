@@ -3,11 +3,11 @@
 #include <array>
 #include <chrono>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "tests/common/device/driver/loopback.h"
 
 namespace palpate::test {
 namespace {
@@ -19,15 +19,7 @@ double steady() {
 }  // namespace
 
 VrpnServer::VrpnServer() : start_(steady()) {
-  socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  (void)::bind(socket_, reinterpret_cast<sockaddr*>(&address), size);
-  (void)::listen(socket_, 4);
-  (void)::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-  port_ = ntohs(address.sin_port);
+  socket_ = listen_on_loopback(port_);
   thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <utility>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "tests/common/device/driver/loopback.h"
 
 namespace palpate::test {
 namespace {
@@ -105,15 +105,7 @@ std::string handshake_proof(const std::string& key) {
 
 WebServer::WebServer(Manner manner, std::function<std::string(const std::string&)> answer)
     : manner_(manner), answer_(std::move(answer)) {
-  socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  (void)::bind(socket_, reinterpret_cast<sockaddr*>(&address), size);
-  (void)::listen(socket_, 4);
-  (void)::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-  port_ = ntohs(address.sin_port);
+  socket_ = listen_on_loopback(port_);
   thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 

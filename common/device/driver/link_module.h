@@ -1,4 +1,4 @@
-/// The face of a driver module without a bus that lists its devices: a service, a server, a maker's library.
+/// The face that all driver modules have: it makes links, and finds devices where it can list them.
 #pragma once
 
 #include <exception>
@@ -8,18 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/error.h"
 #include "common/device/driver_link.h"
 
 namespace palpate {
 
-class PlainModule final : public DriverModule {
+class LinkModule final : public DriverModule {
  public:
   /// Makes a link from options. @throws Error.
   using MakeLink = std::function<std::unique_ptr<DriverLink>(const DriverOptions&)>;
   using Find = std::function<std::vector<FoundDevice>()>;
 
   /// @param find null: what there is shows only when it is asked for by name.
-  PlainModule(MakeLink make, std::string help, Find find = nullptr)
+  LinkModule(MakeLink make, std::string help, Find find = nullptr)
       : make_(std::move(make)), help_(std::move(help)), find_(std::move(find)) {}
 
   [[nodiscard]] std::string help() const override { return help_; }
@@ -45,5 +46,11 @@ class PlainModule final : public DriverModule {
   std::string help_;
   Find find_;
 };
+
+/// For families without options. @throws Error (usage) where there are some.
+inline void expect_no_options(const std::string& driver, const DriverOptions& options) {
+  if (!options.empty())
+    throw usage_error("the driver " + driver + " has no options, found '" + options.front().first + "'");
+}
 
 }  // namespace palpate
