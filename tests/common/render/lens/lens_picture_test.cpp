@@ -14,22 +14,14 @@
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
+#include "tests/common/render/reference_agreement.h"
 #include "tests/support/reference_ray.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr int kSize = 80;
-constexpr double kSamples = 40.0;  // a voxel, of a reference ray
-constexpr double kBound = 2.0 / 255.0;
-
-void expect_agreement(VolumePicture& picture, const VolumeView& view, const Camera& camera,
-                      const std::string& what) {
-  const Comparison result =
-      compare(picture.draw(view, camera), ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
-  EXPECT_LE(result.worst, kBound) << what << ": " << result.beyond_bound << " pixels";
-  EXPECT_LE(result.exempt, kSize * kSize / 500) << what;
-}
+constexpr int kSize = Agreement{}.size;
+constexpr double kSamples = Agreement{}.samples;
 
 TEST(LensPicture, AgreesWithTheReferenceForEveryShape) {
   VolumePicture picture(kSize, kSize);

@@ -10,22 +10,13 @@
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
-#include "tests/support/reference_ray.h"
+#include "tests/common/render/reference_agreement.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr int kSize = 48;
-constexpr double kSamples = 30.0;  // a voxel, of a reference ray
-constexpr double kBound = 2.0 / 255.0;
-
-void expect_agreement(VolumePicture& picture, const VolumeView& view, const Camera& camera,
-                      const std::string& what) {
-  const Comparison result =
-      compare(picture.draw(view, camera), ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
-  EXPECT_LE(result.worst, kBound) << what << ": " << result.beyond_bound << " pixels";
-  EXPECT_LE(result.exempt, kSize * kSize / 200) << what;
-}
+constexpr Agreement kBar{.size = 48, .samples = 30.0, .exempt = 200};
+constexpr int kSize = kBar.size;
 
 /// Those that can enlarge, each doing so.
 std::vector<NamedLens> magnifying() {
@@ -48,12 +39,12 @@ TEST(LensPicture, AgreesWithTheReferenceWhereItEnlarges) {
     VolumeView plain = view;
     plain.lenses[0].magnification = 1.0;
     EXPECT_GT(worst_difference(picture.draw(view, camera), picture.draw(plain, camera)), 0.1) << name;
-    expect_agreement(picture, view, camera, name);
+    expect_agreement(picture, view, camera, name, kBar);
     expect_agreement(picture, view,
                      camera_of(view, {.azimuth = 0.0, .elevation = 0.0}, Projection::kOrthographic),
-                     name + ", along an axis");
+                     name + ", along an axis", kBar);
     view.lenses[0].shading = view.shading = true;
-    expect_agreement(picture, view, camera, name + ", under light");
+    expect_agreement(picture, view, camera, name + ", under light", kBar);
   }
 }
 
@@ -66,7 +57,7 @@ TEST(LensPicture, EnlargesFromInsideALens) {
     camera.focal_point = Vec3(0.05, 0.05, 0.0);
     camera.view_height = 0.1;
     ASSERT_TRUE(lens.shape.contains(eye(camera))) << name;
-    expect_agreement(picture, view, camera, name);
+    expect_agreement(picture, view, camera, name, kBar);
   }
 }
 
@@ -77,10 +68,10 @@ TEST(LensPicture, EnlargesAtTheBorderOfTheVolumeAndBehindAnotherLens) {
     VolumeView view = plain_view();
     view.lenses = {lens};
     view.lenses[0].shape = moved(lens.shape, {0.7, -0.3, 0.8});
-    expect_agreement(picture, view, camera_of(view), name + " at the border");
+    expect_agreement(picture, view, camera_of(view), name + " at the border", kBar);
     view.lenses = {{make_sphere({0.3, -0.3, 0.0}, 0.3)}, lens};
     view.lenses[0].shading = false;
-    expect_agreement(picture, view, camera_of(view), name + " behind a ball");
+    expect_agreement(picture, view, camera_of(view), name + " behind a ball", kBar);
   }
 }
 
@@ -93,7 +84,7 @@ TEST(LensPicture, EnlargesInLensesOfAnySize) {
     view.lenses = {lens};
     view.lenses[0].transfer.reset();
     view.lenses[0].shape = scaled(lens.shape, 6.0);
-    expect_agreement(picture, view, camera_of(view), name + ", large");
+    expect_agreement(picture, view, camera_of(view), name + ", large", kBar);
     view.lenses[0].shape = moved(lens.shape, {5.0, 0.0, 1.0});
     EXPECT_LE(worst_difference(picture.draw(view, camera_of(view)), whole), 0.5 / 255.0)
         << name << ", outside";

@@ -10,22 +10,13 @@
 #include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
-#include "tests/support/reference_ray.h"
+#include "tests/common/render/reference_agreement.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr int kSize = 80;
-constexpr double kSamples = 40.0;  // a voxel, of a reference ray
-constexpr double kBound = 2.0 / 255.0;
-
-void expect_agreement(VolumePicture& picture, const VolumeView& view, const Camera& camera,
-                      const std::string& what) {
-  const Comparison result =
-      compare(picture.draw(view, camera), ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
-  EXPECT_LE(result.worst, kBound) << what << ": " << result.beyond_bound << " pixels";
-  EXPECT_LE(result.exempt, kSize * kSize / 250) << what;
-}
+constexpr Agreement kBar{.exempt = 250};
+constexpr int kSize = Agreement{}.size;
 
 // Turned about z, of other spacings, and partly beyond the context's volume.
 std::shared_ptr<const VolumeImage> turned(const Formula& formula) {
@@ -53,17 +44,18 @@ TEST(FieldPicture, AgreesWithTheReferenceForEveryShapeOfLens) {
   for (const auto& [name, lens] : lenses()) {
     view.lenses = {lens};
     view.lenses[0].field = 1;
-    expect_agreement(picture, view, camera_of(view), name + ", finer");
+    expect_agreement(picture, view, camera_of(view), name + ", finer", kBar);
     view.lenses[0].field = 2;
-    expect_agreement(picture, view, camera_of(view, {.azimuth = 100.0, .elevation = 20.0}),
-                     name + ", turned");
+    expect_agreement(picture, view, camera_of(view, {.azimuth = 100.0, .elevation = 20.0}), name + ", turned",
+                     kBar);
   }
   view.lenses = {lenses()[0].lens};
   view.lenses[0].field = 2;
   view.cuts = {{.kept = {glm::normalize(Vec3(1.0, 2.0, -0.5)), 0.3}}};
   view.lenses[0].shading = true;
   view.fields[1].image = turned(blobs);  // without creases, at which light changes at once
-  expect_agreement(picture, view, camera_of(view, {}, Projection::kOrthographic), "cut, and under light");
+  expect_agreement(picture, view, camera_of(view, {}, Projection::kOrthographic), "cut, and under light",
+                   kBar);
 }
 
 TEST(FieldPicture, AgreesWithTheReferenceForFourFieldsAtOnce) {
@@ -85,12 +77,12 @@ TEST(FieldPicture, AgreesWithTheReferenceForFourFieldsAtOnce) {
   fourth.transfer = focus_colors();  // the same as the first, of another field
   for (Lens* lens : {&first, &second, &third, &fourth}) lens->shading = false;
   view.lenses = {first, second, third, fourth};
-  expect_agreement(picture, view, camera_of(view), "four fields");
+  expect_agreement(picture, view, camera_of(view), "four fields", kBar);
   view.lenses = {third, fourth, second, first};
   view.skip_empty = false;
   view.lenses[0].magnification = 1.5;
-  expect_agreement(picture, view, camera_of(view, {.azimuth = 200.0, .elevation = -30.0}),
-                   "in another order");
+  expect_agreement(picture, view, camera_of(view, {.azimuth = 200.0, .elevation = -30.0}), "in another order",
+                   kBar);
 }
 
 // The same voxels as another field change nothing.

@@ -11,22 +11,12 @@
 #include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
-#include "tests/support/reference_ray.h"
+#include "tests/common/render/reference_agreement.h"
 
 namespace palpate::test {
 namespace {
 
-constexpr int kSize = 80;
-constexpr double kSamples = 40.0;  // a voxel, of a reference ray
-constexpr double kBound = 2.0 / 255.0;
-
-void expect_agreement(VolumePicture& picture, const VolumeView& view, const Camera& camera,
-                      const std::string& what) {
-  const Comparison result =
-      compare(picture.draw(view, camera), ReferenceRay(view, camera, kSize, kSize, kSamples), kBound);
-  EXPECT_LE(result.worst, kBound) << what << ": " << result.beyond_bound << " pixels";
-  EXPECT_LE(result.exempt, kSize * kSize / 500) << what;
-}
+constexpr int kSize = Agreement{}.size;
 
 // One region of each shape in fractions of the ranges of values and of gradient magnitudes: an even core, a
 // border that is seen where values change fast, and a triangle that opens towards it.
