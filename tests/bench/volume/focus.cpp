@@ -16,7 +16,7 @@
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/volume_picture.h"
-#include "tests/bench/volume/vtk_side.h"
+#include "tests/bench/volume/sample_views.h"
 
 namespace palpate::bench {
 namespace {
@@ -100,12 +100,7 @@ int main(int argc, char** argv) {
   const int repeats = argc > 2 ? std::atoi(argv[2]) : 5;
   const OffscreenContext context;
   std::printf("%s\n", gl_description().c_str());
-  VolumeView head;
-  head.image = bench::read_sample(argv[1]);
-  head.transfer = ColorTransfer({{59.0, {0.4F, 0.2F, 0.2F}, 0.0},
-                                 {60.0, {0.4F, 0.2F, 0.2F}, 0.002},
-                                 {120.0, {0.8F, 0.5F, 0.4F}, 0.04},
-                                 {255.0, {1.0F, 1.0F, 1.0F}, 0.4}});
+  VolumeView head = bench::head_view(argv[1]);
   head.samples_per_voxel = 4.0;
   head.skip_empty = false;
   head.stop_where_opaque = false;

@@ -23,7 +23,7 @@
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/volume_picture.h"
-#include "tests/bench/volume/vtk_side.h"
+#include "tests/bench/volume/sample_views.h"
 
 namespace palpate::bench {
 namespace {
@@ -138,20 +138,10 @@ int main(int argc, char** argv) {
   const OffscreenContext context;
   std::printf("%s\n", gl_description().c_str());
   for (const bool shading : {false, true}) {
-    VolumeView tooth;
-    tooth.image = bench::read_sample(argv[1]);
-    tooth.transfer = ColorTransfer({{499.0, {0.6F, 0.3F, 0.2F}, 0.0},
-                                    {500.0, {0.6F, 0.3F, 0.2F}, 0.005},
-                                    {800.0, {0.9F, 0.6F, 0.3F}, 0.08},
-                                    {1300.0, {1.0F, 1.0F, 1.0F}, 0.5}});
+    VolumeView tooth = bench::tooth_view(argv[1]);
     tooth.shading = shading;
     bench::drags("tooth", tooth, pixels, steps);
-    VolumeView head;
-    head.image = bench::read_sample(argv[2]);
-    head.transfer = ColorTransfer({{59.0, {0.4F, 0.2F, 0.2F}, 0.0},
-                                   {60.0, {0.4F, 0.2F, 0.2F}, 0.002},
-                                   {120.0, {0.8F, 0.5F, 0.4F}, 0.04},
-                                   {255.0, {1.0F, 1.0F, 1.0F}, 0.4}});
+    VolumeView head = bench::head_view(argv[2]);
     head.shading = shading;
     bench::drags("head", head, pixels, steps);
   }
