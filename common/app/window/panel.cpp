@@ -276,8 +276,8 @@ void draw_rays(VolumeView& volume) {
   ImGui::SliderScalar("samples a voxel", ImGuiDataType_Double, &volume.samples_per_voxel, &kFewest, &kMost,
                       "%.1f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   constexpr double kEven = 1.0, kFarthest = 8.0;
-  ImGui::SliderScalar("times fewer far off", ImGuiDataType_Double, &volume.far_sampling, &kEven, &kFarthest,
-                      "%.0f", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderScalar("fewer far off", ImGuiDataType_Double, &volume.far_sampling, &kEven, &kFarthest, "%.0f",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   ImGui::Checkbox("shading", &volume.shading);
 }
 

@@ -561,12 +561,16 @@ class Window {
   }
 
   bool handle_lens(const InputEvent& event, const PictureArea& area) {
+    bool taken = false;
     if (scene_ && scene_->info->layers) {
-      return color_lens_control_.handle(event, area, {scene_->felt_scalar, scene_->settings.layer}, view_);
+      taken = color_lens_control_.handle(event, area, {scene_->felt_scalar, scene_->settings.layer}, view_);
+    } else if (view_.volume) {
+      if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
+      taken = lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
     }
-    if (!view_.volume) return false;
-    if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
-    return lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
+    // Where it is left, what was said of moving it is over.
+    if (taken && event.kind == InputKind::kPress) say({}, false);
+    return taken;
   }
 
   /// Whether the volume is what is looked at, and may be cropped: that of tensors is made of them.
