@@ -22,10 +22,10 @@ SceneView empty_scene() {
   return view;
 }
 
-/// A red square of edge 2 about the origin, upright on the direction of view.
-SignView square(const SceneView& view, const Vec3& middle) {
+/// A red rectangle upright on the direction of view, to the right of the origin: one unit across, two high.
+SignView rectangle(const SceneView& view, const Vec3& middle) {
   SignView sign{.origin = middle, .axes = view.camera.axes, .unit = 0.2};
-  sign.shapes.push_back({{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}, {1.0F, 0.0F, 0.0F}, 1.0F});
+  sign.shapes.push_back({{{0.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {0.0, 1.0}}, {1.0F, 0.0F, 0.0F}, 1.0F});
   return sign;
 }
 
@@ -38,15 +38,17 @@ TEST(SignPicture, CoversWhatItsCornersSay) {
   for (const Vec3& middle :
        {Vec3(0.0), Vec3(0.4, -0.8, 0.3), Vec3(-0.3, 3.0, -0.2)}) {  // outside the box, too
     SceneView view = empty_scene();
-    view.signs = {square(view, middle)};
+    view.signs = {rectangle(view, middle)};
     const Image image = render_image(view, kEdge, kEdge).image;
     const Vec3 shown = project(view.camera, middle, kEdge, kEdge);
     const double half = 0.2 * kEdge / view.camera.view_height * distance(view.camera) / shown.z;
     int wrong = 0;
     for (int y = 0; y < kEdge; ++y) {
       for (int x = 0; x < kEdge; ++x) {
-        const double off = std::max(std::abs(x + 0.5 - shown.x), std::abs(y + 0.5 - shown.y));
-        if (std::abs(off - half) > 1.0 && red(image, x, y) != (off < half)) ++wrong;
+        const double right = x + 0.5 - shown.x;
+        const double off =
+            std::max({-right, right - half, std::abs(y + 0.5 - shown.y) - half});  // below 0: on it
+        if (std::abs(off) > 1.0 && red(image, x, y) != (off < 0.0)) ++wrong;
       }
     }
     EXPECT_EQ(wrong, 0);
@@ -89,7 +91,7 @@ TEST(SignPicture, IsHiddenByWhatIsNearerAndHidesNothingThatIs) {
   view.style.color_by = ColorBy::kUniform;
   view.style.halo = false;
   view.style.width = 30.0;
-  view.signs = {square(view, Vec3(0.0))};
+  view.signs = {rectangle(view, Vec3(0.0))};
   const Image image = render_image(view, kEdge, kEdge).image;
   const auto at = [&](const Vec3& x) {
     const Vec3 shown = project(view.camera, x, kEdge, kEdge);
@@ -104,7 +106,7 @@ TEST(SignPicture, LiesApartForTwoEyesAsItsDepthSays) {
   SceneView view = empty_scene();
   view.stereo = {.mode = StereoMode::kSideBySide, .separation = 0.1, .most_disparity = 1.0};
   const Vec3 middle = view.camera.focal_point + 0.7 * view.camera.axes[2];
-  view.signs = {square(view, middle)};
+  view.signs = {rectangle(view, middle)};
   const Image image = render_image(view, 2 * kEdge, kEdge).image;
   const auto middle_of = [&](int left) {
     // Pixels at its edges are partly red.
