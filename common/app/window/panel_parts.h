@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -9,6 +11,16 @@ namespace palpate {
 
 /// Millimetres a metre: lengths of the workspace are shown in these.
 inline constexpr double kMillimetres = 1e3;
+
+/// The heading of a part of the panel.
+void section(const char* name);
+
+/// A drop-down of words. @return whether another one was chosen.
+bool choose_word(const char* label, std::string& chosen, const std::vector<std::string>& words);
+
+/// A slider over whole decades; a value between them stays until the slider is moved.
+/// @return whether `value` changed.
+bool decade_slider(const char* label, double& value, int lower, int upper);
 
 /// A slider that never leaves [lower, upper], typed in or not. @return whether `value` changed.
 inline bool slider(const char* label, double& value, double lower, double upper, const char* format,
