@@ -1,0 +1,78 @@
+#include <cstdint>
+#include <string>
+
+#include "common/app/cli/json_output.h"
+#include "common/app/cli/json_parts.h"
+#include "common/base/version.h"
+
+namespace palpate {
+namespace {
+
+Json gpu_json(const std::vector<GpuObject>& objects) {
+  Json list = Json::array();
+  for (const GpuObject& object : objects)
+    list.push_back({{"kind", name_of(object.kind)}, {"what", object.what}, {"bytes", object.bytes}});
+  return list;
+}
+
+}  // namespace
+
+std::string render_json(const RenderSummary& summary) {
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output},
+            {"width", summary.width},
+            {"height", summary.height},
+            {"lines", summary.lines},
+            {"points", summary.points},
+            {"voxels", summary.voxels},
+            {"first_frame_ms", summary.first_frame_ms},
+            {"frame_ms", summary.frame_ms},
+            {"frames_timed", summary.frames_timed},
+            {"quality",
+             {{"context_samples", summary.quality.context},
+              {"focus_samples", summary.quality.focus},
+              {"context_resolution", summary.quality.viewport},
+              {"resolution", summary.quality.resolution}}},
+            {"image_error", summary.image_error},
+            {"image_error_kind", summary.image_error_kind},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_trace", summary.seconds_trace},
+            {"renderer", summary.renderer},
+            {"version", version()}};
+  if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
+    json["bricks"] = {
+        {"held", bricks.held}, {"wanted", bricks.wanted}, {"all", bricks.all}, {"bytes", bricks.bytes}};
+  if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
+  add_plan(json, summary.plan, summary.measured);
+  return json_text(json);
+}
+
+std::string open_json(const OpenSummary& summary) {
+  const ServoStatistics& statistics = summary.servo.statistics;
+  const auto spread = [](const TimeHistogram& times) {
+    constexpr double kMicroseconds = 1e-3;
+    const auto us = [&](std::uint64_t ns) { return kMicroseconds * static_cast<double>(ns); };
+    return Json{{"us_p50", us(times.percentile_ns(0.5))},
+                {"us_p99", us(times.percentile_ns(0.99))},
+                {"us_p999", us(times.percentile_ns(0.999))},
+                {"us_max", us(times.max_ns())}};
+  };
+  Json json{{"servo",
+             {{"rate_hz", summary.servo.rate},
+              {"real_time_priority", summary.servo.real_time.real_time_priority},
+              {"memory_locked", summary.servo.real_time.memory_locked},
+              {"ticks", statistics.ticks},
+              {"late", statistics.late},
+              {"overruns", statistics.overruns},
+              {"skipped", statistics.skipped},
+              {"stalls", statistics.stalls},
+              {"faults", statistics.faults},
+              {"lateness", spread(statistics.lateness)},
+              {"update", spread(statistics.update)}}},
+            {"fault", summary.fault},
+            {"replay", summary.replay}};
+  return json_text(json);
+}
+
+}  // namespace palpate
