@@ -1,0 +1,50 @@
+/// What the overlay is drawn with: text and shapes of Dear ImGui in the colours of the background.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <imgui.h>
+
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+[[nodiscard]] ImU32 packed(const Rgb& color, float opacity = 1.0F);
+
+/// Fonts of the atlas, in the order in which they are added.
+enum class Lettering : std::uint8_t { kText, kTitle };
+inline constexpr float kTitleScale = 1.35F;  ///< of the text's height
+
+/// Needs the overlay's ImGui context current. Lengths are pixels.
+class OverlayPen {
+ public:
+  OverlayPen(ImDrawList& list, float text_height, Background background)
+      : list_(list), text_height_(text_height), dark_(background == Background::kDark) {}
+
+  [[nodiscard]] float text_height() const { return text_height_; }
+  [[nodiscard]] ImU32 ink() const { return dark_ ? IM_COL32(232, 235, 240, 255) : IM_COL32(28, 31, 36, 255); }
+  [[nodiscard]] ImU32 faint_ink() const {
+    return dark_ ? IM_COL32(168, 174, 184, 255) : IM_COL32(86, 92, 102, 255);
+  }
+  [[nodiscard]] ImU32 paper(int opacity) const {
+    return dark_ ? IM_COL32(16, 18, 21, opacity) : IM_COL32(255, 255, 255, opacity);
+  }
+
+  [[nodiscard]] static ImVec2 size_of(const std::string& text, Lettering lettering = Lettering::kText);
+
+  /// @param align the share of the text's width that lies left of x.
+  void text(float x, float y, const std::string& words, ImU32 color, float align = 0.0F,
+            Lettering lettering = Lettering::kText) const;
+  /// Words on a plate in the colour of the background, for places where anything may lie behind them.
+  void label(float x, float y, const std::string& words) const;
+
+  [[nodiscard]] ImDrawList& list() const { return list_; }
+
+ private:
+  ImDrawList& list_;
+  float text_height_;
+  bool dark_;
+};
+
+}  // namespace palpate
