@@ -15,9 +15,9 @@
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
 #include "common/render/glyph/probe_pass.h"
+#include "common/render/line/colored_lines.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_pass.h"
-#include "common/render/line/line_values.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
 #include "common/render/sign/sign_pass.h"
@@ -54,12 +54,6 @@ Box reach_of(const SceneView& view) {
     box.include(voxels.upper);
   }
   return box;
-}
-
-bool same_colors(const LineStyle& a, const LineStyle& b) {
-  return a.color_by == b.color_by && a.array == b.array && is_logarithmic(a) == is_logarithmic(b) &&
-         color_map_of(a) == color_map_of(b) && a.range.has_value() == b.range.has_value() &&
-         (!a.range || (a.range->lower == b.range->lower && a.range->upper == b.range->upper));
 }
 
 // How far a line may be moved unseen [scene frame]: a part of a pixel where the scene is nearest. A
@@ -120,7 +114,8 @@ struct SceneRenderer::State {
   GlProgram background;
   GlVertexArray no_vertices = make_vertex_array();
   LineProgram line_program;
-  LineSet lines, outline;
+  ColoredLines lines;
+  LineSet outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
@@ -139,10 +134,8 @@ struct SceneRenderer::State {
   std::shared_ptr<const TensorVoxels> shown_tensors;
   std::shared_ptr<const TractBundle> shown_tracts;
   std::vector<std::vector<Vec3>> shown_outline;
-  std::optional<LineStyle> shown_style, shown_lens_style;
   SceneFrame frame;
   FrameBlock block;  // of this picture
-  ColorLegend legend;
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
@@ -161,7 +154,7 @@ struct SceneRenderer::State {
     }
     reach = reach_of(view);
     frame = scene_frame(view.bounds.empty() ? reach : view.bounds);
-    lines.set_geometry(view.lines ? make_line_geometry(*view.lines, frame) : LineGeometry{});
+    lines.set_geometry(view.lines.get(), frame);
     outline.set_geometry(
         make_line_geometry(view.outline.empty() ? box_edges(view.bounds) : view.outline, frame));
     shown_lines = view.lines;
@@ -169,45 +162,8 @@ struct SceneRenderer::State {
     shown_tensors = view.tensors ? view.tensors->image : nullptr;
     shown_tracts = view.tracts ? view.tracts->bundle : nullptr;
     shown_outline = view.outline;
-    shown_style.reset();
-    shown_lens_style.reset();
     still.reset();
     filled = true;
-  }
-
-  void update_colors(const SceneView& view) {
-    update_lens_colors(view);
-    if (shown_style && same_colors(*shown_style, view.style)) return;
-    const ValueRange lens_range = legend.lens_range;
-    legend = {};
-    legend.lens_range = lens_range;
-    if (view.lines) {
-      const std::vector<double> values = line_values(*view.lines, view.style);
-      legend.range = value_range(*view.lines, view.style);
-      legend.values_below =
-          std::any_of(values.begin(), values.end(), [&](double v) { return v < legend.range.lower; });
-      legend.values_above =
-          std::any_of(values.begin(), values.end(), [&](double v) { return v > legend.range.upper; });
-      for (const Line& line : *view.lines) ++legend.ends[static_cast<std::size_t>(line.end)];
-      lines.set_values(map_coordinates(values, view.style, legend.range));
-    }
-    shown_style = view.style;
-    still.reset();
-  }
-
-  void update_lens_colors(const SceneView& view) {
-    if (!view.color_lens || !view.lines) {
-      if (shown_lens_style) lines.set_lens_values({});
-      shown_lens_style.reset();
-      return;
-    }
-    const LineStyle& style = view.color_lens->style;
-    if (shown_style && shown_lens_style && same_colors(*shown_lens_style, style)) return;
-    legend.lens_range = value_range(*view.lines, style);
-    const std::vector<double> values = line_values(*view.lines, style);
-    lines.set_lens_values(map_coordinates(values, style, legend.lens_range));
-    shown_lens_style = style;
-    still.reset();
   }
 
   // @return whether the path is another one.
@@ -215,9 +171,9 @@ struct SceneRenderer::State {
     if (!probe) probe = std::make_unique<ProbePass>();
     // Without lines in the scene, the followed one alone says how far the colours spread.
     const bool alone = !view.lines || view.lines->empty();
-    if (alone && view.probe->followed) legend.range = range_alone(*view.probe->followed, view.style);
-    const bool other_path = probe->update(view, frame, legend.range);
-    legend.forces_above = probe->forces_above();
+    if (alone && view.probe->followed) lines.legend().range = range_alone(*view.probe->followed, view.style);
+    const bool other_path = probe->update(view, frame, lines.legend().range);
+    lines.legend().forces_above = probe->forces_above();
     return other_path;
   }
 
@@ -228,28 +184,6 @@ struct SceneRenderer::State {
     glUseProgram(background.name());
     glBindVertexArray(no_vertices.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
-  }
-
-  void draw_lines(const SceneView& view, const LineDraw& base, float unit) {
-    std::optional<ColorMap> lens_map;
-    if (view.color_lens) lens_map = color_map_of(view.color_lens->style);
-    line_program.use(color_map_of(view.style), lens_map);
-    LineDraw how = base;
-    if (view.color_lens) {
-      how.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));
-      how.lens_radius = static_cast<float>(view.color_lens->radius * power_of_two(-frame.exponent));
-    }
-    how.coloring = view.style.color_by == ColorBy::kDirection ? LineDraw::Coloring::kDirection
-                   : view.style.color_by == ColorBy::kUniform ? LineDraw::Coloring::kOneColor
-                                                              : LineDraw::Coloring::kMap;
-    how.color = palette_of(view.background).plain_line;
-    how.width = static_cast<float>(view.style.width) * unit;
-    how.min_width = 1.0F;
-    // Half the line's width, but never thinner than the eye sees nor so wide that it eats neighbours.
-    how.halo_width = view.style.halo ? std::clamp(0.5F * how.width, 1.0F, 3.0F * unit + 1.0F) : 0.0F;
-    how.opacity = static_cast<float>(std::clamp(view.style.opacity, 0.0, 1.0));
-    how.dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0));
-    lines.draw(how);
   }
 
   // All that stays as it is while the probe moves, into the framebuffer that is bound. Transparent lines
@@ -272,7 +206,7 @@ struct SceneRenderer::State {
       if (!tensors) tensors = std::make_unique<TensorPass>();
       tensors->draw(view, frame, transform, unit);
     }
-    if (!is_transparent(view)) draw_lines(view, base, unit);
+    if (!is_transparent(view)) lines.draw(line_program, view, frame, base, unit);
     if (view.volume && shows_planes(*view.volume)) {
       update_volume(view);
       volume->draw_planes(block);
@@ -281,12 +215,12 @@ struct SceneRenderer::State {
     if (!surfaces) surfaces = std::make_unique<SurfacePass>();
     surfaces->update(view.surfaces, frame);
     SurfaceColors colors{
-        .style = view.style, .range = legend.range, .contour_width = std::max(1.0F, 1.6F * unit)};
+        .style = view.style, .range = lines.legend().range, .contour_width = std::max(1.0F, 1.6F * unit)};
     if (view.color_lens) {
       colors.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));
       colors.lens_radius = static_cast<float>(view.color_lens->radius * power_of_two(-frame.exponent));
       colors.lens_style = view.color_lens->style;
-      colors.lens_range = legend.lens_range;
+      colors.lens_range = lines.legend().lens_range;
     }
     surfaces->draw(colors);
   }
@@ -397,7 +331,7 @@ struct SceneRenderer::State {
   void draw_eye(const SceneView& view, int width, int height, double resolution, double tract_milliseconds) {
     if (target.resize(width, height, resolution)) still.reset();
     update_geometry(view);
-    update_colors(view);
+    if (lines.update_colors(view)) still.reset();
     draws_volume = shows_volume(view);
 
     const double aspect = static_cast<double>(width) / height;
@@ -430,7 +364,7 @@ struct SceneRenderer::State {
       if (begin_tracts(view, tract_milliseconds)) draw_tracts(view, base, unit, tract_milliseconds);
       if (shows_volume(view)) draw_volume(view);
     }
-    if (is_transparent(view)) draw_lines(view, base, unit);
+    if (is_transparent(view)) lines.draw(line_program, view, frame, base, unit);
     if (!view.signs.empty()) {
       if (!signs) signs = std::make_unique<SignPass>();
       signs->draw(view.signs, frame, view.camera.axes);
@@ -442,9 +376,9 @@ struct SceneRenderer::State {
     target.resolve();
     target.bind_resolved();
     if (has_overlay(view)) {
-      legend.has_lines = has_colored_lines(view);
+      lines.legend().has_lines = has_colored_lines(view);
       if (!overlay) overlay = std::make_unique<Overlay>();
-      overlay->draw(view, legend, width, height);
+      overlay->draw(view, lines.legend(), width, height);
     }
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
@@ -541,6 +475,6 @@ void SceneRenderer::show(int left, int bottom, std::uint32_t framebuffer) const 
   }
 }
 
-ValueRange SceneRenderer::range() const { return state_->legend.range; }
+ValueRange SceneRenderer::range() const { return state_->lines.legend().range; }
 
 }  // namespace palpate
