@@ -4,6 +4,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include "common/app/haptic/probe_picture.h"
 #include "common/app/window/explorer_window.h"
 #include "common/app/window/shown_scene.h"
 #include "common/app/window/user_settings.h"
