@@ -18,9 +18,7 @@ std::string DataGloveLink::advice() const {
   if (status_.phase == LinkPhase::kReady) return {};
   if (connection_) return "the Data Glove sends nothing that makes sense; plug it in anew";
   if (refused_ == TransferStatus::kOk) return "no Data Glove is plugged in";
-  if (refused_ == TransferStatus::kBusy) return "another program has the Data Glove; end it";
-  return "the Data Glove cannot be opened (" + std::string(name_of(refused_)) +
-         "); `workbench doctor` prints the rule that gives access to it";
+  return refusal_advice("the Data Glove", refused_);
 }
 
 bool DataGloveLink::round(const Vec3& /*force*/) noexcept {
@@ -81,13 +79,9 @@ bool DataGloveLink::release() noexcept {
 }
 
 void DataGloveLink::search() noexcept {
-  UsbFound found = open_first(transport_, "dataglove", true);
-  if (!found.connection) {
-    refused_ = found.refused;
-    status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
-    transport_.await_arrival(kLookPause);
-    return;
-  }
+  UsbFound found = look_for(transport_, "dataglove", true, status_);
+  refused_ = found.refused;
+  if (!found.connection) return;
   connection_ = std::move(found.connection);
   reports_ = found.endpoint;
   model_ = {found.device.id.product};
@@ -95,8 +89,6 @@ void DataGloveLink::search() noexcept {
   ranges_ = {};
   misses_ = 0;
   heard_ = transport_.now();
-  ++status_.opened;
-  status_.phase = LinkPhase::kLoading;
 }
 
 }  // namespace palpate

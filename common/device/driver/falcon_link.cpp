@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "common/device/device_profile.h"
+#include "common/device/driver/usb_search.h"
 
 namespace palpate {
 namespace {
 
-constexpr int kInterface = 0;
 constexpr UsbEndpoint kOut{.address = 0x02, .packet = 64};
 constexpr UsbEndpoint kIn{.interface = 0, .address = 0x81, .packet = 64};
 
@@ -25,8 +25,6 @@ constexpr std::uint16_t kLatencyLoader = 16, kLatencyRun = 1;  // [ms]
 
 constexpr double kControlTime = 0.1;        // [s]
 constexpr double kWriteTime = 0.020;        // [s]
-constexpr double kSearchPause = 0.1;        // [s] between two looks at the bus
-constexpr double kRefusedPause = 0.25;      // [s] between two tries to open what cannot be opened
 constexpr double kFirmwarePause = 0.25;     // [s] after a series of tries without firmware
 constexpr double kEchoTime = 0.1;           // [s] a chunk takes 5 ms at the loader's speed
 constexpr int kProbes = 10;                 // commands that a running firmware would answer
@@ -100,9 +98,7 @@ std::string FalconLink::advice() const {
     case LinkPhase::kAbsent:
       return "no Falcon is plugged in; it needs its own power supply, too";
     case LinkPhase::kRefused:
-      if (refused_ == TransferStatus::kBusy) return "another program has the Falcon";
-      return "the Falcon cannot be opened (" + std::string(name_of(refused_)) +
-             "); `workbench doctor` prints the rule that gives access to it";
+      return refusal_advice("the Falcon", refused_);
     case LinkPhase::kNeedsFirmware:
       return settings_.firmware.empty()
                  ? "the Falcon has no firmware yet; name its file, which comes with the maker's software: "
@@ -122,29 +118,12 @@ std::string FalconLink::advice() const {
 std::string FalconLink::place() const { return path_.empty() ? path_ : "usb " + path_; }
 
 void FalconLink::search() noexcept {
-  status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
-  const std::vector<UsbDevice> devices = transport_.devices();
-  const auto found =
-      std::find_if(devices.begin(), devices.end(), [](const UsbDevice& d) { return d.id == kFalconId; });
-  if (found == devices.end()) {
-    refused_ = TransferStatus::kOk;
-    status_.phase = LinkPhase::kAbsent;
-    transport_.sleep(kSearchPause);
-    return;
-  }
-  UsbOpened opened = transport_.open(found->path, kInterface);
-  if (opened.status != TransferStatus::kOk) {
-    refused_ = opened.status;
-    status_.phase = LinkPhase::kRefused;
-    transport_.sleep(kRefusedPause);
-    return;
-  }
-  refused_ = TransferStatus::kOk;
-  connection_ = std::move(opened.connection);
-  path_ = found->path;
-  ++status_.opened;
+  UsbFound found = look_for(transport_, "falcon", false, status_);
+  refused_ = found.refused;
+  if (!found.connection) return;
+  connection_ = std::move(found.connection);
+  path_ = std::move(found.device.path);
   uploads_in_a_row_ = 0;
-  status_.phase = LinkPhase::kLoading;
   stage_ = Stage::kProbe;
 }
 

@@ -36,9 +36,7 @@ std::string PedalLink::advice() const {
     return "the foot switch neither repeats its reports nor answers: it cannot guard a hand; plug it in "
            "directly, without a hub, or take another one";
   }
-  if (refused_ == TransferStatus::kBusy) return "another program has the foot switch; end it";
-  return "the foot switch cannot be opened (" + std::string(name_of(refused_)) +
-         "); `workbench doctor` prints the rule that gives access to it";
+  return refusal_advice("the foot switch", refused_);
 }
 
 bool PedalLink::round(const Vec3& /*force*/) noexcept {
@@ -103,13 +101,9 @@ bool PedalLink::release() noexcept {
 }
 
 void PedalLink::search() noexcept {
-  UsbFound found = open_first(transport_, kPedal, true);
-  if (!found.connection) {
-    refused_ = found.refused;
-    status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
-    transport_.await_arrival(kLookPause);
-    return;
-  }
+  UsbFound found = look_for(transport_, kPedal, true, status_);
+  refused_ = found.refused;
+  if (!found.connection) return;
   connection_ = std::move(found.connection);
   reports_ = found.endpoint;
   format_ = format_of(found.device.id);
@@ -117,8 +111,6 @@ void PedalLink::search() noexcept {
   misses_ = 0;
   seen_released_ = false;
   heard_ = transport_.now();
-  ++status_.opened;
-  status_.phase = LinkPhase::kLoading;
   // A pedal that refuses is asked instead.
   (void)connection_->control({.request_type = kOutToInterface,
                               .request = kSetIdle,

@@ -48,13 +48,11 @@ std::string PolhemusLink::advice() const {
       return settings_.port.empty() ? "no Polhemus tracker is plugged in, switched on and loaded"
                                     : "there is no serial line " + settings_.port;
     }
-    if (refused_ == TransferStatus::kBusy) return "another program has the tracker; end it";
-    if (!settings_.port.empty()) {
+    if (!settings_.port.empty() && refused_ != TransferStatus::kBusy) {
       return settings_.port + " cannot be opened (" + std::string(name_of(refused_)) +
              (refused_ == TransferStatus::kDenied ? "); you must be in its group, mostly dialout" : ")");
     }
-    return "the tracker cannot be opened (" + std::string(name_of(refused_)) +
-           "); `workbench doctor` prints the rule that gives access to it";
+    return refusal_advice("the tracker", refused_);
   }
   if (status_.phase == LinkPhase::kRefused) {
     if (no_sensor_) return "the tracker says that no sensor is plugged into it, or switched on";

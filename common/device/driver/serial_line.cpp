@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include <unistd.h>
 
 #include "common/base/check.h"
+#include "common/device/driver/file_wait.h"
 
 namespace palpate {
 namespace {
@@ -27,10 +27,6 @@ constexpr std::array<std::pair<int, speed_t>, 8> kSpeeds{{{1200, B1200},
                                                           {38400, B38400},
                                                           {57600, B57600},
                                                           {115200, B115200}}};
-
-double steady_now() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 TransferStatus status_of_errno(int error) noexcept {
   switch (error) {
@@ -56,8 +52,8 @@ class SerialStream final : public ByteStream {
   ~SerialStream() override { ::close(file_); }
 
   TransferResult read(std::span<std::uint8_t> data, double seconds) noexcept override {
-    for (const double until = steady_now() + seconds;;) {
-      const TransferStatus ready = wait(POLLIN, until);
+    for (const double until = steady_seconds() + seconds;;) {
+      const TransferStatus ready = wait_for(file_, POLLIN, until);
       if (ready != TransferStatus::kOk) return {ready, 0};
       const ssize_t got = ::read(file_, data.data(), data.size());
       if (got > 0) return {TransferStatus::kOk, static_cast<std::size_t>(got)};
@@ -68,8 +64,8 @@ class SerialStream final : public ByteStream {
 
   TransferResult write(std::span<const std::uint8_t> data, double seconds) noexcept override {
     std::size_t sent = 0;
-    for (const double until = steady_now() + seconds; sent < data.size();) {
-      const TransferStatus ready = wait(POLLOUT, until);
+    for (const double until = steady_seconds() + seconds; sent < data.size();) {
+      const TransferStatus ready = wait_for(file_, POLLOUT, until);
       if (ready != TransferStatus::kOk) return {ready, sent};
       const ssize_t taken = ::write(file_, data.data() + sent, data.size() - sent);
       if (taken >= 0) {
@@ -82,21 +78,6 @@ class SerialStream final : public ByteStream {
   }
 
  private:
-  TransferStatus wait(short what, double until) const noexcept {
-    for (;;) {
-      pollfd line{.fd = file_, .events = what, .revents = 0};
-      const double left = std::max(until - steady_now(), 0.0);
-      const int ready = ::poll(&line, 1, static_cast<int>(std::ceil(1e3 * left)));
-      if (ready > 0) {
-        // What came before the other side closed is still read.
-        if ((line.revents & what) != 0) return TransferStatus::kOk;
-        return TransferStatus::kGone;
-      }
-      if (ready == 0) return TransferStatus::kTimeout;
-      if (errno != EINTR) return status_of_errno(errno);
-    }
-  }
-
   int file_;
 };
 
@@ -138,7 +119,7 @@ StreamOpened SerialLine::open() {
   return {TransferStatus::kOk, std::move(stream)};
 }
 
-double SerialLine::now() const noexcept { return steady_now(); }
+double SerialLine::now() const noexcept { return steady_seconds(); }
 
 void SerialLine::sleep(double seconds) noexcept {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));

@@ -55,8 +55,7 @@ std::string SpaceMouseLink::advice() const {
   if (status_.phase != LinkPhase::kRefused) return {};
   if (refused_ == TransferStatus::kBusy)
     return "another program, spacenavd perhaps, has the SpaceMouse; end it";
-  return "the SpaceMouse cannot be opened (" + std::string(name_of(refused_)) +
-         "); `workbench doctor` prints the rule that gives access to it";
+  return refusal_advice("the SpaceMouse", refused_);
 }
 
 std::string SpaceMouseLink::place() const { return path_.empty() ? path_ : "usb " + path_; }
@@ -98,18 +97,13 @@ void SpaceMouseLink::publish(double now) noexcept {
 }
 
 void SpaceMouseLink::search() noexcept {
-  UsbFound found = open_first(transport_, kSpaceMouse, true);
-  if (!found.connection) {
-    refused_ = found.refused;
-    status_.phase = refused_ == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
-    transport_.await_arrival(kLookPause);
-    return;
-  }
+  UsbFound found = look_for(transport_, kSpaceMouse, true, status_);
+  refused_ = found.refused;
+  if (!found.connection) return;
   connection_ = std::move(found.connection);
   reports_ = found.endpoint;
   path_ = std::move(found.device.path);
   misses_ = 0;
-  ++status_.opened;
   status_.phase = LinkPhase::kReady;
   light(true);
 }

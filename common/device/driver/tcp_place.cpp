@@ -1,8 +1,6 @@
 #include "common/device/driver/tcp_place.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -13,30 +11,17 @@
 #include <sys/socket.h>
 
 #include "common/base/unique_fd.h"
+#include "common/device/driver/file_wait.h"
 
 namespace palpate {
 namespace {
-
-/// Waits until the socket can do `what`. kGone: the other side has closed, or nobody was there.
-TransferStatus wait_for(int socket, short what, double seconds) noexcept {
-  const SystemLinkClock clock;
-  for (const double until = clock.now() + seconds;;) {
-    pollfd line{.fd = socket, .events = what, .revents = 0};
-    const double left = std::max(until - clock.now(), 0.0);
-    const int ready = ::poll(&line, 1, static_cast<int>(std::ceil(1e3 * left)));
-    // What came before the other side closed is still read.
-    if (ready > 0) return (line.revents & what) != 0 ? TransferStatus::kOk : TransferStatus::kGone;
-    if (ready == 0) return TransferStatus::kTimeout;
-    if (errno != EINTR) return TransferStatus::kFailed;
-  }
-}
 
 class TcpStream final : public ByteStream {
  public:
   explicit TcpStream(UniqueFd socket) noexcept : socket_(std::move(socket)) {}
 
   TransferResult read(std::span<std::uint8_t> data, double seconds) noexcept override {
-    const TransferStatus ready = wait_for(socket_.get(), POLLIN, seconds);
+    const TransferStatus ready = wait_for(socket_.get(), POLLIN, steady_seconds() + seconds);
     if (ready != TransferStatus::kOk) return {ready, 0};
     const ssize_t got = ::recv(socket_.get(), data.data(), data.size(), 0);
     if (got > 0) return {TransferStatus::kOk, static_cast<std::size_t>(got)};
@@ -45,10 +30,9 @@ class TcpStream final : public ByteStream {
   }
 
   TransferResult write(std::span<const std::uint8_t> data, double seconds) noexcept override {
-    const SystemLinkClock clock;
     std::size_t sent = 0;
-    for (const double until = clock.now() + seconds; sent < data.size();) {
-      const TransferStatus ready = wait_for(socket_.get(), POLLOUT, until - clock.now());
+    for (const double until = steady_seconds() + seconds; sent < data.size();) {
+      const TransferStatus ready = wait_for(socket_.get(), POLLOUT, until);
       if (ready != TransferStatus::kOk) return {ready, sent};
       const ssize_t taken = ::send(socket_.get(), data.data() + sent, data.size() - sent, MSG_NOSIGNAL);
       if (taken >= 0) {
@@ -71,7 +55,7 @@ UniqueFd connect_to(const addrinfo& address) noexcept {
   if (!socket) return {};
   if (::connect(socket.get(), address.ai_addr, address.ai_addrlen) != 0) {
     if (errno != EINPROGRESS ||
-        wait_for(socket.get(), POLLOUT, TcpPlace::kConnectTime) != TransferStatus::kOk) {
+        wait_for(socket.get(), POLLOUT, steady_seconds() + TcpPlace::kConnectTime) != TransferStatus::kOk) {
       return {};
     }
     int problem = 0;

@@ -30,4 +30,23 @@ UsbFound open_first(UsbTransport& transport, std::string_view driver, bool inter
   return found;
 }
 
+UsbFound look_for(UsbTransport& transport, std::string_view driver, bool interrupt,
+                  LinkStatus& status) noexcept {
+  UsbFound found = open_first(transport, driver, interrupt);
+  if (found.connection) {
+    ++status.opened;
+    status.phase = LinkPhase::kLoading;
+  } else {
+    status.phase = found.refused == TransferStatus::kOk ? LinkPhase::kAbsent : LinkPhase::kRefused;
+    transport.await_arrival(kLookPause);
+  }
+  return found;
+}
+
+std::string refusal_advice(std::string_view device, TransferStatus refused) {
+  if (refused == TransferStatus::kBusy) return "another program has " + std::string(device) + "; end it";
+  return std::string(device) + " cannot be opened (" + std::string(name_of(refused)) +
+         "); `workbench doctor` prints the rule that gives access to it";
+}
+
 }  // namespace palpate

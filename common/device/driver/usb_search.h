@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "common/device/driver/usb.h"
+#include "common/device/driver_link.h"
 
 namespace palpate {
 
@@ -22,5 +24,13 @@ struct UsbFound {
 /// host, interrupt or bulk: of several interfaces that one has the data, others set devices up. One that
 /// cannot be opened is passed over: there may be another.
 [[nodiscard]] UsbFound open_first(UsbTransport& transport, std::string_view driver, bool interrupt);
+
+/// The same for a link that has no device: where there is none it waits for one to be plugged in. Phase and
+/// counts of `status` follow: absent or refused, or one more opened and loading.
+[[nodiscard]] UsbFound look_for(UsbTransport& transport, std::string_view driver, bool interrupt,
+                                LinkStatus& status) noexcept;
+
+/// What a user is to do about a device, "the SpaceMouse", that is there and cannot be opened.
+[[nodiscard]] std::string refusal_advice(std::string_view device, TransferStatus refused);
 
 }  // namespace palpate
