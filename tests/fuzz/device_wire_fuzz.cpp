@@ -9,7 +9,10 @@
 #include <variant>
 #include <vector>
 
+#include "common/device/driver/dataglove_report.h"
 #include "common/device/driver/falcon_packet.h"
+#include "common/device/driver/pedal_report.h"
+#include "common/device/driver/pinch_message.h"
 #include "common/device/driver/polhemus_record.h"
 #include "common/device/driver/spacemouse_report.h"
 
@@ -55,6 +58,43 @@ void spacemouse(std::span<const std::uint8_t> bytes, std::size_t transfer) {
   }
 }
 
+void data_glove(std::span<const std::uint8_t> bytes, std::size_t transfer) {
+  std::array<BendRange, kGloveNumbers> ranges;
+  for (std::size_t at = 0; at < bytes.size(); at += transfer) {
+    const auto numbers = glove_numbers(bytes.subspan(at, std::min(transfer, bytes.size() - at)));
+    if (!numbers) continue;
+    for (std::size_t i = 0; i < kGloveNumbers; ++i) {
+      require((*numbers)[i] >= 0.0 && (*numbers)[i] <= 1.0);
+      const double bend = ranges[i].bend((*numbers)[i]);
+      require(bend >= 0.0 && bend <= 1.0);
+    }
+  }
+}
+
+/// Whatever came before, a whole message after it, and one that ends it, is understood.
+void pinch_glove(std::span<const std::uint8_t> bytes) {
+  PinchParser parser;
+  std::size_t whole = 0;
+  for (const std::uint8_t byte : bytes) {
+    if (parser.push(byte) == PinchNews::kContacts) ++whole;
+    require(parser.contacts() < 1U << 10U);
+  }
+  require(parser.dropped() + 2 * whole <= bytes.size());
+  PinchNews last = PinchNews::kNothing;
+  for (const std::uint8_t byte : {0x8F, 0x80, 0x00, 0x18, 0x8F})
+    last = parser.push(static_cast<std::uint8_t>(byte));
+  require(last == PinchNews::kContacts && parser.contacts() == 0b11U);
+}
+
+void pedal(std::span<const std::uint8_t> bytes, std::size_t transfer) {
+  for (std::size_t at = 0; at < bytes.size(); at += transfer) {
+    for (const PedalFormat format : {PedalFormat::kXKeys, PedalFormat::kInfinity, PedalFormat::kKeyboard}) {
+      const auto pedals = pedals_of(format, bytes.subspan(at, std::min(transfer, bytes.size() - at)));
+      require(!pedals || *pedals < 8U);
+    }
+  }
+}
+
 /// Whatever came before, of two whole records after it the second is understood.
 template <class Parser>
 void polhemus(std::span<const std::uint8_t> bytes, Parser parser, std::span<const std::uint8_t> whole) {
@@ -84,7 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   const std::span<const std::uint8_t> rest(data + 2, size - 2);
   const std::size_t transfer = 1 + data[1];
-  switch (data[0] % 4) {
+  switch (data[0] % 7) {
     case 0:
       falcon(rest, transfer);
       break;
@@ -94,8 +134,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 2:
       polhemus(rest, LibertyParser(std::array{LibertyItem::kPosition, LibertyItem::kQuaternion}), kLiberty);
       break;
-    default:
+    case 3:
       polhemus(rest, FastrakParser(), kFastrak);
+      break;
+    case 4:
+      data_glove(rest, transfer);
+      break;
+    case 5:
+      pinch_glove(rest);
+      break;
+    default:
+      pedal(rest, transfer);
   }
   return 0;
 }

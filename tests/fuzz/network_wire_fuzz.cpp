@@ -82,8 +82,8 @@ class SayingPlace final : public StreamPlace {
 };
 
 void vrpn(std::span<const std::uint8_t> bytes, std::size_t piece) {
-  SayingPlace place(bytes, piece);
-  VrpnLink link(place, vrpn_settings({{"at", "Tracker0@fuzzer"}, {"cap", "3"}}));
+  VrpnLink link(std::make_unique<SayingPlace>(bytes, piece),
+                vrpn_settings({{"at", "Tracker0@fuzzer"}, {"cap", "3"}}));
   constexpr int kRounds = 300;
   for (int n = 0; n < kRounds; ++n) {
     (void)link.round(n % 4 == 0 ? Vec3{0.0} : Vec3{10.0 * std::sin(n), -5.0, 1.0 * n});

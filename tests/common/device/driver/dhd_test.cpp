@@ -11,6 +11,7 @@
 #include "common/servo/safety_stage.h"
 #include "tests/common/device/driver/fake_dhd.h"
 #include "tests/common/device/driver/moved_clock.h"
+#include "tests/common/device/driver/soak.h"
 #include "tests/support/project_folders.h"
 
 namespace palpate::test {
@@ -276,35 +277,24 @@ TEST_F(DhdLinkTest, NoticesAtOnceThatItIsUnpluggedAndComesBack) {
 
 // All that can go wrong, over and over, for as long as PALPATE_SOAK_SECONDS says [s of simulated time].
 TEST_F(DhdLinkTest, BearsEveryFaultForLong) {
-  const char* asked = std::getenv("PALPATE_SOAK_SECONDS");  // NOLINT(concurrency-mt-unsafe): read only
-  const double seconds = asked != nullptr ? std::atof(asked) : 120.0;  // NOLINT(cert-err34-c)
-  std::mt19937_64 random{11};
-  std::uniform_real_distribution<double> unit;
-  const auto chance = [&](double probability) { return unit(random) < probability; };
+  const double seconds = soak_seconds(kTwoHours);
+  Soak soak(11);
   std::uint64_t fresh = 0;
-  while (clock_.now() < seconds) {
-    if (chance(0.2)) fake_.failing_calls = static_cast<int>(random() % 20);
-    if (chance(0.2)) fake_.repeated_calls = static_cast<int>(random() % 50);
-    if (chance(0.1)) fake_.switch_force_off(static_cast<int>(1 + random() % 6));
-    if (chance(0.1)) fake_.arm.put(0.08 * Vec3{unit(random), unit(random), unit(random)});
-    fake_.nonsense = chance(0.05);
-    fake_.broken = chance(0.05);
-    fake_.powered = !chance(0.05);
-    fake_.has_zero = !chance(0.05);
-    fake_.plugged = !chance(0.05);
-    fake_.busy = chance(0.05);
-    fake_.arm.set_target(0.04 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5});
-    const Vec3 force = chance(0.1) ? Vec3{std::nan("")}
-                       : chance(0.3)
-                           ? Vec3{0.0}
-                           : 40.0 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5};
-    for (const double until = clock_.now() + 0.3 * unit(random); clock_.now() < until;) {
-      const double began = clock_.now();
-      fresh += link_->round(force) ? 1U : 0U;
-      ASSERT_LT(clock_.now() - began, DriverLink::kLongestRound);
-      ASSERT_TRUE(is_finite(link_->atoms().position));
-      ASSERT_LE(fake_.opened - fake_.closed, 1);
-    }
+  while (clock_.now() < seconds && !HasFailure()) {
+    if (soak.chance(0.2)) fake_.failing_calls = static_cast<int>(soak.below(20));
+    if (soak.chance(0.2)) fake_.repeated_calls = static_cast<int>(soak.below(50));
+    if (soak.chance(0.1)) fake_.switch_force_off(static_cast<int>(1 + soak.below(6)));
+    if (soak.chance(0.1)) fake_.arm.put(soak.within(0.16));
+    fake_.nonsense = soak.chance(0.05);
+    fake_.broken = soak.chance(0.05);
+    fake_.powered = !soak.chance(0.05);
+    fake_.has_zero = !soak.chance(0.05);
+    fake_.plugged = !soak.chance(0.05);
+    fake_.busy = soak.chance(0.05);
+    fake_.arm.set_target(soak.within(0.04));
+    fresh += soak.work(
+        *link_, [&] { return clock_.now(); }, 0.3, soak.force(20.0),
+        [&] { return fake_.opened - fake_.closed; });
     ASSERT_LE(fake_.arm.largest_force(), 8.0 + 1e-9);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(100.0 * seconds));

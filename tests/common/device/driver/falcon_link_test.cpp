@@ -16,6 +16,7 @@
 
 #include "tests/common/device/driver/fake_usb.h"
 #include "tests/common/device/driver/falcon_emulator.h"
+#include "tests/common/device/driver/soak.h"
 
 namespace palpate::test {
 namespace {
@@ -280,52 +281,30 @@ TEST_F(FalconLinkTest, RefusesSettingsThatMakeNoSense) {
 
 // All that can go wrong, over and over, for as long as PALPATE_SOAK_SECONDS says [s of simulated time].
 TEST_F(FalconLinkTest, BearsEveryFaultForLong) {
-  const char* asked = std::getenv("PALPATE_SOAK_SECONDS");  // NOLINT(concurrency-mt-unsafe): read only
-  const double seconds = asked != nullptr ? std::atof(asked) : 30.0;  // NOLINT(cert-err34-c)
+  const double seconds = soak_seconds(30.0);
   const auto image = random_image(1200);
   plug({.failing_uploads = 1}, {.firmware = image});
-  std::mt19937_64 random{21};
-  std::uniform_real_distribution<double> unit;
-  const auto chance = [&](double probability) { return unit(random) < probability; };
-  std::uint64_t ready_rounds = 0, episodes = 0, last_rounds = 0;
-  Vec3 target = FalconEmulator::kMiddle;
-  while (bus_.now() < seconds) {
-    ++episodes;
-    CableFaults faults{.seed = random()};
-    // Half of the time all is well, else one thing or several are not.
-    if (chance(0.5)) {
-      const auto perhaps = [&](double most) {
-        return chance(0.4) ? most * unit(random) * unit(random) : 0.0;
-      };
-      faults.lost_write = perhaps(0.3);
-      faults.short_write = perhaps(0.3);
-      faults.lost_read = perhaps(0.3);
-      faults.corrupt_read = perhaps(0.3);
-      faults.late_read = perhaps(0.3);
-      faults.stall = perhaps(0.1);
-      faults.timeout = perhaps(0.1);
-      faults.lateness = 0.02 * unit(random);
-    }
-    bus_.set_faults(faults);
-    if (chance(0.05)) bus_.unplug_at_transfer(1 + random() % 300);
-    if (chance(0.02)) falcon_->lose_zero();
-    if (chance(0.02)) falcon_->restart();
-    target =
-        FalconEmulator::kMiddle + 0.03 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5};
-    falcon_->set_target(target);
-    const Vec3 asked_for = chance(0.1)
-                               ? Vec3{std::numeric_limits<double>::quiet_NaN()}
-                               : 30.0 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5};
-    const double until = bus_.now() + 0.5 * unit(random);
-    while (bus_.now() < until) {
-      const double began = bus_.now();
-      ready_rounds += link_->round(asked_for) ? 1U : 0U;
-      ASSERT_LT(bus_.now() - began, DriverLink::kLongestRound);
-      ASSERT_TRUE(is_finite(link_->atoms().position));
-      // Where no answer is in force there is no new force either: at most the last command's until it is
-      // cleared.
-      ASSERT_LE(bus_.open_connections(), 1);
-    }
+  Soak soak(21);
+  std::uint64_t ready_rounds = 0, last_rounds = 0;
+  while (bus_.now() < seconds && !HasFailure()) {
+    soak.begin();
+    bus_.set_faults({.lost_write = soak.rate(0.3),
+                     .short_write = soak.rate(0.3),
+                     .lost_read = soak.rate(0.3),
+                     .corrupt_read = soak.rate(0.3),
+                     .late_read = soak.rate(0.3),
+                     .stall = soak.rate(0.1),
+                     .timeout = soak.rate(0.1),
+                     .lateness = 0.02 * soak.part(),
+                     .seed = soak.seed()});
+    if (soak.chance(0.05)) bus_.unplug_at_transfer(1 + soak.below(300));
+    if (soak.chance(0.02)) falcon_->lose_zero();
+    if (soak.chance(0.02)) falcon_->restart();
+    falcon_->set_target(FalconEmulator::kMiddle + soak.within(0.03));
+    // Where no answer is in force there is no new force either: at most the last command's until it is
+    // cleared.
+    ready_rounds += soak.work(
+        *link_, [&] { return bus_.now(); }, 0.5, soak.force(15.0), [&] { return bus_.open_connections(); });
     ASSERT_LE(falcon_->largest_motor(), kFalconLargestCommand);
     if (bus_.devices().empty()) {
       (void)link_->round({0, 0, 0});

@@ -12,6 +12,7 @@
 #include "common/device/driver/inverse3_link.h"
 #include "tests/common/device/driver/fake_web.h"
 #include "tests/common/device/driver/haply_emulator.h"
+#include "tests/common/device/driver/soak.h"
 
 namespace palpate::test {
 namespace {
@@ -254,39 +255,26 @@ TEST_F(Inverse3LinkTest, NoticesAtOnceThatTheServiceEndedAndFindsItAgain) {
 
 // All that can go wrong, over and over, for as long as PALPATE_SOAK_SECONDS says [s of simulated time].
 TEST_F(Inverse3LinkTest, BearsEveryFaultForLong) {
-  const char* asked = std::getenv("PALPATE_SOAK_SECONDS");  // NOLINT(concurrency-mt-unsafe): read only
-  const double seconds = asked != nullptr ? std::atof(asked) : 60.0;  // NOLINT(cert-err34-c)
-  std::mt19937_64 random{13};
-  std::uniform_real_distribution<double> unit;
-  const auto chance = [&](double probability) { return unit(random) < probability; };
+  const double seconds = soak_seconds(60.0);
+  Soak soak(13);
   std::uint64_t fresh = 0;
-  while (web_.now() < seconds) {
-    const bool bad = chance(0.5);
-    const auto perhaps = [&](double most) {
-      return bad && chance(0.4) ? most * unit(random) * unit(random) : 0.0;
-    };
-    web_.faults = {.lost = perhaps(0.3),
-                   .late = perhaps(0.2),
-                   .lateness = 0.1 * unit(random),
-                   .corrupt = perhaps(0.5),
-                   .cut = perhaps(0.3),
-                   .doubled = perhaps(0.5),
-                   .reset = perhaps(0.1)};
-    web_.listens = !chance(0.05);
-    web_.flood = chance(0.03);
-    web_.says = chance(0.03) ? std::string(random() % 3000, '[') : "";
-    service_.plugged = !chance(0.05);
-    if (chance(0.1)) service_.arm.put(0.08 * Vec3{unit(random), unit(random), unit(random)});
-    service_.arm.set_target(0.04 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5});
-    const Vec3 force = chance(0.1) ? Vec3{std::nan("")}
-                                   : 30.0 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5};
-    for (const double until = web_.now() + 0.3 * unit(random); web_.now() < until;) {
-      const double began = web_.now();
-      fresh += link_.round(force) ? 1U : 0U;
-      ASSERT_LT(web_.now() - began, DriverLink::kLongestRound);
-      ASSERT_TRUE(is_finite(link_.atoms().position));
-      ASSERT_LE(web_.connections(), 1);
-    }
+  while (web_.now() < seconds && !HasFailure()) {
+    soak.begin();
+    web_.faults = {.lost = soak.rate(0.3),
+                   .late = soak.rate(0.2),
+                   .lateness = 0.1 * soak.part(),
+                   .corrupt = soak.rate(0.5),
+                   .cut = soak.rate(0.3),
+                   .doubled = soak.rate(0.5),
+                   .reset = soak.rate(0.1)};
+    web_.listens = !soak.chance(0.05);
+    web_.flood = soak.chance(0.03);
+    web_.says = soak.chance(0.03) ? std::string(soak.below(3000), '[') : "";
+    service_.plugged = !soak.chance(0.05);
+    if (soak.chance(0.1)) service_.arm.put(soak.within(0.16));
+    service_.arm.set_target(soak.within(0.04));
+    fresh += soak.work(
+        link_, [&] { return web_.now(); }, 0.3, soak.force(15.0), [&] { return web_.connections(); });
     ASSERT_LE(service_.arm.largest_force(), 5.0 + 1e-5);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(100.0 * seconds));

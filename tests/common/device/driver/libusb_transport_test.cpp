@@ -1,14 +1,17 @@
-// The real transport: unmodified libusb on a USB device that umockdev shows to it, behind whose descriptors
-// and ioctls the emulated Falcon stands. The test must run with umockdev's preload library (CMakeLists.txt).
+// The real transport: unmodified libusb on USB devices that umockdev shows to it, behind whose descriptors
+// and ioctls emulated ones stand, and whose plugging in udev tells. The test must run with umockdev's preload
+// library (CMakeLists.txt).
 
 #include "common/device/driver/libusb_transport.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,11 +20,16 @@
 #include <umockdev.h>
 #include <unistd.h>
 
+#include "common/device/driver/dataglove_link.h"
 #include "common/device/driver/falcon_link.h"
 #include "common/device/driver/pedal_link.h"
+#include "common/device/driver/polhemus_link.h"
+#include "common/device/driver/polhemus_port.h"
 #include "common/servo/real_time.h"
+#include "tests/common/device/driver/dataglove_emulator.h"
 #include "tests/common/device/driver/falcon_emulator.h"
 #include "tests/common/device/driver/pedal_emulator.h"
+#include "tests/common/device/driver/polhemus_emulator.h"
 
 namespace palpate::test {
 namespace {
@@ -43,12 +51,37 @@ constexpr Described kFalcon{"0403", "cb48",
 constexpr Described kPedal{"0c45", "7403",
                            "1201100100000008450c0374000101020001"
                            "0902190001010080320904000001030101000705810308000a"};
+// A Liberty: bulk endpoints 4 and 8, of a maker's own class.
+constexpr Described kLiberty{"0f44", "ff20",
+                             "1201000200000040440f20ff000101020001"
+                             "0902200001010080320904000002ffffff000705040240000007058802400000"};
+// A Fastrak: answers by bulk endpoint 2, what it says by itself by an interrupt endpoint.
+constexpr Described kFastrak{
+    "0f44", "0002",
+    "1201000200000040440f0200000101020001"
+    "0902270001010080320904000003ffffff00070502024000000705820240000007058403400001"};
+// A glove of five sensors: a HID device with an interrupt endpoint of 64 bytes.
+constexpr Described kGlove{"5d70", "0010",
+                           "1201100100000008705d1000000101020001"
+                           "0902190001010080320904000001030000000705850340000a"};
 
 /// Answers the ioctls of usbfs for one device, on umockdev's thread.
 class UsbfsDevice {
  public:
-  UsbfsDevice(FakeDevice& device, const Described& described) : device_(device) {
+  UsbfsDevice(FakeDevice& device, const Described& described, bool plugged = true)
+      : device_(device), described_(described) {
     testbed_ = umockdev_testbed_new();
+    if (plugged) plug();
+  }
+  ~UsbfsDevice() {
+    if (handler_ != nullptr) {
+      umockdev_testbed_detach_ioctl(testbed_, kNode, nullptr);
+      g_object_unref(handler_);
+    }
+    g_object_unref(testbed_);
+  }
+
+  void plug() {
     handler_ = umockdev_ioctl_base_new();
     g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(&UsbfsDevice::answer), this);
     GError* error = nullptr;
@@ -59,17 +92,11 @@ class UsbfsDevice {
                                "\nE: DEVTYPE=usb_device\nE: MAJOR=189\nE: MINOR=1\nE: SUBSYSTEM=usb\n"
                                "A: busnum=1\\n\nA: devnum=2\\n\nA: bConfigurationValue=1\\n\nA: speed=12\\n\n"
                                "A: idVendor=" +
-                               described.vendor + "\\n\nA: idProduct=" + described.product +
-                               "\\n\nH: descriptors=" + described.descriptors + "\n";
+                               described_.vendor + "\\n\nA: idProduct=" + described_.product +
+                               "\\n\nH: descriptors=" + described_.descriptors + "\n";
     umockdev_testbed_add_from_string(testbed_, record.c_str(), &error);
     EXPECT_EQ(error, nullptr) << (error != nullptr ? error->message : "");
   }
-  ~UsbfsDevice() {
-    umockdev_testbed_detach_ioctl(testbed_, kNode, nullptr);
-    g_object_unref(handler_);
-    g_object_unref(testbed_);
-  }
-
   void unplug() {
     {
       const std::lock_guard lock(mutex_);
@@ -233,6 +260,7 @@ class UsbfsDevice {
   }
 
   FakeDevice& device_;
+  Described described_;
   const double start_ = now();
   UMockdevTestbed* testbed_ = nullptr;
   UMockdevIoctlBase* handler_ = nullptr;
@@ -350,6 +378,99 @@ TEST(LibusbPedal, IsHeardWhileItIsHeldAndReleasedWhenItIsPulledOut) {
     for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n) (void)link.round(Vec3{0.0});
     EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
   }
+}
+
+/// Rounds of a link until something holds; false where it does not for long.
+template <class Holds>
+bool work_until(DriverLink& link, const Holds& holds) {
+  for (const double until = now() + 20.0; !holds();) {
+    if (now() > until) return false;
+    (void)link.round(Vec3{0.0});
+  }
+  return true;
+}
+
+// Both families: silenced, set up and followed, its button, and its end.
+TEST(LibusbPolhemus, IsSetUpFollowedAndLostWhenItIsPulledOut) {
+  for (const bool fastrak : {false, true}) {
+    const auto tracker = std::make_shared<PolhemusEmulator>(EmulatedPolhemus{.fastrak = fastrak});
+    tracker->freeze(true);
+    PolhemusOnUsb wire(fastrak ? UsbId{0x0f44, 0x0002} : UsbId{0x0f44, 0xff20}, tracker);
+    UsbfsDevice usbfs(wire, fastrak ? kFastrak : kLiberty);
+    std::string error;
+    const std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+    ASSERT_TRUE(bus) << error;
+    PolhemusLink link(polhemus_on_usb(*bus), {});
+    const auto& stations = link.poses()->stations;
+    ASSERT_TRUE(work_until(link, [&] { return stations[0].valid && stations[1].valid; })) << link.advice();
+    EXPECT_EQ(link.status().phase, LinkPhase::kReady);
+    EXPECT_EQ(link.place(), "usb 1-2");
+    EXPECT_EQ(usbfs.claims(), 1);
+    constexpr double kSinglePrecision = 1e-6;  // [m]
+    EXPECT_LT(glm::distance(stations[1].position, PolhemusEmulator::position(2, 0.0)), kSinglePrecision);
+    tracker->press(1, true);
+    EXPECT_TRUE(work_until(link, [&] { return stations[0].buttons == 1U; }));
+    usbfs.unplug();
+    EXPECT_TRUE(work_until(link, [&] { return link.status().phase == LinkPhase::kAbsent; }));
+    EXPECT_FALSE(stations[0].valid || stations[1].valid);
+    EXPECT_EQ(stations[0].buttons, 0U);
+  }
+}
+
+TEST(LibusbDataGlove, BendsItsFingersAndOpensWhenItIsPulledOut) {
+  DataGloveEmulator glove({0x5d70, 0x0010});
+  UsbfsDevice usbfs(glove, kGlove);
+  std::string error;
+  const std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+  ASSERT_TRUE(bus) << error;
+  DataGloveLink link(*bus);
+  const auto reports = [&](std::uint64_t more) {
+    const std::uint64_t before = link.status().rounds;
+    return work_until(link, [&] { return link.status().rounds >= before + more; });
+  };
+  // A fist and a flat hand teach the ranges.
+  glove.bend_all(1.0);
+  ASSERT_TRUE(reports(4)) << link.advice();
+  glove.bend_all(0.0);
+  ASSERT_TRUE(reports(4));
+  glove.bend(3, 0.75);
+  EXPECT_TRUE(work_until(link, [&] { return link.atoms().buttons == 0b10U; }));
+  EXPECT_EQ(link.atoms().bend_count, 5);
+  EXPECT_NEAR(link.atoms().bends[1], 0.75, 1e-3);
+  usbfs.unplug();
+  EXPECT_TRUE(work_until(link, [&] { return link.atoms().buttons == 0U; }));
+  EXPECT_EQ(link.atoms().bend_count, 0);
+}
+
+// libusb hears of arrivals from udev by its own callback: whoever waits for one is woken by it, long before
+// its time is over, and not by what leaves.
+TEST(LibusbHotplug, WakesWhoeverWaitsForAnArrival) {
+  FalconEmulator falcon({.loaded = true, .homed = true});
+  UsbfsDevice usbfs(falcon, kFalcon, false);
+  std::string error;
+  const std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+  ASSERT_TRUE(bus) << error;
+  EXPECT_TRUE(bus->devices().empty());
+  constexpr double kShort = 0.3, kLong = 30.0;  // [s]
+  double began = now();
+  bus->await_arrival(kShort);
+  EXPECT_GE(now() - began, kShort) << "nothing has come";
+
+  std::jthread hand([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    usbfs.plug();
+  });
+  began = now();
+  bus->await_arrival(kLong);
+  EXPECT_LT(now() - began, 0.5 * kLong) << "it was not told";
+  hand.join();
+  ASSERT_EQ(bus->devices().size(), 1U);
+  EXPECT_EQ(bus->devices()[0].id, kFalconId);
+  EXPECT_EQ(bus->open("1-2", 0).status, TransferStatus::kOk);
+  usbfs.unplug();
+  began = now();
+  bus->await_arrival(kShort);
+  EXPECT_GE(now() - began, kShort) << "what leaves is no arrival";
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "common/device/driver/serial_line.h"
 #include "tests/common/device/driver/pinch_emulator.h"
 #include "tests/common/device/driver/pty_pair.h"
+#include "tests/common/device/driver/soak.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpate::test {
@@ -134,12 +135,12 @@ TEST_F(PinchLinkTest, LetsGoWhereItIsPulledOutSwitchedOffOrNotThere) {
   EXPECT_EQ(link_->status().phase, LinkPhase::kReady);
 }
 
-TEST_F(PinchLinkTest, BearsEveryFaultForAnHour) {
+TEST_F(PinchLinkTest, BearsEveryFaultForTwoHours) {
   line_->plug(glove_);
   std::mt19937_64 random{8};
   std::uniform_real_distribution<double> unit;
   std::uint64_t pinched = 0;
-  while (line_->now() < 3600.0) {
+  while (line_->now() < soak_seconds(kTwoHours)) {
     const bool bad = unit(random) < 0.5;
     const auto rate = [&](double most) { return bad ? most * unit(random) : 0.0; };
     line_->set_faults({.lost_byte = rate(0.1),

@@ -17,6 +17,7 @@
 #include "common/device/driver/serial_line.h"
 #include "tests/common/device/driver/polhemus_emulator.h"
 #include "tests/common/device/driver/pty_pair.h"
+#include "tests/common/device/driver/soak.h"
 
 namespace palpate::test {
 namespace {
@@ -207,7 +208,7 @@ TEST_F(PolhemusOnUsbTest, IsNotReadyWhereItWaitsForItsFirmware) {
   return ::testing::AssertionSuccess();
 }
 
-TEST_F(PolhemusOnUsbTest, BearsEveryFaultForAnHour) {
+TEST_F(PolhemusOnUsbTest, BearsEveryFaultForTwoHours) {
   std::mt19937_64 random{4};
   std::uniform_real_distribution<double> unit;
   std::uint64_t good = 0, unplugged = 0;
@@ -215,7 +216,7 @@ TEST_F(PolhemusOnUsbTest, BearsEveryFaultForAnHour) {
     link_.reset();
     bus_.set_faults({});
     plug(id);
-    for (const double end = bus_.now() + 1800.0; bus_.now() < end;) {
+    for (const double end = bus_.now() + soak_seconds(0.5 * kTwoHours); bus_.now() < end;) {
       const bool bad = unit(random) < 0.5;
       const auto rate = [&](double most) { return bad ? most * unit(random) : 0.0; };
       bus_.set_faults({.lost_write = rate(0.1),
@@ -312,12 +313,12 @@ TEST_F(FastrakAtALine, SaysWhatToLookAtWhereNothingMakesSense) {
   EXPECT_NE(link_->advice().find("baud="), std::string::npos) << link_->advice();
 }
 
-TEST_F(FastrakAtALine, BearsEveryFaultForAnHour) {
+TEST_F(FastrakAtALine, BearsEveryFaultForTwoHours) {
   line_->plug(tracker_);
   std::mt19937_64 random{6};
   std::uniform_real_distribution<double> unit;
   std::uint64_t good = 0;
-  while (line_->now() < 3600.0) {
+  while (line_->now() < soak_seconds(kTwoHours)) {
     const bool bad = unit(random) < 0.5;
     const auto rate = [&](double most) { return bad ? most * unit(random) : 0.0; };
     line_->set_faults({.lost_byte = rate(0.003),
