@@ -45,14 +45,24 @@ LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress
   check.status = link.status();
   check.advice = link.advice();
   check.place = link.place();
-  check.positions = link.atoms().has_position;
+  check.tracks = link.poses() != nullptr;
+  check.felt = link.atoms().has_position && !check.tracks;
   return check;
 }
 
 std::vector<std::string> advice_on(const LinkCheck& check) {
   std::vector<std::string> advice;
   if (!check.advice.empty()) advice.push_back(check.advice);
-  if (!check.ready || !check.positions) return advice;
+  if (check.ready && check.tracks) {
+    constexpr double kSluggish = 50.0;  // [Hz] records: the slowest tracker, of one sensor, has 60
+    if (check.rate() < kSluggish && check.status.rounds > 0) {
+      advice.push_back(
+          "it tells only " + short_number(std::round(check.rate())) +
+          " poses a second: what follows hands and heads will lag; plug out sensors that are not "
+          "used, and take the highest rate of its line");
+    }
+  }
+  if (!check.ready || !check.felt) return advice;
   constexpr double kSlow = 400.0;  // [Hz] stiff walls buzz
   constexpr double kUneven = 5.0;  // [ms]
   if (check.rate() < kSlow && check.status.rounds > 0) {

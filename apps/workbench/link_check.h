@@ -23,7 +23,8 @@ struct LinkCheck {
   LinkStatus status;
   std::string advice;
   std::string place;
-  bool positions = false;  ///< it has a position, so its rate and evenness are felt
+  bool felt = false;    ///< it is an arm: its rate and evenness are
+  bool tracks = false;  ///< it is a tracker, whose pictures lag behind a low rate
 
   [[nodiscard]] double rate() const noexcept {
     return measured > 0.0 ? static_cast<double>(intervals.count()) / measured : 0.0;
