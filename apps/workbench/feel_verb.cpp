@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -104,6 +105,32 @@ void hold_to_tuned(const WorkbenchGeometry& geometry, const std::string& key, Wo
   console.note(tuned_note(o.stiffness, tuned->stiffness));
   o.stiffness = tuned->stiffness;
 }
+
+/// What a simulated arm is led by where no path is given: a hand that begins in free air before the effect,
+/// strokes into it and out again, and goes to and fro along it.
+class StrokingHand final : public Device {
+ public:
+  /// @param surface height of the effect towards the hand [m].
+  StrokingHand(double surface, const DeviceLimits& limits) : surface_(surface), limits_(limits) {}
+
+  bool read(double now, DeviceSample& sample) noexcept override {
+    if (began_ < 0.0) began_ = now;
+    const double t = now - began_;
+    const auto turn = [t](double period) { return 2.0 * std::numbers::pi * t / period; };
+    constexpr double kOut = 0.010, kIn = 0.006, kAlong = 0.012;  // [m]
+    const double height = 0.5 * (kOut - kIn) + 0.5 * (kOut + kIn) * std::cos(turn(1.5));
+    sample = {now, {kAlong * std::sin(turn(7.0)), kAlong * std::sin(turn(11.3)), surface_ + height}, 0};
+    return true;
+  }
+  void command(const Vec3& /*force*/) noexcept override {}
+  void emergency_stop() noexcept override {}
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+
+ private:
+  double surface_;
+  DeviceLimits limits_;
+  double began_ = -1.0;  ///< [s] negative: not yet
+};
 
 std::string device_name(const std::optional<SimulatedDeviceOptions>& simulated) {
   return simulated ? device_key(*simulated) : "path";
@@ -240,9 +267,6 @@ void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
   std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
   if (simulated) {
     simulated->limits = safe_limits(simulated->profile);
-    // Back and forth through the effect, by itself.
-    constexpr double kReach = 0.015;  // [m]
-    if (options.path.empty()) simulated->wander = WanderingPath{Vec3{0.0}, Vec3{kReach}};
     hold_to_tuned(geometry, device_key(*simulated), options, context.console);
   }
   if (!options.path.empty()) {
@@ -256,10 +280,12 @@ void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
     return;
   }
   std::unique_ptr<BenchDevice> bench;
+  StrokingHand hand(options.effect == FeelEffect::kSphere ? kFeelSphereRadius : 0.0,
+                    simulated ? simulated->limits : DeviceLimits{});
   if (simulated) {
-    bench = std::make_unique<BenchDevice>(*simulated, nullptr);
+    bench = std::make_unique<BenchDevice>(*simulated, &hand);
   } else {
-    bench = std::make_unique<BenchDevice>(options.device, geometry);
+    bench = std::make_unique<BenchDevice>(options.device, geometry, context.console);
     hold_to_tuned(geometry, bench->key(), options, context.console);
   }
   Timing timing;
