@@ -22,13 +22,13 @@ bool SampleClock::read(double now, DeviceSample& sample) noexcept {
   return true;
 }
 
-BenchDevice::BenchDevice(const std::string& text, const WorkbenchGeometry& bench) {
+BenchDevice::BenchDevice(const std::string& text, const WorkbenchGeometry& bench, const Console& console) {
   if (text == "mouse" || text.starts_with("mouse:"))
     throw usage_error(
         "a mouse shows no force: try --device simulated, or feel effects in the explorers' windows");
   const DeviceText named = device_at_bench(text, bench);
-  OpenedDevice opened = open_device(named);
-  key_ = named.name;
+  OpenedDevice opened = open_at_bench(named, bench, console);
+  key_ = device_key(named);
   held_ = description_of(opened.enabling, named);
   held_by_itself_ = opened.enabling.button != DeviceLimits::kNoButton && !opened.enabling.link;
   DeviceLimits limits = opened.link->limits();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "common/app/cli/console.h"
 #include "common/calibration/workbench_file.h"
 #include "common/device/driver_library.h"
 #include "common/device/simulated_device.h"
@@ -42,7 +43,7 @@ class SampleClock final : public Device {
 class BenchDevice {
  public:
   /// Opens a driver's device. @throws Error.
-  BenchDevice(const std::string& text, const WorkbenchGeometry& bench);
+  BenchDevice(const std::string& text, const WorkbenchGeometry& bench, const Console& console);
   /// A simulated arm and hand at a path of the leader, or wandering about the middle.
   BenchDevice(const SimulatedDeviceOptions& simulated, Device* leader);
 

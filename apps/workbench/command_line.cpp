@@ -63,7 +63,7 @@ void add_kind(CLI::App& verb, WorkbenchOptions& o) {
 
 void add_workbench(CLI::App& verb, WorkbenchOptions& o) {
   verb.add_option("--workbench", o.workbench,
-                  "workbench.toml whose [device.NAME], [tuned.NAME] and [interaction] are used");
+                  "workbench.toml whose calibration, [device.NAME], [tuned.NAME] and [interaction] are used");
 }
 
 /// Verbs that show a force.
@@ -156,7 +156,9 @@ void add_device_verbs(CLI::App& app, WorkbenchOptions& o) {
   monitor.footer(
       "Examples:\n  workbench monitor --device spacemouse --seconds 60\n"
       "  workbench monitor --device falcon --rate 100 --json\n"
-      "  workbench monitor --device vrpn:Tracker0@lab,sensor=1\n");
+      "  workbench monitor --device vrpn:Tracker0@lab,sensor=1\n"
+      "  workbench monitor --device polhemus --workbench workbench.toml       poses without the tracker's "
+      "distortion\n");
 }
 
 void add_controls_verb(CLI::App& app, WorkbenchOptions& o) {

@@ -184,69 +184,6 @@ std::vector<std::string> obstacles(const Survey& seen, Json& rules) {
   return lines;
 }
 
-std::string fixed(double value, int digits) {
-  const double unit = std::pow(10.0, digits);
-  std::string text = short_number(std::round(unit * value) / unit + 0.0);
-  constexpr std::size_t kWidth = 9;
-  return std::string(text.size() < kWidth ? kWidth - text.size() : 1, ' ') + text;
-}
-
-std::string atoms_text(double time, const DeviceAtoms& atoms) {
-  std::string text = fixed(time, 2) + " s ";
-  if (atoms.has_position) {
-    for (int a = 0; a < 3; ++a) text += fixed(1e3 * atoms.position[a], 2);
-    text += " mm";
-  }
-  if (atoms.has_valuators) {
-    for (const double value : atoms.valuators) text += fixed(value, 2);
-  }
-  for (std::size_t i = 0; i < atoms.bend_count; ++i) text += fixed(atoms.bends[i], 2);
-  text += "   buttons";
-  bool any = false;
-  for (unsigned i = 0; i < 32; ++i) {
-    if (((atoms.buttons >> i) & 1U) == 0) continue;
-    text += " " + std::to_string(i);
-    any = true;
-  }
-  return text + (any ? "\n" : " none\n");
-}
-
-/// A line for each station that is seen.
-std::string poses_text(double time, const PoseAtoms& poses) {
-  std::string text;
-  for (const PoseAtom& pose : poses.stations) {
-    if (!pose.valid) continue;
-    text += fixed(time, 2) + " s   station " + std::to_string(pose.station);
-    for (int a = 0; a < 3; ++a) text += fixed(1e3 * pose.position[a], 2);
-    text += " mm  turned";
-    for (const double part : {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z})
-      text += fixed(part, 4);
-    text += pose.buttons != 0 ? "   pressed\n" : "\n";
-  }
-  return text.empty() ? fixed(time, 2) + " s   no station is seen\n" : text;
-}
-
-Json poses_json(const PoseAtoms& poses) {
-  Json stations = Json::array();
-  for (const PoseAtom& pose : poses.stations) {
-    if (!pose.valid) continue;
-    stations.push_back(
-        {{"station", pose.station},
-         {"position_m", {pose.position.x, pose.position.y, pose.position.z}},
-         {"rotation_wxyz", {pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z}},
-         {"buttons", pose.buttons}});
-  }
-  return stations;
-}
-
-Json atoms_json(double time, const DeviceAtoms& atoms) {
-  Json json{{"seconds", time}, {"buttons", atoms.buttons}};
-  if (atoms.has_position) json["position_m"] = {atoms.position.x, atoms.position.y, atoms.position.z};
-  if (atoms.has_valuators) json["valuators"] = atoms.valuators;
-  for (std::size_t i = 0; i < atoms.bend_count; ++i) json["bends"].push_back(atoms.bends[i]);
-  return json;
-}
-
 }  // namespace
 
 void run_devices(const WorkbenchOptions& options, const WorkbenchContext& context) {
@@ -269,7 +206,7 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
     const DeviceText named = device_at_bench(device, bench);
-    const OpenedDevice opened = open_device(named);
+    const OpenedDevice opened = open_at_bench(named, bench, context.console);
     const auto work = [&](DriverLink& link, const std::string& name) {
       context.progress.begin("working the device", 0);
       const LinkCheck check = check_link(link, options.seconds, options.patience, context.progress);
@@ -296,37 +233,6 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   context.console.print(text);
   context.console.print_json(dumped(json));
   if (!usable) throw work_error("not all that was found can be used; the lines above say what to do");
-}
-
-void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const std::unique_ptr<DriverLink> link =
-      open_device(device_at_bench(options.device, bench_of(options.workbench))).link;
-  const std::int64_t start = monotonic_ns();
-  const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
-  Json samples = Json::array();
-  std::string said;
-  for (double next = 0.0; elapsed() < options.seconds;) {
-    context.progress.check();
-    const bool fresh = link->round(Vec3{0.0});
-    const double now = elapsed();
-    if (std::string advice = link->advice(); advice != said) {
-      said = std::move(advice);
-      if (!said.empty()) context.console.note(said);
-    }
-    if (!fresh || now < next) continue;
-    next = now + 1.0 / options.rate;
-    const PoseAtoms* const poses = link->poses();
-    if (options.json) {
-      samples.push_back(atoms_json(now, link->atoms()));
-      if (poses != nullptr) samples.back()["stations"] = poses_json(*poses);
-    } else {
-      context.console.print(poses != nullptr ? poses_text(now, *poses) : atoms_text(now, link->atoms()));
-    }
-  }
-  context.console.print_json(dumped({{"device", options.device},
-                                     {"phase", name_of(link->status().phase)},
-                                     {"advice", link->advice()},
-                                     {"samples", samples}}));
 }
 
 }  // namespace palpate

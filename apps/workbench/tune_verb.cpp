@@ -140,7 +140,7 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
     bound = stiffness_bound(wall_loop(simulated->profile, plan.rate), 0.0);
     for (std::size_t i = 0; i < news.count; ++i) text += result_text(news.results[i]);
   } else {
-    BenchDevice bench(options.device, geometry);
+    BenchDevice bench(options.device, geometry, context.console);
     key = bench.key();
     check_out();
     if (bench.held_by_itself())

@@ -30,24 +30,28 @@ std::vector<std::pair<std::string, const toml::table*>> tables_of(const toml::ta
 }  // namespace
 
 const TunedDevice* find_tuned(const std::vector<TunedDevice>& all, std::string_view device) {
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [device](const TunedDevice& each) { return each.device == device; });
-  return found == all.end() ? nullptr : &*found;
+  for (const std::string_view name : {device, device.substr(0, device.find(':'))}) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [name](const TunedDevice& each) { return each.device == name; });
+    if (found != all.end()) return &*found;
+  }
+  return nullptr;
 }
 
 std::vector<std::pair<std::string, std::string>> with_device_options(
     const std::vector<DeviceOptions>& all, std::string_view device,
     const std::vector<std::pair<std::string, std::string>>& given) {
-  std::vector<std::pair<std::string, std::string>> out;
-  for (const DeviceOptions& each : all) {
-    if (each.device != device) continue;
-    for (const auto& option : each.options) {
-      const bool named = std::any_of(given.begin(), given.end(),
-                                     [&](const auto& other) { return other.first == option.first; });
-      if (!named) out.push_back(option);
+  std::vector<std::pair<std::string, std::string>> out = given;
+  for (const std::string_view name : {device, device.substr(0, device.find(':'))}) {
+    for (const DeviceOptions& each : all) {
+      if (each.device != name) continue;
+      for (const auto& option : each.options) {
+        const bool named = std::any_of(out.begin(), out.end(),
+                                       [&](const auto& other) { return other.first == option.first; });
+        if (!named) out.insert(out.end() - static_cast<std::ptrdiff_t>(given.size()), option);
+      }
     }
   }
-  out.insert(out.end(), given.begin(), given.end());
   return out;
 }
 

@@ -9,7 +9,9 @@
 ///   rate = 1000        # [Hz] of the servo that it was found with
 ///   places = [[x, y, z, stiffness], …]     # [m] frame of the device, and where each began to swing [N/m]
 ///
-/// A simulated arm is `[tuned."simulated:falcon"]`, by its class.
+/// A simulated arm is `[tuned."simulated:falcon"]`, by its class. Of several devices of one driver each is
+/// told by what it is asked for with: `[tuned."dhd:1234"]` of `--device dhd:serial=1234`, or the `name`, `device`,
+/// `port` or address of other drivers. What stands there comes before what stands under the driver's name.
 #pragma once
 
 #include <string>
@@ -39,10 +41,12 @@ struct TunedDevice {
   std::vector<TunedPlace> places;
 };
 
-/// Null where nothing is known of it.
+/// Of a device by its name and by what it is told from others by, "dhd:1234", else of its driver. Null where
+/// nothing is known of it.
 [[nodiscard]] const TunedDevice* find_tuned(const std::vector<TunedDevice>& all, std::string_view device);
 
-/// `given`, and before it those options that the file has for this device and `given` does not name.
+/// `given`, and before it those options that the file has for this device, then for its driver, each that is
+/// not named before.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> with_device_options(
     const std::vector<DeviceOptions>& all, std::string_view device,
     const std::vector<std::pair<std::string, std::string>>& given);

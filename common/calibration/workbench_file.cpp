@@ -98,6 +98,8 @@ InteractionGeometry interaction_of(const WorkbenchSection& s, const std::vector<
                   "the name of a driver, with a button that is not \"none\"");
   }
   if (s.has("tip_offset")) out.tip_offset = s.vector("tip_offset");
+  if (s.has("arm_rotation")) out.arm_rotation = s.rotation("arm_rotation");
+  if (s.has("arm_middle")) out.arm_middle = s.vector("arm_middle");
   if (s.has("surface")) out.surface = surface_of(s, screens);
   return out;
 }
@@ -381,9 +383,17 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
           [&](const WorkbenchSection& s) { out.head = head_of(s); });
   section("interaction",
           {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
-           "enabling_button", "enabling_device", "tip_offset", "surface"},
+           "enabling_button", "enabling_device", "tip_offset", "surface", "arm_rotation", "arm_middle"},
           [&](const WorkbenchSection& s) { out.interaction = interaction_of(s, out.screens); });
   return out;
+}
+
+Rigid device_from_arm(const WorkbenchGeometry& geometry) {
+  PALPATE_CHECK(geometry.arm.has_value());
+  const std::vector<double> zeros(static_cast<std::size_t>(geometry.arm->joint_count), 0.0);
+  const Vec3 middle = geometry.interaction.arm_middle.value_or(geometry.arm->forward(zeros).translation);
+  const Quat& turn = geometry.interaction.arm_rotation;
+  return {turn, -(turn * middle)};
 }
 
 std::string section_text(const TrackerCorrection& tracker) {

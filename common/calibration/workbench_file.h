@@ -57,6 +57,9 @@
 ///   enabling_device = "pedal"      # optional: the driver of another device that has this button
 ///   tip_offset = [x, y, z]         # optional [m]: from the tip in the hand to its picture, in the tracker's
 ///                                  # frame; of a device that is laid over the view: right, up, to the user
+///   arm_rotation = [w, x, y, z]    # optional: turns frame 0 of [arm] into right, up and towards the user
+///   arm_middle = [x, y, z]         # optional [m]: the middle of the arm's workspace in frame 0; default:
+///                                  # where its end is with all readings zero
 ///   surface = "screen"             # optional: the tip moves on the first screen alone, or on a plane n.x =
 ///   d
 ///                                  # of the tracker's frame, [nx, ny, nz, d]
@@ -120,9 +123,11 @@ struct InteractionGeometry {
   Vec3 middle{0.0};                   ///< [m] in the tracker's frame
   Quat rotation{1.0, 0.0, 0.0, 0.0};  ///< R
   double gain = 1.0;
-  std::optional<int> enabling_button;  ///< kNoButton, or below kButtons; nothing: not named
-  std::string enabling_device;         ///< empty: the device itself
-  Vec3 tip_offset{0.0};                ///< [m] from the tip to its picture
+  std::optional<int> enabling_button;     ///< kNoButton, or below kButtons; nothing: not named
+  std::string enabling_device;            ///< empty: the device itself
+  Vec3 tip_offset{0.0};                   ///< [m] from the tip to its picture
+  Quat arm_rotation{1.0, 0.0, 0.0, 0.0};  ///< takes axes of frame 0 of the arm to those of frame D
+  std::optional<Vec3> arm_middle;         ///< [m] in frame 0
   /// The plane that the tip moves on alone: (n, d), n.x = d, |n| = 1, in the tracker's frame [m].
   std::optional<Vec4> surface;
 
@@ -146,6 +151,10 @@ struct WorkbenchGeometry {
   std::vector<DeviceOptions> device_options;
   std::vector<TunedDevice> tuned;
 };
+
+/// Where frame 0 of the arm lies in frame D of the device (device/atoms.h): x_D = R (x - middle).
+/// @pre geometry.arm.
+[[nodiscard]] Rigid device_from_arm(const WorkbenchGeometry& geometry);
 
 /// @throws Error (bad input) naming the line of what is not TOML, unknown, missing, or of a wrong kind or
 /// size.

@@ -80,12 +80,12 @@ std::vector<Vec3> WorkbenchSection::all_vectors(const char* key, bool may_be_nan
   return out;
 }
 
-Quat WorkbenchSection::rotation() const {
-  const auto q = numbers(at("rotation"), 4);
+Quat WorkbenchSection::rotation(const char* key) const {
+  const auto q = numbers(at(key), 4);
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   constexpr double kSlack = 1e-3;
   if (std::abs(length - 1.0) > kSlack)
-    refuse(path_, line_of(at("rotation")), "a quaternion of length " + short_number(length), "1");
+    refuse(path_, line_of(at(key)), "a quaternion of length " + short_number(length), "1");
   return Quat{q[0], q[1], q[2], q[3]} / length;
 }
 

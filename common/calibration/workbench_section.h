@@ -45,7 +45,7 @@ class WorkbenchSection {
   [[nodiscard]] const toml::array& array(const char* key) const;
   [[nodiscard]] std::vector<Vec3> vectors(const char* key, std::size_t count) const;
   [[nodiscard]] std::vector<Vec3> all_vectors(const char* key, bool may_be_nan = false) const;
-  [[nodiscard]] Quat rotation() const;
+  [[nodiscard]] Quat rotation(const char* key = "rotation") const;
   [[nodiscard]] Rigid motion() const { return {rotation(), vector("translation")}; }
   /// @}
   [[noreturn]] void refuse_at(const char* key, const std::string& found, const std::string& expected) const;

@@ -16,18 +16,22 @@ namespace palpate {
 
 /// Buttons, valuators and a position, all of one instant.
 struct DeviceAtoms {
-  static constexpr std::size_t kValuators = 6, kBends = 16;
+  static constexpr std::size_t kValuators = 6, kBends = 16, kJoints = 6;
 
   double time = 0.0;          ///< [s] of CLOCK_MONOTONIC, when it was taken
   std::uint32_t buttons = 0;  ///< bit i: button i is down
   bool has_position = false;
   bool has_valuators = false;
-  std::uint8_t bend_count = 0;  ///< how many of `bends` a glove has
+  std::uint8_t bend_count = 0;   ///< how many of `bends` a glove has
+  std::uint8_t joint_count = 0;  ///< how many of `joints` an arm tells, all its life
+  std::uint8_t station = 0;      ///< of a tracker: the one that `position` is of; 0: of none
   Vec3 position{0.0};  ///< [m] frame D: x right, y up, z towards the user, from the middle of the workspace
   /// In [-1, 1], 0 at rest: push right, up, towards the user, then turn about these axes.
   std::array<double, kValuators> valuators{};
   /// In [0, 1]: joints of a glove from the thumb on, 0 stretched, 1 bent as far as they were yet.
   std::array<double, kBends> bends{};
+  /// Readings of an arm's joints from its base on, as its maker counts them [rad].
+  std::array<double, kJoints> joints{};
 
   bool operator==(const DeviceAtoms&) const = default;
 };

@@ -14,6 +14,7 @@
 
 #include "common/device/atoms.h"
 #include "common/device/device_limits.h"
+#include "common/math/quaternion.h"
 
 namespace palpate {
 
@@ -71,6 +72,8 @@ class DriverLink {
   /// Of a tracker: all stations that it could have, those that it does not see as not valid. Null: it is
   /// none.
   [[nodiscard]] virtual const PoseAtoms* poses() const noexcept { return nullptr; }
+  /// How the frame of poses() lies in frame D, by which the position of a tracker's station is one in D.
+  [[nodiscard]] virtual Rigid device_from_poses() const noexcept { return {}; }
   [[nodiscard]] virtual const LinkStatus& status() const noexcept = 0;
   /// What the user should know or do now, one sentence; empty where there is nothing to say.
   [[nodiscard]] virtual std::string advice() const = 0;

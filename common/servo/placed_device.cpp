@@ -34,7 +34,8 @@ bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
   if (!atoms.has_position) return false;
   inside_ = within_reach(device_.limits(), atoms.position);
   if (moved) return false;
-  sample = {atoms.time, placement_.middle + placement_.axes * atoms.position, atoms.buttons};
+  sample = {atoms.time, placement_.middle + placement_.scale * (placement_.axes * atoms.position),
+            atoms.buttons};
   return true;
 }
 
@@ -54,7 +55,8 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
 
 void PlacedDevice::command(const Vec3& force) noexcept {
   // Frame D's reach is a box in W only where it is not turned: so it is kept here, not by the safety stage.
-  device_.command(inside_ ? force * placement_.axes : Vec3{0.0});  // row vector times R is R^T times column
+  const Vec3 turned = force * placement_.axes;  // row vector times R is R^T times column
+  device_.command(inside_ ? turned / std::max(1.0, placement_.scale) : Vec3{0.0});  // (2)
 }
 
 }  // namespace palpate

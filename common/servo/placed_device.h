@@ -4,6 +4,13 @@
 /// on the device, the hand is let go for a step and taken anew: nothing is pulled along, the force grows from
 /// zero.
 ///
+/// Where its motions are enlarged by the placement, s > 1, a force would be stiffer in the hand by as much
+/// than it is in the workspace, where its stiffness was chosen; so the hand gets
+///
+///   F_D = R^T F_W / max(1, s),                                                                       (2)
+///
+/// a stiffness of dF_D/dx_D = K where s > 1 and s K below it: never more than K, and never more force.
+///
 /// A device of valuators (a SpaceMouse) moves the probe at a speed in proportion to how far each is pushed,
 /// in the axes of the placement, and stays where it is when the cap is let go:
 ///

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/app/cli/bench_option.h"
 #include "common/app/cli/stereo_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -200,11 +201,14 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
   BenchDisplayOptions display{.bench = bench_of(options), .separation = separation_of(options)};
   display.several = view.screen == kAllScreens;
   if (!display.several) display.screen = screen_of(display.bench, options);
-  if (head == kHeadOfHands && touch.tracker) {
+  const bool driver = std::isalpha(static_cast<unsigned char>(head.front())) != 0;
+  const bool file = head == kHeadOfHands || head.starts_with(kHeadReplay);
+  // The tracker of the hands is opened once, whatever it is called.
+  if (touch.tracker && (head == kHeadOfHands || (driver && !file && is_same_device(head, options.device)))) {
     const int station = display.bench.interaction.head_station;
     if (station == InteractionGeometry::kNoStation) {
-      throw usage_error(options.workbench.string() +
-                        ": the head 'hands' of a tracker needs [interaction] head_station = N");
+      throw usage_error(options.workbench.string() + ": the head '" + head +
+                        "' on the tracker of the hands needs [interaction] head_station = N");
     }
     display.head = std::make_shared<StationPoses>(touch.tracker, station);
   } else if (head == kHeadOfHands) {
@@ -217,8 +221,8 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
     display.head = std::make_shared<ReplayPoses>(std::move(heads));
   } else if (head.starts_with(kHeadReplay)) {
     display.head = std::make_shared<ReplayPoses>(read_poses(head.substr(kHeadReplay.size())));
-  } else if (std::isalpha(static_cast<unsigned char>(head.front())) != 0) {
-    std::shared_ptr<DriverLink> link = open_device(parse_device(head)).link;
+  } else if (driver) {
+    std::shared_ptr<DriverLink> link = open_device(device_at_bench(head, display.bench)).link;
     if (link->poses() == nullptr) throw usage_error("--head " + head + ": that device tells no poses");
     const int station = std::max(1, display.bench.interaction.head_station);
     display.head = std::make_shared<StationPoses>(std::make_shared<LinkedDevice>(std::move(link)), station);

@@ -62,20 +62,34 @@ void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeS
 }
 [[noreturn]] void refuse_immersive(const Options& options) {
   throw usage_error(options.workbench.string() +
-                    " has technique = \"immersive\", which needs tracked hands: try --device polhemus or "
-                    "hands:FILE.csv");
+                    " has technique = \"immersive\", which needs tracked hands, or an arm of which "
+                    "[coregistration] says where it stands: try --device polhemus or hands:FILE.csv");
 }
 
-/// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own.
+/// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own. A
+/// tracker at an immersive workbench is its hands; an arm is where the workbench says.
 void take_link(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
-  const DeviceText text = device_at_bench(options.device, touch.workbench);
-  OpenedDevice opened = open_device(text);
+  const WorkbenchGeometry& bench = touch.workbench;
+  const DeviceText text = device_at_bench(options.device, bench);
+  OpenedDevice opened = open_at_bench(text, bench, context.console);
+  const bool tracks = opened.link->poses() != nullptr;
+  const DeviceAtoms& atoms = opened.link->atoms();
+  if (bench.interaction.immersive && tracks) {
+    touch.tracker = std::make_shared<LinkedDevice>(std::move(opened.link));
+    return;
+  }
+  if (bench.interaction.immersive) {
+    if (!bench.coregistration || !atoms.has_position) refuse_immersive(options);
+    const bool by_joints = bench.arm && bench.arm->joint_count == atoms.joint_count;
+    const Rigid arm_from_device = by_joints ? device_from_arm(bench).inverse() : Rigid{};
+    touch.bench_from_device = bench.coregistration->tracker_from_arm * arm_from_device;
+  } else if (tracks && !atoms.has_position && !atoms.has_valuators) {
+    refuse_desktop(options);
+  }
   touch.link = std::move(opened.link);
-  const DeviceAtoms& atoms = touch.link->atoms();
-  if (touch.link->poses() != nullptr && !atoms.has_position && !atoms.has_valuators) refuse_desktop(options);
   touch.enabling = std::move(opened.enabling);
   touch.limits = linked_limits(*touch.link, touch.limits);
-  hold_to_tuned(text.name, context, touch);
+  hold_to_tuned(device_key(text), context, touch);
   touch.limits.enabling_button = touch.enabling.sample_button();
   if (const std::string held = description_of(touch.enabling, text); !held.empty()) {
     context.console.note("there is force only " + held);
@@ -88,8 +102,7 @@ bool is_driver(const Options& options, const ProbeSessionOptions& touch) {
          !std::string_view(options.device).starts_with(kHands);
 }
 
-/// Tracked hands, of a file or of a tracker, and the workbench that they are at, where the workbench file
-/// asks for such.
+/// The workbench, and recorded hands at it.
 /// @throws Error (usage) where one of both is missing; (bad input).
 void take_workbench(const Options& options, ProbeSessionOptions& touch) {
   const std::string_view device = options.device;
@@ -97,13 +110,7 @@ void take_workbench(const Options& options, ProbeSessionOptions& touch) {
   if (!options.workbench.empty()) touch.workbench = read_workbench(options.workbench);
   const bool immersive = touch.workbench.interaction.immersive;
   if (hands && !immersive) refuse_desktop(options);
-  if (immersive && is_driver(options, touch)) {
-    std::shared_ptr<DriverLink> link = open_device(parse_device(options.device)).link;
-    if (link->poses() == nullptr) refuse_immersive(options);
-    touch.tracker = std::make_shared<LinkedDevice>(std::move(link));
-    return;
-  }
-  if (immersive && !hands) refuse_immersive(options);
+  if (immersive && !hands && !is_driver(options, touch)) refuse_immersive(options);
   if (!hands) return;
   touch.hands = read_hands(std::string(device.substr(kHands.size())));
   if (touch.hands.empty()) throw usage_error("--device " + options.device + ": there are no rows");
@@ -150,7 +157,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
-  } else if (!touch.tracker && is_driver(options, touch)) {
+  } else if (is_driver(options, touch)) {
     take_link(options, context, touch);
   }
   if (!options.replay.empty()) {

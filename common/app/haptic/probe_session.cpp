@@ -122,6 +122,14 @@ void ProbeSession::start_replay() {
 }
 
 Placement ProbeSession::placement(const Camera& camera) const {
+  if (options_.bench_from_device) {
+    const InteractionGeometry& bench = options_.workbench.interaction;
+    const BenchPlace place =
+        bench_place_.value_or(place_of(bench, open_.bounds().center(), workspace().scale()));
+    const Rigid& lies = *options_.bench_from_device;
+    return {workspace().workspace_from_data(place(lies.translation + bench.tip_offset)),
+            glm::mat3_cast(place.turn * lies.rotation), workspace().scale() * place.units};
+  }
   const Vec3 middle = workspace().workspace_from_data(camera.focal_point);
   return {middle + camera.axes * options_.workbench.interaction.tip_offset, camera.axes};
 }

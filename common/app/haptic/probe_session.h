@@ -63,6 +63,9 @@ struct ProbeSessionOptions {
   /// A real device, laid over the field as the view shows it; in place of mouse, path and simulation. None:
   /// null.
   std::shared_ptr<DriverLink> link;
+  /// Where frame D of that device is in the tracker's frame of an immersive workbench: its tip is where the
+  /// data is then, whichever way the view is. None: it is laid over the view.
+  std::optional<Rigid> bench_from_device;
   /// What the device bears, as `workbench tune` found it [N/m]: the chain gets no more.
   double most_stiffness = HUGE_VAL;
   /// Its dead-man switch; `limits` name its sample_button().
@@ -218,7 +221,8 @@ class ProbeSession {
   void restart_chain();
   void start_replay();
   [[nodiscard]] Device& device();
-  /// Where a real device lies: its middle at the focal point of the view, its axes those of the view.
+  /// Where a real device lies: at the workbench, else its middle at the focal point of the view, its axes
+  /// those of the view.
   [[nodiscard]] Placement placement(const Camera& camera) const;
   void take(const HandStep& step);
   void hold(double time, const Vec3& position);

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "common/device/device_limits.h"
-#include "common/math/vec.h"
+#include "common/math/quaternion.h"
 
 namespace palpate {
 
@@ -21,6 +21,10 @@ struct ArmFrame {
 
   [[nodiscard]] Vec3 position(const Vec3& x_maker) const noexcept {
     return device_from_maker * (x_maker - middle);
+  }
+  /// position() as a motion.
+  [[nodiscard]] Rigid rigid() const noexcept {
+    return {glm::normalize(glm::quat_cast(device_from_maker)), -(device_from_maker * middle)};
   }
   [[nodiscard]] Vec3 force_for_maker(const Vec3& force) const noexcept {
     return glm::transpose(device_from_maker) * force;

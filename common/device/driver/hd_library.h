@@ -18,9 +18,10 @@ struct HdFunctions {
   static constexpr unsigned kNoDevice = 0xFFFFFFFF;
   static constexpr unsigned kDone = 0, kAgain = 1;
   // What is asked for and set.
-  static constexpr unsigned kButtons = 0x2000, kPosition = 0x2050, kModel = 0x2501,
-                            kCalibrationStyle = 0x2555, kNominalForce = 0x2603, kNominalLastingForce = 0x2604,
-                            kForce = 0x2700, kForceOutput = 0x4000, kForceClamping = 0x4001;
+  static constexpr unsigned kButtons = 0x2000, kPosition = 0x2050, kModel = 0x2501, kJointAngles = 0x2100,
+                            kGimbalAngles = 0x2150, kCalibrationStyle = 0x2555, kNominalForce = 0x2603,
+                            kNominalLastingForce = 0x2604, kForce = 0x2700, kForceOutput = 0x4000,
+                            kForceClamping = 0x4001;
   static constexpr unsigned kCalibrated = 0x5000, kCalibrationUpdates = 0x5001;
   static constexpr unsigned short kMostImportant = 65535;
 

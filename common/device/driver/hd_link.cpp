@@ -49,6 +49,7 @@ std::string hd_help() {
 HdLink::HdLink(const HdFunctions& hd, LinkClock& clock, const HdSettings& settings)
     : hd_(hd), clock_(clock), settings_(settings), limits_(settings.arm.limits()) {
   atoms_.has_position = true;
+  atoms_.joint_count = DeviceAtoms::kJoints;
 }
 
 HdLink::~HdLink() { close(); }
@@ -161,6 +162,9 @@ unsigned HdLink::tick() noexcept {
   std::array<double, 3> x{};
   int buttons = 0;
   hd_.get_doubles(HdFunctions::kPosition, x.data());
+  static_assert(DeviceAtoms::kJoints == 6);
+  hd_.get_doubles(HdFunctions::kJointAngles, frame_.joints.data());
+  hd_.get_doubles(HdFunctions::kGimbalAngles, frame_.joints.data() + 3);
   hd_.get_integers(HdFunctions::kButtons, &buttons);
   unsigned calibration = hd_.check_calibration();
   if (calibration == HdFunctions::kCalibrationUpdates) {
@@ -208,7 +212,9 @@ bool HdLink::take_frame(const Frame& frame) noexcept {
   }
   const Vec3 position = settings_.arm.frame.position(frame.position);
   const bool first = status_.phase != LinkPhase::kReady;
-  const bool near = is_finite(position) && glm::length(position) < kHdFarthest;
+  const bool whole = std::all_of(frame.joints.begin(), frame.joints.end(),
+                                 [](double angle) { return std::isfinite(angle); });
+  const bool near = whole && is_finite(position) && glm::length(position) < kHdFarthest;
   if (!near || (!first && !plausible_move(atoms_.position, position, frame.time - atoms_.time))) {
     ++status_.implausible;
     return false;
@@ -218,6 +224,7 @@ bool HdLink::take_frame(const Frame& frame) noexcept {
   misses_ = 0;
   atoms_.time = frame.time;
   atoms_.position = position;
+  atoms_.joints = frame.joints;
   atoms_.buttons = frame.buttons;
   return true;
 }

@@ -9,6 +9,7 @@
 /// device is closed and looked for again.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <string>
@@ -60,6 +61,7 @@ class HdLink final : public DriverLink {
   struct Frame {
     double time = 0.0;  ///< [s]
     Vec3 position{0.0};
+    std::array<double, DeviceAtoms::kJoints> joints{};  ///< [rad] of the arm, then of the gimbal
     std::uint32_t buttons = 0;
     unsigned error = 0;  ///< of the library, the last one
     std::uint64_t errors = 0;

@@ -107,8 +107,8 @@ std::string vrpn_help() {
          arm_help(defaults.arm, VrpnSettings::kAxes) + "without cap it is sent no force\n";
 }
 
-VrpnLink::VrpnLink(StreamPlace& place, const VrpnSettings& settings)
-    : place_(place),
+VrpnLink::VrpnLink(std::unique_ptr<StreamPlace> place, const VrpnSettings& settings)
+    : place_(std::move(place)),
       settings_(settings),
       limits_(limits_of(settings)),
       names_(settings_.address.name),
@@ -120,7 +120,7 @@ VrpnLink::VrpnLink(StreamPlace& place, const VrpnSettings& settings)
 VrpnLink::~VrpnLink() { close(); }
 
 std::string VrpnLink::advice() const {
-  const std::string server = place_.name();
+  const std::string server = place_->name();
   if (status_.phase == LinkPhase::kReady) {
     return settings_.force && rearm_.tripped()
                ? "the server or its device was at fault: let go of the switch, then hold it again"
@@ -139,7 +139,7 @@ std::string VrpnLink::advice() const {
 }
 
 std::string VrpnLink::place() const {
-  return stream_ ? "vrpn " + settings_.address.name + " at " + place_.name() : "";
+  return stream_ ? "vrpn " + settings_.address.name + " at " + place_->name() : "";
 }
 
 bool VrpnLink::round(const Vec3& force) noexcept {
@@ -153,14 +153,14 @@ bool VrpnLink::round(const Vec3& force) noexcept {
 
 void VrpnLink::search() noexcept {
   try {
-    StreamOpened opened = place_.open();
+    StreamOpened opened = place_->open();
     if (opened.status == TransferStatus::kOk) stream_ = std::move(opened.stream);
   } catch (const std::exception&) {  // no memory: as if it did not answer
     stream_.reset();
   }
   if (!stream_) {
     status_.phase = LinkPhase::kAbsent;
-    place_.sleep(kServerPause);
+    place_->sleep(kServerPause);
     return;
   }
   ++status_.opened;
@@ -171,7 +171,7 @@ void VrpnLink::search() noexcept {
   rearm_.trip();
   greeted_ = pressing_ = false;
   misses_ = 0;
-  opened_at_ = heard_ = pinged_ = place_.now();
+  opened_at_ = heard_ = pinged_ = place_->now();
   posed_ = sent_field_ = 0.0;
   atoms_.buttons = 0;
   atoms_.has_position = atoms_.has_valuators = false;
@@ -190,13 +190,13 @@ void VrpnLink::greet() noexcept {
   writer.description(kVrpnTypes, kOurPing, name_of(VrpnType::kPing));
   writer.description(kVrpnTypes, kOurPong, name_of(VrpnType::kPong));
   writer.description(kVrpnTypes, kOurField, name_of(VrpnType::kForceField));
-  writer.empty(place_.now(), kOurSender, kOurPing);
-  pinged_ = place_.now();
+  writer.empty(place_->now(), kOurSender, kOurPing);
+  pinged_ = place_->now();
   if (!send(writer)) give_up();
 }
 
 void VrpnLink::speak(const Vec3& force) noexcept {
-  const double now = place_.now();
+  const double now = place_->now();
   const double since = greeted_ ? heard_ : opened_at_;
   if (now - since > (greeted_ ? kSilence : kGreetTime)) return give_up();
   if (!greeted_) return;
@@ -239,7 +239,7 @@ bool VrpnLink::listen() noexcept {
     give_up();
     return false;
   }
-  const double now = place_.now();
+  const double now = place_->now();
   heard_ = now;
   bool fresh = false;
   std::span<const std::uint8_t> bytes = std::span(received_).first(std::min(got.bytes, received_.size()));
@@ -251,7 +251,7 @@ bool VrpnLink::listen() noexcept {
       status_.dropped += got.bytes;
       give_up();
       status_.phase = LinkPhase::kRefused;
-      place_.sleep(kServerPause);
+      place_->sleep(kServerPause);
       return false;
     }
     if (found == VrpnParser::Found::kCookie) {
@@ -320,7 +320,7 @@ bool VrpnLink::take(const VrpnMessage& message, double now) noexcept {
 /// What has no pose speaks only when it changes: it is as it was, while its server is heard of.
 bool VrpnLink::still() noexcept {
   if (status_.phase != LinkPhase::kReady || atoms_.has_position) return false;
-  atoms_.time = place_.now();
+  atoms_.time = place_->now();
   if (atoms_.time - heard_ > kHush) {
     atoms_.buttons = 0;
     atoms_.valuators = {};
@@ -356,6 +356,8 @@ bool VrpnLink::take_pose(const VrpnPose& pose, double now) noexcept {
   posed_ = now;
   atoms_.has_position = true;
   atoms_.position = position;
+  const bool station = !settings_.force && pose.sensor < static_cast<int>(PoseAtoms::kStations);
+  atoms_.station = static_cast<std::uint8_t>(station ? pose.sensor + 1 : 0);
   return true;
 }
 
@@ -373,7 +375,7 @@ void VrpnLink::close() noexcept {
   if (stream_ && pressing_) {
     VrpnWriter writer(packed_);
     local_.reset();
-    writer.force_field(place_.now(), kOurSender, kOurField, field());
+    writer.force_field(place_->now(), kOurSender, kOurField, field());
     (void)send(writer);
   }
   pressing_ = false;

@@ -63,8 +63,7 @@ class VrpnLink final : public DriverLink {
   static constexpr double kFreshPose = 0.050;   ///< [s] an older pose gets no force
   static constexpr int kMostMisses = 5;         ///< poses in a row that no hand can have made
 
-  /// `place` outlives this.
-  VrpnLink(StreamPlace& place, const VrpnSettings& settings);
+  VrpnLink(std::unique_ptr<StreamPlace> place, const VrpnSettings& settings);
   ~VrpnLink() override;
 
   bool round(const Vec3& force) noexcept override;
@@ -73,6 +72,7 @@ class VrpnLink final : public DriverLink {
   [[nodiscard]] const PoseAtoms* poses() const noexcept override {
     return settings_.force ? nullptr : &poses_;
   }
+  [[nodiscard]] Rigid device_from_poses() const noexcept override { return settings_.arm.frame.rigid(); }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
@@ -92,7 +92,7 @@ class VrpnLink final : public DriverLink {
   void give_up() noexcept;
   void close() noexcept;
 
-  StreamPlace& place_;
+  std::unique_ptr<StreamPlace> place_;
   VrpnSettings settings_;
   DeviceLimits limits_;
   LinkStatus status_;

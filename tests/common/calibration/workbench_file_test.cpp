@@ -264,6 +264,22 @@ TEST_F(WorkbenchFileTest, KnowsDevicesByTheirNames) {
             (Options{{"firmware", "f.bin"}, {"thigh", "0.0603"}, {"gain", "4000"}}));
   EXPECT_EQ(with_device_options(back.device_options, "omega", {{"gain", "4000"}}),
             (Options{{"gain", "4000"}}));
+
+  // Two of a driver, each by what it is asked for with; what is said of the driver is of both.
+  write(
+      "[device.dhd]\ncap = 4\naxes = 'yzx'\n\n[device.\"dhd:12\"]\ncap = 6\n\n[tuned.dhd]\nstiffness = 900\n\n"
+      "[tuned.\"dhd:12\"]\nstiffness = 700\n\n[interaction]\narm_rotation = [0.6, 0, 0.8, 0]\n"
+      "arm_middle = [1, 2, 3]\n");
+  const WorkbenchGeometry two = read_workbench(path_);
+  EXPECT_EQ(with_device_options(two.device_options, "dhd:12", {{"serial", "12"}}),
+            (Options{{"cap", "6"}, {"axes", "yzx"}, {"serial", "12"}}));
+  EXPECT_EQ(with_device_options(two.device_options, "dhd:13", {{"serial", "13"}}),
+            (Options{{"axes", "yzx"}, {"cap", "4"}, {"serial", "13"}}));
+  EXPECT_EQ(find_tuned(two.tuned, "dhd:12")->stiffness, 700.0);
+  EXPECT_EQ(find_tuned(two.tuned, "dhd:13")->stiffness, 900.0);
+  EXPECT_EQ(find_tuned(back.tuned, "simulated:falcon"), nullptr);
+  EXPECT_EQ(two.interaction.arm_rotation, (Quat{0.6, 0.0, 0.8, 0.0}));
+  EXPECT_EQ(two.interaction.arm_middle, Vec3(1.0, 2.0, 3.0));
 }
 
 TEST_F(WorkbenchFileTest, RefusesDevicesThatMakeNoSense) {

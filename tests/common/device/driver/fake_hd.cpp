@@ -2,8 +2,11 @@
 
 #include "tests/common/device/driver/fake_hd.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
+#include <string_view>
 #include <thread>
 
 namespace palpate::test {
@@ -52,10 +55,13 @@ std::mutex& lock() {
   return the_lock;
 }
 
+/// It stays where it is, by itself.
+bool rests = false;
+
 void tick(double now) {
   const std::lock_guard guard(lock());
   FakeHd& hd = fake();
-  if (hd.by_itself) hd.arm.set_target(palpate::test::wandering(now));
+  if (hd.by_itself && !rests) hd.arm.set_target(palpate::test::wandering(now));
   hd.arm.advance(now);
   if (!hd.running || hd.hung || !hd.plugged) {
     // The device's own electronics notice that nobody speaks to them.
@@ -65,6 +71,33 @@ void tick(double now) {
   ++hd.ticks;
   Scheduled& work = scheduled();
   if (work.callback != nullptr && work.callback(work.user) == 0) work.callback = nullptr;
+}
+
+/// Turns of the base, of the thigh against the horizontal and of the shin against the thigh with the tip at
+/// `p` (frame D), by the law of cosines.
+std::array<double, 3> angles_at(const Vec3& p) {
+  using palpate::test::kFakeRest, palpate::test::kFakeShin, palpate::test::kFakeThigh;
+  const double forward = p.z + kFakeRest, side = p.x, up = p.y;
+  const double out = std::hypot(forward, side), reach2 = out * out + up * up;
+  const double elbow =
+      std::acos((reach2 - kFakeThigh * kFakeThigh - kFakeShin * kFakeShin) / (2.0 * kFakeThigh * kFakeShin));
+  const double lift =
+      std::atan2(up, out) + std::atan2(kFakeShin * std::sin(elbow), kFakeThigh + kFakeShin * std::cos(elbow));
+  return {std::atan2(side, forward), lift, -elbow};
+}
+
+Vec3 tip_of(const std::array<double, 3>& angles) {
+  using palpate::test::kFakeRest, palpate::test::kFakeShin, palpate::test::kFakeThigh;
+  const double shin = angles[1] + angles[2];
+  const double out = kFakeThigh * std::cos(angles[1]) + kFakeShin * std::cos(shin);
+  const double up = kFakeThigh * std::sin(angles[1]) + kFakeShin * std::sin(shin);
+  return {out * std::sin(angles[0]), up, out * std::cos(angles[0]) - kFakeRest};
+}
+
+std::array<double, 3> encoders() {
+  std::array<double, 3> angles = angles_at(fake().arm.position());
+  for (std::size_t i = 0; i < 3; ++i) angles[i] -= fake().encoders_off[i];
+  return angles;
 }
 
 std::jthread& scheduler() {
@@ -84,7 +117,15 @@ FakeHd* palpate_fake_hd() { return &fake(); }
 PALPATE_FAKE_API unsigned hdInitDevice(const char* name);
 unsigned hdInitDevice(const char* name) {
   FakeHd& hd = fake();
-  const bool other = name != nullptr && std::string(name) != "Right arm";
+  const std::string_view named = name != nullptr ? name : "Right arm";
+  // An arm that was put together anew, in a hand that rests.
+  if (named == "Worn arm") {
+    rests = true;
+    hd.encoders_off = {0.06, -0.05, 0.08};
+    hd.arm.put({0.03, -0.02, 0.04});
+    hd.arm.set_target({0.03, -0.02, 0.04});
+  }
+  const bool other = named != "Right arm" && named != "Worn arm";
   if (!hd.plugged || other) hd.error = 0x0302;
   if (hd.busy) hd.error = 0x0301;
   if (other || !hd.plugged || hd.busy) return 0xFFFFFFFF;
@@ -127,10 +168,16 @@ void hdGetDoublev(unsigned what, double* values) {
   FakeHd& hd = fake();
   if (what == 0x2050) {
     hd.out_of_frame = hd.out_of_frame || !hd.in_frame;
-    const Vec3& p = hd.arm.position();
+    const Vec3 p = hd.encoders_off == std::array<double, 3>{} ? hd.arm.position() : tip_of(encoders());
     values[0] = hd.nonsense ? std::nan("") : 1000.0 * p.x;
     values[1] = 1000.0 * p.y;
     values[2] = 1000.0 * p.z;
+  } else if (what == 0x2100) {
+    hd.out_of_frame = hd.out_of_frame || !hd.in_frame;
+    const std::array<double, 3> angles = encoders();
+    std::copy(angles.begin(), angles.end(), values);
+  } else if (what == 0x2150) {
+    values[0] = values[1] = values[2] = 0.0;
   } else if (what == 0x2603) {
     values[0] = hd.most;
   } else if (what == 0x2604) {

@@ -5,6 +5,7 @@
 /// hold of it by fake_hd_of(), stops that, and calls tick() itself.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -25,6 +26,9 @@ struct FakeHd {
   bool nonsense = false;
   unsigned error = 0;  ///< of the next calls that are asked for it, until it is cleared
   int buttons = 0;
+  /// By how much its encoders of the base, thigh and shin are off [rad]. With any, the library reports the
+  /// position that its own model of the arm makes of what they say, as it does on a real one.
+  std::array<double, 3> encoders_off{};
   double most = 3.3, lasting = 0.88;  ///< [N]
 
   // What became of it.
@@ -37,6 +41,10 @@ struct FakeHd {
   /// Lives on until `now`, and calls back.
   void (*tick)(double now) = nullptr;
 };
+
+/// The arm, with its own kinematics: the base turns about the vertical, thigh and shin in a vertical plane,
+/// and the tip is kFakeRest before the base while it is in the middle (frame D: z to the user, y up).
+inline constexpr double kFakeThigh = 0.21, kFakeShin = 0.17, kFakeRest = 0.24;  ///< [m]
 
 FakeHd* fake_hd_of(const std::string& file);
 

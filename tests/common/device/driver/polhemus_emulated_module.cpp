@@ -1,10 +1,12 @@
 // A driver module for tests: the driver of the Polhemus trackers on an emulated Liberty in real time. It is
 // built beside the others, never installed, and chosen by its name: `--device polhemus_emulated`. Its options
-// are the driver's, and `still=1` for sensors that do not move.
+// are the driver's, `still=1` for sensors that do not move, and `metal=1` for metal near them.
 
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "common/base/error.h"
 #include "common/device/driver/polhemus_link.h"
 #include "common/device/driver/usb_module.h"
 #include "tests/common/device/driver/fake_usb.h"
@@ -19,11 +21,16 @@ DriverModule* emulated_tracker(std::string& /*error*/) noexcept {
   static LinkModule module = usb_module(
       std::move(bus),
       [](UsbTransport& transport, const DriverOptions& options) {
+        // As a real one would be busy.
+        static bool opened = false;
+        if (std::exchange(opened, true)) throw usage_error("the tracker is opened twice");
         const auto tracker = std::make_shared<PolhemusEmulator>();
         DriverOptions others;
         for (const auto& option : options) {
           if (option.first == "still") {
             tracker->freeze(option.second == "1");
+          } else if (option.first == "metal") {
+            tracker->distort(option.second == "1");
           } else {
             others.push_back(option);
           }

@@ -43,13 +43,28 @@ Quat PolhemusEmulator::orientation(int station, double time) {
   return about_z * about_x;
 }
 
+TrackerPose PolhemusEmulator::distorted(const TrackerPose& actual) {
+  // A plate below pulls places to it, and turns them, with the square of the distance.
+  constexpr Vec3 kPlate{0.7, 0.3, 0.4};  // [m]
+  constexpr double kPull = 0.010, kTurn = 0.025;
+  const Vec3 away = actual.position - kPlate;
+  const double r = std::sqrt(away.x * away.x + away.y * away.y + away.z * away.z);
+  const Vec3 field = (1.0 / (r * r * r)) * away;
+  return {actual.position - kPull * field,
+          rotation_by(kTurn * Vec3{field.y, field.z, field.x}) * actual.orientation};
+}
+
 /// A magnetic field has the same strength and direction at opposite places: it says the one that is in the
-/// hemisphere, rightly or not.
-Vec3 PolhemusEmulator::said_position(double time, int station) const {
-  const Vec3 actual = position(station, frozen_ ? 0.0 : time);
-  const double along = actual.x * zenith_.x + actual.y * zenith_.y + actual.z * zenith_.z;
+/// hemisphere, rightly or not. In the units that it was told.
+TrackerPose PolhemusEmulator::said_pose(double time, int station) const {
+  const double when = frozen_ ? 0.0 : time;
+  TrackerPose pose{position(station, when), orientation(station, when)};
+  if (distorts_) pose = distorted(pose);
+  const Vec3& p = pose.position;
+  const double along = p.x * zenith_.x + p.y * zenith_.y + p.z * zenith_.z;
   const double sign = along < 0.0 ? -1.0 : 1.0;
-  return sign * (centimetres_ ? 100.0 : 1.0 / 0.0254) * actual;
+  pose.position *= sign * (centimetres_ ? 100.0 : 1.0 / 0.0254);
+  return pose;
 }
 
 void PolhemusEmulator::hear(double now, std::span<const std::uint8_t> bytes) {
@@ -177,8 +192,7 @@ void PolhemusEmulator::say_records(double time, char command, std::vector<std::u
 
 void PolhemusEmulator::say_liberty(double time, char command, int station, std::vector<std::uint8_t>& out) {
   const auto index = static_cast<std::size_t>(station - 1);
-  const Vec3 p = said_position(time, station);
-  const Quat q = orientation(station, frozen_ ? 0.0 : time);
+  const auto [p, q] = said_pose(time, station);
   if (!binary_) {
     std::ostringstream text;
     text << "0" << station << " " << p.x << " " << p.y << " " << p.z << "\r\n";
@@ -226,8 +240,7 @@ void PolhemusEmulator::say_liberty(double time, char command, int station, std::
 
 void PolhemusEmulator::say_fastrak(double time, int station, std::vector<std::uint8_t>& out) {
   const auto index = static_cast<std::size_t>(station - 1);
-  const Vec3 p = said_position(time, station);
-  const Quat q = orientation(station, frozen_ ? 0.0 : time);
+  const auto [p, q] = said_pose(time, station);
   out.push_back('0');
   out.push_back(static_cast<std::uint8_t>('0' + station));
   out.push_back(static_cast<std::uint8_t>(errors_[index]));

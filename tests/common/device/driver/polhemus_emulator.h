@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/kinematics/tracker_correction.h"
 #include "common/math/quaternion.h"
 #include "tests/common/device/driver/fake_line.h"
 #include "tests/common/device/driver/fake_usb.h"
@@ -30,6 +31,11 @@ class PolhemusEmulator final : public Speaker {
   /// hands go.
   [[nodiscard]] static Vec3 position(int station, double time);
   [[nodiscard]] static Quat orientation(int station, double time);
+
+  /// What a tracker says near metal: 30 mm and 4 degrees off where hands go, by a smooth field of its own.
+  [[nodiscard]] static TrackerPose distorted(const TrackerPose& actual);
+  /// It stands near metal.
+  void distort(bool on) { distorts_ = on; }
 
   void press(int station, bool down) { pressed_[static_cast<std::size_t>(station - 1)] = down; }
   /// What the tracker says of the signal of a station; ' ': it is good.
@@ -63,7 +69,7 @@ class PolhemusEmulator final : public Speaker {
   void say_records(double time, char command, std::vector<std::uint8_t>& out);
   void say_liberty(double time, char command, int station, std::vector<std::uint8_t>& out);
   void say_fastrak(double time, int station, std::vector<std::uint8_t>& out);
-  [[nodiscard]] Vec3 said_position(double time, int station) const;
+  [[nodiscard]] TrackerPose said_pose(double time, int station) const;
 
   EmulatedPolhemus settings_;
   bool binary_ = false, continuous_ = false, centimetres_ = false;
@@ -80,7 +86,7 @@ class PolhemusEmulator final : public Speaker {
   double next_ = 0.0;
   std::uint32_t frame_ = 0;
   int turn_ = 0;  ///< the station of a Fastrak that is next
-  bool hangs_ = false, frozen_ = false, deaf_ = false;
+  bool hangs_ = false, frozen_ = false, deaf_ = false, distorts_ = false;
   int bad_commands_ = 0;
 };
 

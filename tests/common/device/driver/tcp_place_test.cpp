@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,9 @@ namespace {
 
 TEST(TcpPlace, CarriesAVrpnLinkBothWays) {
   VrpnServer server;
-  TcpPlace place("localhost", server.port());
-  VrpnLink link(place, vrpn_settings({{"at", "Phantom0@localhost"}, {"cap", "3"}}));
+  auto to = std::make_unique<TcpPlace>("localhost", server.port());
+  const TcpPlace& place = *to;
+  VrpnLink link(std::move(to), vrpn_settings({{"at", "Phantom0@localhost"}, {"cap", "3"}}));
   const double start = place.now();
   constexpr double kPatience = 20.0;  // [s]
   while (link.status().rounds < 100 && place.now() < start + kPatience) (void)link.round(Vec3{0.0});

@@ -38,6 +38,7 @@ class VrpnEmulator {
   /// A client has come, or goes: with it goes the force.
   void connect(double now);
   void leave(double now);
+  [[nodiscard]] bool connected() const { return connected_; }
   void take(double now, const Bytes& bytes);
   /// Lives on, and appends what it says to `out`.
   void advance(double now, Bytes& out);

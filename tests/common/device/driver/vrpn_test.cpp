@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/device/driver/vrpn_link.h"
 #include "tests/common/device/driver/fake_place.h"
+#include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/vrpn_emulator.h"
 
 namespace palpate::test {
@@ -22,10 +23,17 @@ VrpnSettings arm_settings() { return vrpn_settings({{"at", "Phantom0@lab"}, {"ca
 
 class VrpnLinkTest : public ::testing::Test {
  protected:
-  VrpnLinkTest() { link_ = std::make_unique<VrpnLink>(place_, arm_settings()); }
+  VrpnLinkTest() { begin(arm_settings()); }
+
+  /// A link of its own, to the same server.
+  void begin(const VrpnSettings& settings) {
+    auto place = std::make_unique<FakePlace>(server_);
+    place_ = place.get();
+    link_ = std::make_unique<VrpnLink>(std::move(place), settings);
+  }
 
   void run(double seconds, const Vec3& force) {
-    for (const double until = place_.now() + seconds; place_.now() < until;) (void)link_->round(force);
+    for (const double until = place_->now() + seconds; place_->now() < until;) (void)link_->round(force);
   }
   void get_ready() {
     run(1.0, Vec3{0.0});
@@ -37,7 +45,7 @@ class VrpnLinkTest : public ::testing::Test {
   }
 
   VrpnEmulator server_;
-  FakePlace place_{server_};
+  FakePlace* place_ = nullptr;  ///< the link's
   std::unique_ptr<VrpnLink> link_;
 };
 
@@ -100,8 +108,8 @@ TEST_F(VrpnLinkTest, SendsSpringsThatTheServersLoopShows) {
   get_ready();
   double worst = 0.0, pushed = 0.0;
   const Vec3 rest{0.0, 0.005, 0.0};
-  for (const double start = place_.now(); place_.now() < start + 6.0;) {
-    const double t = place_.now() - start;
+  for (const double start = place_->now(); place_->now() < start + 6.0;) {
+    const double t = place_->now() - start;
     server_.arm.set_target(0.03 * Vec3{std::sin(1.3 * t), std::sin(0.9 * t), std::sin(1.7 * t)});
     const Vec3 force = -kStiffness * (link_->atoms().position - rest);
     (void)link_->round(glm::length(force) < kCap ? force : force * (kCap / glm::length(force)));
@@ -122,7 +130,7 @@ TEST_F(VrpnLinkTest, SendsSpringsThatTheServersLoopShows) {
 
 TEST_F(VrpnLinkTest, IsATrackerWithoutForceUnlessACapIsNamed) {
   EXPECT_EQ(link_->poses(), nullptr);
-  link_ = std::make_unique<VrpnLink>(place_, vrpn_settings({{"at", "Phantom0@lab"}, {"sensor", "1"}}));
+  begin(vrpn_settings({{"at", "Phantom0@lab"}, {"sensor", "1"}}));
   EXPECT_TRUE(link_->atoms().has_position) << "a window asks before the server has said anything";
   get_ready();
   server_.press(3, true);
@@ -138,7 +146,7 @@ TEST_F(VrpnLinkTest, IsATrackerWithoutForceUnlessACapIsNamed) {
   EXPECT_TRUE(stations[0].valid);
   EXPECT_FALSE(stations[2].valid);
   EXPECT_EQ(link_->atoms().position, Vec3(9.0));
-  place_.listens = false;
+  place_->listens = false;
   run(0.1, kForce);
   EXPECT_FALSE(stations[0].valid);
 }
@@ -165,15 +173,15 @@ TEST_F(VrpnLinkTest, TheLastModelOnAnyFaultHasNoForce) {
   for (const auto& [name, fault] : faults) {
     server_.rate = 500.0;
     server_.silent = server_.nonsense = false;
-    place_.faults = {};
-    place_.listens = true;
+    place_->faults = {};
+    place_->listens = true;
     run(4.0, Vec3{0.0});
     get_ready();
     run(0.1, kForce);
     ASSERT_FALSE(silent()) << name;
-    fault(place_, server_);
+    fault(*place_, server_);
     bool silenced = false;
-    for (const double until = place_.now() + kNoticed; place_.now() < until;) {
+    for (const double until = place_->now() + kNoticed; place_->now() < until;) {
       (void)link_->round(kForce);
       silenced = silenced || silent();
     }
@@ -186,26 +194,26 @@ TEST_F(VrpnLinkTest, TheLastModelOnAnyFaultHasNoForce) {
 TEST_F(VrpnLinkTest, AStalledNetworkLeavesAPassiveSpringThatEndsNearby) {
   get_ready();
   run(0.1, kForce);
-  place_.stalled = true;
-  const double stalled = place_.now();
-  while (place_.connections() > 0 && place_.now() < stalled + 10.0) (void)link_->round(kForce);
-  EXPECT_LT(place_.now() - stalled, kNoticed) << "writes are not taken";
+  place_->stalled = true;
+  const double stalled = place_->now();
+  while (place_->connections() > 0 && place_->now() < stalled + 10.0) (void)link_->round(kForce);
+  EXPECT_LT(place_->now() - stalled, kNoticed) << "writes are not taken";
   EXPECT_TRUE(silent());
-  place_.stalled = false;
+  place_->stalled = false;
   get_ready();
   run(0.1, kForce);
   EXPECT_FALSE(silent());
   server_.arm.put({0.05, 0.05, 0.0});
   VrpnEmulator::Bytes said;
-  server_.advance(place_.now() + 0.003, said);
+  server_.advance(place_->now() + 0.003, said);
   EXPECT_TRUE(silent()) << "outside of its radius";
 }
 
 TEST_F(VrpnLinkTest, SaysWhatIsMissing) {
-  place_.listens = false;
+  place_->listens = false;
   run(0.3, Vec3{0.0});
   EXPECT_EQ(link_->advice(), "no VRPN server answers at lab:3883");
-  place_.listens = true;
+  place_->listens = true;
   server_.cookie = "HTTP/1.1 400 Bad";
   run(0.1, Vec3{0.0});
   EXPECT_EQ(link_->status().phase, LinkPhase::kRefused);
@@ -216,9 +224,9 @@ TEST_F(VrpnLinkTest, SaysWhatIsMissing) {
   EXPECT_NE(link_->advice().find("has not named a device Phantom0"), std::string::npos) << link_->advice();
   server_.names_device = true;
   server_.rate = 0.0;
-  place_.faults.reset = 1.0;
+  place_->faults.reset = 1.0;
   run(0.05, Vec3{0.0});
-  place_.faults = {};
+  place_->faults = {};
   run(1.0, Vec3{0.0});
   EXPECT_NE(link_->advice().find("says nothing yet"), std::string::npos) << link_->advice();
 }
@@ -231,7 +239,7 @@ TEST_F(VrpnLinkTest, ReadsChannelsThatRestWithTheirServer) {
   EXPECT_FALSE(link_->atoms().has_position);
   ASSERT_TRUE(link_->atoms().has_valuators);
   EXPECT_EQ(link_->atoms().valuators, (std::array{0.5, -0.25, 1.0, 0.0, 0.0, 0.0}));
-  EXPECT_LT(place_.now() - link_->atoms().time, 0.02) << "as it was, and still is";
+  EXPECT_LT(place_->now() - link_->atoms().time, 0.02) << "as it was, and still is";
   server_.silent = true;
   run(VrpnLink::kHush + 0.05, Vec3{0.0});
   EXPECT_EQ(link_->atoms().valuators, (std::array<double, 6>{})) << "nothing drifts on its own";
@@ -241,89 +249,74 @@ TEST_F(VrpnLinkTest, ReadsChannelsThatRestWithTheirServer) {
 TEST_F(VrpnLinkTest, BeginsAnewWhereATrackerFindsItsSensorAgain) {
   get_ready();
   server_.arm = ArmInHand({.end = 3.0});
-  server_.arm.advance(place_.now());
+  server_.arm.advance(place_->now());
   server_.arm.put({2.0, 0.0, 0.0});
   server_.arm.set_target({2.0, 0.0, 0.0});
   run(0.2, kForce);
   EXPECT_NEAR(link_->atoms().position.x, 2.0, 1e-9);
   EXPECT_TRUE(silent());
   EXPECT_GT(link_->status().implausible, 0U);
-  EXPECT_EQ(place_.opened(), 1);
+  EXPECT_EQ(place_->opened(), 1);
 }
 
 TEST_F(VrpnLinkTest, NoticesAtOnceThatAServerEndedAndFindsItAgain) {
   for (int n = 0; n < 5; ++n) {
     get_ready();
     run(0.05 + 0.0007 * n, kForce);
-    const double ended = place_.now();
-    place_.listens = false;
-    while (link_->status().phase == LinkPhase::kReady && place_.now() < ended + 1.0)
+    const double ended = place_->now();
+    place_->listens = false;
+    while (link_->status().phase == LinkPhase::kReady && place_->now() < ended + 1.0)
       (void)link_->round(kForce);
-    EXPECT_LT(place_.now() - ended, kNoticed);
-    EXPECT_EQ(place_.connections(), 0);
-    place_.listens = true;
+    EXPECT_LT(place_->now() - ended, kNoticed);
+    EXPECT_EQ(place_->connections(), 0);
+    place_->listens = true;
     run(1.0, kForce);
     EXPECT_EQ(link_->status().phase, LinkPhase::kReady);
     EXPECT_TRUE(silent()) << "the hand leans on it all the while";
   }
   link_.reset();
-  EXPECT_EQ(place_.connections(), 0);
+  EXPECT_FALSE(server_.connected());
 }
 
 // All that can go wrong, over and over, for as long as PALPATE_SOAK_SECONDS says [s of simulated time].
 TEST_F(VrpnLinkTest, BearsEveryFaultForLong) {
-  const char* asked = std::getenv("PALPATE_SOAK_SECONDS");  // NOLINT(concurrency-mt-unsafe): read only
-  const double seconds = asked != nullptr ? std::atof(asked) : 60.0;  // NOLINT(cert-err34-c)
-  std::mt19937_64 random{14};
-  std::uniform_real_distribution<double> unit;
-  const auto chance = [&](double probability) { return unit(random) < probability; };
+  const double seconds = soak_seconds(60.0);
+  Soak soak(14);
   std::uint64_t fresh = 0;
-  while (place_.now() < seconds) {
-    const bool bad = chance(0.5);
-    const auto perhaps = [&](double most) {
-      return bad && chance(0.3) ? most * unit(random) * unit(random) : 0.0;
-    };
-    place_.faults = {.split = perhaps(1.0),
-                     .late = perhaps(0.2),
-                     .lateness = 0.1 * unit(random),
-                     .corrupt = perhaps(0.1),
-                     .reset = perhaps(0.02),
-                     .full = perhaps(0.02)};
-    place_.listens = !chance(0.02);
-    place_.stalled = chance(0.03);
-    server_.silent = chance(0.03);
-    server_.nonsense = chance(0.05);
-    server_.rate = chance(0.05) ? 0.0 : 100.0 + 900.0 * unit(random);
-    if (chance(0.1)) server_.press(static_cast<unsigned>(random() % 40), chance(0.5));
-    if (chance(0.1)) server_.arm.put(0.08 * Vec3{unit(random), unit(random), unit(random)});
-    if (chance(0.05)) {
-      VrpnEmulator::Bytes any(random() % 200);
-      for (auto& byte : any) byte = static_cast<std::uint8_t>(random() % 256);
-      server_.say(static_cast<std::int32_t>(random() % 20), static_cast<std::int32_t>(random() % 50) - 5,
+  while (place_->now() < seconds && !HasFailure()) {
+    soak.begin();
+    place_->faults = {.split = soak.rate(1.0),
+                      .late = soak.rate(0.2),
+                      .lateness = 0.1 * soak.part(),
+                      .corrupt = soak.rate(0.1),
+                      .reset = soak.rate(0.02),
+                      .full = soak.rate(0.02)};
+    place_->listens = !soak.chance(0.02);
+    place_->stalled = soak.chance(0.03);
+    server_.silent = soak.chance(0.03);
+    server_.nonsense = soak.chance(0.05);
+    server_.rate = soak.chance(0.05) ? 0.0 : 100.0 + 900.0 * soak.part();
+    if (soak.chance(0.1)) server_.press(static_cast<unsigned>(soak.below(40)), soak.chance(0.5));
+    if (soak.chance(0.1)) server_.arm.put(soak.within(0.16));
+    if (soak.chance(0.05)) {
+      VrpnEmulator::Bytes any(soak.below(200));
+      for (auto& byte : any) byte = static_cast<std::uint8_t>(soak.below(256));
+      server_.say(static_cast<std::int32_t>(soak.below(20)), static_cast<std::int32_t>(soak.below(50)) - 5,
                   any);
     }
-    server_.arm.set_target(0.04 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5});
-    const Vec3 force = chance(0.1) ? Vec3{std::nan("")}
-                       : chance(0.2)
-                           ? Vec3{0.0}
-                           : 20.0 * Vec3{unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5};
-    for (const double until = place_.now() + 0.3 * unit(random); place_.now() < until;) {
-      const double began = place_.now();
-      fresh += link_->round(force) ? 1U : 0U;
-      ASSERT_LT(place_.now() - began, DriverLink::kLongestRound);
-      ASSERT_TRUE(is_finite(link_->atoms().position));
-      ASSERT_LE(place_.connections(), 1);
-    }
+    server_.arm.set_target(soak.within(0.04));
+    fresh += soak.work(
+        *link_, [&] { return place_->now(); }, 0.3, soak.force(10.0), [&] { return place_->connections(); });
     ASSERT_LE(server_.largest_field, kCap * 1.001);
     ASSERT_LE(server_.arm.largest_force(), kCap * 1.001);
     ASSERT_FALSE(server_.active_field);
     ASSERT_TRUE(server_.strange.empty());
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(30.0 * seconds));
-  EXPECT_GT(place_.opened(), 3);
-  place_.faults = {};
-  place_.listens = true;
-  place_.stalled = server_.silent = server_.nonsense = false;
+  EXPECT_GT(place_->opened(), 3);
+  place_->faults = {};
+  place_->listens = true;
+  place_->stalled = server_.silent = server_.nonsense = false;
   server_.rate = 500.0;
   run(4.0, Vec3{0.0});
   get_ready();
