@@ -252,6 +252,25 @@ TEST_F(PlacedDeviceTest, LaysPositionsAndForcesOverTheView) {
   }));
 }
 
+// A wall of the workspace is never stiffer in the hand than it is there, nor pushes harder.
+TEST_F(PlacedDeviceTest, EnlargesMotionsWithoutStiffeningTheHand) {
+  for (const double scale : {4.0, 0.25}) {
+    LinkedDevice linked(link_);
+    Placement placement = placement_;
+    placement.scale = scale;
+    PlacedDevice device(linked, {}, placement, {});
+    DeviceSample sample;
+    say({0.01, 0.02, 0.03});
+    ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+    EXPECT_LT(glm::distance(sample.position, Vec3(1.0, 2.0, 3.0) + scale * Vec3(0.01, -0.03, 0.02)), 1e-14);
+    const double part = scale > 1.0 ? 1.0 / scale : 1.0;
+    EXPECT_TRUE(comes([&] {
+      device.command({0.0, -2.0, 1.0});
+      return glm::distance(link_->told(), part * Vec3(0.0, 1.0, 2.0)) < 1e-15;
+    }));
+  }
+}
+
 TEST_F(PlacedDeviceTest, LetsGoOfTheHandWhereTheViewTurns) {
   LinkedDevice linked(link_);
   PlacedDevice device(linked, {}, placement_, {});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/app/cli/bench_option.h"
 #include "common/base/error.h"
 
 namespace palpate::test {
@@ -27,6 +28,19 @@ TEST(SimulatedOption, NamesDeviceAndHandInAnyOrder) {
   EXPECT_EQ(of("simulated:falcon,hand=firm"), "Novint Falcon class in a firm hand");
   EXPECT_EQ(of("simulated:hand=firm,falcon"), "Novint Falcon class in a firm hand");
   EXPECT_EQ(of("simulated:hand=relaxed"), "PHANToM Premium 3.0 class in a relaxed hand");
+}
+
+TEST(BenchOption, TellsDevicesOfOneDriverApart) {
+  const auto key = [](const char* text) { return device_key(parse_device(text)); };
+  EXPECT_EQ(key("falcon:gain=3500"), "falcon");
+  EXPECT_EQ(key("dhd:cap=3,serial=12"), "dhd:12");
+  EXPECT_EQ(key("openhaptics:name=Right arm"), "openhaptics:Right arm");
+  EXPECT_EQ(key("vrpn:Tracker0@lab,sensor=1"), "vrpn:Tracker0@lab");
+  EXPECT_TRUE(is_same_device("polhemus", "polhemus:hemisphere=-z"));
+  EXPECT_TRUE(is_same_device("vrpn:Head@lab", "vrpn:Head@lab"));
+  EXPECT_FALSE(is_same_device("vrpn:Head@lab", "vrpn:Hand@lab"));
+  EXPECT_FALSE(is_same_device("polhemus:port=/dev/ttyUSB0", "polhemus"));
+  EXPECT_FALSE(is_same_device("vrpn", "polhemus"));
 }
 
 TEST(SimulatedOption, RefusesWhatItDoesNotKnow) {
