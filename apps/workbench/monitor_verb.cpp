@@ -27,7 +27,7 @@ std::string monitor_number(double value, int digits) {
   return std::string(text.size() < kWidth ? kWidth - text.size() : 1, ' ') + text;
 }
 
-std::string place_text(const Vec3& x) {
+std::string millimetres_text(const Vec3& x) {
   std::string text;
   for (int a = 0; a < 3; ++a) text += monitor_number(1e3 * x[a], 2);
   return text + " mm";
@@ -71,8 +71,8 @@ class BenchReading {
 
 std::string atoms_text(double time, const DeviceAtoms& atoms, const BenchReading& bench) {
   std::string text = monitor_number(time, 2) + " s ";
-  if (atoms.has_position) text += place_text(atoms.position);
-  if (const auto there = bench.at_bench(atoms)) text += "  at the bench" + place_text(*there);
+  if (atoms.has_position) text += millimetres_text(atoms.position);
+  if (const auto there = bench.at_bench(atoms)) text += "  at the bench" + millimetres_text(*there);
   if (atoms.has_valuators) {
     for (const double value : atoms.valuators) text += monitor_number(value, 2);
   }
@@ -96,14 +96,14 @@ std::string poses_text(double time, const PoseAtoms& poses, const BenchReading& 
     if (!pose.valid) continue;
     const TrackerPose there = bench.corrected(pose);
     text += monitor_number(time, 2) + " s   station " + std::to_string(pose.station) +
-            place_text(there.position) + "  turned";
+            millimetres_text(there.position) + "  turned";
     for (const double part :
          {there.orientation.w, there.orientation.x, there.orientation.y, there.orientation.z})
       text += monitor_number(part, 4);
     if (bench.corrects())
       text +=
           "  corrected by" + monitor_number(1e3 * glm::distance(there.position, pose.position), 2) + " mm";
-    if (const auto tip = bench.tip(pose)) text += "  tip" + place_text(*tip);
+    if (const auto tip = bench.tip(pose)) text += "  tip" + millimetres_text(*tip);
     text += pose.buttons != 0 ? "   pressed\n" : "\n";
   }
   return text.empty() ? monitor_number(time, 2) + " s   no station is seen\n" : text;
@@ -172,11 +172,11 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
                                              : atoms_text(now, link->atoms(), bench));
     }
   }
-  const Json said{{"device", options.device},
+  const Json told{{"device", options.device},
                   {"phase", name_of(link->status().phase)},
                   {"advice", link->advice()},
                   {"samples", samples}};
-  context.console.print_json(said.dump(2, ' ', false, Json::error_handler_t::replace));
+  context.console.print_json(told.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace palpate

@@ -80,7 +80,7 @@ void take_link(const Options& options, const VerbContext& context, ProbeSessionO
   }
   if (bench.interaction.immersive) {
     if (!bench.coregistration || !atoms.has_position) refuse_immersive(options);
-    const bool by_joints = bench.arm && bench.arm->joint_count == atoms.joint_count;
+    const bool by_joints = bench.arm && atoms.joint_count > 0 && bench.arm->joint_count == atoms.joint_count;
     const Rigid arm_from_device = by_joints ? device_from_arm(bench).inverse() : Rigid{};
     touch.bench_from_device = bench.coregistration->tracker_from_arm * arm_from_device;
   } else if (tracks && !atoms.has_position && !atoms.has_valuators) {

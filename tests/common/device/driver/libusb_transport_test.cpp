@@ -4,6 +4,7 @@
 
 #include "common/device/driver/libusb_transport.h"
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -25,11 +26,13 @@
 #include "common/device/driver/pedal_link.h"
 #include "common/device/driver/polhemus_link.h"
 #include "common/device/driver/polhemus_port.h"
+#include "common/device/driver/spacemouse_link.h"
 #include "common/servo/real_time.h"
 #include "tests/common/device/driver/dataglove_emulator.h"
 #include "tests/common/device/driver/falcon_emulator.h"
 #include "tests/common/device/driver/pedal_emulator.h"
 #include "tests/common/device/driver/polhemus_emulator.h"
+#include "tests/common/device/driver/spacemouse_emulator.h"
 
 namespace palpate::test {
 namespace {
@@ -60,6 +63,10 @@ constexpr Described kFastrak{
     "0f44", "0002",
     "1201000200000040440f0200000101020001"
     "0902270001010080320904000003ffffff00070502024000000705820240000007058403400001"};
+// A SpaceNavigator: a HID device with an interrupt endpoint of 8 bytes.
+constexpr Described kSpaceMouse{"046d", "c626",
+                                "12010002000000086d0426c6000101020001"
+                                "0902190001010080320904000001030000000705810308000a"};
 // A glove of five sensors: a HID device with an interrupt endpoint of 64 bytes.
 constexpr Described kGlove{"5d70", "0010",
                            "1201100100000008705d1000000101020001"
@@ -415,6 +422,29 @@ TEST(LibusbPolhemus, IsSetUpFollowedAndLostWhenItIsPulledOut) {
     EXPECT_FALSE(stations[0].valid || stations[1].valid);
     EXPECT_EQ(stations[0].buttons, 0U);
   }
+}
+
+// In packets no longer than its endpoint's, and its light by a request of its class.
+TEST(LibusbSpaceMouse, FollowsTheCapAndRestsWhenItIsPulledOut) {
+  SpaceMouseEmulator mouse;
+  UsbfsDevice usbfs(mouse, kSpaceMouse);
+  std::string error;
+  const std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+  ASSERT_TRUE(bus) << error;
+  SpaceMouseLink link(*bus, {});
+  using Axes = std::array<double, 6>;
+  mouse.deflect({175, -350, 70, 35, 0, 0});
+  ASSERT_TRUE(work_until(link, [&] {
+    return link.atoms().valuators == Axes{0.5, -0.2, -1.0, 0.1, 0.0, 0.0};
+  })) << link.advice();
+  EXPECT_EQ(mouse.light(), 1);
+  EXPECT_EQ(mouse.bad_controls(), 0);
+  mouse.press(0x1);
+  EXPECT_TRUE(work_until(link, [&] { return link.atoms().buttons == 1U; }));
+  usbfs.unplug();
+  EXPECT_TRUE(work_until(link, [&] { return link.status().phase == LinkPhase::kAbsent; }));
+  EXPECT_EQ(link.atoms().valuators, Axes{});
+  EXPECT_EQ(link.atoms().buttons, 0U);
 }
 
 TEST(LibusbDataGlove, BendsItsFingersAndOpensWhenItIsPulledOut) {
