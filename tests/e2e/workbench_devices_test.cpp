@@ -185,7 +185,7 @@ TEST_F(WorkbenchDevices, PutAnArmWhereItsCalibratedJointsSay) {
                 "[coregistration]\nrotation = [0.6, 0, 0.8, 0]\ntranslation = [0.5, 0.1, -0.2]\n"
                 "sensor = [0, 0, 0]\n");
   (void)json(
-      {"calibrate", "arm", "grid.csv", "--nominal", "nominal.toml", "--offsets-only", "--out", "bench.toml"});
+      {"calibrate", "arm", "grid.csv", "--nominal", "nominal.toml", "--offsets", "--out", "bench.toml"});
   const std::string device =
       "openhaptics:name=Worn arm,library=" + (build_folder() / "tests/libpalpate_fake_hd.so").string();
   const Json bare = json({"monitor", "--device", device, "--seconds", "0.5"});

@@ -66,7 +66,7 @@ constexpr Described kFastrak{
 // A SpaceNavigator: a HID device with an interrupt endpoint of 8 bytes.
 constexpr Described kSpaceMouse{"046d", "c626",
                                 "12010002000000086d0426c6000101020001"
-                                "0902190001010080320904000001030000000705810308000a"};
+                                "0902190001010080320904000001030000000705830308000a"};
 // A glove of five sensors: a HID device with an interrupt endpoint of 64 bytes.
 constexpr Described kGlove{"5d70", "0010",
                            "1201100100000008705d1000000101020001"
