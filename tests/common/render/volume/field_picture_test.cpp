@@ -19,12 +19,17 @@ constexpr Agreement kBar{.exempt = 250};
 constexpr int kSize = Agreement{}.size;
 
 // Turned about z, of other spacings, and partly beyond the context's volume.
-std::shared_ptr<const VolumeImage> turned(const Formula& formula) {
-  DataSet block = sampled_block({25, 33, 21}, Vec3(0.08), ScalarType::kFloat32, formula);
+std::shared_ptr<const VolumeImage> turned(const Formula& formula, ScalarType type = ScalarType::kFloat32) {
+  DataSet block = sampled_block({25, 33, 21}, Vec3(0.08), type, formula);
   auto& grid = std::get<UniformTopology>(block.topology);
   grid.axes = Mat3(Vec3(0.07, 0.03, 0.0), Vec3(-0.02, 0.05, 0.0), Vec3(0.0, 0.0, 0.09));
   grid.origin = -0.5 * (grid.axes * Vec3(grid.points - 1)) + Vec3(0.4, -0.1, 0.1);
   return make_volume_image(block, "s", "test");
+}
+
+// The colours of lenses, spread over the values of `image`: whole numbers go up to 255 or 65535.
+ColorTransfer colors_of(const VolumeImage& image) {
+  return spread(focus_colors(), image.lowest, image.highest);
 }
 
 // Around: blobs. In each lens: shells, on a finer grid, on a turned one, or both.
@@ -44,8 +49,10 @@ TEST(FieldPicture, AgreesWithTheReferenceForEveryShapeOfLens) {
   for (const auto& [name, lens] : lenses()) {
     view.lenses = {lens};
     view.lenses[0].field = 1;
+    view.lenses[0].transfer = colors_of(*view.fields[0].image);
     expect_agreement(picture, view, camera_of(view), name + ", finer", kBar);
     view.lenses[0].field = 2;
+    view.lenses[0].transfer = colors_of(*view.fields[1].image);
     expect_agreement(picture, view, camera_of(view, {.azimuth = 100.0, .elevation = 20.0}), name + ", turned",
                      kBar);
   }
@@ -58,6 +65,24 @@ TEST(FieldPicture, AgreesWithTheReferenceForEveryShapeOfLens) {
                    kBar);
 }
 
+TEST(FieldPicture, AgreesWithTheReferenceForEveryTypeOfNumberOnATurnedGrid) {
+  VolumePicture picture(kSize, kSize);
+  VolumeView view = plain_view();
+  view.lenses = {lenses()[0].lens};
+  view.lenses[0].field = 1;
+  const auto expect_agreement_of = [&](const Formula& formula, ScalarType type, bool shading) {
+    view.fields = {{turned(formula, type), "turned"}};
+    view.lenses[0].transfer = colors_of(*view.fields[0].image);
+    view.lenses[0].shading = shading;
+    expect_agreement(picture, view, camera_of(view, {.azimuth = 100.0, .elevation = 20.0}),
+                     std::string(name_of(type)) + (shading ? ", lit" : ""), kBar);
+  };
+  for (const ScalarType type : {ScalarType::kUint8, ScalarType::kUint16, ScalarType::kFloat32}) {
+    expect_agreement_of(shells, type, false);
+    expect_agreement_of(blobs, type, true);  // without creases, at which light changes at once
+  }
+}
+
 TEST(FieldPicture, AgreesWithTheReferenceForFourFieldsAtOnce) {
   VolumePicture picture(kSize, kSize);
   VolumeView view = many_fields();
@@ -65,7 +90,7 @@ TEST(FieldPicture, AgreesWithTheReferenceForFourFieldsAtOnce) {
   Lens third{make_cylinder({0.0, -0.9, 0.0}, {0.0, 0.9, 0.0}, 0.3)},
       fourth{make_sphere({-0.6, 0.3, 0.1}, 0.4)};
   first.field = 1;
-  first.transfer = focus_colors();
+  first.transfer = colors_of(*view.fields[0].image);
   second.field = 2;
   second.regions = spread(RegionTransfer({{.shape = TransferRegion::Shape::kEllipse,
                                            .corners = {Vec2(0.2, 0.1), Vec2(0.8, 1.1), Vec2(0.0)},
