@@ -81,6 +81,7 @@ DtmriContent DtmriModel::read(Input& input, const Options& options, Progress& pr
   state.info = info_of(input, view);
   state.looks = {direction_lens(options.volume, *view.volume->image)};
   state.volume = std::move(view.volume);
+  state.volume_label = view.volume_label;
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
   return std::make_shared<const SceneState>(std::move(state));

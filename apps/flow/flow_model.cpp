@@ -2,8 +2,11 @@
 
 #include "common/app/cli/domain_outline.h"
 #include "common/app/cli/felt_scalar.h"
+#include "common/app/cli/flow_volume.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/volume_fields.h"
+#include "common/base/number_text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/scene/plan.h"
@@ -11,6 +14,13 @@
 
 namespace palpate {
 namespace {
+
+/// As `--volume` has them.
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
 
 std::string grid_fact(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) {
@@ -35,6 +45,8 @@ std::shared_ptr<const SceneInfo> describe(const Input& input, const VectorField&
     info->integrators.emplace_back(name_of(integrator));
   }
   info->color_arrays = color_arrays(input);
+  info->volumes = flow_scalars(input);
+  info->resampled = needs_resampling(field);
   info->bounds = field.bounds();
   info->outline = domain_outline(field);
   return info;
@@ -87,6 +99,59 @@ void color(Input& input, const FlowContent& content, const Options& options, Sce
       line_style(color, input, *content.field, *state.lines, options.common.threads, &progress).array;
 }
 
+/// The volume around the lines, as `settings` name it: the voxels of `before` where these are the same.
+void show_volume(Input& input, const FlowContent& content, const Options& options, const SceneState* before,
+                 SceneState& state, Progress& progress) {
+  const SceneSettings& settings = state.settings;
+  state.volume_notes.clear();
+  state.looks.clear();
+  state.volume.reset();
+  if (settings.volumes.empty()) return;
+  Options with = options;
+  with.volume.transfer = settings.transfer;
+  with.volume.focus = settings.focus;
+  with.volume.resample = settings.resample;
+  with.volume.scalar = joined(settings.volumes);
+  check_flow_volume(with.volume);
+  const std::vector<std::string> names = flow_volume_names(input, with.volume);
+  const bool same = before != nullptr && before->volume && before->settings.volumes == settings.volumes &&
+                    before->settings.resample == settings.resample &&
+                    before->settings.field == settings.field &&
+                    before->settings.time_step == settings.time_step;
+  TangibleVolume voxels;
+  if (same) {
+    voxels.image = before->volume->image;
+    voxels.beside = before->volume->fields;
+    state.volume_notes = before->volume_notes;
+  } else {
+    FlowVolume volume =
+        load_flow_volume(input, content.field, names, settings.resample, options.common.threads, &progress);
+    voxels = std::move(volume.voxels);
+    for (const TakenScalar& taken : volume.taken) state.volume_notes.push_back(taken_text(taken));
+  }
+  VolumeView view = make_volume_view(voxels, with);
+  if (has_regions(view)) state.volume_notes.emplace_back(kRegionsNote);
+  // Another time step keeps its colours, or a film would flicker.
+  if (before != nullptr && before->volume && before->settings.volumes.front() == settings.volumes.front() &&
+      before->settings.transfer == settings.transfer) {
+    view.transfer = before->volume->transfer;
+    view.regions = before->volume->regions;
+  }
+  state.looks = lens_looks(view, settings.focus, options.common.threads);
+  state.volume_label = names.front();
+  state.volume = std::move(view);
+}
+
+/// Whether both ask for the same lines, whatever is around them and whatever colours them.
+bool same_lines(const SceneSettings& a, SceneSettings b) {
+  b.color_array = a.color_array;
+  b.volumes = a.volumes;
+  b.resample = a.resample;
+  b.transfer = a.transfer;
+  b.focus = a.focus;
+  return a == b;
+}
+
 }  // namespace
 
 FlowModel::FlowModel(Options options, std::string program)
@@ -111,6 +176,12 @@ void FlowModel::begin(SceneSettings& settings, const Input& input, const Options
   settings.step = tracing.step;
   settings.max_length = tracing.max_length;
   settings.random_seed = options.common.seed;
+  if (!options.volume.scalar.empty()) {
+    for (const std::string_view name : split(options.volume.scalar, ',')) settings.volumes.emplace_back(name);
+  }
+  settings.resample = options.volume.resample;
+  settings.transfer = options.volume.transfer;
+  settings.focus = options.volume.focus;
   const LineColor wanted = line_color(options.view.color, input);
   if (wanted.by == ColorBy::kArray) settings.color_array = wanted.name;
 }
@@ -118,13 +189,11 @@ void FlowModel::begin(SceneSettings& settings, const Input& input, const Options
 SceneState FlowModel::present(Input& input, const FlowContent& content, const Options& options,
                               const SceneSettings& settings, const SceneState* before,
                               Progress& progress) const {
-  // Another colour needs no other lines.
-  SceneSettings without_color = settings;
-  if (before != nullptr) without_color.color_array = before->settings.color_array;
-  const bool same_lines = before != nullptr && without_color == before->settings;
-  SceneState state = same_lines ? *before : trace(input, content, options, settings, progress);
-  if (same_lines) state.settings = settings;
+  const bool keeps_lines = before != nullptr && same_lines(settings, before->settings);
+  SceneState state = keeps_lines ? *before : trace(input, content, options, settings, progress);
+  if (keeps_lines) state.settings = settings;
   color(input, content, options, state, progress);
+  show_volume(input, content, options, before, state, progress);
   return state;
 }
 
@@ -145,6 +214,15 @@ void FlowModel::describe_session(Session& session, const InputSpec& /*spec*/, co
   add_option(session, "tolerance", exact_number(settings.tolerance));
   if (settings.step > 0.0) add_option(session, "step", exact_number(settings.step));
   if (settings.max_length > 0.0) add_option(session, "max-length", exact_number(settings.max_length));
+  if (!settings.volumes.empty() && view.volume) {
+    add_option(session, "volume", joined(settings.volumes));
+    add_option(session, "resample", settings.resample);
+    add_option(session, "transfer-function", settings.transfer);
+    add_option(session, "focus-tf", settings.focus);
+    describe_rays(session, *view.volume);
+    describe_plane_images(session, *view.volume);
+  }
+  describe_projection(session, view);
   describe_camera(session, view);
   add_option(session, "color",
              settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);

@@ -2,6 +2,7 @@
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
+#include "common/app/cli/flow_volume.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/verb_open.h"
@@ -18,10 +19,12 @@ SceneUse use_of(const Input& input, const Options& options) {
   use.tracing = true;
   use.lines = line_count(seeds, trace_options(options, "both"));
   if (color.array) use.color_array = color.name;
+  use.volume_arrays = flow_volume_arrays(input, options.volume);
   return use;
 }
 
 void style(const Options& options, SceneView& view) {
+  style_projection(options, view);
   // Any other name is an array of the input: the model knows it once that is open.
   for (int i = 0; i < kColorByCount; ++i) {
     const auto by = static_cast<ColorBy>(i);
@@ -38,7 +41,11 @@ Verb open_verb(std::vector<UsageExample> examples) {
        .modes = flow_modes(),
        .render = render_verb(flow_modes(), {}),
        .next = "trace FILE --seeds grid:8,8,8 --out lines.vtp",
-       .check = [](const Options& options) { (void)trace_options(options, "both"); },
+       .check =
+           [](const Options& options) {
+             (void)trace_options(options, "both");
+             check_flow_volume(options.volume);
+           },
        .use = use_of,
        .model = [](const Options& options,
                    const std::string& program) { return std::make_unique<FlowModel>(options, program); },

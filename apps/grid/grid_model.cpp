@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "common/app/cli/lens_text.h"
-#include "common/app/cli/plane_image_text.h"
 #include "common/app/cli/volume_fields.h"
 
 namespace palpate {
@@ -39,6 +38,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   state.looks = lens_looks(*view.volume, settings.focus, options.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
   state.volume = std::move(view.volume);
+  state.volume_label = settings.field;
   state.felt_scalar = volume.field;
   // Another time step of a field keeps its colours, or a film would flicker.
   const bool same_colors = before != nullptr && settings.field == before->settings.field &&
@@ -62,13 +62,7 @@ void GridModel::describe_session(Session& session, const InputSpec& spec, const 
   add_option(session, "focus-tf", settings.focus);
   if (view.volume) {
     describe_rays(session, *view.volume);
-    const PlaneImages& planes = view.volume->planes;
-    if (planes.shown) add_option(session, "plane-image", "on");
-    if (planes.window) {
-      add_option(session, "window", exact_number(planes.window->width));
-      add_option(session, "level", exact_number(planes.window->level));
-    }
-    add_option(session, "contours", contours_text(planes.contours));
+    describe_plane_images(session, *view.volume);
   }
   describe_projection(session, view);
   describe_camera(session, view);

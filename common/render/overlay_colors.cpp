@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -194,6 +195,18 @@ void draw_tensor_colors(const OverlayPen& pen, const SceneView& view, float righ
 
 bool shows_path(const SceneView& view) { return view.probe && view.probe->path.count > 0; }
 
+// Where the middle of a column of colours stands, and how long it is, in heights of the picture.
+struct ColumnPlace {
+  float middle, length;
+};
+// Columns share the border, from above: so many, and which of them.
+ColumnPlace column_place(std::size_t count, std::size_t which) {
+  constexpr std::array<ColumnPlace, 2> kTwo{{{0.31F, 0.30F}, {0.74F, 0.26F}}};
+  constexpr std::array<ColumnPlace, 3> kThree{{{0.19F, 0.19F}, {0.47F, 0.19F}, {0.76F, 0.19F}}};
+  if (count == 2) return kTwo[which];
+  return count == 3 ? kThree[which] : ColumnPlace{0.5F, 0.46F};
+}
+
 }  // namespace
 
 void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend& legend, int width,
@@ -201,39 +214,50 @@ void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend
   const float em = pen.text_height(), h = static_cast<float>(height);
   // Room for the letter of the right border.
   const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
-  if (view.volume && view.volume->shown) {
+  const bool volume = view.volume && view.volume->shown;
+  if (volume && has_colored_parts(*view.volume)) {
     // Directions have no scale: their legend stands above that of the volume.
-    const bool both = has_colored_parts(*view.volume);
-    if (both) draw_directions(pen, view.anatomical, right, 0.2F * h);
-    draw_volume_colors(pen, view, right, (both ? 0.6F : 0.5F) * h, 0.46F * h);
+    draw_directions(pen, view.anatomical, right, 0.2F * h);
+    draw_volume_colors(pen, view, right, 0.6F * h, 0.46F * h);
     return;
   }
-  if ((view.tensors || view.tracts) && !legend.has_lines) {
-    draw_tensor_colors(pen, view, right, shows_path(view) ? 0.31F * h : 0.5F * h, 0.30F * h);
+  // The volume above, then the lens, the lines, and the forces at the foot.
+  std::vector<std::function<void(float middle, float length)>> columns;
+  if (volume) {
+    columns.emplace_back(
+        [&](float middle, float length) { draw_volume_colors(pen, view, right, middle, length); });
+  } else if ((view.tensors || view.tracts) && !legend.has_lines) {
+    columns.emplace_back(
+        [&](float middle, float length) { draw_tensor_colors(pen, view, right, middle, length); });
   }
-  // Columns share the border: that of the lens above, the lines' below it, that of the forces at the foot.
-  const bool path = shows_path(view), lens = view.color_lens && legend.has_lines;
-  float middle = path ? 0.31F : 0.5F, length = path ? 0.30F : 0.46F;
-  if (lens) {
-    const float part = path ? 0.19F : 0.28F;
-    draw_color_bar(pen,
-                   {.label = "in the lens: " + color_label(view.color_lens->style, view.units),
-                    .table = color_table(color_map_of(view.color_lens->style)),
-                    .range = legend.lens_range,
-                    .logarithmic = is_logarithmic(view.color_lens->style)},
-                   right, path ? 0.19F * h : 0.27F * h, part * h);
-    middle = path ? 0.47F : 0.70F;
-    length = part;
+  if (view.color_lens && legend.has_lines) {
+    columns.emplace_back([&](float middle, float length) {
+      draw_color_bar(pen,
+                     {.label = "in the lens: " + color_label(view.color_lens->style, view.units),
+                      .table = color_table(color_map_of(view.color_lens->style)),
+                      .range = legend.lens_range,
+                      .logarithmic = is_logarithmic(view.color_lens->style)},
+                     right, middle, length);
+    });
   }
-  if (legend.has_lines) draw_line_colors(pen, view, legend, right, middle * h, length * h);
-  if (!path) return;
-  const float force_length = lens ? 0.19F : 0.26F;
-  draw_color_bar(pen,
-                 {.label = "force [N]",
-                  .table = color_table(view.probe->style.force_map),
-                  .range = force_range(*view.probe),
-                  .values_above = legend.forces_above},
-                 right, (lens ? 0.76F : 0.74F) * h, force_length * h);
+  if (legend.has_lines) {
+    columns.emplace_back(
+        [&](float middle, float length) { draw_line_colors(pen, view, legend, right, middle, length); });
+  }
+  if (shows_path(view)) {
+    columns.emplace_back([&](float middle, float length) {
+      draw_color_bar(pen,
+                     {.label = "force [N]",
+                      .table = color_table(view.probe->style.force_map),
+                      .range = force_range(*view.probe),
+                      .values_above = legend.forces_above},
+                     right, middle, length);
+    });
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const ColumnPlace place = column_place(columns.size(), i);
+    columns[i](place.middle * h, place.length * h);
+  }
 }
 
 }  // namespace palpate

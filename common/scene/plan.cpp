@@ -70,11 +70,15 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
       return input.names_field(name) &&
              choose_scalar(input.arrays(), name, input.title()).array == array.name;
     });
+    const bool drawn =
+        std::find(use.volume_arrays.begin(), use.volume_arrays.end(), array.name) != use.volume_arrays.end();
     const std::string what = kArray + array.name;
     if (in_field) {
       plan.push_back(used(what, field, bytes, array_milliseconds(bytes)));
     } else if (in_lens) {
       plan.push_back(used(what, "another field, for lenses", bytes, array_milliseconds(bytes)));
+    } else if (drawn) {
+      plan.push_back(used(what, "drawn as a volume", bytes, array_milliseconds(bytes)));
     } else if (colors) {
       plan.push_back(used(what, "colours the lines", bytes, array_milliseconds(bytes)));
     } else if (use.all_arrays) {

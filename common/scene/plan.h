@@ -21,8 +21,9 @@ struct SceneUse {
   int threads = 1;        ///< that trace and make the field
   bool drawing = false;   ///< a picture or the window
   bool window = false;
-  std::string color_array;          ///< array that colours the lines, empty for none
-  std::vector<std::string> beside;  ///< scalars and files that lenses of a volume show
+  std::string color_array;                 ///< array that colours the lines, empty for none
+  std::vector<std::string> beside;         ///< scalars and files that lenses of a volume show
+  std::vector<std::string> volume_arrays;  ///< arrays that are drawn as volumes beside lines
 };
 
 /// Plans the scene from what the loader says, before any array is read. Bytes are those of the arrays and of

@@ -283,6 +283,61 @@ TEST_F(Flow, ColoursLinesByMeasuresAndArrays) {
   EXPECT_NE(unknown.err.find("Temp"), std::string::npos) << unknown.err;
 }
 
+TEST_F(Flow, DrawsAScalarAsAVolumeAndSaysWhatResamplingCosts) {
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render",     "--example", "abc",   "--seeds",
+                                       "grid:2,2,2", "--size",    "64x48", "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const Json coarse = json(drawn({"--volume", "speed", "--resample", "12", "--out", "coarse.png"}));
+  const Json fine = json(drawn({"--volume", "speed,q", "--resample", "23", "--lens",
+                                "sphere:3,3,3,1,field=q,tf=density", "--out", "fine.png"}));
+  ASSERT_EQ(coarse["resampled"].size(), 1U);
+  ASSERT_EQ(fine["resampled"].size(), 2U);
+  EXPECT_EQ(coarse["resampled"][0]["points"], Json({12, 12, 12}));
+  EXPECT_EQ(coarse["resampled"][0]["outside"], 0.0);
+  // Twice as fine a lattice: a quarter of the error, where the speed is smooth.
+  const double from = coarse["resampled"][0]["error_rms"], to = fine["resampled"][0]["error_rms"];
+  EXPECT_GT(from, 1e-3);
+  EXPECT_NEAR(from / to, 4.0, 0.8);
+  EXPECT_NE(read_file(folder_.path("coarse.png")), read_file(folder_.path("fine.png")));
+
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"--volume", "speed"}, "--resample 128"},
+      {{"--volume", "nothing", "--resample", "8"}, "vorticity"},
+      {{"--volume", "speed", "--resample", "1"}, "from 2 to 1024"},
+      {{"--volume", "speed", "--resample", "1024"}, "2^27 points"},
+      {{"--lens", "sphere:3,3,3,1"}, "--volume speed"}};
+  for (const auto& [more, word] : refused) {
+    std::vector<std::string> arguments = drawn(more);
+    arguments.insert(arguments.end(), {"--out", "refused.png"});
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"coarse.png", "fine.png"}));
+}
+
+TEST_F(Flow, DrawsArraysOfRealDataAsVolumesFromTheirVoxelsOrResampled) {
+  PALPATE_NEED_DATA(carotid, "flow/carotid/carotid.vtk");
+  PALPATE_NEED_DATA(grid, "flow/bluntfin/bluntfinxyz.bin");
+  PALPATE_NEED_DATA(solution, "flow/bluntfin/bluntfinq.bin");
+  const Json image = json({"render", carotid.string(), "--volume", "scalars", "--seeds", "speed:5", "--size",
+                           "64x48", "--explain", "--out", "image.png"});
+  EXPECT_EQ(image["voxels"], 76 * 49 * 45);
+  EXPECT_FALSE(image.contains("resampled")) << "its own voxels";
+  EXPECT_NE(image["plan"].dump().find("drawn as a volume"), std::string::npos);
+  const Json fin = json({"render", grid.string(), "--solution", solution.string(), "--volume", "Density",
+                         "--resample", "48", "--seeds", "grid:2,2,2", "--size", "64x48", "--out", "fin.png"});
+  const Json& cost = fin["resampled"][0];
+  EXPECT_NEAR(cost["outside"], 0.12, 0.02) << "the corners of its box";
+  EXPECT_GT(cost["error_rms"], 1e-3);
+  EXPECT_LT(cost["error_rms"], 0.02);
+  EXPECT_GT(cost["error_worst"], cost["error_rms"]);
+  EXPECT_LT(cost["error_worst"], 0.6);
+}
+
 TEST_F(Flow, MakesATourWhereThereIsNoDisplay) {
   const ProgramResult result = run({});
   EXPECT_EQ(result.exit_code, 0) << result.err;

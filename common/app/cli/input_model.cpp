@@ -4,6 +4,7 @@
 
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
+#include "common/app/cli/plane_image_text.h"
 #include "common/math/vec_text.h"
 
 namespace palpate {
@@ -52,6 +53,16 @@ void describe_rays(Session& session, const VolumeView& volume) {
                exact_number(std::ldexp(static_cast<double>(volume.storage.memory), -20)));
   if (volume.context.level > 0) add_option(session, "context-level", std::to_string(volume.context.level));
   add_option(session, "shading", volume.shading ? "on" : "off");
+}
+
+void describe_plane_images(Session& session, const VolumeView& volume) {
+  const PlaneImages& planes = volume.planes;
+  if (planes.shown) add_option(session, "plane-image", "on");
+  if (planes.window) {
+    add_option(session, "window", exact_number(planes.window->width));
+    add_option(session, "level", exact_number(planes.window->level));
+  }
+  add_option(session, "contours", contours_text(planes.contours));
 }
 
 void add_option(Session& session, const char* name, const std::string& value) {

@@ -31,6 +31,8 @@ void describe_camera(Session& session, const SceneView& view);
 void describe_projection(Session& session, const SceneView& view);
 /// The lenses of a volume, and how its rays are cast.
 void describe_rays(Session& session, const VolumeView& volume);
+/// What is drawn on planes of a volume.
+void describe_plane_images(Session& session, const VolumeView& volume);
 
 /// Appends an option to a session; an empty value is left out.
 void add_option(Session& session, const char* name, const std::string& value);

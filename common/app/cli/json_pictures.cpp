@@ -43,6 +43,15 @@ std::string render_json(const RenderSummary& summary) {
   if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
     json["bricks"] = {
         {"held", bricks.held}, {"wanted", bricks.wanted}, {"all", bricks.all}, {"bytes", bricks.bytes}};
+  for (const TakenScalar& taken : summary.volumes) {
+    json["resampled"].push_back({{"scalar", taken.name},
+                                 {"points", {taken.points.x, taken.points.y, taken.points.z}},
+                                 {"error_rms", taken.error.rms},
+                                 {"error_worst", taken.error.worst},
+                                 {"outside", taken.error.outside},
+                                 {"hidden", taken.error.hidden},
+                                 {"compared", taken.error.compared}});
+  }
   if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
   add_plan(json, summary.plan, summary.measured);
   return json_text(json);

@@ -41,19 +41,28 @@ std::shared_ptr<const LineArray> sampled(const std::string& name, const std::vec
 
 }  // namespace
 
-std::vector<std::string> color_arrays(const Input& input) {
+std::optional<Measure> measure_of(const std::string& name) {
+  for (const auto& [word, measure] : kMeasures) {
+    if (name == word) return measure;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> measure_names() {
   std::vector<std::string> names;
-  names.reserve(kMeasures.size() + input.arrays().size());
   for (const auto& [word, measure] : kMeasures) names.emplace_back(word);
+  return names;
+}
+
+std::vector<std::string> color_arrays(const Input& input) {
+  std::vector<std::string> names = measure_names();
   for (const ArrayInfo& array : input.arrays()) names.push_back(array.name);
   return names;
 }
 
 LineColor line_color(const std::string& name, const Input& input) {
   if (name.empty()) return {};
-  for (const auto& [word, measure] : kMeasures) {
-    if (name == word) return {.by = ColorBy::kArray, .measure = measure, .name = name};
-  }
+  if (const auto measure = measure_of(name)) return {.by = ColorBy::kArray, .measure = measure, .name = name};
   for (const ArrayInfo& array : input.arrays()) {
     if (array.name != name) continue;
     const int component = array.components == 1 ? 0 : ScalarChoice::kMagnitude;

@@ -22,6 +22,11 @@ struct LineColor {
   std::string name;
 };
 
+/// The measure of that name: divergence, vorticity, q or lambda2; nothing for another name.
+[[nodiscard]] std::optional<Measure> measure_of(const std::string& name);
+/// Those names.
+[[nodiscard]] std::vector<std::string> measure_names();
+
 /// What line_color() knows of `input` beside the quantities that lines carry: measures, and arrays of the
 /// file.
 [[nodiscard]] std::vector<std::string> color_arrays(const Input& input);

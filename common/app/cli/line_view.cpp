@@ -6,6 +6,7 @@
 
 #include "common/app/cli/domain_outline.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/volume_scene.h"
 #include "common/base/text.h"
 #include "common/scene/seeds.h"
 
@@ -67,7 +68,7 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = camera_of(options.view, view.bounds, aspect);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
   return view;
 }
 

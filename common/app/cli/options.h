@@ -96,6 +96,8 @@ struct ViewOptions {
 
 /// How a volume is drawn.
 struct VolumeOptions {
+  std::string scalar;    ///< of a flow: which scalars are one, as flow_volume.h has it; empty: none
+  std::string resample;  ///< of a flow: N or N,N,N points that they are taken at; empty: those of an image
   std::string transfer;  ///< color_transfer_of(); empty: from the histogram of the values
   std::string focus;     ///< likewise inside lenses; empty: the denser half of what the context shows
   std::vector<std::string> lenses;      ///< grammar of parse_lens()

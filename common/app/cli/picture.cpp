@@ -138,6 +138,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   summary.lines = drawn.lines;
   summary.points = drawn.points;
   summary.voxels = drawn.voxels;
+  summary.volumes = drawn.volumes;
   summary.seconds_trace = drawn.seconds_trace;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   for (const ScreenPicture& picture : pictures) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/app/cli/explorer.h"
+#include "common/app/cli/flow_volume.h"
 #include "common/app/cli/summaries.h"
 #include "common/render/scene_view.h"
 #include "common/scene/plan.h"
@@ -23,6 +24,7 @@ struct DrawnScene {
   std::size_t voxels = 0;
   double seconds_trace = 0.0;
   std::vector<MeasuredCost> measured;
+  std::vector<TakenScalar> volumes;  ///< of a flow, what drawing them as volumes cost
 };
 
 struct PictureMaker {

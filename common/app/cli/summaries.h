@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/app/cli/flow_volume.h"
 #include "common/base/needs.h"
 #include "common/device/device.h"
 #include "common/field/grid/mesh_quality.h"
@@ -273,6 +274,7 @@ struct RenderSummary {
   double image_error = 0.0;
   std::string image_error_kind;
   double seconds_load = 0.0;
+  std::vector<TakenScalar> volumes;  ///< DrawnScene::volumes
   double seconds_trace = 0.0;
   std::string renderer;
   BrickShare bricks;           ///< of a volume that is stored in bricks

@@ -162,9 +162,7 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Op
     view.subtitle = view.subtitle.empty() ? count : count + ", " + view.subtitle;
   }
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = camera_of(
-      options.view, view.bounds, aspect,
-      options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
   view.tensors = std::move(parts.tensors);
   view.tracts = std::move(parts.tracts);
   return view;

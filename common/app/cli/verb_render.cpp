@@ -2,12 +2,15 @@
 
 #include "common/app/cli/felt_scalar.h"
 #include "common/app/cli/felt_surface_view.h"
+#include "common/app/cli/flow_volume.h"
 #include "common/app/cli/line_color.h"
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/picture.h"
 #include "common/app/cli/touch_options.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/cli/volume_fields.h"
 #include "common/app/haptic/probe_picture.h"
+#include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/scene/plan.h"
@@ -43,7 +46,28 @@ SceneUse use_of(const Options& options, const Input& input) {
           .lines = line_count(view_seeds(options), trace),
           .threads = resolve_threads(trace.threads),
           .drawing = true,
-          .color_array = color.array ? color.name : std::string()};
+          .color_array = color.array ? color.name : std::string(),
+          .volume_arrays = flow_volume_arrays(input, options.volume)};
+}
+
+/// Adds the volume that the options name, and what taking it on an image cost.
+void show_volume(DrawnScene& drawn, Input& input, const std::shared_ptr<const VectorField>& field,
+                 const Options& options, const VerbContext& context) {
+  const std::vector<std::string> names = flow_volume_names(input, options.volume);
+  if (names.empty()) return;
+  const Stopwatch clock;
+  FlowVolume volume = load_flow_volume(input, field, names, options.volume.resample, options.common.threads,
+                                       &context.progress);
+  drawn.measured.push_back(
+      {.what = "volume", .milliseconds = 1e3 * clock.seconds(), .bytes = volume.voxels.image->byte_count()});
+  for (const TakenScalar& taken : volume.taken) context.console.note(taken_text(taken));
+  drawn.volumes = std::move(volume.taken);
+  drawn.voxels = volume.voxels.image->point_count();
+  drawn.what += ", a volume of " + counted(drawn.voxels, "voxel");
+  drawn.view.volume = make_volume_view(volume.voxels, options);
+  drawn.view.volume_label = names.front();
+  drawn.view.subtitle += ", " + names.front() + " as a volume";
+  if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
 }
 
 DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Options& options,
@@ -66,6 +90,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
   const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
   drawn.view = make_line_view(input, *field, lines, options, style, aspect);
+  show_volume(drawn, input, field, options, context);
   const HapticMode& mode = mode_of(modes, options);
   const bool surfaces = wants_surfaces(options, mode.name);
   std::shared_ptr<const ScalarField> scalar;
@@ -96,6 +121,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
             .check =
                 [&modes](const Options& given) {
                   (void)view_seeds(given);
+                  check_flow_volume(given.volume);
                   (void)trace_options(given, "both");
                   if (!given.path.empty()) (void)read_probe_path(given.path.string());
                   (void)mode_of(modes, given);

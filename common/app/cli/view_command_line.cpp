@@ -91,6 +91,18 @@ void add_projection(SceneOptions& options, VolumeOptions& volume) {
       ->check(CLI::IsMember({"perspective", "orthographic"}));
 }
 
+void add_storage(SceneOptions& options, VolumeOptions& volume) {
+  options
+      .add("--gpu-memory", volume.gpu_memory,
+           "memory of the graphics card that voxels may take: a volume that needs more is stored in bricks, "
+           "of "
+           "which those are held that the view looks up and that show something, at the finest of its means "
+           "of 2^n voxels at which they fit; in the window they come bit by bit, lenses first; default: all "
+           "of it",
+           "MB", kGroup)
+      ->check(CLI::Range(0.001, 1e9));
+}
+
 void add_volume(SceneOptions& options, VolumeOptions& volume) {
   options.add("--transfer-function,--context-tf", volume.transfer,
               "which colour and opacity values have: density, mr, ct, or a file with the header "
@@ -102,15 +114,21 @@ void add_volume(SceneOptions& options, VolumeOptions& volume) {
               "NAME|FILE", kGroup);
   add_lenses(options, volume, "the same inside lenses; without it the denser half of what is seen outside");
   add_rays(options, volume);
-  options
-      .add("--gpu-memory", volume.gpu_memory,
-           "memory of the graphics card that voxels may take: a volume that needs more is stored in bricks, "
-           "of "
-           "which those are held that the view looks up and that show something, at the finest of its means "
-           "of 2^n voxels at which they fit; in the window they come bit by bit, lenses first; default: all "
-           "of it",
-           "MB", kGroup)
-      ->check(CLI::Range(0.001, 1e9));
+  add_storage(options, volume);
+}
+
+void add_flow_volume(SceneOptions& options, VolumeOptions& volume) {
+  options.add("--volume", volume.scalar,
+              "draw a scalar of the flow as a volume around the lines: speed, divergence, vorticity, q, "
+              "lambda2, or a "
+              "scalar of the file; more of them behind commas are there for lenses, up to four",
+              "NAME,...", kGroup);
+  options.add(
+      "--resample", volume.resample,
+      "take it at N points along the longest edge of the data, or so many an axis, and say how far that is "
+      "from it; grids that are no images, and formulas, are drawn in no other way",
+      "N|N,N,N", kGroup);
+  add_volume(options, volume);
 }
 
 void add_tensor_volume(SceneOptions& options, TensorOptions& tensors, VolumeOptions& volume) {
@@ -219,6 +237,9 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
                   "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, "
                   "q, lambda2, divergence, or an array of the file",
                   "NAME", kGroup);
+      add_flow_volume(options, bound.volume);
+      add_plane_images(options, bound.volume);
+      add_projection(options, bound.volume);
       return;
   }
 }

@@ -27,21 +27,8 @@ std::optional<FileField> file_field(const std::string& name) {
   return FileField{name.substr(0, colon), name.substr(colon + 1)};
 }
 
-void check_name(const Input& input, const std::string& name) {
-  if (input.names_field(name) || file_field(name)) return;
-  std::string known;
-  for (const std::string& field : input.fields()) known += (known.empty() ? "" : ", ") + field;
-  throw usage_error("field '" + name + "' is no scalar of " + input.title() +
-                    " and no file; known: " + known);
-}
-
 std::shared_ptr<const VolumeImage> load_named(Input& input, const std::string& name, Progress* progress) {
-  if (!input.names_field(name)) {
-    const FileField from = *file_field(name);
-    Input other =
-        Input::open({.files = {from.file}, .field = from.scalar, .kind = FieldKind::kScalar}, progress);
-    return load_volume(other, progress);
-  }
+  if (!input.names_field(name)) return load_file_field(name, progress);
   const std::string shown = input.spec().field;
   try {
     input.set_field(name);
@@ -56,21 +43,47 @@ std::shared_ptr<const VolumeImage> load_named(Input& input, const std::string& n
 
 }  // namespace
 
-std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options) {
+void check_file_field(const std::string& name, const std::string& option,
+                      const std::vector<std::string>& known, const std::string& input) {
+  if (file_field(name)) return;
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  throw usage_error(option + " '" + name + "' is no scalar of " + input + " and no file; known: " + list);
+}
+
+std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress) {
+  const std::optional<FileField> from = file_field(name);
+  if (!from) throw input_error({name, "", "no such file", "a volume", ""});
+  Input input =
+      Input::open({.files = {from->file}, .field = from->scalar, .kind = FieldKind::kScalar}, progress);
+  return load_volume(input, progress);
+}
+
+std::vector<std::string> names_beside(const std::vector<std::string>& shown,
+                                      const std::vector<std::string>& beside, const VolumeOptions& options,
+                                      const std::function<void(const std::string&)>& check) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (name.empty() || name == input.spec().field || name == input.field_label()) return;
+    if (name.empty() || std::find(shown.begin(), shown.end(), name) != shown.end()) return;
     if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    check_name(input, name);
+    check(name);
     names.push_back(name);
   };
-  for (const std::string& name : input.spec().beside) add(name);
+  for (const std::string& name : beside) add(name);
   for (const std::string& text : options.lenses) add(parse_lens(text).field);
   if (names.size() >= kMostFields) {
     throw usage_error(std::to_string(names.size() + 1) + " fields are named; at most " +
                       std::to_string(kMostFields) + " are possible");
   }
   return names;
+}
+
+std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options) {
+  return names_beside({input.spec().field, input.field_label()}, input.spec().beside, options,
+                      [&input](const std::string& name) {
+                        if (!input.names_field(name))
+                          check_file_field(name, "field", input.fields(), input.title());
+                      });
 }
 
 std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options, Progress* progress) {

@@ -5,6 +5,8 @@
 /// scalar than the likeliest one of that file. `--field A,B` and `,field=B` of a lens name them.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,20 @@ namespace palpate {
 /// @throws Error (usage) for a name that is neither a scalar of the input nor a file, and for more than a
 /// picture can have.
 [[nodiscard]] std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options);
+/// The same of another choice of scalars.
+/// @param shown names of what is shown around lenses. @param beside those asked for, but for lenses.
+/// @param check refuses a name that means nothing.
+[[nodiscard]] std::vector<std::string> names_beside(const std::vector<std::string>& shown,
+                                                    const std::vector<std::string>& beside,
+                                                    const VolumeOptions& options,
+                                                    const std::function<void(const std::string&)>& check);
+
+/// Refuses a `name` that is no file, either. @param option that has it. @param known names that would do.
+/// @throws Error (usage).
+void check_file_field(const std::string& name, const std::string& option,
+                      const std::vector<std::string>& known, const std::string& input);
+/// The voxels that FILE or FILE:NAME means. @throws Error, Cancelled.
+[[nodiscard]] std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress);
 
 /// Reads their voxels. @throws Error as names_beside() and of the files; Cancelled.
 [[nodiscard]] std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options,

@@ -185,22 +185,12 @@ ImageSpace space_of(const Input& input) {
   return file != nullptr && file->anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
 }
 
-SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Options& options,
-                            double aspect) {
+Projection projection_of(const VolumeOptions& options) {
+  return options.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
+}
+
+VolumeView make_volume_view(const TangibleVolume& shown, const Options& options) {
   const std::shared_ptr<const VolumeImage>& image = shown.image;
-  SceneView view;
-  view.bounds = image->bounds();
-  view.outline = image_outline(image->origin, image->axes, image->lower(), image->upper());
-  view.title = input.title();
-  const FileInfo* file = input.file();
-  view.anatomical = file != nullptr && file->anatomical;
-  view.volume_label = input.field_label();
-  view.subtitle = view.volume_label + ", " + std::to_string(image->points.x) + " x " +
-                  std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
-  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  view.camera = camera_of(
-      options.view, view.bounds, aspect,
-      options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective);
   VolumeView volume;
   volume.image = image;
   volume.fields = shown.beside;
@@ -222,7 +212,24 @@ SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, con
   if (asked && !volume.planes.window && image->lowest <= image->highest)
     complete_window(volume.planes, options.volume,
                     histogram_of(*image, image->lowest, options.common.threads));
-  view.volume = std::move(volume);
+  return volume;
+}
+
+SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Options& options,
+                            double aspect) {
+  const std::shared_ptr<const VolumeImage>& image = shown.image;
+  SceneView view;
+  view.bounds = image->bounds();
+  view.outline = image_outline(image->origin, image->axes, image->lower(), image->upper());
+  view.title = input.title();
+  const FileInfo* file = input.file();
+  view.anatomical = file != nullptr && file->anatomical;
+  view.volume_label = input.field_label();
+  view.subtitle = view.volume_label + ", " + std::to_string(image->points.x) + " x " +
+                  std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  view.volume = make_volume_view(shown, options);
   return view;
 }
 

@@ -66,6 +66,13 @@ struct TangibleVolume {
 /// @throws Error, Cancelled.
 [[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);
 
+/// `shown` as the options have it drawn: transfer functions, lenses, cuts, rays.
+/// @throws Error (usage), (bad input) as take_parts() and volume_transfer_of().
+[[nodiscard]] VolumeView make_volume_view(const TangibleVolume& shown, const Options& options);
+
+/// How the options project.
+[[nodiscard]] Projection projection_of(const VolumeOptions& options);
+
 /// A scene of `volume` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_volume_scene(const Input& input, const TangibleVolume& volume,

@@ -134,8 +134,9 @@ class ExplorerWindow {
   bool handle_region(const InputEvent& event, const PictureArea& area);
   bool handle_plane_image(const InputEvent& event, const PictureArea& area);
   bool handle_lens(const InputEvent& event, const PictureArea& area);
-  /// Whether the volume is what is looked at, and may be cropped: that of tensors is made of them.
-  [[nodiscard]] bool has_region() const { return view_.volume && !view_.tensors; }
+  /// Whether a volume is all that is looked at, and may be cropped: that of tensors is made of them, that of
+  /// a flow has lines in it.
+  [[nodiscard]] bool has_region() const { return view_.volume && scene_ && scene_->is_volume_alone(); }
   void obey(const PanelActions& actions);
   void run_command(Command command);
   void run_lens(Command command);

@@ -83,7 +83,8 @@ void draw_line_look(LineStyle& style) {
 
 void draw_look(SceneView& view, PanelActions& actions) {
   section("LOOK");
-  if (!view.volume && !view.tensors && !view.tracts) draw_line_look(view.style);
+  const bool lines = view.lines && !view.lines->empty();
+  if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_look(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
@@ -160,7 +161,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
     } else if (view.tracts) {
       section("TRACTS");
       draw_tract_look(*view.tracts);
-    } else if (state.scene->volume && view.volume) {
+    } else if (state.scene->is_volume_alone() && view.volume) {
       draw_volume(state, *state.scene, *view.volume, actions);
     } else {
       if (state.scene->info->layers) {
@@ -169,11 +170,14 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
         draw_lines(state, *state.scene);
       }
       draw_color(state, *state.scene, view);
+      if (!state.scene->info->volumes.empty()) draw_flow_volume(state, *state.scene, view.volume, actions);
     }
     draw_look(view, actions);
-    for (const std::string& note : state.scene->notes) {
-      ImGui::Spacing();
-      ImGui::TextWrapped("%s", note.c_str());
+    for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
+      for (const std::string& note : *notes) {
+        ImGui::Spacing();
+        ImGui::TextWrapped("%s", note.c_str());
+      }
     }
   }
   ImGui::Spacing();

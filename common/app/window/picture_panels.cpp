@@ -23,7 +23,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string status_text(const SceneState& scene) {
-  if (scene.volume && !scene.tensors) {
+  if (scene.is_volume_alone()) {
     const VolumeImage& image = *scene.volume->image;
     return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
            short_number(image.highest) + "   loaded in " + seconds_text(scene.seconds_load);
@@ -187,7 +187,7 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
 
 std::string size_text(const SceneState& scene) {
   if (scene.tracts && !scene.tensors) return counted(scene.tracts->bundle->order.size(), "tract");
-  if (!scene.volume && !scene.tensors) return counted(scene.lines->size(), "line");
+  if (!scene.tensors && !scene.is_volume_alone()) return counted(scene.lines->size(), "line");
   const Index3& n = scene.volume ? scene.volume->image->points : scene.tensors->image->points;
   return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";
 }

@@ -16,7 +16,7 @@ namespace {
 void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   const std::optional<VolumeView> before = std::exchange(view.volume, scene.volume);
   view.anatomical = scene.info->anatomical;
-  view.volume_label = scene.tensors ? "FA" : scene.settings.field;
+  view.volume_label = scene.volume_label;
   if (!view.volume || !before || new_input) return;
   view.volume->shading = before->shading;
   view.volume->samples_per_voxel = before->samples_per_voxel;

@@ -53,8 +53,12 @@ struct SceneSettings {
   double layer = 0.5;       ///< of a heart: the depth that is shown
   double contours = 0.0;    ///< of a heart: distance of lines of equal value on the layer; 0: none
   std::string lens_array;   ///< of a heart: what a lens shows in place of color_array; empty: there is none
-  std::string transfer;     ///< of a volume, as --transfer-function; empty: from the histogram
-  std::string focus;        ///< of lenses, as --focus-tf; empty: the model's own
+  /// Of a flow: scalars that are a volume around the lines, as --volume; the first one is seen around lenses,
+  /// none: no volume.
+  std::vector<std::string> volumes;
+  std::string resample;  ///< of those, as --resample; empty: at the points of an image
+  std::string transfer;  ///< of a volume, as --transfer-function; empty: from the histogram
+  std::string focus;     ///< of lenses, as --focus-tf; empty: the model's own
 
   bool operator==(const SceneSettings&) const = default;
 };
@@ -70,6 +74,8 @@ struct SceneInfo {
   std::vector<double> times;              ///< empty for a single state
   std::optional<ValueRange> layers;       ///< depths that a heart's wall has
   std::vector<std::string> plotted;       ///< scalars that can be plotted over time at the probe
+  std::vector<std::string> volumes;       ///< scalars of a flow that can be drawn as a volume
+  bool resampled = false;                 ///< these can be only where they are resampled
   InputSpec input;                        ///< to read them from; meaningless where there are none
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
@@ -90,11 +96,15 @@ struct SceneState {
   std::vector<SurfaceView> surfaces;               ///< drawn with the lines
   std::optional<ColorLens> color_lens;             ///< where the settings want one; its ball is the first one
   std::optional<LineStyle> style;                  ///< of the lines at the start; none: the window's
-  std::optional<VolumeView> volume;                ///< in place of lines
+  std::optional<VolumeView> volume;                ///< in place of lines, or of a flow around them
+  std::string volume_label;                        ///< what its values are
+  std::vector<std::string> volume_notes;           ///< what resampling it cost, one line each
   std::optional<TensorView> tensors;               ///< likewise, also with a volume
   std::optional<TractView> tracts;                 ///< through them
   /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
   std::vector<Lens> looks;
+  /// Whether a volume of scalars is all that there is.
+  [[nodiscard]] bool is_volume_alone() const { return volume && !tensors && !probed; }
   /// The one of a field that has none: as around lenses.
   [[nodiscard]] Lens look(std::size_t field) const { return field < looks.size() ? looks[field] : Lens(); }
   std::array<std::size_t, kEndCount> ends{};

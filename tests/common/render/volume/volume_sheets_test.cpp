@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/scalar_choice.h"
 #include "common/field/grid/sparse/sparse_builder.h"
+#include "common/field/scalar_choice.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
 #include "common/render/volume/value_gradient.h"
@@ -266,7 +266,8 @@ SceneView scene_of(const Subject& subject, const std::string& title) {
 }
 
 void put(const Image& tile, std::size_t index, Image& sheet) {
-  const auto left = static_cast<int>(index % kColumns) * kTile, top = static_cast<int>(index / kColumns) * kTile;
+  const auto left = static_cast<int>(index % kColumns) * kTile,
+             top = static_cast<int>(index / kColumns) * kTile;
   for (int y = 0; y < kTile; ++y) {
     std::copy_n(tile.rgba.begin() + 4 * static_cast<std::ptrdiff_t>(y) * kTile, 4 * kTile,
                 sheet.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(top + y) * sheet.width + left));
@@ -280,7 +281,8 @@ class VolumeSheets : public testing::Test {
     const std::vector<Tile> all = tiles();
     const auto rows = static_cast<int>((all.size() + kColumns - 1) / kColumns);
     Image sheet{.width = kColumns * kTile, .height = rows * kTile, .rgba = {}};
-    sheet.rgba.resize(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
+    sheet.rgba.resize(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height),
+                      255);
     for (std::size_t i = 0; i < all.size(); ++i) {
       SceneView view = scene_of(subject, all[i].name);
       all[i].show(view, subject);
@@ -357,9 +359,8 @@ TEST_F(VolumeSheets, Tooth) {
 TEST_F(VolumeSheets, Head) {
   PALPATE_NEED_DATA(file, "grid/head-mr/avg152T1_RL_nifti.nii.gz");
   Subject subject = read(file);
-  subject.context = ColorTransfer({{25.0, {0.8F, 0.5F, 0.4F}, 0.0},
-                                   {60.0, {0.9F, 0.7F, 0.6F}, 0.05},
-                                   {255.0, {1.0F, 0.9F, 0.8F}, 0.2}});
+  subject.context = ColorTransfer(
+      {{25.0, {0.8F, 0.5F, 0.4F}, 0.0}, {60.0, {0.9F, 0.7F, 0.6F}, 0.05}, {255.0, {1.0F, 0.9F, 0.8F}, 0.2}});
   subject.focus = ColorTransfer({{110.0, {0.4F, 0.4F, 0.9F}, 0.0},
                                  {150.0, {0.5F, 0.8F, 0.9F}, 0.15},
                                  {220.0, {1.0F, 1.0F, 0.9F}, 0.6}});
@@ -371,9 +372,8 @@ TEST_F(VolumeSheets, Head) {
 TEST_F(VolumeSheets, IronProtein) {
   PALPATE_NEED_DATA(file, "grid/ironprot/ironProt.vtk");
   Subject subject = read(file);
-  subject.context = ColorTransfer({{50.0, {0.3F, 0.4F, 0.9F}, 0.0},
-                                   {110.0, {0.4F, 0.7F, 0.9F}, 0.1},
-                                   {200.0, {1.0F, 0.8F, 0.4F}, 0.5}});
+  subject.context = ColorTransfer(
+      {{50.0, {0.3F, 0.4F, 0.9F}, 0.0}, {110.0, {0.4F, 0.7F, 0.9F}, 0.1}, {200.0, {1.0F, 0.8F, 0.4F}, 0.5}});
   subject.focus = ColorTransfer({{130.0, {0.9F, 0.3F, 0.2F}, 0.0}, {200.0, {1.0F, 0.6F, 0.3F}, 0.6}});
   subject.background = 50.0;
   subject.at = {0.0, -0.2, 0.1};
