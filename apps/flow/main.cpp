@@ -41,6 +41,11 @@ int main(int argc, char** argv) {
                 "a picture, with or without a display"},
                {"flow render --example tornado --camera 60,30,0,1.2 --color time --out tornado.png",
                 "from another side, coloured by time"},
+               {"flow render carotid.vtk --volume scalars --seeds speed:100 --out both.png",
+                "lines in a scalar of the same image, drawn as a volume"},
+               {"flow render bluntfinxyz.bin --solution bluntfinq.bin --volume Density --resample 160 --lens "
+                "sphere:0,0.5,2.6,1.5 --out fin.png",
+                "other grids are resampled, and the error is told; lenses as in grid"},
                {"flow render carotid.vtk --path path.csv --out followed.png",
                 "with a hand on that path: the line that holds it, stream balls, the path by force"}}),
           report_verb({{"flow report carotid.vtk --out report", "then open report/index.html"},

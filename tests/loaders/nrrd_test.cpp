@@ -1,4 +1,6 @@
 // Small NRRD files written by hand, read through the helper program.
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -37,24 +39,6 @@ std::vector<DataSet> read_all(const std::filesystem::path& file) {
   return source.read(names);
 }
 
-TEST(Nrrd, RawAsciiAndDetachedFilesGiveTheSameValues) {
-  const test::TempFolder folder;
-  std::string text;
-  for (int i = 0; i < 24; ++i) text += std::to_string(i) + "\n";
-  folder.write("values.raw", raw(counting(24)));
-  const std::vector<std::filesystem::path> files{
-      folder.write("raw.nrrd", kScalarHead + "encoding: raw\n\n" + raw(counting(24))),
-      folder.write("text.nrrd", kScalarHead + "encoding: ascii\n\n" + text),
-      folder.write("detached.nhdr", kScalarHead + "encoding: raw\ndata file: values.raw\n")};
-  for (const auto& file : files) {
-    const auto blocks = read_all(file);
-    ASSERT_EQ(blocks.size(), 1U) << file;
-    EXPECT_EQ(std::get<UniformTopology>(blocks[0].topology).points, Index3(2, 3, 4));
-    ASSERT_EQ(blocks[0].arrays.size(), 1U);
-    for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(blocks[0].arrays[0].at(p), static_cast<double>(p)) << file;
-  }
-}
-
 std::string gzip(const std::string& content) {
   const test::TempFolder folder;
   const auto file = folder.path("packed.gz");
@@ -62,6 +46,53 @@ std::string gzip(const std::string& content) {
   gzwrite(gz, content.data(), static_cast<unsigned>(content.size()));
   gzclose(gz);
   return test::read_file(file);
+}
+
+// Of floats in the other byte order.
+std::string turned(std::string bytes) {
+  for (std::size_t i = 0; i + 3 < bytes.size(); i += 4)
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+  return bytes;
+}
+
+TEST(Nrrd, FilesInOneInSeveralPackedAndTurnedGiveTheSameValues) {
+  const test::TempFolder folder;
+  std::string text;
+  for (int i = 0; i < 24; ++i) text += std::to_string(i) + "\n";
+  const std::string values = raw(counting(24));
+  const std::string big = "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 3 4\nendian: big\n";
+  folder.write("values.raw", values);
+  folder.write("head_and_values.raw", "12345678" + values);
+  for (int slice = 0; slice < 4; ++slice) {
+    const std::string part = values.substr(static_cast<std::size_t>(slice) * 24, 24);
+    folder.write("slice_" + std::to_string(slice + 1) + ".raw", part);
+    folder.write("turned_" + std::to_string(slice + 1) + ".gz", gzip(turned(part)));
+  }
+  const std::vector<std::filesystem::path> files{
+      folder.write("raw.nrrd", kScalarHead + "encoding: raw\n\n" + values),
+      folder.write("big.nrrd", big + "encoding: raw\n\n" + turned(values)),
+      folder.write("packed.nrrd", big + "encoding: gzip\n\n" + gzip(turned(values))),
+      folder.write("text.nrrd", kScalarHead + "encoding: ascii\n\n" + text),
+      folder.write("detached.nhdr", kScalarHead + "encoding: raw\ndata file: values.raw\n"),
+      folder.write("skip.nhdr",
+                   kScalarHead + "encoding: raw\nbyte skip: 8\ndata file: head_and_values.raw\n"),
+      folder.write("numbered.nhdr", kScalarHead + "encoding: raw\ndata file: slice_%d.raw 1 4 1\n"),
+      folder.write("numbered_packed.nhdr", big + "encoding: gzip\ndata file: turned_%d.gz 1 4 1\n"),
+      folder.write("list.nhdr", kScalarHead + "encoding: raw\ndata file: LIST\nslice_1.raw\nslice_2.raw\n"
+                                              "slice_3.raw\nslice_4.raw\n")};
+  for (const auto& file : files) {
+    const auto blocks = read_all(file);
+    ASSERT_EQ(blocks.size(), 1U) << file;
+    EXPECT_EQ(std::get<UniformTopology>(blocks[0].topology).points, Index3(2, 3, 4));
+    ASSERT_EQ(blocks[0].arrays.size(), 1U);
+    for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(blocks[0].arrays[0].at(p), static_cast<double>(p)) << file;
+  }
+  for (const char* range : {"1 3 1", "1 5 1"}) {
+    const auto file =
+        folder.write("other.nhdr", kScalarHead + "encoding: raw\ndata file: slice_%d.raw " + range + "\n");
+    EXPECT_THROW((void)read_all(file), Error) << range;
+  }
 }
 
 TEST(Nrrd, SaysWhatItsGzipDataHoldsBeyondTheHeader) {

@@ -126,7 +126,7 @@ void draw_volume_look(PanelState& state, const SceneState& scene, const std::str
     section("ON PLANES");
     edit_plane_images(volume, histogram);
   }
-  if (state.region != nullptr) {
+  if (state.region != nullptr && scene.is_volume_alone()) {
     section("REGION");
     actions.region = edit_region(*state.region, *volume.image);
   }

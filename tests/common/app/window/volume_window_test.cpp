@@ -60,6 +60,7 @@ class VolumeModel : public WindowModel {
     scene.volume =
         VolumeView{.image = image(),
                    .transfer = make_color_transfer(ColorPreset::kDensity, image()->lowest, image()->highest)};
+    scene.volume_label = settings.field;
     return scene;
   }
 };

@@ -42,6 +42,28 @@ TEST(LensPicture, AgreesWithTheReferenceForEveryShape) {
   }
 }
 
+// Every shape beside the volume, around all of it, and of next to no size, as rays see it that graze the
+// faces of the volume.
+TEST(LensPicture, AgreesWithTheReferenceForEveryShapeOfAnySizeAtGrazingViews) {
+  constexpr Agreement kSmall{.size = 48};
+  VolumePicture picture(kSmall.size, kSmall.size);
+  for (const auto& [name, lens] : lenses()) {
+    const bool sized = name != "half-space";
+    const std::vector<std::pair<std::string, ConvexShape>> shapes{
+        {"as it is", lens.shape},
+        {"beside the volume", moved(lens.shape, {sized ? 4.0 : 40.0, 0.5, 0.0})},
+        {"around it", sized ? scaled(lens.shape, 12.0) : moved(lens.shape, {-40.0, 0.0, 0.0})},
+        {"of no size", sized ? scaled(lens.shape, 1e-12) : lens.shape}};
+    for (const auto& [size, shape] : shapes) {
+      VolumeView view = plain_view();
+      view.lenses = {lens};
+      view.lenses[0].shape = shape;
+      expect_agreement(picture, view, camera_of(view, {.azimuth = 0.0, .elevation = 0.5}), name + " " + size,
+                       kSmall);
+    }
+  }
+}
+
 TEST(LensPicture, AgreesWithTheReferenceOnTheScreen) {
   VolumePicture picture(kSize, kSize);
   VolumeView view = plain_view();

@@ -1,0 +1,131 @@
+// What the window of a flow is given: a scalar as a volume around lines that stay, and what a session keeps.
+#include "apps/flow/flow_model.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/scene/session.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+// Points of 6 x 5 x 4, shear along x; `mass` of whole numbers, `heat` of cells.
+std::string image_file() {
+  std::ostringstream text;
+  text << "# vtk DataFile Version 3.0\nflow\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 6 5 4\n"
+          "ORIGIN 1 2 3\nSPACING 0.5 0.5 1\nPOINT_DATA 120\nVECTORS velocity float\n";
+  for (int i = 0; i < 120; ++i) text << 1.0 + 0.5 * (i / 30) << " 0 0\n";
+  text << "SCALARS mass unsigned_char 1\nLOOKUP_TABLE default\n";
+  for (int i = 0; i < 120; ++i) text << 2 * i << '\n';
+  text << "CELL_DATA 60\nSCALARS heat float 1\nLOOKUP_TABLE default\n";
+  for (int i = 0; i < 60; ++i) text << 0.1 * i << '\n';
+  return text.str();
+}
+
+Options with_volume(const std::string& volume) {
+  Options options;
+  options.tracing.seeds = "grid:2,2,2";
+  options.volume.scalar = volume;
+  return options;
+}
+
+bool has_option(const Session& session, const std::string& name, const std::string& value) {
+  return std::find(session.options.begin(), session.options.end(), std::pair(name, value)) !=
+         session.options.end();
+}
+
+TEST(FlowModel, DrawsScalarsOfAnImageFromItsOwnPoints) {
+  const TempFolder folder;
+  Options options = with_volume("mass,speed,heat");
+  options.input.files = {folder.write("flow.vtk", image_file())};
+  FlowModel model(options, "flow");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  EXPECT_FALSE(state.info->resampled);
+  EXPECT_EQ(state.lines->size(), 16U);
+  EXPECT_FALSE(state.is_volume_alone());
+  ASSERT_TRUE(state.volume);
+  EXPECT_EQ(state.volume_label, "mass");
+  EXPECT_EQ(state.volume->image->type, ScalarType::kUint8) << "the voxels of the file";
+  EXPECT_EQ(state.volume->image->points, Index3(6, 5, 4));
+  ASSERT_EQ(state.volume->fields.size(), 2U);
+  const VolumeImage& speed = *state.volume->fields[0].image;
+  EXPECT_EQ(speed.points, Index3(6, 5, 4));
+  EXPECT_NEAR(speed.value_at({1.0, 2.0, 3.0}), 1.0, 1e-6);  // a corner: inside, in spite of rounding
+  EXPECT_NEAR(speed.value_at({3.5, 4.0, 6.0}), 2.5, 1e-6);
+  EXPECT_TRUE(speed.all_finite || std::isfinite(speed.value(119)));
+  EXPECT_EQ(state.volume->fields[1].image->points, Index3(5, 4, 3)) << "cells stand at their middles";
+  ASSERT_EQ(state.volume_notes.size(), 1U) << "the speed alone was taken, at no cost";
+  EXPECT_NE(state.volume_notes[0].find("differs from the field by"), std::string::npos);
+  EXPECT_EQ(state.volume_notes[0].find("outside"), std::string::npos) << state.volume_notes[0];
+}
+
+TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
+  Options options = with_volume("speed,vorticity");
+  options.input.example = "abc";
+  options.volume.resample = "20";
+  FlowModel model(options, "flow");
+  Progress progress;
+  const SceneState first = model.start(progress);
+  EXPECT_TRUE(first.info->resampled);
+  ASSERT_TRUE(first.volume);
+  EXPECT_EQ(first.volume_notes.size(), 2U);
+  EXPECT_EQ(first.looks.size(), 2U);
+
+  SceneSettings settings = first.settings;
+  settings.transfer = "mr";
+  const SceneState recolored = model.update(settings, progress);
+  EXPECT_EQ(recolored.volume->image, first.volume->image);
+  EXPECT_NE(recolored.volume->transfer, first.volume->transfer);
+  EXPECT_EQ(recolored.volume_notes, first.volume_notes);
+
+  settings.volumes = {"q"};
+  settings.resample = "9,8,7";
+  const SceneState other = model.update(settings, progress);
+  EXPECT_EQ(other.lines, first.lines);
+  EXPECT_EQ(other.volume->image->points, Index3(9, 8, 7));
+  EXPECT_EQ(other.volume_label, "q");
+
+  settings.resample.clear();
+  EXPECT_THROW((void)model.update(settings, progress), Error) << "a formula is no image";
+  settings.volumes.clear();
+  const SceneState none = model.update(settings, progress);
+  EXPECT_FALSE(none.volume);
+  EXPECT_TRUE(none.volume_notes.empty());
+  EXPECT_EQ(none.lines, first.lines);
+}
+
+TEST(FlowModel, KeepsTheVolumeInASession) {
+  const TempFolder folder;
+  Options options = with_volume("speed,mass");
+  options.input.files = {folder.write("flow.vtk", image_file())};
+  options.volume.resample = "7";
+  options.volume.transfer = "ct";
+  options.volume.lenses = {"sphere:2,3,4,0.5,field=mass"};
+  options.volume.clips = {"1,0,0,3"};
+  options.volume.projection = "orthographic";
+  FlowModel model(options, "flow");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  SceneView view;
+  view.volume = state.volume;
+  view.bounds = state.info->bounds;
+  view.camera = make_camera(view.bounds, {}, 1.0, Projection::kOrthographic);
+  const Session session = load_session(model.save_session(state.settings, view, {}));
+  EXPECT_TRUE(has_option(session, "volume", "speed,mass"));
+  EXPECT_TRUE(has_option(session, "resample", "7"));
+  EXPECT_TRUE(has_option(session, "transfer-function", "ct"));
+  EXPECT_TRUE(has_option(session, "projection", "orthographic"));
+  EXPECT_TRUE(has_option(session, "lens", "halfspace:1,0,0,3,cut;sphere:2,3,4,0.5,field=mass"))
+      << "as the command line takes it";
+}
+
+}  // namespace
+}  // namespace palpate::test
