@@ -87,6 +87,9 @@ TEST_F(ArmAtTheWorkbench, IsCheckedThroughALibraryThatIsNamed) {
 }
 
 TEST_F(ArmAtTheWorkbench, IsReadOverTheNetwork) {
+  folder_.write("bench.toml",
+                "[tracker]\ndegree = 0\ncenter = [0, 0, 0]\nscale = 1\nposition = [[0.01, 0, 0]]\n"
+                "orientation = [[0, 0, 0]]\n");
   VrpnServer vrpn;
   HaplyEmulator haply;
   std::mutex lock;
@@ -100,11 +103,18 @@ TEST_F(ArmAtTheWorkbench, IsReadOverTheNetwork) {
   for (const std::string& device :
        {"vrpn:Phantom0@127.0.0.1:" + std::to_string(vrpn.port()),
         "inverse3:host=127.0.0.1,spelling=vector,port=" + std::to_string(web.port())}) {
-    const Json seen = json({"monitor", "--device", device, "--seconds", "2", "--rate", "20"});
+    const Json seen =
+        json({"monitor", "--device", device, "--seconds", "2", "--rate", "20", "--workbench", "bench.toml"});
     EXPECT_EQ(seen["phase"], "ready") << seen["advice"];
     ASSERT_GT(seen["samples"].size(), 3U) << device;
     EXPECT_NE(seen["samples"].front()["position_m"], seen["samples"].back()["position_m"])
         << "the hand wanders";
+    if (!device.starts_with("vrpn")) continue;
+    // A tracker of the server is one of a workbench, too: corrected, for hands and for a probe that it moves.
+    const Json &sample = seen["samples"].back(), &station = sample["stations"][0];
+    const double reported = station["position_m"][0];
+    EXPECT_NEAR(station["corrected_position_m"][0].get<double>(), reported + 0.01, 1e-12);
+    EXPECT_NEAR(sample["position_m"][0].get<double>(), reported + 0.01, 1e-12);
   }
   const std::lock_guard guard(lock);
   EXPECT_GT(haply.understood, 10U);
