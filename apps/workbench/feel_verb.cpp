@@ -117,8 +117,9 @@ class StrokingHand final : public Device {
     if (began_ < 0.0) began_ = now;
     const double t = now - began_;
     const auto turn = [t](double period) { return 2.0 * std::numbers::pi * t / period; };
-    constexpr double kOut = 0.010, kIn = 0.006, kAlong = 0.012;  // [m]
-    const double height = 0.5 * (kOut - kIn) + 0.5 * (kOut + kIn) * std::cos(turn(1.5));
+    // Deep enough for a relaxed hand on an arm with friction, which stops short by some 8 mm.
+    constexpr double kOut = 0.012, kIn = 0.020, kAlong = 0.015;  // [m]
+    const double height = 0.5 * (kOut - kIn) + 0.5 * (kOut + kIn) * std::cos(turn(2.0));
     sample = {now, {kAlong * std::sin(turn(7.0)), kAlong * std::sin(turn(11.3)), surface_ + height}, 0};
     return true;
   }

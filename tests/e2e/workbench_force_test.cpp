@@ -46,6 +46,12 @@ TEST_F(WorkbenchForce, FeelsALiveArmWithReadOuts) {
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_NE(text.out.find(" mm in"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("new samples a second"), std::string::npos) << text.out;
+  // It begins in free air, strokes into the effect and out again.
+  const Json wall = json({"feel", "--device", "simulated:falcon", "--seconds", "2.5"});
+  const int contact = wall["steps_in_contact"], steps = wall["steps"];
+  EXPECT_GT(contact, 0);
+  EXPECT_LT(contact, steps * 4 / 5);
+  EXPECT_LT(wall["free_force_n"].get<double>(), 0.05);
   // A real driver's device, here on an emulated wire: homed, then felt.
   const Json falcon =
       json({"feel", "--device", "falcon_emulated:button=none", "--effect", "sphere", "--seconds", "3"});
