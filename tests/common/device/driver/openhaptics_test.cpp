@@ -233,7 +233,7 @@ TEST_F(HdLinkTest, NoticesAtOnceThatItIsUnpluggedOrHungAndComesBack) {
 
 // All that can go wrong, over and over, for as long as PALPATE_SOAK_SECONDS says [s of simulated time].
 TEST_F(HdLinkTest, BearsEveryFaultForLong) {
-  const double seconds = soak_seconds(kTwoHours);
+  const double seconds = soak_seconds(1200.0);
   Soak soak(12);
   std::uint64_t fresh = 0;
   while (clock_.now() < seconds && !HasFailure()) {
