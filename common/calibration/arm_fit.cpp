@@ -130,17 +130,16 @@ ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhCha
                                              : report.advice.front());
   if (!options.offsets_only) judge("full", free, best);
 
-  double squares = 0.0;
-  for (const double r : linear.residuals) squares += r * r;
-  const double sigma = std::sqrt(squares / static_cast<double>(linear.rows - linear.columns));
+  const std::vector<double> residuals = errors_of(best.estimate, rows);
+  constexpr double kNoOutlier = 1e-3;  // [m], what placing a tip by hand may be off
+  report.outliers = outlying(residuals, kNoOutlier);
+  const double sigma =
+      residual_deviation(residuals, 3, linear.columns, options.loss != Loss::kSquare, kNoOutlier);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const bool length = free[i].second == DhhQuantity::kD || free[i].second == DhhQuantity::kA;
     report.parameters.push_back({linear.names[i], best.problem.parameters[0].values[i],
                                  sigma * found.standard_deviations[i], length ? "m" : "rad"});
   }
-  const std::vector<double> residuals = errors_of(best.estimate, rows);
-  constexpr double kNoOutlier = 1e-3;  // [m], what placing a tip by hand may be off
-  report.outliers = outlying(residuals, kNoOutlier);
   report.seconds = watch.seconds();
   return out;
 }

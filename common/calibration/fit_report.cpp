@@ -1,5 +1,6 @@
 #include "common/calibration/fit_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
@@ -56,6 +57,18 @@ std::vector<std::size_t> outlying(std::span<const double> residuals, double floo
     if (residuals[i] > limit) rows.push_back(i + 1);
   }
   return rows;
+}
+
+double residual_deviation(std::span<const double> residuals, std::size_t axes, std::size_t unknowns,
+                          bool robust, double floor) {
+  std::vector<std::size_t> apart;
+  if (robust) apart = outlying(residuals, floor);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (!std::ranges::binary_search(apart, i + 1)) squares += residuals[i] * residuals[i];
+  }
+  const std::size_t measured = axes * (residuals.size() - apart.size());
+  return measured > unknowns ? std::sqrt(squares / static_cast<double>(measured - unknowns)) : NAN;
 }
 
 void require_identifiable(const Identifiability& found, const std::string& source,

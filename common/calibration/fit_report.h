@@ -73,6 +73,13 @@ struct FitReport {
 /// @param floor residuals below it are never outliers.
 [[nodiscard]] std::vector<std::size_t> outlying(std::span<const double> residuals, double floor);
 
+/// Standard deviation of a measurement's error along one axis, by the lengths of what the fit left of each.
+/// @param axes that each tells of  @param unknowns that were fitted  @param robust the loss was one that
+/// takes outlying() measurements for errors of another kind: they tell nothing of the others' noise.
+/// @return NaN where as much was fitted as was measured.
+[[nodiscard]] double residual_deviation(std::span<const double> residuals, std::size_t axes,
+                                        std::size_t unknowns, bool robust, double floor);
+
 /// Refuses measurements whose linearized problem is singular.
 /// @param source file; @param remedy what to measure next. @throws Error (bad input).
 void require_identifiable(const Identifiability& found, const std::string& source, const std::string& remedy);

@@ -1,5 +1,6 @@
 #include "common/calibration/sighting_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/clock.h"
@@ -9,14 +10,16 @@
 namespace palpate {
 namespace {
 
+constexpr double kNoOutlier = 1e-4;  // [m], what a tracker's noise may be
+
 ParameterBlock point_block(const std::string& name) {
   return {.values = {0.0, 0.0, 0.0}, .names = {name + ".x", name + ".y", name + ".z"}};
 }
 
 /// Minimizes, refuses what is singular, and reports parameters with deviations from the residuals.
-/// @return deviation of one residual component [m].
+/// @param axes that a measurement tells of.
 void finish(LeastSquaresProblem& problem, const PointFitOptions& options, const std::string& source,
-            const std::string& remedy, std::size_t used_dimensions, FitReport& report) {
+            const std::string& remedy, std::size_t axes, FitReport& report) {
   const LeastSquaresSummary summary =
       minimize(problem, {.loss = options.loss, .loss_scale = options.loss_scale});
   const Linearization linear = linearize(problem);
@@ -34,10 +37,11 @@ void finish(LeastSquaresProblem& problem, const PointFitOptions& options, const 
                        .remedy = remedy});
   describe(report, found);
   report.iterations += summary.iterations;
-  double squares = 0.0;
-  for (const double r : linear.residuals) squares += r * r;
-  const double freedom = static_cast<double>(used_dimensions) - static_cast<double>(linear.columns);
-  const double sigma = freedom > 0.0 ? std::sqrt(squares / freedom) : NAN;
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i + 2 < linear.residuals.size(); i += 3)
+    residuals.push_back(glm::length(vector(&linear.residuals[i])));
+  const double sigma =
+      residual_deviation(residuals, axes, linear.columns, options.loss != Loss::kSquare, kNoOutlier);
   std::size_t column = 0;
   for (const ParameterBlock& block : problem.parameters) {
     for (std::size_t i = 0; i < 3; ++i, ++column) {
@@ -96,7 +100,7 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
   require_rows(table.rows.size(), 4, table.source, "", remedy);
   PivotFit out;
   LeastSquaresProblem problem = pivot_problem(table.rows);
-  finish(problem, options, table.source, remedy, 3 * table.rows.size(), out.report);
+  finish(problem, options, table.source, remedy, 3, out.report);
   out.tip = vector(problem.parameters[0].values.data());
   out.pivot = vector(problem.parameters[1].values.data());
   FitReport& report = out.report;
@@ -114,7 +118,7 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
   std::vector<double> residuals;
   for (const PivotMeasurement& row : table.rows) residuals.push_back(error({out.tip, out.pivot}, row));
   report.errors.push_back(distance_row("fitted", false, residuals));
-  report.outliers = outlying(residuals, 1e-4);
+  report.outliers = outlying(residuals, kNoOutlier);
   if (table.rows.size() >= 2 * options.folds) {
     report.errors.push_back(
         distance_row("fitted", true,
@@ -134,9 +138,8 @@ PivotFit calibrate_pivot(const MeasurementTable<PivotMeasurement>& table, const 
 EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const PointFitOptions& options) {
   const Stopwatch watch;
   const std::string remedy =
-      "sight along lines that differ by 30 degrees and more as seen from the head: turn the head, not only "
-      "the "
-      "eyes";
+      "sight along lines that differ by 30 degrees and more as seen from the head: turn the head, not "
+      "only the eyes";
   EyeFit out;
   FitReport& report = out.report;
   report.kind = "eyes";
@@ -150,19 +153,25 @@ EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const 
   double worst = 0.0;
   for (const bool right : {false, true}) {
     std::vector<SightingMeasurement> rows;
-    for (const SightingMeasurement& row : table.rows) {
-      if (row.right == right) rows.push_back(row);
+    std::vector<std::size_t> numbers;  // of the table, from 1
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      if (table.rows[i].right != right) continue;
+      rows.push_back(table.rows[i]);
+      numbers.push_back(i + 1);
     }
     if (rows.empty()) continue;
     const std::string name = right ? "right" : "left";
     require_rows(rows.size(), 3, table.source, " of the " + name + " eye", remedy);
     LeastSquaresProblem problem = eye_problem(rows, name);
     // A sighting fixes two of three directions.
-    finish(problem, options, table.source, remedy, 2 * rows.size(), report);
+    finish(problem, options, table.source, remedy, 2, report);
     worst = std::max(worst, report.condition_number);
     const Vec3 eye = vector(problem.parameters[0].values.data());
     (right ? out.right : out.left) = eye;
-    for (const SightingMeasurement& row : rows) residuals.push_back(error(eye, row));
+    std::vector<double> left;
+    for (const SightingMeasurement& row : rows) left.push_back(error(eye, row));
+    for (const std::size_t row : outlying(left, kNoOutlier)) report.outliers.push_back(numbers[row - 1]);
+    residuals.insert(residuals.end(), left.begin(), left.end());
     if (rows.size() < 2 * options.folds) continue;
     const std::vector<double> part = left_out_errors(
         rows, options.folds,
@@ -175,6 +184,7 @@ EyeFit calibrate_eyes(const MeasurementTable<SightingMeasurement>& table, const 
     left_out.insert(left_out.end(), part.begin(), part.end());
   }
   report.condition_number = worst;
+  std::ranges::sort(report.outliers);
   report.seconds = watch.seconds();
   report.errors.push_back(distance_row("fitted", false, residuals));
   if (!left_out.empty()) report.errors.push_back(distance_row("fitted", true, left_out));

@@ -386,10 +386,11 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
     describe(report, found);
     require_identifiable(found, table.source, "spread the measurements more evenly through the volume");
     const TrackerCorrection alone{.position = polynomial.position, .orientation = polynomial.orientation};
-    double squares = 0.0;
-    for (const TrackerMeasurement& row : fit) squares += std::pow(left_by(alone, row).position, 2);
-    const double sigma =
-        std::sqrt(squares / (3.0 * static_cast<double>(fit.size() - polynomial.linearization.columns)));
+    std::vector<double> left;
+    for (const TrackerMeasurement& row : fit) left.push_back(left_by(alone, row).position);
+    // Each axis has a polynomial of its own.
+    const double sigma = residual_deviation(left, 3, 3 * polynomial.linearization.columns,
+                                            options.loss != Loss::kSquare, kNoOutlier);
     for (std::size_t j = 0; j < polynomial.linearization.columns; ++j) {
       for (int axis = 0; axis < 3; ++axis)
         report.parameters.push_back({std::string("p") + "xyz"[axis] + " " + polynomial.linearization.names[j],

@@ -54,6 +54,37 @@ TEST(ArmFit, FollowsTheReferenceFromNominalToFull) {
   }
 }
 
+// Nine points that a hand put wrong by some centimetres: a robust loss finds the arm as if they were not
+// there, names them, and does not take its uncertainty from them.
+TEST(ArmFit, RobustLossesFindTheArmDespitePointsThatWerePutWrong) {
+  const SyntheticArm arm = synthetic_arm(2);
+  MeasurementTable<ArmMeasurement> table{"made", synthetic_arm_measurements(arm, true, 2)};
+  const ArmFit clean = calibrate_arm(table, arm.nominal, {});
+  std::vector<std::size_t> wrong;
+  for (std::size_t i = 3; i < table.rows.size(); i += 6) {
+    table.rows[i].point += Vec3{0.04, i % 2 == 0 ? -0.03 : 0.03, 0.02};
+    wrong.push_back(i + 1);
+  }
+  ASSERT_EQ(wrong.size(), 9U);
+  const auto worst_of = [&](const ArmFit& fit) {
+    double worst = 0.0;
+    for (const ArmMeasurement& row : synthetic_arm_measurements(arm, true, 102))
+      worst = std::max(worst, glm::distance(fit.chain.forward(row.readings).translation,
+                                            arm.actual.forward(row.readings).translation));
+    return worst;
+  };
+  EXPECT_GT(worst_of(calibrate_arm(table, arm.nominal, {})), 5e-3);
+  for (const Loss loss : {Loss::kHuber, Loss::kCauchy}) {
+    const ArmFit robust = calibrate_arm(table, arm.nominal, {.loss = loss});
+    // Huber's pull never ends: it leaves a few tenths of a millimetre.
+    EXPECT_LT(worst_of(robust), loss == Loss::kHuber ? 3e-3 : 1.6e-3);
+    EXPECT_EQ(robust.report.outliers, wrong);
+    ASSERT_EQ(robust.report.parameters.size(), clean.report.parameters.size());
+    for (std::size_t p = 0; p < clean.report.parameters.size(); ++p)
+      EXPECT_LT(robust.report.parameters[p].deviation, 3.0 * clean.report.parameters[p].deviation);
+  }
+}
+
 // Two offsets about one axis, with nothing between them: only their sum moves the tip.
 TEST(ArmFit, RefusesParametersThatCannotBeToldApartAndNamesThem) {
   const SyntheticArm arm = synthetic_arm(1);

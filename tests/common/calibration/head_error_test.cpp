@@ -2,6 +2,7 @@
 
 #include "common/calibration/head_error.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -10,19 +11,32 @@
 namespace palpate::test {
 namespace {
 
-/// Where the line through a and b crosses the one through c and d: homogeneous coordinates, no shared
-/// formula.
-Vec2 crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const Vec3 x = glm::cross(glm::cross(Vec3(a, 1.0), Vec3(b, 1.0)), glm::cross(Vec3(c, 1.0), Vec3(d, 1.0)));
-  return Vec2(x) / x.z;
+/// Twice the digits would do; these have eleven bits more than the formulas, so that what is compared is
+/// their rounding and not that of the reference, which divides by the small angle between two rays.
+using Exact = glm::tvec2<long double>;
+using ExactEyes = std::array<Exact, 2>;
+
+/// Where the line through a and b crosses the one through c and d: by homogeneous coordinates, which share no
+/// formula with what is tested.
+Exact crossing(const Exact& a, const Exact& b, const Exact& c, const Exact& d) {
+  using Homogeneous = glm::tvec3<long double>;
+  const auto at = [](const Exact& x) { return Homogeneous(x, 1.0L); };
+  const Homogeneous x = glm::cross(glm::cross(at(a), at(b)), glm::cross(at(c), at(d)));
+  return Exact(x) / x.z;
 }
 
-Vec2 seen(const EyePair& actual, const EyePair& modelled, const Vec2& point) {
-  const Vec2 left{0.0}, right{1.0, 0.0};  // two points of the screen
-  const Vec2 g = crossing(modelled.left, point, left, right),
-             h = crossing(modelled.right, point, left, right);
-  return crossing(actual.left, g, actual.right, h);
+Exact seen(const ExactEyes& actual, const ExactEyes& modelled, const Vec2& point) {
+  const Exact left{0.0L}, right{1.0L, 0.0L}, e{point};  // two points of the screen
+  const Exact g = crossing(modelled[0], e, left, right), h = crossing(modelled[1], e, left, right);
+  return crossing(actual[0], g, actual[1], h);
 }
+
+ExactEyes exact(const EyePair& eyes) { return {Exact{eyes.left}, Exact{eyes.right}}; }
+
+/// F farther away than this is seen along rays that are all but parallel [m].
+constexpr double kRoom = 10.0;
+/// What is asserted of places in that room [m].
+constexpr double kRounding = 1e-12;
 
 class HeadError : public testing::Test {
  protected:
@@ -51,12 +65,12 @@ TEST_F(HeadError, PerceivedPointIsWhereTheSeenRaysCross) {
       const double x = within(-0.02, 0.02), z = within(-0.02, 0.02);
       *eye += Vec2{x, z};
     }
-    const Vec2 e = point(), expected = seen(actual, modelled, e);
-    // A ray of small angle between the lines of sight magnifies rounding.
-    if (glm::length(expected) > 10.0) continue;
+    const Vec2 e = point();
+    const Exact expected = seen(exact(actual), exact(modelled), e);
+    if (glm::length(expected) > kRoom) continue;
     const auto f = perceived_point(actual, modelled, e);
     ASSERT_TRUE(f);
-    EXPECT_LT(glm::distance(*f, expected), 1e-10);
+    EXPECT_LT(glm::distance(Exact{*f}, expected), kRounding);
   }
 }
 
@@ -65,8 +79,11 @@ TEST_F(HeadError, EffectOfAPositionErrorIsExact) {
     const EyePair actual = eyes();
     const double x = within(-0.05, 0.05), z = within(-0.05, 0.05);
     const Vec2 error{x, z}, e = point();
-    const Vec2 f = seen(actual, displaced(actual, error), e);
-    EXPECT_NEAR(glm::distance(f, e), position_error_effect(actual.left.y, e, error), 1e-12);
+    const Exact off{error};
+    const Exact f = seen(exact(actual), {Exact{actual.left} + off, Exact{actual.right} + off}, e);
+    constexpr double kFewUlp = 1e-15;  // [m] of some centimetres
+    EXPECT_NEAR(static_cast<double>(glm::distance(f, Exact{e})),
+                position_error_effect(actual.left.y, e, error), kFewUlp);
   }
 }
 
@@ -78,7 +95,8 @@ TEST_F(HeadError, EffectOfAPositionErrorIsWithinItsBound) {
     const EyePair actual = eyes();
     const double eye_z = actual.left.y, x = within(-0.1, 0.1), z = within(-1.0, 1.0) * (1.0 - kKappa) * eye_z;
     const Vec2 error{x, z}, e{within(-0.4, 0.4), within(-1.0, 1.0) * kLambda * eye_z};
-    const double ratio = glm::distance(seen(actual, displaced(actual, error), e), e) / glm::length(error);
+    const Exact f = seen(exact(actual), exact(displaced(actual, error)), e);
+    const double ratio = static_cast<double>(glm::distance(f, Exact{e})) / glm::length(error);
     EXPECT_LE(ratio, position_error_bound(kLambda, kKappa) + 1e-9);
     largest = std::max(largest, ratio);
   }
@@ -89,11 +107,13 @@ TEST_F(HeadError, EffectOfAnOrientationErrorIsExact) {
   for (int i = 0; i < kTimes; ++i) {
     const EyePair actual = eyes();
     const double e = within(-0.004, 0.004);
-    const Vec2 at = point(), f = seen(actual, turned(actual, e), at);
-    if (glm::length(f) > 2.0) continue;  // in the degenerate region in front of the screen rounding grows
+    const Vec2 at = point();
+    const Exact off{0.0L, static_cast<long double>(e)};
+    const Exact f = seen(exact(actual), {Exact{actual.left} - off, Exact{actual.right} + off}, at);
+    if (glm::length(f) > kRoom) continue;
     const Vec2 effect = orientation_error_effect(actual, at, e);
-    EXPECT_NEAR(std::abs(f.x - at.x), effect.x, 1e-12 * std::max(1.0, 1e3 * effect.x));
-    EXPECT_NEAR(std::abs(f.y - at.y), effect.y, 1e-12 * std::max(1.0, 1e3 * effect.y));
+    EXPECT_NEAR(static_cast<double>(std::abs(f.x - at.x)), effect.x, kRounding);
+    EXPECT_NEAR(static_cast<double>(std::abs(f.y - at.y)), effect.y, kRounding);
   }
 }
 

@@ -95,6 +95,63 @@ TEST(Coregistration, AgreesWithin1500Micrometres) {
   }
 }
 
+// Markers that a camera took for others, by centimetres: the motion is found as if they were not there, and
+// the rows are named.
+TEST(Apparatus, RobustLossesWithstandMarkersThatWereTakenForOthers) {
+  auto made = synthetic_apparatus(2, kNoise);
+  for (const std::size_t row : {3U, 11U}) {
+    for (std::size_t m = 0; m < kMaxMarkers; ++m) {
+      if (!made.rows[row].markers[m]) continue;
+      *made.rows[row].markers[m] += Vec3{0.03, -0.04, 0.05};
+      break;
+    }
+  }
+  const auto fit = [&](Loss loss) {
+    return calibrate_registration({"made", made.rows}, RegistrationKind::kApparatus,
+                                  {.noise = kNoise, .loss = loss, .folds = 1000});
+  };
+  const auto off = [&](const Registration& found) {
+    double worst = 0.0;
+    for (std::size_t m = 0; m < found.markers.size(); ++m)
+      worst = std::max(worst, glm::distance(found.markers[m], made.truth.markers[m]));
+    return worst;
+  };
+  const Registration plain = fit(Loss::kSquare);
+  EXPECT_GT(off(plain), 5e-3);
+  ASSERT_FALSE(plain.report.advice.empty());
+  EXPECT_NE(plain.report.advice[0].find("chi-square is too large"), std::string::npos);
+  for (const Loss loss : {Loss::kHuber, Loss::kCauchy}) {
+    const Registration robust = fit(loss);
+    EXPECT_LT(off(robust), 3e-3);
+    EXPECT_LT(angle_between(robust.instrument_from_pose.rotation, made.truth.instrument_from_pose.rotation),
+              0.01);
+    EXPECT_EQ(robust.report.outliers, (std::vector<std::size_t>{4, 12}));
+  }
+}
+
+TEST(Coregistration, RobustLossesWithstandASensorThatJumped) {
+  const RegistrationNoise noise{.pose_position = 0.4e-3, .pose_orientation = 1.5e-3, .marker = 0.5e-3};
+  auto made = synthetic_coregistration(3, noise);
+  for (const std::size_t row : {2U, 9U, 20U}) *made.rows[row].markers[0] += Vec3{-0.06, 0.03, 0.05};
+  const auto off = [&](Loss loss) {
+    const Registration found = calibrate_registration({"made", made.rows}, RegistrationKind::kCoregistration,
+                                                      {.noise = noise, .loss = loss, .folds = 1000});
+    if (loss != Loss::kSquare) {
+      EXPECT_EQ(found.report.outliers, (std::vector<std::size_t>{3, 10, 21}));
+    }
+    double worst = 0.0;
+    for (const double x : {-0.1, 0.3, 0.8}) {
+      const Vec3 p{x, 0.2, 0.1};
+      worst =
+          std::max(worst, glm::distance(found.instrument_from_pose * p, made.truth.instrument_from_pose * p));
+    }
+    return worst;
+  };
+  EXPECT_GT(off(Loss::kSquare), 4e-3);
+  EXPECT_LT(off(Loss::kHuber), 1.5e-3);
+  EXPECT_LT(off(Loss::kCauchy), 1.5e-3);
+}
+
 TEST(PoseFromMarkers, IsExactForAnyThreeAndRefusesALine) {
   std::mt19937_64 random{4};
   const auto made = synthetic_apparatus(3, {});

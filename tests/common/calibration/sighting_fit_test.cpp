@@ -77,6 +77,21 @@ TEST(Eyes, AreFoundToAMillimetreAndTheirSeparationWithThem) {
   }
 }
 
+TEST(Eyes, RobustLossFindsThemDespiteSlipsAndTheReportNamesTheRows) {
+  auto made = synthetic_sightings(4);
+  for (const std::size_t i : {5U, 20U}) made.rows[i].head.position += Vec3{0.05, -0.06, 0.0};
+  const EyeFit robust = calibrate_eyes({"made", made.rows}, {.loss = Loss::kCauchy});
+  const EyeFit plain = calibrate_eyes({"made", made.rows}, {});
+  ASSERT_TRUE(robust.left && robust.right && plain.left && plain.right);
+  const auto off = [&](const EyeFit& fit) {
+    return std::max(glm::distance(*fit.left, made.truth.left), glm::distance(*fit.right, made.truth.right));
+  };
+  EXPECT_LT(off(robust), 1.5e-3);
+  EXPECT_GT(off(plain), 3e-3);
+  EXPECT_EQ(robust.report.outliers, (std::vector<std::size_t>{6, 21}));
+  for (const FittedParameter& p : robust.report.parameters) EXPECT_LT(p.deviation, 1e-3);
+}
+
 // A head that does not turn sights along one line: how far back the eye lies stays open.
 TEST(Eyes, RefuseSightingsAlongOneLine) {
   auto made = synthetic_sightings(1);
