@@ -37,7 +37,7 @@ Calibrated tracker(const WorkbenchOptions& o) {
       table, {.method = o.method, .degree = o.degree, .loss = o.loss, .table_nodes = o.nodes});
   std::string text = fit.correction.spline.centers.empty() ? section_text(fit.correction) : "";
   std::vector<DistortionPicture> pictures;
-  if (!o.pictures.empty()) {
+  if (!o.pictures.empty() || !o.report.empty() || o.verb == "report") {
     // A table alone has no polynomial to follow.
     const bool fitted = fit.correction.position.degree >= 0;
     const TrackerCorrection smooth =
@@ -105,6 +105,22 @@ Calibrated calibrated(const WorkbenchOptions& o) {
   return registration(o);
 }
 
+std::vector<ReportSection> sections_of(const Calibrated& done, const WorkbenchContext& context,
+                                       std::vector<ReportPlot> drawn) {
+  std::vector<ReportSection> sections{calibration_section(done.report)};
+  if (done.pictures.empty()) return sections;
+  std::string trouble;
+  try {
+    if (drawn.empty()) drawn = drawn_pictures(done.pictures, context.command_line);
+  } catch (const Error& error) {
+    // A machine without OpenGL calibrates all the same.
+    if (error.code() != ExitCode::kWorkFailed) throw;
+    trouble = error.what();
+  }
+  sections.push_back(distortion_section(std::move(drawn), trouble));
+  return sections;
+}
+
 void run_calibrate(const WorkbenchOptions& options, const WorkbenchContext& context) {
   const Stopwatch watch;
   // Refuse before the work what cannot be written after it.
@@ -122,18 +138,19 @@ void run_calibrate(const WorkbenchOptions& options, const WorkbenchContext& cont
   const Calibrated done = calibrated(options);
   context.progress.check();
   if (!options.out.empty()) write_section(options.out, done.section, done.text, options.force);
-  if (!options.report.empty())
-    write_sections(options, context, options.report, "workbench: " + done.report.kind,
-                   {calibration_section(done.report)}, {}, watch.seconds());
+  std::vector<ReportPlot> drawn;
   if (!options.pictures.empty()) {
     context.progress.begin("drawing", 0);
-    write_distortion_pictures(done.pictures, options.pictures, context.command_line, options.force);
+    drawn = drawn_pictures(done.pictures, context.command_line);
+    write_pictures(drawn, options.pictures, options.force);
   }
+  if (!options.report.empty())
+    write_sections(options, context, options.report, "workbench: " + done.report.kind,
+                   sections_of(done, context, drawn), {}, watch.seconds());
   std::string text = fit_text(done.report);
   if (!options.out.empty()) text += "  -> [" + done.section + "] of " + options.out.string() + "\n";
   if (!options.report.empty()) text += "  -> " + (options.report / "index.html").string() + "\n";
-  for (const DistortionPicture& picture : done.pictures)
-    text += "  -> " + (options.pictures / picture.file).string() + "\n";
+  for (const ReportPlot& picture : drawn) text += "  -> " + (options.pictures / picture.file).string() + "\n";
   context.console.print(text);
   context.console.print_json(fit_json(done.report, options.out.string()));
 }

@@ -195,8 +195,11 @@ DistortionPicture position_error_lines(const std::vector<TrackerMeasurement>& ro
                "streamlines of its polynomial of degree " + std::to_string(error.degree) +
                    " from seeds at z = " + short_number(std::round(kMillimetres * z) / kMillimetres) + " m")};
   picture.view.lines = std::make_shared<std::vector<Line>>(std::move(traced.lines));
-  picture.view.style = {
-      .color_by = ColorBy::kArray, .array = std::move(array), .color_map = ColorMap::kHeat, .width = 3.5};
+  picture.view.style = {.color_by = ColorBy::kArray,
+                        .array = std::move(array),
+                        .color_map = ColorMap::kHeat,
+                        .width = 3.5,
+                        .clearing = 0.9};
   return picture;
 }
 
@@ -241,18 +244,41 @@ DistortionPicture field_distortion_icons(const std::vector<TrackerMeasurement>& 
   return picture;
 }
 
-void write_distortion_pictures(const std::vector<DistortionPicture>& pictures,
-                               const std::filesystem::path& folder, const std::string& command_line,
-                               bool replace) {
+std::vector<ReportPlot> drawn_pictures(const std::vector<DistortionPicture>& pictures,
+                                       const std::string& command_line) {
+  std::vector<ReportPlot> drawn;
+  for (const DistortionPicture& picture : pictures) {
+    const auto png = encode_png(render_image(picture.view, kWidth, kHeight).image,
+                                {{"Software", version_text("workbench")}, {"Command", command_line}});
+    drawn.push_back({picture.file, picture.view.title + ": " + picture.view.subtitle,
+                     std::string(png.begin(), png.end())});
+  }
+  return drawn;
+}
+
+void write_pictures(const std::vector<ReportPlot>& drawn, const std::filesystem::path& folder, bool replace) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw work_error(folder.string() + ": cannot be made (" + error.message() + ")");
-  for (const DistortionPicture& picture : pictures) check_output(folder / picture.file, replace);
-  for (const DistortionPicture& picture : pictures) {
-    const RenderedImage drawn = render_image(picture.view, kWidth, kHeight);
-    write_png(folder / picture.file, drawn.image,
-              {{"Software", version_text("workbench")}, {"Command", command_line}});
+  for (const ReportPlot& picture : drawn) check_output(folder / picture.file, replace);
+  for (const ReportPlot& picture : drawn) {
+    OutputFile file(folder / picture.file, replace);
+    file.write(picture.content);
+    file.finish();
   }
+}
+
+ReportSection distortion_section(std::vector<ReportPlot> drawn, const std::string& trouble) {
+  ReportSection out{.title = "The tracker's distortion in space", .plots = std::move(drawn)};
+  if (!trouble.empty()) {
+    out.paragraphs.push_back("Its pictures could not be drawn: " + trouble + ".");
+    return out;
+  }
+  out.paragraphs.push_back(
+      "Streamlines of the polynomial of the position error, fainter where it is small; the axes about which "
+      "orientations are turned; and what metal adds to the field of the transmitter's coil along x, as the "
+      "readings tell it: arrows like those of another dipole point at the metal (Ikits 2006, sec. 4.2.6).");
+  return out;
 }
 
 }  // namespace palpate

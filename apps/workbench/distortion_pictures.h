@@ -1,6 +1,7 @@
 /// Pictures of a tracker's distortion (Ikits 2006, sec. 4.2.6, figures 4.6 to 4.8), drawn off-screen.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "common/calibration/measurements.h"
 #include "common/kinematics/vector_polynomial.h"
 #include "common/render/scene_view.h"
+#include "common/report/section.h"
 
 namespace palpate {
 
@@ -19,8 +21,8 @@ struct DistortionPicture {
 /// @name The three of them. Metres, in the tracker's frame, the transmitter as a box at the origin.
 /// @{
 /// Illuminated streamlines of the polynomial of the position error, from random seeds in the plane z = 0 of
-/// the transmitter, or where measurements are nearest to it; coloured by the size of the error. The reference
-/// varies opacity with it, too; here all lines are opaque, and the weak ones dark.
+/// the transmitter, or where measurements are nearest to it; coloured by the size of the error, which opacity
+/// follows: what is weak does not hide what is strong.
 [[nodiscard]] DistortionPicture position_error_lines(const std::vector<TrackerMeasurement>& rows,
                                                      const VectorPolynomial& error, std::uint64_t seed);
 /// Arrows along the axis of each orientation error in a slice of the measurements across z, their length by
@@ -35,11 +37,17 @@ struct DistortionPicture {
 [[nodiscard]] DistortionPicture field_distortion_icons(const std::vector<TrackerMeasurement>& rows);
 /// @}
 
-/// Draws and writes them into the folder, which is made.
-/// @param command_line for the files' texts.
-/// @throws Error (usage) for a file that is there and not to be replaced, (work failed) without OpenGL.
-void write_distortion_pictures(const std::vector<DistortionPicture>& pictures,
-                               const std::filesystem::path& folder, const std::string& command_line,
-                               bool replace);
+/// Draws them as PNGs.
+/// @param command_line for the files' texts. @throws Error (work failed) without OpenGL.
+[[nodiscard]] std::vector<ReportPlot> drawn_pictures(const std::vector<DistortionPicture>& pictures,
+                                                     const std::string& command_line);
+
+/// Writes them into the folder, which is made.
+/// @throws Error (usage) for a file that is there and not to be replaced, (work failed).
+void write_pictures(const std::vector<ReportPlot>& drawn, const std::filesystem::path& folder, bool replace);
+
+/// What is seen in them, for a report; that they could not be drawn, where they were not.
+/// @param trouble why not; empty where they were.
+[[nodiscard]] ReportSection distortion_section(std::vector<ReportPlot> drawn, const std::string& trouble);
 
 }  // namespace palpate

@@ -49,7 +49,7 @@ void run_workbench_report(const WorkbenchOptions& options, const WorkbenchContex
     if (kind == "coregister")
       one.noise = {.pose_position = 0.4e-3, .pose_orientation = 1.5e-3, .marker = 0.5e-3};
     const Calibrated done = calibrated(one);
-    sections.push_back(calibration_section(done.report));
+    for (ReportSection& section : sections_of(done, context)) sections.push_back(std::move(section));
     for (const ErrorRow& row : done.report.errors) {
       if (row.quantity == "orientation") continue;
       text += "  " + done.report.kind + ", " + row.method + (row.left_out ? ", left out: " : ": ") +

@@ -40,9 +40,13 @@ struct Calibrated {
   FitReport report;
   std::string section;                      ///< its name: "tracker"
   std::string text;                         ///< the section
-  std::vector<DistortionPicture> pictures;  ///< of a tracker, where they are asked for
+  std::vector<DistortionPicture> pictures;  ///< of a tracker
 };
 [[nodiscard]] Calibrated calibrated(const WorkbenchOptions& options);
+
+/// What a report says of it: of a tracker with its pictures, `drawn` or, where that is empty, drawn here.
+[[nodiscard]] std::vector<ReportSection> sections_of(const Calibrated& done, const WorkbenchContext& context,
+                                                     std::vector<ReportPlot> drawn = {});
 
 /// Writes index.html, report.json and pictures.
 void write_sections(const WorkbenchOptions& options, const WorkbenchContext& context,

@@ -53,9 +53,10 @@ struct LineStyle {
   std::optional<ColorMap> color_map;       ///< where absent: default_color_map()
   double width = 3.0;                      ///< at the focal point, in thousandths of the picture's height
   double opacity = 1.0;                    ///< in (0, 1]
-  bool halo = true;                        ///< a gap around nearer lines, where opaque
-  bool depth_cue = true;                   ///< farther lines fade into the background
-  double dimming = 0.0;  ///< share of the background that all of them take on, so that others stand out
+  double clearing = 0.0;  ///< share of the opacity that falls with the value, to nothing at the lowest colour
+  bool halo = true;       ///< a gap around nearer lines, where opaque
+  bool depth_cue = true;  ///< farther lines fade into the background
+  double dimming = 0.0;   ///< share of the background that all of them take on, so that others stand out
 
   bool operator==(const LineStyle&) const = default;
 };

@@ -26,7 +26,8 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg", "fit_angle.svg",
      "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg",
      "volume_error.svg", "tracker_position.svg", "tracker_orientation.svg", "head_errors.svg",
-     "heart_errors.svg", "fibre_lines.svg"});
+     "heart_errors.svg", "fibre_lines.svg", "distortion_lines.png", "orientation_icons.png",
+     "field_icons.png"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -162,7 +163,7 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     for (const ReportSection& section : report.sections) {
       for (const ReportPlot& plot : section.plots) {
         PALPATE_CHECK(std::find(kFiles.begin(), kFiles.end(), plot.file) != kFiles.end());
-        write_file(temporary / plot.file, plot.svg);
+        write_file(temporary / plot.file, plot.content);
       }
     }
   } catch (const Error&) {

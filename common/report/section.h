@@ -9,9 +9,9 @@
 namespace palpate {
 
 struct ReportPlot {
-  std::string file;  ///< "chain_work.svg", one of the names that report_files.cpp knows
-  std::string alt;   ///< what is to be seen, for those who do not see it
-  std::string svg;
+  std::string file;     ///< "chain_work.svg", one of the names that report_files.cpp knows
+  std::string alt;      ///< what is to be seen, for those who do not see it
+  std::string content;  ///< of the file: SVG, or the bytes of a PNG
 };
 
 /// A number that is neither error nor time, for report.json.

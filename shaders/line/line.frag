@@ -13,6 +13,7 @@ layout(location = 6) uniform float fading;       // share of the depth cue
 layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
 layout(location = 8) uniform float dimming;      // share of the background at any depth
 layout(location = 10) uniform vec4 lens;         // a ball in N with colours of its own; no radius: none
+layout(location = 11) uniform float clearing;    // share of the opacity that goes with the place in the colour map
 layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
 layout(binding = 1) uniform sampler2D lens_map;
 
@@ -61,7 +62,7 @@ void main() {
   // Halo beyond the edge; the border between the two is smoothed over one pixel.
   float soft = 0.5 * fwidth(vertex.across);
   float halo = vertex.outer > 1.0 ? smoothstep(1.0 - soft, 1.0 + soft, u) : 0.0;
-  color = vec4(mix(srgb, rim, halo), line_color.a);
+  color = vec4(mix(srgb, rim, halo), line_color.a * mix(1.0, clamp(vertex.value, 0.0, 1.0), clearing));
   float sink = vertex.outer > 1.0 ? clamp((u - 1.0) / (vertex.outer - 1.0), 0.0, 1.0) : 0.0;
   gl_FragDepth = mix(gl_FragCoord.z, max(halo_z, gl_FragCoord.z), sink);
 }

@@ -20,7 +20,8 @@ enum Uniform : GLint {
   kHaloColor = 7,
   kDimming = 8,
   kLift = 9,
-  kLens = 10
+  kLens = 10,
+  kClearing = 11
 };
 constexpr GLuint kTableUnit = 0, kLensTableUnit = 1;
 
@@ -29,7 +30,7 @@ constexpr GLuint kTableUnit = 0, kLensTableUnit = 1;
 namespace detail {
 
 void begin_lines(const LineDraw& how, bool has_values) {
-  const bool transparent = how.opacity < 1.0F;
+  const bool transparent = how.transparent();
   const Rgb rim = how.halo_color.value_or(Rgb{0.0F});
   glUniform1f(kWidth, how.width);
   glUniform1f(kHaloWidth, transparent ? 0.0F : how.halo_width);
@@ -40,6 +41,7 @@ void begin_lines(const LineDraw& how, bool has_values) {
   glUniform1f(kFading, how.fading);
   glUniform1f(kDimming, how.dimming);
   glUniform1f(kLift, how.lift);
+  glUniform1f(kClearing, has_values ? how.clearing : 0.0F);
   glUniform4f(kHaloColor, rim.r, rim.g, rim.b, how.halo_color ? 1.0F : 0.0F);
 
   glEnable(GL_DEPTH_TEST);
@@ -116,7 +118,7 @@ void LineSet::draw(const LineDraw& how) {
   if (geometry_.segments.empty()) return;
   // What shines through is too faint for its order to matter, what is seen again has its depths: no second
   // arrangement for them.
-  const bool transparent = how.opacity < 1.0F && !how.hidden_part && !how.seen_again;
+  const bool transparent = how.transparent() && !how.hidden_part && !how.seen_again;
   // Points are left out by the first values alone: with others all are there.
   arrange({has_lens_values_ ? 0.0 : how.tolerance, transparent, transparent ? how.back : Vec3f{0.0F}});
 

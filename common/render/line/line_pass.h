@@ -31,6 +31,9 @@ struct LineDraw {
   float dimming = 0.0F;  ///< share of the background at any depth
   float fading = 1.0F;   ///< share of the depth cue
   float opacity = 1.0F;
+  float clearing = 0.0F;  ///< share of it that goes with the place in the colour map: LineStyle
+
+  [[nodiscard]] bool transparent() const noexcept { return opacity < 1.0F || clearing > 0.0F; }
   Vec3f lens_center{0.0F};       ///< of a ball where the second values colour them (scene frame)
   float lens_radius = 0.0F;      ///< 0: there is none
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
