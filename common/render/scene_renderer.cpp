@@ -83,7 +83,7 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
 
 bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
 
-bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0; }
+bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0 || view.style.clearing > 0.0; }
 
 // The range of a followed line's values where no other lines set one.
 ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
@@ -409,7 +409,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
     s.draw_eye(seen, s.stereo->eye_size().width, s.stereo->eye_size().height, resolution, HUGE_VAL);
     s.stereo->keep(view.stereo.swapped ? 1 - i : i, s.target.resolved());
   }
-  s.stereo->compose();
+  s.stereo->compose(view.stereo.first);
 }
 
 bool SceneRenderer::complete() const noexcept {

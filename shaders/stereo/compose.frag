@@ -5,6 +5,7 @@
 layout(binding = 0) uniform sampler2D left_eye;   // sRGB
 layout(binding = 1) uniform sampler2D right_eye;  // sRGB
 layout(location = 0) uniform int mode;            // StereoMode
+layout(location = 1) uniform ivec2 first;         // of the display's column and row at the upper left: odd?
 layout(location = 0) out vec4 color;
 
 const int kSideBySide = 1, kTopBottom = 2, kRows = 3, kColumns = 4, kAnaglyph = 5;
@@ -26,9 +27,9 @@ void main() {
   } else if (mode == kTopBottom) {
     if (at.y < 2 * size.y) seen = eye_at(at.y < size.y, ivec2(at.x, at.y % size.y));
   } else if (mode == kRows) {
-    seen = eye_at((size.y - 1 - at.y) % 2 == 1, at);  // rows count from the top
+    seen = eye_at((first.y + size.y - 1 - at.y) % 2 == 1, at);  // rows count from the top
   } else if (mode == kColumns) {
-    seen = eye_at(at.x % 2 == 1, at);
+    seen = eye_at((first.x + at.x) % 2 == 1, at);
   } else {
     vec3 l = decode_srgb(eye_at(false, at)), r = decode_srgb(eye_at(true, at));
     seen = mode == kAnaglyph ? l * kLeft + r * kRight

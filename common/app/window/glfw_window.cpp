@@ -1,6 +1,7 @@
 #include "common/app/window/glfw_window.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -60,6 +61,29 @@ GLFWwindow* create_window(int width, int height, const std::string& title, Stere
   return window;
 }
 
+std::array<int, 2> pixel_on_monitor(GLFWwindow* window) {
+  int x = 0, y = 0, width = 1, height = 1, pixel_width = 1;
+  glfwGetWindowPos(window, &x, &y);
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &pixel_width, nullptr);
+  int count = 0;
+  GLFWmonitor** const monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int left = 0, top = 0;
+    glfwGetMonitorPos(monitors[i], &left, &top);
+    const GLFWvidmode* const mode = glfwGetVideoMode(monitors[i]);
+    const int middle_x = x + width / 2 - left, middle_y = y + height / 2 - top;
+    if (mode == nullptr || middle_x < 0 || middle_y < 0 || middle_x >= mode->width ||
+        middle_y >= mode->height)
+      continue;
+    x -= left;
+    y -= top;
+    break;
+  }
+  const double scale = static_cast<double>(pixel_width) / std::max(1, width);
+  return {static_cast<int>(std::lround(scale * x)), static_cast<int>(std::lround(scale * y))};
+}
+
 GlfwWindow::GlfwWindow(const WindowOptions& options) {
   require_glfw();
   glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
@@ -113,6 +137,8 @@ void GlfwWindow::listen() {
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
     self(w)->events_.push_back({.kind = InputKind::kDrop, .files = {paths, paths + count}});
   });
+  // Interlaced pictures are matched to the rows of the monitor.
+  glfwSetWindowPosCallback(window_, [](GLFWwindow*, int, int) { glfwPostEmptyEvent(); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w)->damaged_ = true; });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w)->damaged_ = true; });
 }

@@ -1,6 +1,7 @@
 /// A window of the system with an OpenGL 4.5 core context, and its events as plain data.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,10 @@ void require_glfw();
 /// buffers.
 [[nodiscard]] GLFWwindow* create_window(int width, int height, const std::string& title, StereoMode mode,
                                         GLFWwindow* share);
+
+/// Column and row of the upper left pixel of the window's picture, counted from the corner of the monitor
+/// that shows the window's middle; as if it filled the monitor, where the system does not say where it is.
+[[nodiscard]] std::array<int, 2> pixel_on_monitor(GLFWwindow* window);
 
 class GlfwWindow {
  public:

@@ -1,6 +1,8 @@
 #include "common/app/window/screen_windows.h"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/target.h"
 #include "common/render/scene_renderer.h"
+#include "common/render/stereo/stereo_pass.h"
 
 namespace palpate {
 namespace {
@@ -86,18 +89,12 @@ struct ScreenWindows::State {
   }
 
   static void show(const ScreenWindow& w) {
-    const auto copy = [&w](int from, int height) {
-      glBlitNamedFramebuffer(w.window_framebuffer, 0, 0, from, w.width, from + height, 0, 0, w.width, height,
-                             GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    };
-    if (w.stereo.mode != StereoMode::kQuadBuffer) {
-      copy(0, w.height);
-    } else {
-      glNamedFramebufferDrawBuffer(0, GL_BACK_LEFT);
-      copy(w.height, w.height);
-      glNamedFramebufferDrawBuffer(0, GL_BACK_RIGHT);
-      copy(0, w.height);
-    }
+    // Of two buffers the picture holds the left eye's on top.
+    const std::array<EyeSource, 2> eyes{EyeSource{w.window_framebuffer, w.picture_height() - w.height},
+                                        EyeSource{w.window_framebuffer, 0}};
+    const bool two = w.stereo.mode == StereoMode::kQuadBuffer;
+    show_eyes(eyes, w.width, w.height, 0, two ? window_eye_buffers() : std::vector<std::uint32_t>{GL_BACK}, 0,
+              0);
     glfwSwapBuffers(w.window);
   }
 };
@@ -134,6 +131,7 @@ void ScreenWindows::draw(const SceneView& view, const BenchDisplay& bench, const
     if (w.width < 1 || w.height < 1) continue;
     SceneView seen = with_quality(view, quality);
     seen.stereo = w.stereo;
+    seen.stereo.first = pixel_on_monitor(w.window);
     bench.show(w.screen.corners, seen);
     if (w.shown && same_picture(*w.shown, seen) && w.resolution == quality.resolution) continue;
     state_->renderer.draw(seen, w.width, w.height, quality.resolution);

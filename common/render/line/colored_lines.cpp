@@ -79,6 +79,7 @@ void ColoredLines::draw(LineProgram& program, const SceneView& view, const Scene
   // Half the line's width, but never thinner than the eye sees nor so wide that it eats neighbours.
   how.halo_width = view.style.halo ? std::clamp(0.5F * how.width, 1.0F, 3.0F * unit + 1.0F) : 0.0F;
   how.opacity = static_cast<float>(std::clamp(view.style.opacity, 0.0, 1.0));
+  how.clearing = static_cast<float>(std::clamp(view.style.clearing, 0.0, 1.0));
   how.dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0));
   lines_.draw(how);
 }

@@ -1,5 +1,6 @@
 #include "common/render/stereo/stereo_pass.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -14,7 +15,7 @@
 namespace palpate {
 namespace {
 
-constexpr GLint kModeLocation = 0;
+constexpr GLint kModeLocation = 0, kFirstLocation = 1;
 
 void make_layer(GlTexture& texture, GlFramebuffer& framebuffer, int width, int height,
                 std::string_view what) {
@@ -34,6 +35,23 @@ void make_layer(GlTexture& texture, GlFramebuffer& framebuffer, int width, int h
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> window_eye_buffers() {
+  GLint two = 0;
+  glGetNamedFramebufferParameteriv(0, GL_STEREO, &two);
+  if (two == 0) return {GL_BACK};
+  return {GL_BACK_LEFT, GL_BACK_RIGHT};
+}
+
+void show_eyes(const std::array<EyeSource, 2>& eyes, int width, int height, std::uint32_t framebuffer,
+               std::span<const std::uint32_t> buffers, int left, int bottom) {
+  for (std::size_t i = 0; i < std::min(eyes.size(), buffers.size()); ++i) {
+    glNamedFramebufferDrawBuffer(framebuffer, buffers[i]);
+    glBlitNamedFramebuffer(eyes[i].framebuffer, framebuffer, 0, eyes[i].bottom, width,
+                           eyes[i].bottom + height, left, bottom, left + width, bottom + height,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+}
 
 void StereoPass::begin(StereoMode mode, int width, int height) {
   PALPATE_CHECK(mode != StereoMode::kNone);
@@ -55,7 +73,7 @@ void StereoPass::keep(std::size_t eye, std::uint32_t framebuffer) const {
                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void StereoPass::compose() {
+void StereoPass::compose(const std::array<int, 2>& first) {
   if (!program_) {
     program_ = compile_program("background/background.vert", "stereo/compose.frag");
     no_vertices_ = make_vertex_array();
@@ -68,6 +86,8 @@ void StereoPass::compose() {
   // In one picture, both buffers are shown one above the other.
   const StereoMode composed = mode_ == StereoMode::kQuadBuffer ? StereoMode::kTopBottom : mode_;
   glUniform1i(kModeLocation, static_cast<GLint>(composed));
+  // Whether it is odd counts, of columns to the left of the display's first one, too.
+  glUniform2i(kFirstLocation, first[0] & 1, first[1] & 1);
   for (std::size_t i = 0; i < eyes_.size(); ++i) glBindTextureUnit(static_cast<GLuint>(i), eyes_[i].name());
   glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -80,15 +100,10 @@ Image StereoPass::read() const { return read_framebuffer(framebuffer_.name(), wi
 
 void StereoPass::show(int left, int bottom, std::uint32_t framebuffer) const {
   if (mode_ == StereoMode::kQuadBuffer && framebuffer == 0) {
-    GLint two = 0;
-    glGetNamedFramebufferParameteriv(0, GL_STEREO, &two);
-    for (std::size_t i = 0; i < (two != 0 ? eyes_.size() : 1); ++i) {
-      if (two != 0) glNamedFramebufferDrawBuffer(0, i == 0 ? GL_BACK_LEFT : GL_BACK_RIGHT);
-      glBlitNamedFramebuffer(eye_framebuffers_[i].name(), 0, 0, 0, width_, height_, left, bottom,
-                             left + width_, bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    }
+    show_eyes({EyeSource{eye_framebuffers_[0].name()}, EyeSource{eye_framebuffers_[1].name()}}, width_,
+              height_, framebuffer, window_eye_buffers(), left, bottom);
     // What is drawn over it is for both eyes.
-    if (two != 0) glNamedFramebufferDrawBuffer(0, GL_BACK);
+    glNamedFramebufferDrawBuffer(framebuffer, GL_BACK);
     return;
   }
   glBlitNamedFramebuffer(framebuffer_.name(), framebuffer, 0, 0, width_, composed_height_, left, bottom,

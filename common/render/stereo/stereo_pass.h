@@ -10,12 +10,29 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "common/render/gl/object.h"
 #include "common/render/scene_view.h"
 #include "common/render/stereo/stereo_view.h"
 
 namespace palpate {
+
+/// The picture of an eye in a framebuffer.
+struct EyeSource {
+  std::uint32_t framebuffer = 0;
+  int bottom = 0;  ///< its lowest row there
+};
+
+/// Where a window (framebuffer 0 of the current context) shows the eyes, left and right: each in a buffer of
+/// its own, or where it has but one the left eye alone.
+[[nodiscard]] std::vector<std::uint32_t> window_eye_buffers();
+
+/// Copies `width` x `height` pixels of each eye into its buffer of `framebuffer`, at (left, bottom): eyes[0]
+/// into the first one, and so on for as many as there are.
+void show_eyes(const std::array<EyeSource, 2>& eyes, int width, int height, std::uint32_t framebuffer,
+               std::span<const std::uint32_t> buffers, int left, int bottom);
 
 class StereoPass {
  public:
@@ -26,8 +43,8 @@ class StereoPass {
   [[nodiscard]] EyePictureSize eye_size() const noexcept { return eye_size_; }
   /// Keeps the picture that `framebuffer` holds as that of eye 0, left, or 1, right.
   void keep(std::size_t eye, std::uint32_t framebuffer) const;
-  /// Both eyes are kept: draws the picture.
-  void compose();
+  /// Both eyes are kept: draws the picture. @param first as StereoView.
+  void compose(const std::array<int, 2>& first);
   /// @name The picture, as RenderTarget
   /// @{
   /// Of kQuadBuffer both pictures, the left eye's on top: twice as high as was asked for.

@@ -27,6 +27,9 @@ struct StereoView {
   double separation = 0.105;                 ///< e / d that is wanted, >= 0: 63 mm before a screen at 600 mm
   double most_disparity = 0.01745329251994;  ///< |eta| that can be fused [rad], > 0
   bool swapped = false;                      ///< the left eye's picture where the right one's belongs
+  /// Column and row of the display that the picture's upper left pixel is shown at: a display tells the eyes
+  /// apart by its own rows or columns, wherever a window lies on it.
+  std::array<int, 2> first{0, 0};
 
   /// Of a tracked head: left, right [data units], before the camera's focal plane, which is the screen. Then
   /// `separation` says nothing.

@@ -2,11 +2,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include "common/render/gl/context.h"
+#include "common/render/gl/object.h"
 #include "common/render/render_image.h"
+#include "common/render/stereo/stereo_pass.h"
 #include "tests/common/render/sample_scenes.h"
 
 namespace palpate {
@@ -75,6 +83,73 @@ TEST(StereoPicture, HoldsThePicturesOfBothEyesWhereTheModeSays) {
   ASSERT_EQ(both.height, 2 * kHeight);
   EXPECT_EQ(strange_pixels(both, left, 0, 0, all), 0);
   EXPECT_EQ(strange_pixels(both, right, 0, kHeight, all), 0);
+}
+
+// A window that lies a row further down, or a column to the right, begins at a row of the display that
+// belongs to the other eye: each row of the display shows the eye that it showed before.
+TEST(StereoPicture, RowsAndColumnsAreThoseOfTheDisplayWhereverTheWindowLies) {
+  SceneView view = test::whirlwind(4.0 / 3.0, 12);
+  view.stereo.mode = StereoMode::kRows;
+  const Image left = eye_alone(view, 0, kWidth, kHeight), right = eye_alone(view, 1, kWidth, kHeight);
+  for (const auto mode : {StereoMode::kRows, StereoMode::kColumns}) {
+    view.stereo.mode = mode;
+    for (const std::array<int, 2> first : {std::array{17, 40}, {0, 1}, {-1, -1}}) {
+      view.stereo.first = first;
+      const Image picture = drawn(view, kWidth, kHeight);
+      const auto odd_on_display = [&](int x, int y) {
+        return ((mode == StereoMode::kRows ? first[1] + y : first[0] + x) & 1) != 0;
+      };
+      EXPECT_EQ(strange_pixels(picture, left, 0, 0, [&](int x, int y) { return !odd_on_display(x, y); }), 0);
+      EXPECT_EQ(strange_pixels(picture, right, 0, 0, odd_on_display), 0);
+    }
+  }
+}
+
+// The same copies that fill the two buffers of a window, into two buffers that can be read here: the left
+// eye's picture goes into the first one, each whole and in its place; with one buffer there is the left eye.
+TEST(StereoPicture, EachEyeIsCopiedIntoItsOwnBuffer) {
+  const OffscreenContext context;
+  constexpr int kEdge = 8, kAround = 12, kLeft = 3, kBottom = 2;
+  const auto filled = [](int width, int height, std::size_t count,
+                         const std::array<std::array<float, 4>, 2>& colors, std::vector<GlTexture>& kept) {
+    GLuint framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    for (std::size_t i = 0; i < count; ++i) {
+      GLuint name = 0;
+      glCreateTextures(GL_TEXTURE_2D, 1, &name);
+      kept.emplace_back(name);
+      glTextureStorage2D(name, 1, GL_RGBA8, width, height);
+      glClearTexImage(name, 0, GL_RGBA, GL_FLOAT, colors[i].data());
+      glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i), name, 0);
+    }
+    return GlFramebuffer(framebuffer);
+  };
+  const std::array<float, 4> red{1.0F, 0.0F, 0.0F, 1.0F}, blue{0.0F, 0.0F, 1.0F, 1.0F},
+      black{0.0F, 0.0F, 0.0F, 1.0F};
+  std::vector<GlTexture> kept;
+  const GlFramebuffer left = filled(kEdge, kEdge, 1, {red, red}, kept);
+  const GlFramebuffer right = filled(kEdge, kEdge, 1, {blue, blue}, kept);
+  const std::array<EyeSource, 2> eyes{EyeSource{left.name()}, EyeSource{right.name()}};
+  for (const std::size_t count : {2U, 1U}) {
+    std::vector<GlTexture> shown;
+    const GlFramebuffer window = filled(kAround, kAround, 2, {black, black}, shown);
+    const std::array<std::uint32_t, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    show_eyes(eyes, kEdge, kEdge, window.name(), std::span(buffers).first(count), kLeft, kBottom);
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::vector<std::uint8_t> rgba(4 * kAround * kAround);
+      glGetTextureImage(shown[i].name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()),
+                        rgba.data());
+      for (int y = 0; y < kAround; ++y) {
+        for (int x = 0; x < kAround; ++x) {
+          const bool inside = x >= kLeft && x < kLeft + kEdge && y >= kBottom && y < kBottom + kEdge;
+          const bool there = inside && i < count;
+          const std::size_t at = 4 * static_cast<std::size_t>(y * kAround + x);
+          ASSERT_EQ(rgba[at], there && i == 0 ? 255 : 0) << count << " " << i << " " << x << " " << y;
+          ASSERT_EQ(rgba[at + 2], there && i == 1 ? 255 : 0) << count << " " << i << " " << x << " " << y;
+        }
+      }
+    }
+  }
 }
 
 double linear(int byte) {
