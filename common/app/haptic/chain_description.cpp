@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/haptics/settings_text.h"
+#include "common/haptics/widget/dial_chain.h"
 
 namespace palpate {
 namespace {
@@ -59,10 +60,17 @@ HapticChain build_chain(const std::string& description, std::span<const HapticMo
     refuse(description, "it was recorded on field '" + chain.field_name + "', open is '" + open.name +
                             "'; give --field and --time as in the recording");
   }
+  const Workspace workspace(chain.workspace_scale, open.frame());
+  if (names_dial(chain.mode)) {
+    Dial dial;
+    if (const auto problem = read_text(chain.mode, dial)) refuse(description, *problem);
+    HapticChain made;
+    made.chain = make_dial_chain(dial, chain.settings);
+    return made;
+  }
   const auto mode = std::find_if(modes.begin(), modes.end(),
                                  [&](const HapticMode& each) { return each.name == chain.mode; });
   if (mode == modes.end()) refuse(description, "there is no mode '" + chain.mode + "'");
-  const Workspace workspace(chain.workspace_scale, open.frame());
   return mode->make({open.field, workspace, chain.settings, threads, open.scalar, open.tensor, open.noise});
 }
 

@@ -2,8 +2,9 @@
 ///
 ///   streamline scale=0.0025 stiffness=200 streamline.release=0.01 … field=NAME
 ///
-/// The settings are those of haptics/settings_text.h. Numbers read back to the same bits. The name of the
-/// field comes last, since it may hold spaces.
+/// In place of a mode it may name a slider or knob that the hand holds (haptics/widget/dial_chain.h), in the
+/// workspace. The settings are those of haptics/settings_text.h. Numbers read back to the same bits. The name
+/// of the field comes last, since it may hold spaces.
 #pragma once
 
 #include <memory>

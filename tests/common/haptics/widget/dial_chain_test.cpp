@@ -20,6 +20,8 @@ constexpr double kStiffness = 400.0;  // [N/m]
 const Vec3 kLeft{-0.1, 0.02, 0.03}, kRight{0.1, 0.02, 0.03};
 constexpr int kDetents = 11;  // 20 mm apart
 
+Dial slider(int detents) { return {.start = kLeft, .end = kRight, .detents = detents}; }
+
 ChainSettings firm() {
   ChainSettings settings;
   settings.stiffness = kStiffness;
@@ -28,7 +30,7 @@ ChainSettings firm() {
 }
 
 TEST(DialChain, HoldsASliderOnItsWayAndCatchesAtItsDetents) {
-  const auto chain = make_slider_chain(kLeft, kRight, kDetents, firm());
+  const auto chain = make_dial_chain(slider(kDetents), firm());
   (void)chain->step(kLeft);
   const test::AllocationGuard guard;
   Vec3 last{0.0};
@@ -57,7 +59,12 @@ TEST(DialChain, TakesNoWorkOnAClosedWayOfAKnob) {
   const Vec3 center{0.1, -0.2, 0.05}, normal{0.3, 0.2, 0.9};
   const Vec3 n = glm::normalize(normal), u = glm::normalize(glm::cross(n, Vec3(1.0, 0.0, 0.0))),
              t = glm::cross(n, u);
-  const auto chain = make_knob_chain(center, normal, center + 0.03 * u, 0.04, 24, firm());
+  const Dial knob{.kind = Dial::Kind::kKnob,
+                  .start = center + 0.04 * u + 0.01 * n,  // off the plane it is the same knob
+                  .end = center,
+                  .normal = normal,
+                  .detents = 24};
+  const auto chain = make_dial_chain(knob, firm());
   double work = 0.0, given = 0.0;
   Vec3 before{0.0};
   constexpr int kSteps = 40000;
@@ -79,12 +86,34 @@ TEST(DialChain, TakesNoWorkOnAClosedWayOfAKnob) {
   EXPECT_LT(std::abs(work), 1e-4 * given);
 }
 
+TEST(DialChain, ComesBackFromItsWordsToTheBitAndRefusesOthers) {
+  Dial knob{.kind = Dial::Kind::kKnob,
+            .start = {0.1 / 3.0, 0.2, 0.3},
+            .end = {1e-30, -0.2, 0.7},
+            .normal = {0.3, 1.0 / 7.0, 0.9},
+            .detents = 24};
+  for (const Dial& dial : {knob, slider(11), slider(0)}) {
+    Dial read;
+    ASSERT_EQ(read_text(text_of(dial), read), std::nullopt);
+    if (dial.kind == Dial::Kind::kSlider) read.normal = dial.normal;
+    EXPECT_EQ(read, dial);
+    EXPECT_TRUE(names_dial(text_of(dial)));
+  }
+  EXPECT_FALSE(names_dial("isosurface"));
+  for (const char* wrong :
+       {"slider:1,2,3,4,5,6", "slider:1,2,3,1,2,3,4", "slider:1,2,3,4,5,nan,4", "slider:1,2,3,4,5,6,129",
+        "slider:1,2,3,4,5,6,1.5", "knob:0,0,0,0,0,1,0,0,2,8", "knob:0,0,0,0,0,1,1,0,0,8,9", "wheel:1"}) {
+    Dial read;
+    EXPECT_TRUE(read_text(wrong, read)) << wrong;
+  }
+}
+
 TEST(DialChain, IsSmoothWithoutDetents) {
-  const auto chain = make_slider_chain(kLeft, kRight, 0, firm());
+  const auto chain = make_dial_chain(slider(0), firm());
   (void)chain->step({0.0, 0.02, 0.03});
   EXPECT_EQ(chain->size(), 1);
   EXPECT_LT(glm::length(chain->step({0.013, 0.02, 0.03}).force), 1e-12);
-  EXPECT_THROW((void)make_slider_chain(kLeft, kRight, 1000, firm()), std::length_error);
+  EXPECT_THROW((void)make_dial_chain(slider(1000), firm()), std::length_error);
   EXPECT_THROW(DetentMarks({}, 1.0), std::length_error);
 }
 
