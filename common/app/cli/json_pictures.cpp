@@ -52,6 +52,11 @@ std::string render_json(const RenderSummary& summary) {
                                  {"hidden", taken.error.hidden},
                                  {"compared", taken.error.compared}});
   }
+  if (summary.picks) json["picked"] = nullptr;
+  if (const auto& picked = summary.picked) {
+    const Vec3& x = picked->place;
+    json["picked"] = {{"what", name_of(*picked)}, {"x", x.x}, {"y", x.y}, {"z", x.z}};
+  }
   if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
   add_plan(json, summary.plan, summary.measured);
   return json_text(json);

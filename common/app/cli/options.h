@@ -92,6 +92,7 @@ struct ViewOptions {
   std::string head;
   std::optional<double> head_time;  ///< of that recording [s]; absent: its end
   std::string screen;               ///< which of the workbench's, or all; empty: the first
+  std::string pick;  ///< grammar of parse_beam(): what it picks is marked in a picture; empty: none
 };
 
 /// How a volume is drawn.

@@ -9,6 +9,7 @@
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/stereo_text.h"
 #include "common/app/cli/verbs.h"
+#include "common/app/immersive/scene_pick.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -88,6 +89,13 @@ std::filesystem::path output_of(const std::filesystem::path& out, const ScreenPi
   return named;
 }
 
+/// A ray hits lines that are this near to it: 3 mm of the default workspace [diagonals].
+constexpr double kRayRadius = 0.012;
+
+PickBeam beam_of_option(const ViewOptions& options, const SceneView& view) {
+  return parse_beam(options.pick, kRayRadius * view.bounds.diagonal(), "--pick");
+}
+
 /// What is told of the drawing once a picture is there.
 void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedImage& rendered,
           Console& console) {
@@ -114,6 +122,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   (void)camera_of(options.view, Box{}, 1.0);
+  if (!options.view.pick.empty()) (void)beam_of_option(options.view, {});
   const std::vector<ScreenPicture> pictures = asked_pictures(options);
   const auto [width, height] = pictures.front().size;
   const double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
@@ -141,6 +150,13 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   summary.volumes = drawn.volumes;
   summary.seconds_trace = drawn.seconds_trace;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  if (!options.view.pick.empty()) {
+    summary.picks = true;
+    std::vector<ConvexShape::HalfSpace> planes;
+    summary.picked = pick(scene_of(drawn.view, {}, planes), beam_of_option(options.view, drawn.view));
+    if (summary.picked) drawn.view.notes.push_back(note_of(*summary.picked));
+    console.print("picked: " + (summary.picked ? name_of(*summary.picked) : std::string("nothing")) + "\n");
+  }
   for (const ScreenPicture& picture : pictures) {
     const auto [across, up] = picture.size;
     take_head(picture, drawn.view);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/app/cli/flow_volume.h"
+#include "common/app/immersive/scene_pick.h"
 #include "common/base/needs.h"
 #include "common/device/device.h"
 #include "common/field/grid/mesh_quality.h"
@@ -277,8 +278,10 @@ struct RenderSummary {
   std::vector<TakenScalar> volumes;  ///< DrawnScene::volumes
   double seconds_trace = 0.0;
   std::string renderer;
-  BrickShare bricks;           ///< of a volume that is stored in bricks
-  std::vector<GpuObject> gpu;  ///< with --explain
+  bool picks = false;            ///< --pick
+  std::optional<Picked> picked;  ///< by it
+  BrickShare bricks;             ///< of a volume that is stored in bricks
+  std::vector<GpuObject> gpu;    ///< with --explain
   Needs plan;
   std::vector<MeasuredCost> measured;
 };
