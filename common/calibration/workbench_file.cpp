@@ -38,11 +38,13 @@ std::string contents(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// The plane of the first screen, or the one that is given.
-Vec4 surface_of(const WorkbenchSection& s, const std::vector<ScreenGeometry>& screens) {
+/// The plane of the first screen, or the one that is given. For hands that are not tracked the screen is
+/// where the view is.
+Vec4 surface_of(const WorkbenchSection& s, const std::vector<ScreenGeometry>& screens, bool tracked) {
   if (s.at("surface").is_string()) {
     if (s.word("surface") != "screen")
       s.refuse_at("surface", "'" + s.word("surface") + "'", "\"screen\", or a plane [nx, ny, nz, d]");
+    if (!tracked) return {0.0, 0.0, 1.0, 0.0};
     if (screens.empty()) s.refuse_at("surface", "\"screen\" without a screen", "a [screen] with its corners");
     const Vec3 n = axes(screens.front().corners)[2];
     return {n, glm::dot(n, center(screens.front().corners))};
@@ -97,10 +99,17 @@ InteractionGeometry interaction_of(const WorkbenchSection& s, const std::vector<
       s.refuse_at("enabling_device", "'" + out.enabling_device + "'",
                   "the name of a driver, with a button that is not \"none\"");
   }
+  if (s.has("pick")) {
+    const std::string by = s.word("pick");
+    out.through_aperture = by == "aperture";
+    if (!out.through_aperture && by != "ray") s.refuse_at("pick", "'" + by + "'", "\"ray\" or \"aperture\"");
+  }
+  if (s.has("aperture")) out.aperture = s.number("aperture");
+  if (!(out.aperture > 0.0)) s.refuse_at("aperture", short_number(out.aperture), "a radius above zero");
   if (s.has("tip_offset")) out.tip_offset = s.vector("tip_offset");
   if (s.has("arm_rotation")) out.arm_rotation = s.rotation("arm_rotation");
   if (s.has("arm_middle")) out.arm_middle = s.vector("arm_middle");
-  if (s.has("surface")) out.surface = surface_of(s, screens);
+  if (s.has("surface")) out.surface = surface_of(s, screens, out.immersive);
   return out;
 }
 
@@ -383,7 +392,8 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
           [&](const WorkbenchSection& s) { out.head = head_of(s); });
   section("interaction",
           {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
-           "enabling_button", "enabling_device", "tip_offset", "surface", "arm_rotation", "arm_middle"},
+           "enabling_button", "enabling_device", "tip_offset", "surface", "arm_rotation", "arm_middle", "pick",
+           "aperture"},
           [&](const WorkbenchSection& s) { out.interaction = interaction_of(s, out.screens); });
   return out;
 }

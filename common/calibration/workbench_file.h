@@ -60,9 +60,14 @@
 ///   arm_rotation = [w, x, y, z]    # optional: turns frame 0 of [arm] into right, up and towards the user
 ///   arm_middle = [x, y, z]         # optional [m]: the middle of the arm's workspace in frame 0; default:
 ///                                  # where its end is with all readings zero
-///   surface = "screen"             # optional: the tip moves on the first screen alone, or on a plane n.x =
-///   d
-///                                  # of the tracker's frame, [nx, ny, nz, d]
+///   surface = "screen"             # optional: the hand moves on the screen alone, or on a plane n.x = d,
+///                                  # [nx, ny, nz, d]. Of tracked hands: on the first screen, or a plane of
+///                                  # the tracker's frame. Of a mouse, or a device that is laid over the
+///                                  # view: on the plane through the middle of the view, or one of right, up
+///                                  # and to the user, d [m] of the workspace from there
+///   pick = "ray"                   # optional: how hands pick what they do not touch: along a ray, the
+///                                  # default, or through an "aperture" about the tip, from the eye
+///   aperture = 0.01                # optional [m]: its radius
 ///
 ///   [device.NAME], [tuned.NAME]    # of a device in the hand: workbench_devices.h
 ///
@@ -128,11 +133,16 @@ struct InteractionGeometry {
   Vec3 tip_offset{0.0};                   ///< [m] from the tip to its picture
   Quat arm_rotation{1.0, 0.0, 0.0, 0.0};  ///< takes axes of frame 0 of the arm to those of frame D
   std::optional<Vec3> arm_middle;         ///< [m] in frame 0
-  /// The plane that the tip moves on alone: (n, d), n.x = d, |n| = 1, in the tracker's frame [m].
+  /// The plane that the hand moves on alone: (n, d), n.x = d, |n| = 1 [m]; of tracked hands in the tracker's
+  /// frame, of others in that of a Placement (device/placement.h).
   std::optional<Vec4> surface;
 
   static constexpr int kNoButton = -1, kButtons = 32;   ///< as of DeviceLimits
   static constexpr int kNoStation = 0, kStations = 16;  ///< as of PoseAtoms
+
+  /// What is picked from afar: along a ray, or through a ring of this radius about the tip [m].
+  bool through_aperture = false;
+  double aperture = 0.01;
 
   /// Of a tracker, from 1, all different.
   int stylus_station = 1, hand_station = kNoStation, head_station = kNoStation;

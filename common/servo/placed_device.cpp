@@ -28,15 +28,23 @@ bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
   if (!device_.read_atoms(now, atoms)) {
     steered_at_ = -1.0;
     inside_ = false;
+    buttons_.store(0, std::memory_order_relaxed);
     return false;
   }
   if (atoms.has_valuators) return steer(now, atoms, sample);
   if (!atoms.has_position) return false;
   inside_ = within_reach(device_.limits(), atoms.position);
   if (moved) return false;
-  sample = {atoms.time, placement_.middle + placement_.scale * (placement_.axes * atoms.position),
-            atoms.buttons};
+  sample = {atoms.time,
+            placement_.middle + placement_.scale * (placement_.axes * placement_.on_surface(atoms.position)),
+            felt_buttons(atoms.buttons)};
   return true;
+}
+
+std::uint32_t PlacedDevice::felt_buttons(std::uint32_t buttons) noexcept {
+  buttons_.store(buttons, std::memory_order_relaxed);
+  const bool acts = limits_.enabling_button != 0;
+  return acts && elsewhere_.load(std::memory_order_relaxed) ? buttons & ~1U : buttons;
 }
 
 bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sample) noexcept {
@@ -49,14 +57,22 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
   }
   steered_ += placement_.axes * (kTopSpeed * dt * push);
   if (!bounds_.empty()) steered_ = glm::clamp(steered_, bounds_.lower, bounds_.upper);
-  sample = {now, steered_, atoms.buttons};  // at rest it is no stale one
+  if (placement_.surface) {
+    const Vec3 in_hand = (steered_ - placement_.middle) * placement_.axes / placement_.scale;
+    steered_ = placement_.middle + placement_.scale * (placement_.axes * placement_.on_surface(in_hand));
+  }
+  sample = {now, steered_, felt_buttons(atoms.buttons)};  // at rest it is no stale one
   return true;
 }
 
 void PlacedDevice::command(const Vec3& force) noexcept {
   // Frame D's reach is a box in W only where it is not turned: so it is kept here, not by the safety stage.
-  const Vec3 turned = force * placement_.axes;  // row vector times R is R^T times column
-  device_.command(inside_ ? turned / std::max(1.0, placement_.scale) : Vec3{0.0});  // (2)
+  Vec3 felt = force * placement_.axes;  // row vector times R is R^T times column
+  if (placement_.surface) {
+    const Vec3 n{*placement_.surface};
+    felt -= glm::dot(n, felt) * n;
+  }
+  device_.command(inside_ ? felt / std::max(1.0, placement_.scale) : Vec3{0.0});  // (2)
 }
 
 }  // namespace palpate

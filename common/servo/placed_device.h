@@ -17,6 +17,9 @@
 ///   v = v_max n |n|^(p - 1),  n the push in [-1, 1] per axis,  p = 2: slow near rest, fast at the end (1)
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
 #include "common/device/placement.h"
@@ -35,6 +38,11 @@ class PlacedDevice final : public Device {
 
   /// Window thread, wait-free.
   void place(const Placement& placement) noexcept;
+  /// Whether the first button works something else than what is felt: samples have it up meanwhile. Not where
+  /// it is the dead-man switch, which is looked at in every sample. Any thread.
+  void engage(bool elsewhere) noexcept { elsewhere_.store(elsewhere, std::memory_order_relaxed); }
+  /// The buttons as they are on the device. Any thread.
+  [[nodiscard]] std::uint32_t buttons() const noexcept { return buttons_.load(std::memory_order_relaxed); }
 
   bool read(double now, DeviceSample& sample) noexcept override;
   void command(const Vec3& force) noexcept override;
@@ -42,6 +50,7 @@ class PlacedDevice final : public Device {
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
 
  private:
+  [[nodiscard]] std::uint32_t felt_buttons(std::uint32_t buttons) noexcept;
   bool steer(double now, const DeviceAtoms& atoms, DeviceSample& sample) noexcept;
 
   LinkedDevice& device_;
@@ -49,6 +58,8 @@ class PlacedDevice final : public Device {
   Box bounds_;       ///< [m] in which valuators steer
   Placement asked_;  ///< window thread
   TripleBuffer<Placement> placements_;
+  std::atomic<bool> elsewhere_{false};
+  std::atomic<std::uint32_t> buttons_{0};
 
   Placement placement_;  ///< servo thread, as all below
   Vec3 steered_{0.0};

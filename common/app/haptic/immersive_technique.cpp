@@ -31,6 +31,7 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noe
   if (view.place) place_ = *view.place;
   intent_.acts = hands->acts;
   intent_.pointing.reset();
+  intent_.stylus.reset();
   if (hands->stylus) {
     const TrackerPose pose = corrected(*hands->stylus);
     const Vec3 shaft = bench_.stylus.value_or(Vec3{0.0});
@@ -40,6 +41,7 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noe
     if (!hands->clutch) intent_.probe = tip_ + offset_;
     const Vec3 along = glm::length(shaft) > 0.0 ? glm::normalize(shaft) : Vec3{0.0, 0.0, -1.0};
     intent_.pointing = Ray{intent_.probe, place_.turn * (pose.orientation * along)};
+    intent_.stylus = Rigid{place_.turn * pose.orientation, intent_.probe};
   }
   // A hand that is out of sight for a while goes on with what it holds.
   if (!hands->carries) {

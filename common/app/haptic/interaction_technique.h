@@ -20,6 +20,7 @@ struct HandsIntent {
   bool acts = false;             ///< takes hold of what the probe is at
   std::optional<int> axis;       ///< along which alone the probe moves
   std::optional<Rigid> carried;  ///< how the other hand has moved what it holds since it took hold
+  std::optional<Rigid> stylus;   ///< place of the probe and turn of a tracked stylus; none as `pointing`
   /// Where a tracked stylus points, from its tip; none where it is not seen, or there is none.
   std::optional<Ray> pointing;
 };

@@ -77,6 +77,7 @@ bool ProbeSession::set_field(NamedField open) {
       open.tensor == open_.tensor && open.field == open_.field && (open.field || open.scalar == open_.scalar);
   if (same) return false;
   let_go();
+  dial_.reset();
   open_ = std::move(open);
   if (!options_.hands.empty() || options_.tracker) {
     technique_ = std::make_unique<ImmersiveTechnique>(options_.workbench, open_.bounds().center(),
@@ -122,16 +123,33 @@ void ProbeSession::start_replay() {
 }
 
 Placement ProbeSession::placement(const Camera& camera) const {
+  const InteractionGeometry& bench = options_.workbench.interaction;
   if (options_.bench_from_device) {
-    const InteractionGeometry& bench = options_.workbench.interaction;
     const BenchPlace place =
         bench_place_.value_or(place_of(bench, open_.bounds().center(), workspace().scale()));
     const Rigid& lies = *options_.bench_from_device;
-    return {workspace().workspace_from_data(place(lies.translation + bench.tip_offset)),
-            glm::mat3_cast(place.turn * lies.rotation), workspace().scale() * place.units};
+    Placement placement{workspace().workspace_from_data(place(lies.translation + bench.tip_offset)),
+                        glm::mat3_cast(place.turn * lies.rotation), workspace().scale() * place.units};
+    if (bench.surface) {
+      const Vec3 n{*bench.surface};
+      placement.surface = Vec4{glm::conjugate(lies.rotation) * n,
+                               bench.surface->w - glm::dot(n, lies.translation + bench.tip_offset)};
+    }
+    return placement;
   }
-  const Vec3 middle = workspace().workspace_from_data(camera.focal_point);
-  return {middle + camera.axes * options_.workbench.interaction.tip_offset, camera.axes};
+  Placement placement{.middle = workspace().workspace_from_data(camera.focal_point) + camera.axes * bench.tip_offset,
+                      .axes = camera.axes,
+                      .surface = bench.surface};
+  // It is the picture of the tip that is on the surface.
+  if (placement.surface) placement.surface->w -= glm::dot(Vec3{*bench.surface}, bench.tip_offset);
+  return placement;
+}
+
+Vec3 ProbeSession::on_surface(const Vec3& x) const {
+  const auto& plane = options_.workbench.interaction.surface;
+  if (!plane || !seen_ || dial_ || !by_mouse()) return x;
+  const Vec3 n = seen_->axes * Vec3{*plane};
+  return x - (glm::dot(n, x - seen_->focal_point) - plane->w / workspace().scale()) * n;
 }
 
 /// The device of this session; a path is laid over the first field that is opened.
@@ -167,8 +185,21 @@ Device& ProbeSession::device() {
 }
 
 void ProbeSession::restart_chain() {
-  const std::string description =
-      describe_chain(options_.modes[choice_.mode].name, workspace().scale(), chain_settings(), open_.name);
+  ChainSettings settings = chain_settings();
+  std::string felt = options_.modes[choice_.mode].name;
+  if (dial_) {
+    // A hand that holds a dial is not let go by a stretch.
+    constexpr double kAnywhere = 10.0;  // [m]
+    settings.shape.snap_distance = settings.shape.release_distance = kAnywhere;
+    settings.texture.by_noise = false;
+    const Workspace workspace = this->workspace();
+    felt = text_of({.kind = dial_->kind,
+                    .start = workspace.workspace_from_data(dial_->start),
+                    .end = workspace.workspace_from_data(dial_->end),
+                    .normal = dial_->normal,
+                    .detents = dial_->detents});
+  }
+  const std::string description = describe_chain(felt, workspace().scale(), settings, open_.name);
   HapticChain made = build(description);
   follow_chain(made);
   textured_ = chain_settings().texture.by_noise;
@@ -198,26 +229,34 @@ void ProbeSession::grab(double time, const Vec3& position) {
 
 void ProbeSession::hold(double time, const Vec3& position) {
   if (!servo_) return;
-  technique_->put(position);
+  technique_->put(on_surface(position));
   noted_.reset();
   if (drawing_) drawing_->forget_note();
   pressed_ = false;
-  mouse_->grab(time, workspace().workspace_from_data(position), buttons());
+  mouse_->grab(time, workspace().workspace_from_data(intent().probe), buttons());
 }
 
 void ProbeSession::lead(const HandEvent& event, const Camera& camera, const PictureSize& size) noexcept {
   const bool held = readout_.held && readout_.state == HoldState::kHeld;
   const Vec3 before = intent().probe;
   if (!technique_->take(event, {camera, size, held ? std::optional(readout_.proxy) : std::nullopt})) return;
+  if (std::holds_alternative<AxisLock>(event)) return;
+  if (const auto along = along_surface(event, camera, before)) technique_->put(*along);
+  seen_ = camera;
+  technique_->put(on_surface(intent().probe));
+}
+
+/// Where a mouse leads the probe along the isosurface that holds it; none where none does.
+std::optional<Vec3> ProbeSession::along_surface(const HandEvent& event, const Camera& camera,
+                                                const Vec3& before) const {
+  const bool held = readout_.held && readout_.state == HoldState::kHeld;
   const FeltLevels felt = felt_levels();
-  if (!held || !felt.field || intent().axis || !std::holds_alternative<MouseDrag>(event)) return;
+  if (!held || !felt.field || intent().axis || !std::holds_alternative<MouseDrag>(event)) return std::nullopt;
   CellHint hint;
   const ScalarSample value = felt.field->sample(readout_.proxy, hint);
   const auto level = felt_level(felt, value.value);
-  if (value.status != SampleStatus::kOk || !level) return;
-  const Vec3 moved = intent().probe;
-  const auto along = dragged_along({*felt.field, *level, readout_.proxy}, camera, before, moved);
-  if (along) technique_->put(*along);
+  if (value.status != SampleStatus::kOk || !level) return std::nullopt;
+  return dragged_along({*felt.field, *level, readout_.proxy}, camera, before, intent().probe);
 }
 
 /// The hands of the immersive technique have hold of the probe while they are there.
@@ -249,6 +288,32 @@ bool ProbeSession::on_grid() const noexcept {
 bool ProbeSession::holds_on_grid() const { return on_grid() && readout_.held && readout_.acts; }
 
 double ProbeSession::box_reach() const { return choice_.settings.grid_axis.threshold / workspace().scale(); }
+
+void ProbeSession::engage(bool elsewhere) noexcept {
+  elsewhere_ = elsewhere;
+  if (placed_) placed_->engage(elsewhere);
+}
+
+bool ProbeSession::device_presses() const noexcept {
+  return placed_ ? (placed_->buttons() & 1U) != 0 : readout_.held && readout_.acts;
+}
+
+std::optional<double> ProbeSession::device_reach() const {
+  if (!linked_ || open_.empty()) return std::nullopt;
+  const DeviceLimits& limits = linked_->limits();
+  double least = HUGE_VAL;
+  for (int axis = 0; axis < 2; ++axis)  // right and up
+    least = std::min({least, limits.reach_upper[axis], -limits.reach_lower[axis]});
+  return std::isfinite(least) && least > 0.0 ? std::optional(least / workspace().scale()) : std::nullopt;
+}
+
+void ProbeSession::hold_dial(const std::optional<Dial>& dial) {
+  if (dial == dial_ || !servo_ || replay_) return;
+  // Planes stay where the hand has put them.
+  if (!dial_ && planes()) choice_.settings.plane_widget.poses = planes()->poses;
+  dial_ = dial;
+  restart_chain();
+}
 
 void ProbeSession::put_planes(const PlanePoses& poses) {
   planes_.remember();
@@ -304,7 +369,11 @@ void ProbeSession::choose(const TouchChoice& choice) {
       chain_settings().texture.by_noise != textured_) {
     restart_chain();
   } else if (!(choice.settings == before.settings)) {
-    servo_->set_settings(chain_settings());
+    if (dial_) {
+      restart_chain();
+    } else {
+      servo_->set_settings(chain_settings());
+    }
   }
 }
 

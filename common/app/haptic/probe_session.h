@@ -35,6 +35,7 @@
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
 #include "common/device/simulated_device.h"
+#include "common/haptics/widget/dial_chain.h"
 #include "common/render/camera.h"
 #include "common/render/probe_view.h"
 #include "common/servo/linked_device.h"
@@ -115,7 +116,26 @@ class ProbeSession {
   /// That button of the mouse, while it has the probe.
   void press(bool down) noexcept { pressed_ = down; }
   /// Whether the hand works something else, such as a menu: its button takes hold of nothing then.
-  void engage(bool elsewhere) noexcept { elsewhere_ = elsewhere; }
+  void engage(bool elsewhere) noexcept;
+  /// From now on the hand holds that slider or knob (data coordinates), and feels its way and detents in
+  /// place of the mode; none: the mode again. What is drawn or followed meanwhile is neither path nor tract.
+  void hold_dial(const std::optional<Dial>& dial);
+  [[nodiscard]] const std::optional<Dial>& dial() const noexcept { return dial_; }
+  /// Whether a device in the hand moves the probe, by which it points: a real one, or a recorded path.
+  [[nodiscard]] bool by_device() const noexcept { return linked_ != nullptr || path_device_ != nullptr; }
+  /// Its first button.
+  [[nodiscard]] bool device_presses() const noexcept;
+  /// How far it reaches to all sides of the focal point of the view [data units]; none where there is no
+  /// bound.
+  [[nodiscard]] std::optional<double> device_reach() const;
+  /// How hands work at the workbench, and metres of the workspace per data unit. @pre there is data.
+  [[nodiscard]] const InteractionGeometry& interaction() const noexcept {
+    return options_.workbench.interaction;
+  }
+  [[nodiscard]] double metres_per_unit() const { return workspace().scale(); }
+  [[nodiscard]] bool has_data() const noexcept { return !open_.empty(); }
+  /// Whether a simulated arm follows the mouse: where it is, is not where the mouse leads.
+  [[nodiscard]] bool has_arm() const noexcept { return simulated_ != nullptr; }
   void force_off() noexcept;
   void arm() noexcept;
   /// @}
@@ -180,6 +200,8 @@ class ProbeSession {
   Keeping keep_line();
   /// Keeps instead the one that note_line() has noted, if the hand has not been let go since.
   Keeping keep_noted_line();
+  /// Keeps a line of the scene that was picked; nothing is known of forces along it.
+  Keeping keep_picked(const Line& line) { return keep(line, forces_along(line, {})); }
   /// Notes the line that is followed now, or how far the tract is drawn, while the hand rests: on its way to
   /// a panel it may slip to others.
   void note_line();
@@ -224,8 +246,12 @@ class ProbeSession {
   /// Where a real device lies: at the workbench, else its middle at the focal point of the view, its axes
   /// those of the view.
   [[nodiscard]] Placement placement(const Camera& camera) const;
+  /// The place of the mouse on the workbench's surface nearest to `x`; `x` where there is none.
+  [[nodiscard]] Vec3 on_surface(const Vec3& x) const;
   void take(const HandStep& step);
   void hold(double time, const Vec3& position);
+  [[nodiscard]] std::optional<Vec3> along_surface(const HandEvent& event, const Camera& camera,
+                                                  const Vec3& before) const;
   void follow_hands(double time);
   void follow_replayed_chain(std::uint64_t step);
   void ask_local(const Camera& camera);
@@ -241,6 +267,7 @@ class ProbeSession {
   std::unique_ptr<InteractionTechnique> technique_;
   std::unique_ptr<HandSource> hands_;  ///< of the immersive technique
   std::optional<BenchPlace> bench_place_;
+  std::optional<Camera> seen_;  ///< the view of the last update() or lead()
   CarriedPlanes carried_;
 
   std::optional<FollowedCurve> curve_;
@@ -259,6 +286,7 @@ class ProbeSession {
   std::shared_ptr<const ScalarField> noise_;  ///< felt as a texture: HapticChain
   bool textured_ = false;                     ///< the chain that is felt was built with it
   HandPlanes planes_;
+  std::optional<Dial> dial_;
   bool pressed_ = false, elsewhere_ = false;
   AnnotationList notes_;
   KeptLines kept_;

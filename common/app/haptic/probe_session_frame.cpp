@@ -42,6 +42,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   // Before planes are carried on: of that edit nothing can have been told yet.
   planes_.read(choice_.settings.plane_widget.edit);
   if (hands_ && !replay_) follow_hands(time);
+  seen_ = camera;
   if (mouse_->grabbed()) mouse_->move(time, workspace().workspace_from_data(intent().probe), buttons());
   if (placed_) placed_->place(placement(camera));
   if (const LinkedDevice* const real = linked_ ? linked_.get() : options_.tracker.get())
@@ -84,6 +85,23 @@ void ProbeSession::take(const HandStep& step) {
       workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[shown] : step.probe);
   const double force = glm::length(step.force);
   const bool on_line = step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
+  readout_.held = true;
+  readout_.acts = (step.buttons & 1U) != 0;
+  readout_.state = step.state;
+  readout_.cut = step.cut;
+  readout_.probe = workspace.data_from_workspace(step.probe);
+  readout_.proxy = proxy;
+  readout_.residual = step.chain.residual / workspace.scale();
+  readout_.force = force;
+  constexpr double kMillimetres = 1e3;
+  readout_.stretch =
+      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;
+  if (dial_) {
+    path_->append(gap, 0.0);
+    if (drawing_) drawing_->let_go();
+    held_before_ = false;
+    return;
+  }
   if (step.chain.jumped) {
     path_->append(gap, 0.0);
     other_line_ = true;
@@ -107,17 +125,6 @@ void ProbeSession::take(const HandStep& step) {
   } else {
     felt_.back().force = force;
   }
-  readout_.held = true;
-  readout_.acts = (step.buttons & 1U) != 0;
-  readout_.state = step.state;
-  readout_.cut = step.cut;
-  readout_.probe = workspace.data_from_workspace(step.probe);
-  readout_.proxy = proxy;
-  readout_.residual = step.chain.residual / workspace.scale();
-  readout_.force = force;
-  constexpr double kMillimetres = 1e3;
-  readout_.stretch =
-      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;
 }
 
 /// In a replay the chains change by themselves: draws the line of the one that is in place.

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/text.h"
+#include "common/haptics/constraint/detent_marks.h"
 
 namespace palpate {
 namespace {
@@ -176,10 +177,39 @@ bool SpaceMenu::meets(const Ray& ray) const {
   return false;
 }
 
-SpaceItem& SpaceMenu::item_at(const Path& path) {
-  std::vector<SpaceItem>* column = &items_;
+const SpaceItem& SpaceMenu::item_at(const Path& path) const {
+  const std::vector<SpaceItem>* column = &items_;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) column = &(*column)[path[i]].behind;
   return (*column)[path.back()];
+}
+
+SpaceItem& SpaceMenu::item_at(const Path& path) {
+  return const_cast<SpaceItem&>(std::as_const(*this).item_at(path));  // NOLINT(*-const-cast)
+}
+
+std::optional<Dial> SpaceMenu::held_way() const {
+  if (!held_) return std::nullopt;
+  const SpaceItem& item = item_at(held_->path);
+  const auto in_space = [this](const Vec2& at) {
+    return corner_ + entry_ * (at.x * axes_[0] - at.y * axes_[1]);
+  };
+  const auto steps =
+      item.range.step > 0.0
+          ? static_cast<int>(std::lround((item.range.upper - item.range.lower) / item.range.step))
+          : 0;
+  Dial dial{.normal = axes_[2]};
+  if (item.kind == SpaceItem::Kind::kSlider) {
+    dial.start = in_space(held_->middle);
+    dial.end = in_space(held_->middle + Vec2{kTrackRight - kTrackLeft, 0.0});
+    dial.detents = steps + 1;
+  } else {
+    dial.kind = Dial::Kind::kKnob;
+    dial.start = in_space(held_->middle + kKnobRadius * Vec2{std::cos(held_->least), std::sin(held_->least)});
+    dial.end = in_space(held_->middle);
+    dial.detents = steps;
+  }
+  if (dial.detents > static_cast<int>(DetentMarks::kMost)) dial.detents = 0;
+  return dial;
 }
 
 double SpaceMenu::value(int id) const {
@@ -250,13 +280,14 @@ SpaceEvent SpaceMenu::point(const Ray& ray, bool button) {
     case SpaceItem::Kind::kSlider: {
       const Vec2 left{found->u + kTrackLeft, found->v + kTrackDown};
       if (std::abs(at->y - left.y) > kReach) return {};
-      held_ = Held{*pointed_, left, chosen.value, 0.0};
+      held_ = Held{*pointed_, left, chosen.value};
       return drag(*at);
     }
     case SpaceItem::Kind::kKnob: {
       const Vec2 middle{found->u + kKnobLeft, found->v + kKnobDown}, d = *at - middle;
       if (glm::length(d) > 1.3 * kKnobRadius) return {};
-      held_ = Held{*pointed_, middle, chosen.value, std::atan2(d.y, d.x)};
+      const double angle = std::atan2(d.y, d.x);
+      held_ = Held{*pointed_, middle, chosen.value, angle, angle - kTurn * chosen.range.part(chosen.value)};
       return {};
     }
   }

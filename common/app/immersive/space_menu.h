@@ -15,6 +15,7 @@
 
 #include "common/app/immersive/dial.h"
 #include "common/app/immersive/pick.h"
+#include "common/haptics/widget/dial_chain.h"
 #include "common/render/sign/sign_view.h"
 
 namespace palpate {
@@ -55,6 +56,9 @@ class SpaceMenu {
   /// Whether the ray meets it, or a slider or knob is held: then the hand is the menu's.
   [[nodiscard]] bool meets(const Ray& ray) const;
   [[nodiscard]] bool held() const noexcept { return held_.has_value(); }
+  /// The way of the slider or knob that is held, as a hand on the menu would go along it: a knob that was
+  /// taken anywhere turns from there, so its detents lie where that hand passes them.
+  [[nodiscard]] std::optional<Dial> held_way() const;
   /// Of a slider or knob. @pre there is one with this id.
   [[nodiscard]] double value(int id) const;
   void set(int id, double value);
@@ -72,6 +76,7 @@ class SpaceMenu {
   [[nodiscard]] std::vector<Placed> placed() const;
   [[nodiscard]] std::optional<Vec2> met(const Ray& ray) const;
   [[nodiscard]] SpaceItem& item_at(const Path& path);
+  [[nodiscard]] const SpaceItem& item_at(const Path& path) const;
   SpaceEvent drag(const Vec2& at);
 
   std::vector<SpaceItem> items_;
@@ -88,6 +93,7 @@ class SpaceMenu {
     Vec2 middle{0.0};    ///< of a knob, or the left end of a slider's way
     double from = 0.0;   ///< value that the hand asks for, not held by detents
     double angle = 0.0;  ///< of the hand about the middle of a knob, the last time [rad]
+    double least = 0.0;  ///< and where it would be at the lowest value
   };
   std::optional<Held> held_;
 };

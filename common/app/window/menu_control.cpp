@@ -1,6 +1,7 @@
 #include "common/app/window/menu_control.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -78,11 +79,17 @@ Ray ray_through(const Camera& camera, const PictureArea& area, double x, double 
   return {eye(camera), glm::normalize(at - eye(camera))};
 }
 
+Ray ray_through(const Camera& camera, const Vec3& place) {
+  if (camera.projection == Projection::kOrthographic)
+    return {place + distance(camera) * camera.axes[2], -camera.axes[2]};
+  return {eye(camera), glm::normalize(place - eye(camera))};
+}
+
 void MenuControl::toggle(const SceneState& scene, const SceneView& view,
                          const std::vector<std::string>& modes) {
   events_.clear();
   turned_ = 0.0;
-  button_ = false;
+  button_ = by_hand_ = false;
   if (menu_) {
     menu_.reset();
   } else {
@@ -90,14 +97,23 @@ void MenuControl::toggle(const SceneState& scene, const SceneView& view,
   }
 }
 
-void MenuControl::place(const Camera& camera, const PictureArea& area) {
+void MenuControl::place(const Camera& camera, const PictureArea& area, const std::optional<double>& reach) {
   if (!menu_) return;
   // Parts of the height of the view.
   constexpr double kInwards = 0.05, kForward = 0.08, kDown = 0.1, kEntry = 0.045;
   const double h = camera.view_height, aspect = area.width / area.height;
-  const Vec3 corner = camera.focal_point + h * ((kInwards - 0.5 * aspect) * camera.axes[0] +
-                                                (0.5 - kDown) * camera.axes[1] + kForward * camera.axes[2]);
-  menu_->put(corner, camera.axes, kEntry * h);
+  double left = (kInwards - 0.5 * aspect) * h, top = (0.5 - kDown) * h, forward = kForward * h;
+  double entry = kEntry * h;
+  if (reach) {
+    // Room for two columns beside each other.
+    constexpr double kPart = 0.9, kColumns = 2.1;
+    left = std::max(left, -kPart * *reach);
+    top = std::min(top, kPart * *reach);
+    forward = std::min(forward, 0.5 * *reach);
+    entry = std::min(entry, (kPart * *reach - left) / (kColumns * SpaceMenu::kColumn));
+  }
+  menu_->put(camera.focal_point + left * camera.axes[0] + top * camera.axes[1] + forward * camera.axes[2],
+             camera.axes, entry);
 }
 
 void MenuControl::take(const SpaceEvent& event) {
@@ -111,6 +127,7 @@ bool MenuControl::handle(const InputEvent& event, const PictureArea& area, const
     case InputKind::kMove:
       x_ = event.x;
       y_ = event.y;
+      if (by_hand_ && held_by_mouse()) return true;
       take(menu_->point(ray(), button_));
       return button_;
     case InputKind::kPress:
@@ -120,11 +137,30 @@ bool MenuControl::handle(const InputEvent& event, const PictureArea& area, const
       return true;
     case InputKind::kRelease:
       if (event.button != MouseButton::kLeft || !std::exchange(button_, false)) return false;
+      by_hand_ = false;
       take(menu_->point(ray(), false));
       return true;
     default:
       return false;
   }
+}
+
+std::optional<Dial> MenuControl::held_way() const { return menu_ ? menu_->held_way() : std::nullopt; }
+
+std::optional<Vec3> MenuControl::mouse_place(const Camera& camera, const PictureArea& area) const {
+  if (!menu_) return std::nullopt;
+  const SignView sign = menu_->drawn();
+  const Ray ray = ray_through(camera, area, x_ - area.left, y_ - area.top);
+  const double slope = glm::dot(ray.direction, sign.axes[2]);
+  const double along = glm::dot(sign.origin - ray.origin, sign.axes[2]) / slope;
+  if (!(along > 0.0) || !std::isfinite(along)) return std::nullopt;
+  return ray.origin + along * ray.direction;
+}
+
+void MenuControl::follow_hand(const Camera& camera, const Vec3& place) {
+  if (!held_by_mouse()) return;
+  by_hand_ = true;
+  take(menu_->point(ray_through(camera, place), true));
 }
 
 bool MenuControl::point(const Ray& ray, bool button) {

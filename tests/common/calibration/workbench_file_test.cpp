@@ -190,7 +190,8 @@ TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
         "pixels = [800, 800]\nposition = [-1920, 40]\nstereo = 'rows'\n[head]\nsource = 'hands'\n"
         "resting_eye = [0.5, 0.6, 2]\nsensor_latency = 0.004\ndisplay_latency = 0.008\nlatency = 0.05\n"
         "predict = false\nvelocity_window = 0.1\nfreeze = 0.5\nglide = 0\n"
-        "[interaction]\ntip_offset = [0, 0.05, 0]\nsurface = 'screen'\n");
+        "[interaction]\ntechnique = 'immersive'\nmiddle = [0, 0, 0]\ntip_offset = [0, 0.05, 0]\n"
+        "surface = 'screen'\n");
   const WorkbenchGeometry bench = read_workbench(path_);
   EXPECT_EQ(bench.screens[0].position[0], -1920);
   EXPECT_EQ(bench.screens[0].stereo, StereoMode::kRows);
@@ -207,6 +208,9 @@ TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
   EXPECT_EQ(bench.interaction.surface, Vec4(0.0, 0.0, 1.0, 1.0));
   write("[interaction]\nsurface = [0, 2, 0, 1]\n");
   EXPECT_EQ(read_workbench(path_).interaction.surface, Vec4(0.0, 1.0, 0.0, 0.5));
+  // At a desk the screen is where the view is.
+  write("[interaction]\nsurface = 'screen'\n");
+  EXPECT_EQ(read_workbench(path_).interaction.surface, Vec4(0.0, 0.0, 1.0, 0.0));
 
   const auto names = [this](const std::string& content, const char* line, const char* word) {
     const std::string text = refusal(content);
@@ -228,7 +232,13 @@ TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
   names("[head]\nresting_eye = [1, 2]\n", "line 2", "3 finite numbers");
   names("[head]\nspeed = 1\n", "line 2", "velocity_window");
   names("[interaction]\nsurface = 'table'\n", "line 2", "screen");
-  names("[interaction]\nsurface = 'screen'\n", "line 2", "[screen]");
+  names("[interaction]\npick = 'cone'\n", "line 2", "aperture");
+  names("[interaction]\naperture = 0\n", "line 2", "above zero");
+  write("[interaction]\npick = 'aperture'\naperture = 0.02\n");
+  EXPECT_TRUE(read_workbench(path_).interaction.through_aperture);
+  EXPECT_EQ(read_workbench(path_).interaction.aperture, 0.02);
+  names("[interaction]\ntechnique = 'immersive'\nmiddle = [0, 0, 0]\nsurface = 'screen'\n", "line 4",
+        "[screen]");
   names("[interaction]\nsurface = [0, 0, 0, 1]\n", "line 2", "normal");
   names("[interaction]\ntip_offset = 3\n", "line 2", "3 finite numbers");
 }

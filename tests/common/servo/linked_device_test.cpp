@@ -271,6 +271,53 @@ TEST_F(PlacedDeviceTest, EnlargesMotionsWithoutStiffeningTheHand) {
   }
 }
 
+// The hand is anywhere, the probe on the plane; a pull across it does no work there, and none is shown.
+TEST_F(PlacedDeviceTest, MovesOnAPlaneAloneAndIsPulledWithinIt) {
+  LinkedDevice linked(link_);
+  Placement placement = placement_;
+  placement.surface = Vec4{0.0, 0.6, 0.8, 0.01};
+  PlacedDevice device(linked, {}, placement, {});
+  DeviceSample sample;
+  say({0.01, 0.02, 0.03});
+  ASSERT_TRUE(comes([&] { return device.read(now(), sample); }));
+  const Vec3 n{0.0, 0.6, 0.8}, in_hand = (sample.position - placement.middle) * placement.axes;
+  EXPECT_NEAR(glm::dot(n, in_hand), 0.01, 1e-15);
+  EXPECT_LT(glm::length(glm::cross(n, in_hand - Vec3(0.01, 0.02, 0.03))), 1e-15) << "the nearest place";
+  // Of 1 N along each axis of the hand.
+  const Vec3 expected = Vec3{1.0} - glm::dot(n, Vec3{1.0}) * n;
+  EXPECT_TRUE(comes([&] {
+    device.command(placement.axes * Vec3{1.0});
+    return glm::distance(link_->told(), expected) < 1e-15;
+  }));
+}
+
+// While the hand works a menu its button is that of the menu alone.
+TEST_F(PlacedDeviceTest, HidesTheFirstButtonWhileTheHandWorksSomethingElse) {
+  LinkedDevice linked(link_);
+  PlacedDevice device(linked, {}, placement_, {});
+  DeviceSample sample;
+  const auto pressed = [&](bool elsewhere) {
+    device.engage(elsewhere);
+    return comes([&] {
+      link_->say({.time = now(), .buttons = 3U, .has_position = true});
+      return device.read(now(), sample) && device.buttons() == 3U;
+    });
+  };
+  ASSERT_TRUE(pressed(false));
+  EXPECT_EQ(sample.buttons, 3U);
+  ASSERT_TRUE(pressed(true));
+  EXPECT_EQ(sample.buttons, 2U);
+  DeviceLimits limits;
+  limits.enabling_button = 0;
+  PlacedDevice enabled(linked, limits, placement_, {});
+  enabled.engage(true);
+  ASSERT_TRUE(comes([&] {
+    link_->say({.time = now(), .buttons = 3U, .has_position = true});
+    return enabled.read(now(), sample);
+  }));
+  EXPECT_EQ(sample.buttons, 3U) << "a dead-man switch is never hidden";
+}
+
 TEST_F(PlacedDeviceTest, LetsGoOfTheHandWhereTheViewTurns) {
   LinkedDevice linked(link_);
   PlacedDevice device(linked, {}, placement_, {});

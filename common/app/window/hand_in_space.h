@@ -1,0 +1,31 @@
+/// What a tracked stylus or a device in the hand does beside feeling the data: it works the menu in space,
+/// and where it points at none of that, picks what is in the scene. One of both at a time, and neither while
+/// the hand is at a cutting plane that it can touch.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "common/app/window/menu_hand.h"
+#include "common/app/window/pick_control.h"
+
+namespace palpate {
+
+class HandInSpace {
+ public:
+  /// Once a frame, before the session's update.
+  /// @param eye that looks at the hand, between both  @param time [s] as of ProbeSession::grab().
+  /// @return what to say to the user.
+  std::optional<std::string> follow(MenuControl& menu, ProbeSession& touch, SceneView& view,
+                                    const PictureArea& area, const Vec3& eye, double time);
+  /// What is pointed at in the scene, or held.
+  [[nodiscard]] const std::optional<Picked>& picked() const noexcept { return pick_.picked(); }
+  /// Whether lenses or planes are moved from afar.
+  [[nodiscard]] bool holding() const noexcept { return pick_.holding(); }
+
+ private:
+  MenuHand menu_;
+  PickControl pick_;
+};
+
+}  // namespace palpate
