@@ -392,8 +392,8 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
           [&](const WorkbenchSection& s) { out.head = head_of(s); });
   section("interaction",
           {"technique", "middle", "rotation", "gain", "stylus_station", "hand_station", "head_station",
-           "enabling_button", "enabling_device", "tip_offset", "surface", "arm_rotation", "arm_middle", "pick",
-           "aperture"},
+           "enabling_button", "enabling_device", "tip_offset", "surface", "arm_rotation", "arm_middle",
+           "pick", "aperture"},
           [&](const WorkbenchSection& s) { out.interaction = interaction_of(s, out.screens); });
   return out;
 }

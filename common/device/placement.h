@@ -8,8 +8,8 @@
 
 namespace palpate {
 
-/// x_W = middle + scale axes P(x_D),   P(x) = x - (n.x - d) n, or x where there is no plane. The axes are those
-/// of the view, so that right, up and towards the user are the same for the hand and the eye.
+/// x_W = middle + scale axes P(x_D),   P(x) = x - (n.x - d) n, or x where there is no plane. The axes are
+/// those of the view, so that right, up and towards the user are the same for the hand and the eye.
 struct Placement {
   Vec3 middle{0.0};    ///< [m] in W
   Mat3 axes{1.0};      ///< columns: right, up, towards the user, in W; orthonormal

@@ -34,9 +34,10 @@ bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
   if (atoms.has_valuators) return steer(now, atoms, sample);
   if (!atoms.has_position) return false;
   inside_ = within_reach(device_.limits(), atoms.position);
+  const Vec3 in_hand = placement_.on_surface(atoms.position);
+  tips_.write(in_hand);
   if (moved) return false;
-  sample = {atoms.time,
-            placement_.middle + placement_.scale * (placement_.axes * placement_.on_surface(atoms.position)),
+  sample = {atoms.time, placement_.middle + placement_.scale * (placement_.axes * in_hand),
             felt_buttons(atoms.buttons)};
   return true;
 }

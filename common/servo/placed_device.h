@@ -44,6 +44,10 @@ class PlacedDevice final : public Device {
   /// The buttons as they are on the device. Any thread.
   [[nodiscard]] std::uint32_t buttons() const noexcept { return buttons_.load(std::memory_order_relaxed); }
 
+  /// Where the hand is on the plane of the placement, where there is one [m, frame D]: the same to the eye
+  /// however the view is turned. Window thread. False where it has not moved since, or steers by valuators.
+  [[nodiscard]] bool tip(Vec3& in_hand) noexcept { return tips_.read(in_hand); }
+
   bool read(double now, DeviceSample& sample) noexcept override;
   void command(const Vec3& force) noexcept override;
   void emergency_stop() noexcept override { device_.emergency_stop(); }
@@ -58,6 +62,7 @@ class PlacedDevice final : public Device {
   Box bounds_;       ///< [m] in which valuators steer
   Placement asked_;  ///< window thread
   TripleBuffer<Placement> placements_;
+  TripleBuffer<Vec3> tips_;
   std::atomic<bool> elsewhere_{false};
   std::atomic<std::uint32_t> buttons_{0};
 

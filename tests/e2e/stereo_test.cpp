@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <stb_image.h>
 
 #include "tests/e2e/explorer_test.h"
@@ -85,6 +86,24 @@ TEST_F(Stereo, DrawsEveryScreenFromOneHead) {
   };
   EXPECT_EQ(pixels("seen-front.png"), pixels("alone.png"));
   EXPECT_EQ(with({"--screen", "all", "--out", "seen.png"}).exit_code, 2) << "they are there already";
+}
+
+// What a hand picks that points into the picture: told, and marked there.
+TEST_F(Stereo, MarksWhatIsPickedByARayOrThroughAnAperture) {
+  const auto picks = [this](const std::string& by) {
+    const auto result =
+        run({"render", "--example", "shells", "--size", "64x48", "--lens", "sphere:0.5,0,0,0.1", "--clip",
+             "0,0,1,0.3", "--pick", by, "--json", "--out", "p.png", "--force"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out).at("picked");
+  };
+  const auto lens = picks("ray:0.5,0,5,0,0,-1");
+  EXPECT_EQ(lens.at("what"), "lens 1");
+  EXPECT_NEAR(lens.at("z").get<double>(), 0.1, 1e-12);
+  EXPECT_EQ(picks("aperture:0.55,0,5,0.55,0,4,0.05").at("what"), "lens 1");
+  EXPECT_EQ(picks("ray:-0.5,0,5,0,0,-1").at("what"), "plane 1");
+  EXPECT_TRUE(picks("ray:0,0,500,0,0,1").is_null());
+  EXPECT_EQ(run({"render", "--example", "shells", "--pick", "0,0,1", "--out", "p.png"}).exit_code, 2);
 }
 
 // A recorded head: its end by default, another time where that is asked for, ahead by the workbench's

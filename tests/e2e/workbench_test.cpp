@@ -52,6 +52,10 @@ TEST_F(Workbench, MakesAReportWithoutHardwareAndWithoutArguments) {
   for (const char* word :
        {"head_errors.svg", "tracker_position.svg", "printed: degree 4", "Condition number"})
     EXPECT_NE(page.find(word), std::string::npos) << word;
+  for (const std::string picture : {"distortion_lines.png", "orientation_icons.png", "field_icons.png"}) {
+    EXPECT_NE(page.find(picture), std::string::npos) << picture;
+    EXPECT_TRUE(read_file(folder_.path("workbench-report/" + picture)).starts_with("\x89PNG")) << picture;
+  }
 }
 
 TEST_F(Workbench, SaysWhatIsWrong) {

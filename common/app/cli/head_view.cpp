@@ -194,6 +194,9 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
   }
   std::string head = view.head;
   if (head.empty()) head = read_workbench(options.workbench).head.source;
+  // Of the file alone: at a desk there are no hands, and no head with them.
+  const bool at_desk = view.head.empty() && head == kHeadOfHands && touch.hands.empty() && !touch.tracker;
+  if (at_desk && view.screen.empty()) return std::nullopt;
   if (head.empty()) {
     if (!view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
     return std::nullopt;

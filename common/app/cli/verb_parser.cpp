@@ -244,10 +244,11 @@ void VerbParser::add_picture() {
                   "time of that recording, in seconds, at which the picture is shown; default: its end")
       ->type_name("T")
       ->group("View");
-  app_.add_option("--pick", options_.view.pick,
-                  "mark what a hand picks that points there: the first handle, lens or line along a ray from a "
-                  "place in a direction, or what is nearest to the middle of an aperture of radius s about a "
-                  "that an eye at e looks through; else a cutting plane")
+  app_.add_option(
+          "--pick", options_.view.pick,
+          "mark what a hand picks that points there: the first handle, lens or line along a ray from a "
+          "place in a direction, or what is nearest to the middle of an aperture of radius s about a "
+          "that an eye at e looks through; else a cutting plane")
       ->type_name("ray:x,y,z,dx,dy,dz|aperture:ex,ey,ez,ax,ay,az,s")
       ->group("View");
   app_.add_option("--repeat", options_.repeat, "frames to time after the first one")

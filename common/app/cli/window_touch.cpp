@@ -60,6 +60,19 @@ void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeS
                     " needs a workbench whose [interaction] has technique = \"immersive\": try --workbench "
                     "workbench.toml");
 }
+/// The same workbench with a mouse: a program for it is tried at a desk by the file that it has there. What
+/// is given in the tracker's frame says nothing then, but the screen is where the view is.
+void take_to_desk(WorkbenchGeometry& bench) {
+  InteractionGeometry& hands = bench.interaction;
+  hands.immersive = false;
+  hands.tip_offset = Vec3{0.0};
+  if (!hands.surface) return;
+  const Vec3 n{*hands.surface};
+  const bool screen = !bench.screens.empty() && n == axes(bench.screens.front().corners)[2] &&
+                      hands.surface->w == glm::dot(n, center(bench.screens.front().corners));
+  hands.surface = screen ? std::optional(Vec4{0.0, 0.0, 1.0, 0.0}) : std::nullopt;
+}
+
 [[noreturn]] void refuse_immersive(const Options& options) {
   throw usage_error(options.workbench.string() +
                     " has technique = \"immersive\", which needs tracked hands, or an arm of which "
@@ -102,15 +115,21 @@ bool is_driver(const Options& options, const ProbeSessionOptions& touch) {
          !std::string_view(options.device).starts_with(kHands);
 }
 
-/// The workbench, and recorded hands at it.
-/// @throws Error (usage) where one of both is missing; (bad input).
-void take_workbench(const Options& options, ProbeSessionOptions& touch) {
+/// The workbench, and recorded hands at it; a desktop where a mouse, a simulation or a path takes the place
+/// of its tracked hands.
+/// @throws Error (usage) for hands without such a workbench; (bad input).
+void take_workbench(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
   const std::string_view device = options.device;
   const bool hands = device.starts_with(kHands);
   if (!options.workbench.empty()) touch.workbench = read_workbench(options.workbench);
   const bool immersive = touch.workbench.interaction.immersive;
   if (hands && !immersive) refuse_desktop(options);
-  if (immersive && !hands && !is_driver(options, touch)) refuse_immersive(options);
+  if (immersive && !hands && !is_driver(options, touch)) {
+    context.console.note(options.workbench.string() +
+                         " has technique = \"immersive\": without its tracked hands (--device polhemus or "
+                         "hands:FILE.csv) this is a desktop");
+    take_to_desk(touch.workbench);
+  }
   if (!hands) return;
   touch.hands = read_hands(std::string(device.substr(kHands.size())));
   if (touch.hands.empty()) throw usage_error("--device " + options.device + ": there are no rows");
@@ -147,7 +166,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   check_replay_options(options);
   touch.path = device_path(options.device);
   touch.simulated = simulated_option(options.device);
-  take_workbench(options, touch);
+  take_workbench(options, context, touch);
   if (touch.simulated) {
     touch.limits = simulated_limits(*touch.simulated, touch.limits);
     context.console.note("simulated: " + title_of(*touch.simulated));

@@ -137,9 +137,10 @@ Placement ProbeSession::placement(const Camera& camera) const {
     }
     return placement;
   }
-  Placement placement{.middle = workspace().workspace_from_data(camera.focal_point) + camera.axes * bench.tip_offset,
-                      .axes = camera.axes,
-                      .surface = bench.surface};
+  Placement placement{
+      .middle = workspace().workspace_from_data(camera.focal_point) + camera.axes * bench.tip_offset,
+      .axes = camera.axes,
+      .surface = bench.surface};
   // It is the picture of the tip that is on the surface.
   if (placement.surface) placement.surface->w -= glm::dot(Vec3{*bench.surface}, bench.tip_offset);
   return placement;
@@ -294,12 +295,20 @@ void ProbeSession::engage(bool elsewhere) noexcept {
   if (placed_) placed_->engage(elsewhere);
 }
 
+std::optional<Vec3> ProbeSession::device_tip(const Camera& camera) {
+  if (!by_device() || !readout_.held) return std::nullopt;
+  if (Vec3 in_hand{0.0}; placed_ && placed_->tip(in_hand)) tip_ = in_hand;
+  if (!tip_) return readout_.probe;
+  const Placement there = placement(camera);
+  return workspace().data_from_workspace(there.middle + there.scale * (there.axes * *tip_));
+}
+
 bool ProbeSession::device_presses() const noexcept {
   return placed_ ? (placed_->buttons() & 1U) != 0 : readout_.held && readout_.acts;
 }
 
 std::optional<double> ProbeSession::device_reach() const {
-  if (!linked_ || open_.empty()) return std::nullopt;
+  if (!linked_ || open_.empty() || options_.bench_from_device) return std::nullopt;
   const DeviceLimits& limits = linked_->limits();
   double least = HUGE_VAL;
   for (int axis = 0; axis < 2; ++axis)  // right and up

@@ -123,6 +123,9 @@ class ProbeSession {
   [[nodiscard]] const std::optional<Dial>& dial() const noexcept { return dial_; }
   /// Whether a device in the hand moves the probe, by which it points: a real one, or a recorded path.
   [[nodiscard]] bool by_device() const noexcept { return linked_ != nullptr || path_device_ != nullptr; }
+  /// Where the eye sees its tip in this view: a real device is laid over that, and goes along with it before
+  /// the servo has told of it. None while no hand is on it.
+  [[nodiscard]] std::optional<Vec3> device_tip(const Camera& camera);
   /// Its first button.
   [[nodiscard]] bool device_presses() const noexcept;
   /// How far it reaches to all sides of the focal point of the view [data units]; none where there is no
@@ -287,6 +290,7 @@ class ProbeSession {
   bool textured_ = false;                     ///< the chain that is felt was built with it
   HandPlanes planes_;
   std::optional<Dial> dial_;
+  std::optional<Vec3> tip_;  ///< of the real device, in its own frame [m]
   bool pressed_ = false, elsewhere_ = false;
   AnnotationList notes_;
   KeptLines kept_;

@@ -23,6 +23,7 @@
 #include "common/app/window/color_lens_control.h"
 #include "common/app/window/glfw_window.h"
 #include "common/app/window/gui.h"
+#include "common/app/window/hand_in_space.h"
 #include "common/app/window/keys.h"
 #include "common/app/window/lens_control.h"
 #include "common/app/window/live_picture.h"
@@ -144,8 +145,8 @@ class ExplorerWindow {
   /// Of everything that is being dragged, moved or played.
   void let_go();
   void put_corner();
-  /// What the stylus does to the menu, and what either hand has done to it.
-  void follow_menu();
+  /// What a stylus or a device does to the menu and picks in the scene, and what was done to the menu.
+  void work_in_space();
   void toggle_menu();
   [[nodiscard]] EditedView edited_view() const;
   /// Remembers what is edited in the view, a drag as one edit.
@@ -183,6 +184,7 @@ class ExplorerWindow {
   PictureArea picture_;
   Pointer pointer_;
   MenuControl menu_;
+  HandInSpace hand_in_space_;
   bool needs_camera_ = true;
   std::optional<SceneState> scene_;
   PanelState state_;

@@ -128,6 +128,7 @@ bool MenuControl::handle(const InputEvent& event, const PictureArea& area, const
       x_ = event.x;
       y_ = event.y;
       if (by_hand_ && held_by_mouse()) return true;
+      if (menu_->held() && !button_) return false;  // by another hand
       take(menu_->point(ray(), button_));
       return button_;
     case InputKind::kPress:

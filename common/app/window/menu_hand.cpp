@@ -28,8 +28,9 @@ void MenuHand::lead_by_mouse(MenuControl& menu, ProbeSession& touch, const Camer
   }
   touch.move(*place);
   if (touch.has_arm() && touch.readout().held) {
-    // The arm takes a while to come here.
-    arrived_ = arrived_ || glm::distance(touch.readout().probe, *place) < menu.entry();
+    // The arm takes a while to come here, and to come along where a knob turns the view.
+    arrived_ = (arrived_ && touch.dial() == menu.held_way()) ||
+               glm::distance(touch.readout().probe, *place) < menu.entry();
     if (arrived_) menu.follow_hand(camera, touch.readout().probe);
   }
   touch.hold_dial(menu.held_way());
@@ -38,7 +39,6 @@ void MenuHand::lead_by_mouse(MenuControl& menu, ProbeSession& touch, const Camer
 bool MenuHand::follow(MenuControl& menu, ProbeSession& touch, const Camera& camera, const PictureArea& area,
                       double time) {
   if (!touch.available()) return false;
-  const ProbeReadout& hand = touch.readout();
   if (const auto& pointing = touch.intent().pointing)
     return menu.shown() && menu.point(*pointing, touch.intent().acts);
   if (touch.by_mouse() && menu.held_by_mouse()) {
@@ -52,9 +52,9 @@ bool MenuHand::follow(MenuControl& menu, ProbeSession& touch, const Camera& came
     back_.reset();
   }
   if (!touch.by_device()) return false;
-  const bool works =
-      menu.shown() && hand.held && menu.point(ray_through(camera, hand.probe), touch.device_presses());
-  const std::optional<Dial> way = hand.held ? menu.held_way() : std::nullopt;
+  const std::optional<Vec3> tip = touch.device_tip(camera);
+  const bool works = menu.shown() && tip && menu.point(ray_through(camera, *tip), touch.device_presses());
+  const std::optional<Dial> way = tip ? menu.held_way() : std::nullopt;
   if (!way) {
     depth_.reset();
     touch.hold_dial(std::nullopt);
@@ -62,7 +62,7 @@ bool MenuHand::follow(MenuControl& menu, ProbeSession& touch, const Camera& came
   }
   const auto depth = [&](const Vec3& x) { return glm::dot(eye(camera) - x, camera.axes[2]); };
   const bool parallel = camera.projection == Projection::kOrthographic;
-  if (!depth_) depth_ = parallel ? depth(way->end) - depth(hand.probe) : depth(hand.probe) / depth(way->end);
+  if (!depth_) depth_ = parallel ? depth(way->end) - depth(*tip) : depth(*tip) / depth(way->end);
   touch.hold_dial(seen_at(*way, camera, *depth_, *depth_));
   return works;
 }

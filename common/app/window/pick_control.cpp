@@ -24,23 +24,24 @@ PlanePose moved_pose(const PlanePose& pose, const Rigid& motion) {
 
 }  // namespace
 
-std::optional<PickingHand> picking_hand(const ProbeSession& touch, const Vec3& eye) {
+std::optional<PickingHand> picking_hand(ProbeSession& touch, const Camera& seeing) {
   const HandsIntent& intent = touch.intent();
+  const Vec3 viewer = eye(seeing);
   PickingHand hand;
   Ray ray;
   if (intent.pointing && intent.stylus) {
     hand = {.pose = *intent.stylus, .presses = intent.acts, .can_move = true, .carried = intent.carried};
     ray = *intent.pointing;
-  } else if (touch.by_device() && touch.readout().held && touch.readout().probe != eye) {
-    hand.pose.translation = touch.readout().probe;
+  } else if (const auto tip = touch.device_tip(seeing); tip && *tip != viewer) {
+    hand.pose.translation = *tip;
     hand.presses = touch.device_presses();
-    ray = {hand.pose.translation, glm::normalize(hand.pose.translation - eye)};
+    ray = {hand.pose.translation, glm::normalize(hand.pose.translation - viewer)};
   } else {
     return std::nullopt;
   }
   const InteractionGeometry& interaction = touch.interaction();
-  hand.beam = interaction.through_aperture && ray.origin != eye
-                  ? beam_of(Aperture{eye, ray.origin, interaction.aperture / touch.metres_per_unit()})
+  hand.beam = interaction.through_aperture && ray.origin != viewer
+                  ? beam_of(Aperture{viewer, ray.origin, interaction.aperture / touch.metres_per_unit()})
                   : beam_of(ray, kRayRadius / touch.metres_per_unit());
   return hand;
 }

@@ -27,9 +27,9 @@ struct PickingHand {
   std::optional<Rigid> carried;  ///< HandsIntent::carried
 };
 
-/// The hand of the session: nothing where a mouse leads it, or none is there.
-/// @param eye that looks at it. @pre the session has data.
-[[nodiscard]] std::optional<PickingHand> picking_hand(const ProbeSession& touch, const Vec3& eye);
+/// The hand of the session as the eye of a camera sees it: nothing where a mouse leads it, or none is there.
+/// @pre the session has data.
+[[nodiscard]] std::optional<PickingHand> picking_hand(ProbeSession& touch, const Camera& seeing);
 
 class PickControl {
  public:

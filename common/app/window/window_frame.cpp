@@ -30,12 +30,12 @@ void ExplorerWindow::draw_frame(double seconds) {
   const auto handled = static_cast<std::ptrdiff_t>(glfw_.events().size());
   gui_->begin_frame(glfw_.events(), width, height, seconds);
   look();
-  menu_.place(view_.camera, picture_);
+  menu_.place(view_.camera, picture_, touch_->device_reach());
   // An orthographic picture has one eye, but a workbench's is never that.
   const bool two = has_two_eyes(view_) || (bench_ && !screens_);
   pointer_.over(two ? view_.stereo : StereoView{}, picture_);
   handle_events();
-  follow_menu();
+  work_in_space();
   if (needs_camera_ && scene_) reset_camera();
   tell_panels();
   const SceneSettings settings_before = state_.settings;
@@ -188,6 +188,7 @@ SceneView ExplorerWindow::with_focus() const {
   if ((hand || !view_.surfaces.empty()) && !on_layer && touch_->choice().fade_rest) fade_lines(picture);
   if (auto menu = menu_.drawn()) picture.signs.push_back(std::move(*menu));
   picture.notes = notes_of(touch_->notes(), length_unit(picture), next_mark());
+  if (const auto& picked = hand_in_space_.picked()) picture.notes.push_back(note_of(*picked));
   std::vector<std::vector<Vec3>> handled;
   if (touch_->planes())
     handled = lines_of_planes(touch_->planes()->poses, picture.bounds, touch_->sphere_radius());
@@ -222,6 +223,11 @@ void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, 
   }
   if (touch_->planes()) moment.next_cut = static_cast<std::size_t>(touch_->planes()->current);
   if (bench_ && !screens_) bench_->show(picture);
+  if (picture.stereo.mode == StereoMode::kRows || picture.stereo.mode == StereoMode::kColumns) {
+    const auto [column, row] = pixel_on_monitor(glfw_.get());
+    picture.stereo.first = {column + static_cast<int>(parts.picture.left),
+                            row + static_cast<int>(parts.picture.top)};
+  }
   live_->draw(std::move(picture), w, h, moment);
   state_.picture = live_->figures();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

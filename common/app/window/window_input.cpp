@@ -7,6 +7,7 @@
 #include "common/app/window/event_text.h"
 #include "common/app/window/explorer_window.h"
 #include "common/app/window/keys.h"
+#include "common/render/stereo/screen_camera.h"
 
 namespace palpate {
 
@@ -205,10 +206,18 @@ void ExplorerWindow::run_touch(Command command) {
     say(*words, false);
 }
 
-void ExplorerWindow::follow_menu() {
+void ExplorerWindow::work_in_space() {
+  Camera seeing = view_.camera;
+  if (bench_) {
+    // Between both eyes, where they are before the screen.
+    const Eyes& eyes = bench_->eyes();
+    const Vec3 viewer = place_of(view_.camera, bench_->screen())(0.5 * (eyes[0] + eyes[1]));
+    if (glm::dot(viewer - seeing.focal_point, seeing.axes[2]) > 0.0) seeing = seen_from(seeing, viewer);
+  }
+  const auto words = hand_in_space_.follow(menu_, *touch_, view_, seeing, pointer_.area(), glfwGetTime());
+  if (words) say(*words, false);
+  if (hand_in_space_.holding()) live_->lens_moved(glfwGetTime());
   if (!menu_.shown()) return;
-  const auto& pointing = touch_->intent().pointing;
-  touch_->engage(pointing && menu_.point(*pointing, touch_->intent().acts));
   for (const Command command : menu_.act(state_.settings, view_)) run_command(command);
 }
 

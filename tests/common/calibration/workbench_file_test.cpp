@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -181,6 +184,37 @@ TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
       "2]\n",
       "line 5", "whole");
   names("a = 1\nscreen = 3\n", "line 2", "[screen]");
+}
+
+// What users are given to start from is read, every key of it.
+TEST_F(WorkbenchFileTest, ReadsTheOneOfTheDocuments) {
+  const WorkbenchGeometry bench = read_workbench(source_folder() / "docs/workbench.toml");
+  ASSERT_EQ(bench.screens.size(), 1U);
+  EXPECT_EQ(bench.screens[0].stereo, StereoMode::kRows);
+  EXPECT_EQ(bench.head.glide, 0.75);
+  EXPECT_TRUE(bench.interaction.immersive);
+  EXPECT_EQ(bench.interaction.surface, Vec4(0.0, 0.0, 1.0, 0.0));
+  EXPECT_EQ(bench.interaction.enabling_device, "pedal");
+  EXPECT_EQ(bench.device_options.size(), 1U);
+  // The keys of the header that says what there is are in it.
+  std::ifstream header(source_folder() / "common/calibration/workbench_file.h");
+  std::stringstream all;
+  all << header.rdbuf();
+  std::ifstream document(source_folder() / "docs/workbench.toml");
+  std::stringstream words;
+  words << document.rdbuf();
+  bool by_hand = false;
+  int keys = 0;
+  for (std::string line; std::getline(all, line);) {
+    if (line.starts_with("///   [screen]")) by_hand = true;
+    if (line.starts_with("///   [device.NAME]")) break;
+    const std::size_t equals = line.find(" = ");
+    if (!by_hand || !line.starts_with("///   ") || line[6] < 'a' || equals == std::string::npos) continue;
+    const std::string key = line.substr(6, equals - 6);
+    EXPECT_NE(words.str().find("\n" + key + " = "), std::string::npos) << key;
+    ++keys;
+  }
+  EXPECT_GT(keys, 20);
 }
 
 TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {

@@ -381,6 +381,36 @@ TEST(ProbeSession, ARecordedRunIsReplayedIdentically) {
   hand.session.finish();
 }
 
+// On a workbench's surface, of the view's right, up and to the user, the probe stays, wherever mouse and
+// wheel would lead it.
+TEST(ProbeSession, KeepsAMouseOnTheSurfaceOfTheWorkbench) {
+  const Camera camera = make_camera({Vec3{-2.0}, Vec3{2.0}}, {}, 1.5);
+  for (const Vec4& surface : {Vec4{0.0, 0.0, 1.0, 0.0}, Vec4{0.0, 0.6, 0.8, 0.01}}) {
+    ProbeSessionOptions options = Hand::with_modes();
+    options.workbench.interaction.surface = surface;
+    Hand hand(options);
+    hand.frame();
+    const Vec3 n = camera.axes * Vec3{surface};
+    const auto off = [&] {
+      return std::abs(glm::dot(n, hand.session.intent().probe - camera.focal_point) -
+                      surface.w / hand.session.metres_per_unit());
+    };
+    hand.grab({0.3, 0.4, 0.5});
+    EXPECT_LT(off(), 1e-14);
+    const Vec3 grabbed = hand.session.intent().probe;
+    hand.session.lead(WheelTurn{3.0}, camera, {300, 200});
+    EXPECT_LT(off(), 1e-14);
+    hand.session.lead(MouseDrag{40.0, -10.0}, camera, {300, 200});
+    EXPECT_LT(off(), 1e-14);
+    EXPECT_GT(glm::distance(hand.session.intent().probe, grabbed), 0.1);
+    EXPECT_TRUE(hand.wait_for([&] {
+      return hand.session.readout().held &&
+             glm::distance(hand.session.readout().probe, hand.session.intent().probe) < 1e-9;
+    }));
+    hand.session.finish();
+  }
+}
+
 TEST(ProbeSession, DoesNotReplaceARecordingUnasked) {
   const TempFolder folder;
   ProbeSessionOptions options = Hand::with_modes();

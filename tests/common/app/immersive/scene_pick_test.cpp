@@ -29,6 +29,16 @@ Lens ball_lens(const Vec3& center, double radius) {
   return lens;
 }
 
+/// Whether that was picked, there, to rounding.
+testing::AssertionResult is(const std::optional<Picked>& found, const Picked& expected) {
+  if (!found) return testing::AssertionFailure() << "nothing";
+  const bool same = found->kind == expected.kind && found->index == expected.index &&
+                    glm::distance(found->place, expected.place) < 1e-12;
+  if (same) return testing::AssertionSuccess();
+  const Vec3& x = found->place;
+  return testing::AssertionFailure() << name_of(*found) << " at " << x.x << " " << x.y << " " << x.z;
+}
+
 class ScenePick : public testing::Test {
  protected:
   [[nodiscard]] std::optional<Picked> along(const Vec3& from, const Vec3& to, double radius = 0.05) const {
@@ -50,8 +60,8 @@ class ScenePick : public testing::Test {
 };
 
 TEST_F(ScenePick, TakesTheFirstThingAlongARay) {
-  EXPECT_EQ(along(kEye, {0.0, 0.0, 0.0}), (Picked{PickKind::kLens, 1, {0.0, 0.0, 0.8}}));
-  EXPECT_EQ(along({0.0, 0.0, -4.0}, {0.0, 0.0, 0.0}), (Picked{PickKind::kHandle, 0, {0.0, 0.0, -1.2}}))
+  EXPECT_TRUE(is(along(kEye, {0.0, 0.0, 0.0}), {PickKind::kLens, 1, {0.0, 0.0, 0.8}}));
+  EXPECT_TRUE(is(along({0.0, 0.0, -4.0}, {0.0, 0.0, 0.0}), {PickKind::kHandle, 0, {0.0, 0.0, -1.2}}))
       << "from behind the handle comes first";
   const auto line = along({-1.0, 0.01, 5.0}, {-1.0, 0.01, 0.0});
   ASSERT_TRUE(line);
@@ -65,18 +75,18 @@ TEST_F(ScenePick, TakesTheFirstThingAlongARay) {
   EXPECT_EQ(beside->index, 0U);
   EXPECT_LT(glm::distance(beside->place, {-1.06, 0.01, 1.5}), 1e-12);
   // Within a lens that is entered where the hand is; away from all, nothing.
-  EXPECT_EQ(along({1.0, 0.0, 0.0}, {1.0, 0.0, 1.0}), (Picked{PickKind::kLens, 0, {1.0, 0.0, 0.0}}));
+  EXPECT_TRUE(is(along({1.0, 0.0, 0.0}, {1.0, 0.0, 1.0}), {PickKind::kLens, 0, {1.0, 0.0, 0.0}}));
   EXPECT_FALSE(along({3.0, 3.0, 0.0}, {4.0, 3.0, 0.0}));
   // A plane that is switched off is counted and not met.
   planes_[0].outward = Vec3{0.0};
-  EXPECT_EQ(along({0.5, 1.9, 5.0}, {0.5, 1.9, 0.0}), std::nullopt);
+  EXPECT_FALSE(along({0.5, 1.9, 5.0}, {0.5, 1.9, 0.0}));
 }
 
 TEST_F(ScenePick, AnAperturePicksWhatIsNearestToItsMiddle) {
   // The handle lies behind a lens: handles come first.
-  EXPECT_EQ(through({0.0, 0.0, 4.0}, 0.1), (Picked{PickKind::kHandle, 0, {0.0, 0.0, -1.0}}));
+  EXPECT_TRUE(is(through({0.0, 0.0, 4.0}, 0.1), {PickKind::kHandle, 0, {0.0, 0.0, -1.0}}));
   handles_.clear();
-  EXPECT_EQ(through({0.0, 0.0, 4.0}, 0.1), (Picked{PickKind::kLens, 1, {0.0, 0.0, 0.5}}));
+  EXPECT_TRUE(is(through({0.0, 0.0, 4.0}, 0.1), {PickKind::kLens, 1, {0.0, 0.0, 0.5}}));
   EXPECT_EQ(through({0.19, 0.0, 4.0}, 0.01)->index, 0U) << "a lens that the axis pierces";
   const auto line = through({-0.21, 0.01, 4.0}, 0.05);
   ASSERT_TRUE(line);

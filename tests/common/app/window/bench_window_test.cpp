@@ -7,6 +7,7 @@
 
 #include "common/app/window/menu_control.h"
 #include "common/app/window/pointer.h"
+#include "common/base/error.h"
 #include "common/render/render_image.h"
 #include "tests/common/app/window/touch_window.h"
 #include "tests/common/render/sample_scenes.h"
@@ -59,6 +60,22 @@ TEST_F(BenchWindow, ShowsEveryScreenFromTheHead) {
   EXPECT_EQ(result.view.camera.eye_offset, Vec2(0.0)) << "the desktop is one more display";
   EXPECT_LT(glm::distance(result.view.camera.axes[2], Vec3(0.0, 0.0, 1.0)), 1e-12)
       << "as the front screen lies";
+}
+
+// A display without a buffer for each eye, as nearly all are, is told apart before anything is drawn, and the
+// message names what does without.
+TEST_F(BenchWindow, SaysWhereThereIsNoBufferForEachEye) {
+  options_.touch.modes.clear();
+  options_.view.stereo.mode = StereoMode::kQuadBuffer;
+  try {
+    (void)run();
+    GTEST_SKIP() << "this display has a buffer for each eye";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kWorkFailed);
+    const std::string line = error.what();
+    EXPECT_NE(line.find("no window with a buffer for each eye"), std::string::npos) << line;
+    EXPECT_NE(line.find("rows, side-by-side or anaglyph"), std::string::npos) << line;
+  }
 }
 
 TEST_F(BenchWindow, MeasuresTheLatencyOfItsPictures) {
