@@ -199,7 +199,7 @@ DistortionPicture position_error_lines(const std::vector<TrackerMeasurement>& ro
                         .array = std::move(array),
                         .color_map = ColorMap::kHeat,
                         .width = 3.5,
-                        .clearing = 0.9};
+                        .clearing = 0.7};
   return picture;
 }
 
