@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/field/grid/sparse/sparse_numbers.h"
 #include "common/math/power_of_two.h"
 #include "common/render/volume/brick_map.h"
 
@@ -26,26 +27,28 @@ class PointGradients {
 
   // (1) at x, y, z. NaN where a value lacks.
   [[nodiscard]] Vec3 at(int x, int y, int z) const {
-    const Index3 place(x, y, z);
+    return at({x, y, z}, [&](const Index3& p) {
+      return image_.number(static_cast<std::size_t>(p.x) +
+                           static_cast<std::size_t>(image_.points.x) *
+                               (static_cast<std::size_t>(p.y) +
+                                static_cast<std::size_t>(image_.points.y) * static_cast<std::size_t>(p.z)));
+    });
+  }
+  // The same of the numbers that read(p) tells.
+  template <typename Read>
+  [[nodiscard]] Vec3 at(const Index3& place, Read read) const {
     Vec3 d{0.0};
     for (int a = 0; a < 3; ++a) {
       if (image_.points[a] < 2) continue;
       Index3 before = place, after = place;
       before[a] = std::max(0, place[a] - 1);
       after[a] = std::min(image_.points[a] - 1, place[a] + 1);
-      d[a] = 0.5 * (number(after) - number(before));
+      d[a] = 0.5 * (read(after) - read(before));
     }
     return to_data_ * d;
   }
 
  private:
-  [[nodiscard]] double number(const Index3& p) const {
-    return image_.number(static_cast<std::size_t>(p.x) +
-                         static_cast<std::size_t>(image_.points.x) *
-                             (static_cast<std::size_t>(p.y) +
-                              static_cast<std::size_t>(image_.points.y) * static_cast<std::size_t>(p.z)));
-  }
-
   const VolumeImage& image_;
   Mat3 to_data_{1.0};
 };
@@ -79,9 +82,140 @@ std::size_t rows_of(const VolumeImage& image) {
   return static_cast<std::size_t>(image.points.y) * static_cast<std::size_t>(image.points.z);
 }
 
+// The blocks of sparse numbers that have gradients: of several numbers, or with another one across a face.
+std::vector<Index3> varied_blocks(const SparseNumbers& numbers, int threads) {
+  const Index3 n = numbers.blocks();
+  std::vector<std::vector<Index3>> layers(static_cast<std::size_t>(n.z));
+  parallel_for(layers.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t layer = first; layer < last; ++layer) {
+      for (int y = 0; y < n.y; ++y) {
+        for (int x = 0; x < n.x; ++x) {
+          const Index3 b(x, y, static_cast<int>(layer));
+          const SparseBlock block = numbers.block(b);
+          const auto differs = [&](const Index3& other) {
+            const SparseBlock next = numbers.block(other);
+            const bool same =
+                next.constant == block.constant || (std::isnan(next.constant) && std::isnan(block.constant));
+            return next.numbers != nullptr || !same;
+          };
+          bool varied = block.numbers != nullptr;
+          for (int a = 0; a < 3 && !varied; ++a) {
+            Index3 step(0);
+            step[a] = 1;
+            varied = (b[a] > 0 && differs(b - step)) || (b[a] + 1 < n[a] && differs(b + step));
+          }
+          if (varied) layers[layer].push_back(b);
+        }
+      }
+    }
+  });
+  std::vector<Index3> blocks;
+  for (const auto& layer : layers) blocks.insert(blocks.end(), layer.begin(), layer.end());
+  return blocks;
+}
+
+// Of blocks, so that they have no more points than `most`, every such one is taken.
+std::size_t block_stride(std::size_t blocks, std::size_t most) {
+  return std::max<std::size_t>(1, (blocks * kBlockVoxels + most - 1) / most);
+}
+
+// Calls f(number, gradient) for the points of a block.
+template <typename F>
+void visit_block(const SparseNumbers& numbers, const PointGradients& gradients, const Index3& block,
+                 SparseReader& reader, F f) {
+  const PointBox box = numbers.points_of(block);
+  const auto read = [&](const Index3& p) { return static_cast<double>(reader.at(p)); };
+  for (int z = box.first.z; z < box.end.z; ++z) {
+    for (int y = box.first.y; y < box.end.y; ++y) {
+      for (int x = box.first.x; x < box.end.x; ++x) f(read({x, y, z}), gradients.at(Index3(x, y, z), read));
+    }
+  }
+}
+
+double highest_sparse_gradient(const VolumeImage& image, int threads) {
+  constexpr std::size_t kMostSparse = std::size_t{1} << 23U;  // points: their numbers are found one by one
+  const PointGradients gradients(image);
+  const std::vector<Index3> blocks = varied_blocks(*image.sparse, threads);
+  const std::size_t stride = block_stride(blocks.size(), kMostSparse);
+  std::vector<double> most((blocks.size() + stride - 1) / stride, 0.0);
+  parallel_for(most.size(), threads, [&](std::size_t first, std::size_t last) {
+    SparseReader reader(*image.sparse);
+    for (std::size_t i = first; i < last; ++i) {
+      visit_block(*image.sparse, gradients, blocks[i * stride], reader, [&](double, const Vec3& gradient) {
+        const double size = glm::length(gradient);
+        if (std::isfinite(size)) most[i] = std::max(most[i], size);
+      });
+    }
+  });
+  return most.empty() ? 0.0 : std::abs(image.scale) * *std::max_element(most.begin(), most.end());
+}
+
+// Pairs are counted in parts whose sum is one whatever threads there are.
+constexpr std::size_t kParts = 16;
+using Counts = std::vector<std::uint32_t>;
+
+class PlaceCounter {
+ public:
+  explicit PlaceCounter(const PlaceHistogram& histogram)
+      : range_(histogram.range), columns_(histogram.columns), rows_(histogram.rows) {}
+
+  // Counts a value and a magnitude so many times.
+  void add(Counts& counts, double value, double size, std::uint32_t times) const {
+    const Vec2 scale = Vec2(columns_, rows_) / (range_.upper - range_.lower);
+    const Vec2 bin = (Vec2(value, size) - range_.lower) * scale;
+    if (!std::isfinite(bin.x) || !std::isfinite(bin.y)) return;
+    const auto last_column = static_cast<double>(columns_ - 1), last_row = static_cast<double>(rows_ - 1);
+    const auto column = static_cast<std::size_t>(std::clamp(bin.x, 0.0, last_column));
+    const auto row = static_cast<std::size_t>(std::clamp(bin.y, 0.0, last_row));
+    counts[column + columns_ * row] += times;
+  }
+
+ private:
+  PlaceRange range_;
+  std::size_t columns_, rows_;
+};
+
+void count_sparse(const VolumeImage& image, const PlaceCounter& counter, std::size_t most, int threads,
+                  std::vector<Counts>& parts) {
+  const SparseNumbers& numbers = *image.sparse;
+  const PointGradients gradients(image);
+  const std::vector<Index3> blocks = varied_blocks(numbers, threads);
+  const std::size_t stride = block_stride(blocks.size(), most);
+  const auto value_of = [&](double number) { return image.offset + image.scale * number; };
+  const Index3 n = numbers.blocks();
+  const auto number_of = [&](const Index3& b) {
+    return static_cast<std::size_t>(b.x) +
+           static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(b.y) +
+                                            static_cast<std::size_t>(n.y) * static_cast<std::size_t>(b.z));
+  };
+  std::vector<bool> varied(number_of(n - 1) + 1, false);
+  for (const Index3& b : blocks) varied[number_of(b)] = true;
+  parallel_for(kParts, threads, [&](std::size_t first, std::size_t last) {
+    SparseReader reader(numbers);
+    for (std::size_t part = first; part < last; ++part) {
+      for (std::size_t i = part * stride; i < blocks.size(); i += kParts * stride) {
+        visit_block(numbers, gradients, blocks[i], reader, [&](double number, const Vec3& gradient) {
+          counter.add(parts[part], value_of(number), std::abs(image.scale) * glm::length(gradient), 1);
+        });
+      }
+      for (int z = static_cast<int>(part); z < n.z; z += static_cast<int>(kParts)) {
+        for (int y = 0; y < n.y; ++y) {
+          for (int x = 0; x < n.x; ++x) {
+            const Index3 b(x, y, z);
+            if (varied[number_of(b)]) continue;
+            const auto times = static_cast<std::uint32_t>(numbers.points_of(b).count() / stride);
+            counter.add(parts[part], value_of(static_cast<double>(numbers.block(b).constant)), 0.0, times);
+          }
+        }
+      }
+    }
+  });
+}
+
 }  // namespace
 
 double highest_gradient(const VolumeImage& image, int threads) {
+  if (image.sparse) return highest_sparse_gradient(image, threads);
   const PointGradients gradients(image);
   // Of large volumes rows evenly taken, so that nobody waits for long.
   const std::size_t stride = (image.point_count() + kMostMeasured - 1) / kMostMeasured;
@@ -146,35 +280,32 @@ GradientRanges gradient_ranges(const VolumeImage& image, const Index3& bricks, i
 
 PlaceHistogram count_places(const VolumeImage& image, std::size_t columns, std::size_t rows, std::size_t most,
                             int threads) {
-  PALPATE_CHECK(columns >= 1 && rows >= 1);
-  const PointGradients gradients(image);
+  PALPATE_CHECK(columns >= 1 && rows >= 1 && most >= 1);
   PlaceHistogram histogram{place_range(image, threads), columns, rows, {}};
   histogram.counts.resize(columns * rows, 0);
-  const Vec2 scale = Vec2(columns, rows) / (histogram.range.upper - histogram.range.lower);
-  const std::size_t stride = (image.point_count() + most - 1) / most,
-                    taken = std::max<std::size_t>(1, rows_of(image) / stride);
-  // Layers of rows have counts of their own; their sum is one whatever threads there are.
-  constexpr std::size_t kParts = 16;
-  std::vector<std::vector<std::uint32_t>> parts(kParts, std::vector<std::uint32_t>(columns * rows, 0));
-  parallel_for(kParts, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t part = first; part < last; ++part) {
-      for (std::size_t i = part; i < taken; i += kParts) {
-        const std::size_t row = i * stride;
-        const int y = static_cast<int>(row) % image.points.y, z = static_cast<int>(row) / image.points.y;
-        for (int x = 0; x < image.points.x; ++x) {
-          const double value =
-              image.value(static_cast<std::size_t>(x) + static_cast<std::size_t>(image.points.x) * row);
-          const double size = std::abs(image.scale) * glm::length(gradients.at(x, y, z));
-          const Vec2 bin = (Vec2(value, size) - histogram.range.lower) * scale;
-          if (!std::isfinite(bin.x) || !std::isfinite(bin.y)) continue;
-          const auto column = static_cast<std::size_t>(std::clamp(bin.x, 0.0, columns - 1.0));
-          const auto line = static_cast<std::size_t>(std::clamp(bin.y, 0.0, rows - 1.0));
-          ++parts[part][column + columns * line];
+  const PlaceCounter counter(histogram);
+  std::vector<Counts> parts(kParts, Counts(columns * rows, 0));
+  if (image.sparse) {
+    count_sparse(image, counter, most, threads, parts);
+  } else {
+    const PointGradients gradients(image);
+    const std::size_t stride = (image.point_count() + most - 1) / most,
+                      taken = std::max<std::size_t>(1, rows_of(image) / stride);
+    parallel_for(kParts, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t part = first; part < last; ++part) {
+        for (std::size_t i = part; i < taken; i += kParts) {
+          const std::size_t row = i * stride;
+          const int y = static_cast<int>(row) % image.points.y, z = static_cast<int>(row) / image.points.y;
+          for (int x = 0; x < image.points.x; ++x) {
+            const double value =
+                image.value(static_cast<std::size_t>(x) + static_cast<std::size_t>(image.points.x) * row);
+            counter.add(parts[part], value, std::abs(image.scale) * glm::length(gradients.at(x, y, z)), 1);
+          }
         }
       }
-    }
-  });
-  for (const std::vector<std::uint32_t>& part : parts) {
+    });
+  }
+  for (const Counts& part : parts) {
     for (std::size_t i = 0; i < part.size(); ++i) histogram.counts[i] += part[i];
   }
   return histogram;

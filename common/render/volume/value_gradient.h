@@ -22,7 +22,8 @@
 namespace palpate {
 
 /// The largest finite magnitude at any point [value / data unit]; 0 where there is none. Of more than 2^26
-/// points so many are looked at, in rows evenly taken.
+/// points so many are looked at, in rows evenly taken; of sparse ones 2^23, in blocks evenly taken of those
+/// that differ from each other or in themselves: there are no gradients elsewhere.
 [[nodiscard]] double highest_gradient(const VolumeImage& image, int threads = 0);
 
 /// The ranges of values and magnitudes of a volume: from its lowest to its highest value, from 0 on. Of one
@@ -45,8 +46,9 @@ struct PlaceHistogram {
   std::size_t columns = 0, rows = 0;  ///< bins of values and of magnitudes, of equal widths
   std::vector<std::uint32_t> counts;  ///< columns * rows, values fastest
 };
-/// Of all points, or where these are more than `most` of as many rows of points, evenly taken. The result
-/// does not depend on the number of threads.
+/// Of all points, or where these are more than `most` of as many rows of points, evenly taken. Of a sparse
+/// image those that differ are taken by blocks, and count against `most` alone; blocks of one number count as
+/// often as if they were taken like them. The result does not depend on the number of threads.
 [[nodiscard]] PlaceHistogram count_places(const VolumeImage& image, std::size_t columns, std::size_t rows,
                                           std::size_t most, int threads = 0);
 

@@ -12,6 +12,7 @@
 #include "common/field/grid/sparse/sparse_builder.h"
 #include "common/render/volume/brick_map.h"
 #include "common/render/volume/coarse_image.h"
+#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
@@ -184,6 +185,32 @@ TEST_F(SparsePictures, EmptyBricksAreNotHeld) {
   EXPECT_EQ(share.all, 4U * 4U * 3U);
   EXPECT_LT(share.held, share.all);
   EXPECT_GT(share.held, 0U);
+}
+
+// Blocks of one number are counted without being looked through: the same range and histogram as of all
+// points, also where neighbouring blocks have different numbers and none has several.
+TEST(SparseVolume, GradientsAreThoseOfAllPoints) {
+  DataSet steps = sampled_block(kPoints, Vec3(0.05, 0.1, 0.02), ScalarType::kFloat32, [](const Vec3& x) {
+    return x.x > 0.1 ? (x.y > 0.0 ? 2.0 : std::nan("")) : 0.5;
+  });
+  for (const DataSet& block : {dense_block(), steps}) {
+    const auto dense = image_of(block), sparse = image_of(sparse_of(block, numbers_of(block), 0.5F));
+    EXPECT_EQ(highest_gradient(*sparse), highest_gradient(*dense));
+    const std::size_t all = dense->point_count();
+    const PlaceHistogram expected = count_places(*dense, 24, 12, all);
+    EXPECT_EQ(count_places(*sparse, 24, 12, 2 * all).counts, expected.counts);
+    EXPECT_EQ(count_places(*sparse, 24, 12, 2 * all, 1).counts, expected.counts);
+    // Of a part of them shares stay about the same.
+    const auto share = [](const PlaceHistogram& histogram, std::size_t bin) {
+      std::uint64_t sum = 0;
+      for (const std::uint32_t count : histogram.counts) sum += count;
+      return static_cast<double>(histogram.counts[bin]) / static_cast<double>(sum);
+    };
+    const PlaceHistogram some = count_places(*sparse, 24, 12, all / 8);
+    EXPECT_LT(some.counts[0], expected.counts[0]);
+    for (std::size_t bin = 0; bin < some.counts.size(); ++bin)
+      EXPECT_NEAR(share(some, bin), share(expected, bin), 0.05) << bin;
+  }
 }
 
 }  // namespace
