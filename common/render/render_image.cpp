@@ -26,7 +26,8 @@ FrameQuality settled_quality(SceneRenderer& renderer, const SceneView& view, int
 
 }  // namespace
 
-RenderedImage render_image(const SceneView& view, int width, int height, int repeat, double budget) {
+RenderedImage render_image(const SceneView& view, int width, int height, int repeat, double budget,
+                           bool error) {
   OffscreenContext context;
   RenderedImage result;
   result.renderer = gl_description();
@@ -40,6 +41,14 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
     const double milliseconds = renderer.finish();
     if (i > 0 || budget == 0.0) result.frame_ms.push_back(milliseconds);
   }
+  if (error) {
+    renderer.keep_for_error(true);
+    renderer.draw(drawn, width, height, result.quality.resolution);
+    while (renderer.estimate_error()) {
+    }
+    result.error = renderer.image_error();
+  }
+  result.tables_by = renderer.tables_by();
   result.image = renderer.read();
   result.coarser_voxels = renderer.coarser_voxels();
   result.bricks = renderer.bricks();

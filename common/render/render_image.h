@@ -1,12 +1,14 @@
 /// Pictures without a display.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/render/frame_budget.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
+#include "common/render/volume/image_error.h"
 
 namespace palpate {
 
@@ -17,6 +19,8 @@ struct RenderedImage {
   FrameQuality quality;                  ///< that the budget left
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
   BrickShare bricks;                     ///< likewise
+  std::optional<ImageError> error;       ///< of the volume's part, where asked for
+  std::string tables_by;                 ///< SceneRenderer::tables_by()
   std::string renderer;                  ///< the OpenGL driver
   std::vector<GpuObject> gpu;            ///< what was compiled and allocated
 };
@@ -24,8 +28,9 @@ struct RenderedImage {
 /// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does
 /// while something moves: the frames that settle its quality come before those that are timed. Usable from
 /// any one thread; leaves no context current.
+/// @param error whether to estimate that of a volume (volume/image_error.h).
 /// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.
 [[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0,
-                                         double budget = 0.0);
+                                         double budget = 0.0, bool error = false);
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -11,6 +12,7 @@
 #include "common/geometry/box_edges.h"
 #include "common/math/power_of_two.h"
 #include "common/render/frame_block.h"
+#include "common/render/gl/framebuffer.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
@@ -26,6 +28,7 @@
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/tract/tract_pass.h"
 #include "common/render/tract/tract_progress.h"
+#include "common/render/volume/error_estimate.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -119,6 +122,9 @@ struct SceneRenderer::State {
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
+  bool keeps_for_error = false;
+  std::optional<ErrorEstimate> estimate;  // of the last picture
+  std::uint32_t opaque_depth = 0;         // of it, where the volume was drawn
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
@@ -262,7 +268,24 @@ struct SceneRenderer::State {
   // Behind and between opaque things, by their depths, into the framebuffer that is bound.
   void draw_volume(const SceneView& view) {
     update_volume(view);
-    volume->draw(target.copy_depth(), block);
+    opaque_depth = target.copy_depth();
+    if (!keeps_for_error || stereo) return volume->draw(opaque_depth, block);
+    Image behind = read_picture();
+    volume->draw(opaque_depth, block);
+    FrameBlock whole = block;
+    whole.size.x = static_cast<float>(behind.width);
+    whole.size.y = static_cast<float>(behind.height);
+    const double resolution = static_cast<double>(block.size.y) / behind.height;
+    whole.size.z = static_cast<float>(block.size.z * resolution);
+    Image shown = read_picture();
+    estimate.emplace(std::move(behind), std::move(shown), whole, resolution);
+  }
+
+  // What the scene's framebuffer shows now, which stays bound.
+  Image read_picture() {
+    const FramebufferGuard before;
+    target.resolve();
+    return target.read();
   }
 
   // With a probe, or with tracts that there is no time for in one picture, what stays is drawn once and kept;
@@ -391,6 +414,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
                          double tract_milliseconds, const std::function<bool()>& stop_tracts) {
   State& s = *state_;
   s.stop_tracts = stop_tracts;
+  s.estimate.reset();
   s.since_draw.restart();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
@@ -446,6 +470,27 @@ bool SceneRenderer::prepare_slabs(std::size_t cut) {
   glUseProgram(0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   return more;
+}
+
+void SceneRenderer::keep_for_error(bool on) { state_->keeps_for_error = on; }
+
+bool SceneRenderer::estimate_error() {
+  State& s = *state_;
+  if (!s.estimate || !complete()) return false;
+  const bool more = s.estimate->add(*s.volume, s.opaque_depth);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return more;
+}
+
+std::optional<ImageError> SceneRenderer::image_error() const {
+  if (!state_->estimate || state_->estimate->error().pixels == 0) return std::nullopt;
+  return state_->estimate->error();
+}
+
+std::string SceneRenderer::tables_by() const {
+  return state_->draws_volume && state_->volume ? state_->volume->cost().tables_by : std::string();
 }
 
 bool SceneRenderer::kept_volume() const noexcept {

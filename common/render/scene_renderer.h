@@ -7,8 +7,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "common/render/scene_view.h"
+#include "common/render/volume/image_error.h"
 
 namespace palpate {
 
@@ -55,6 +57,17 @@ class SceneRenderer {
   /// As VolumePass::kept_picture() and forget_picture().
   [[nodiscard]] bool kept_volume() const noexcept;
   void forget_volume();
+  /// From now on pictures of one eye keep what estimate_error() compares, where they show a volume: copies of
+  /// them before and behind it.
+  void keep_for_error(bool on);
+  /// Looks at some pixels of the last picture again (error_estimate.h), as far as they were kept and the
+  /// picture is complete. @return whether more are worth it.
+  bool estimate_error();
+  /// Of the pixels of the last picture that were looked at; nothing where none were.
+  [[nodiscard]] std::optional<ImageError> image_error() const;
+  /// By whom and for which reason the preintegrated tables of the last volume were filled
+  /// (TableChoice::text()); empty: none was drawn.
+  [[nodiscard]] std::string tables_by() const;
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
   /// some drivers lie.
   double finish();

@@ -7,8 +7,11 @@
 
 #include "common/base/clock.h"
 #include "common/render/gl/context.h"
+#include "common/render/volume/image_error.h"
 #include "common/render/volume/preintegration.h"
+#include "common/render/volume/table_timing.h"
 #include "common/render/volume/volume_picture.h"
+#include "common/render/volume/voxel_bricks.h"
 
 namespace palpate {
 namespace {
@@ -80,6 +83,7 @@ std::vector<TableTime> table_times(const VolumeView& view, int repeats) {
       if (i > 0) times.push_back(1e3 * clock.seconds());  // the first one touches its memory
     }
     row.milliseconds = median(times);
+    row.compute_ms = compute_table_ms(entries, lengths, repeats);
   }
   return rows;
 }
@@ -132,22 +136,17 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   const OffscreenContext context;
   quality.renderer = gl_description();
   VolumePicture picture(pixels, pixels, VolumePicture::Context::kCurrent);
-  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 20 : 25);
+  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 25 : 30);
 
-  VolumeView best = given;
-  best.samples_per_voxel = 32.0;
-  for (Lens& lens : best.lenses) lens.samples_per_voxel = 32.0;
-  best.far_sampling = 1.0;
-  best.table_entries = 512;
-  best.skip_empty = best.stop_where_opaque = false;
-  const FloatImage converged = picture.draw(best, camera);
+  const FloatImage converged = picture.draw(converged_view(given), camera);
 
-  const auto measure = [&](const std::string& method, double parameter, const VolumeView& view) {
+  const auto measure = [&](const std::string& method, double parameter, const VolumeView& view,
+                           const std::vector<float>& opaque_depth = {}) {
     if (progress) {
       progress->check();
       progress->advance();
     }
-    const FloatImage image = picture.draw(view, camera);
+    const FloatImage image = picture.draw(view, camera, opaque_depth);
     quality.rows.push_back({method, parameter, rms_difference(image, converged),
                             worst_difference(image, converged), frame_time(picture, repeats)});
   };
@@ -155,6 +154,12 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     VolumeView view = given;
     view.samples_per_voxel = samples;
     measure("samples a voxel", samples, view);
+  }
+  for (const double samples : {1.0, 4.0, 16.0}) {
+    VolumeView view = given;
+    view.samples_per_voxel = samples;
+    view.preintegrate = false;
+    measure("samples a voxel, not preintegrated", samples, view);
   }
   for (const double ratio : {2.0, 4.0}) {
     VolumeView view = given;
@@ -196,6 +201,15 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   all = given;
   all.stop_where_opaque = false;
   measure("rays go on where nothing is seen", given.samples_per_voxel, all);
+  if (!given.image->colors) {
+    VolumeView bricked = given;
+    bricked.storage.brick_cells = kPoolBrickCells;
+    measure("voxels in bricks of so many cells", kPoolBrickCells, bricked);
+  }
+  VolumeView kept = given;
+  kept.keep_picture = true;
+  const auto pixel_count = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels);
+  measure("kept while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
 
   quality.focus = focus_rates(given, camera, picture, repeats, progress);
   quality.tables = table_times(given, repeats);

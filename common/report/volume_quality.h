@@ -1,11 +1,12 @@
 /// What the ways to draw a volume faster cost in errors of its picture: root mean square and worst difference
 /// of colours (1 is full scale) from a converged picture, against milliseconds a frame.
 ///
-/// The converged picture has 32 samples a voxel and tables of 512 entries, and leaves nothing out. Frames
-/// are timed by the clock, from the call to the end of all drawing: timers of drivers are not trusted.
-/// Tables 5.1 and 5.3 of Ikits 2006 are done again beside the printed figures.
+/// The converged picture is that of converged_view(). Frames are timed by the clock, from the call to the end
+/// of all drawing: timers of drivers are not trusted. Tables 5.1 and 5.3 of Ikits 2006 are done again beside
+/// the printed figures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct VolumeQualityRow {
 struct TableTime {
   int lengths = 0;
   double printed_gpu = 0.0, printed_cpu = 0.0;  ///< [ms]
-  double milliseconds = 0.0;
+  double milliseconds = 0.0;                    ///< by the processor
+  std::optional<double>
+      compute_ms;  ///< by a compute shader; absent on a software rasteriser, which is slow at it
 };
 
 /// A row of table 5.3 with the parameters of table 5.2, but for the size and number of its scalars: focus

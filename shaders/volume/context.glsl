@@ -1,6 +1,5 @@
 // What lies before the first lens of a ray and behind its last one, for pixels of a smaller picture
 // (common/render/volume/context_picture.h).
-#define SMALLER
 #include "include/frame.glsl"
 #ifdef SHADED
 #include "include/color.glsl"

@@ -20,15 +20,11 @@ vec3 point_at(Ray ray, float t) {
 
 // The place of this pixel in the picture, and the pixel of opaque_depth that lies there.
 const float kTilePixels = 8.0;
-#ifdef SMALLER
-layout(location = 3) uniform vec3 depth_pixel;  // pixels there are those here times x, plus yz
+layout(location = 41) uniform vec3 depth_pixel = vec3(1.0, 0.0, 0.0);  // pixels there are those here times x, plus yz
 ivec2 opaque_pixel() {
   ivec2 place = ivec2(floor(gl_FragCoord.xy * depth_pixel.x + depth_pixel.yz));
   return clamp(place, ivec2(0), textureSize(opaque_depth, 0) - 1);
 }
-#else
-ivec2 opaque_pixel() { return ivec2(gl_FragCoord.xy); }
-#endif
 
 #ifndef CONTEXT
 // Whether this pixel shows the volume already, as it was kept (common/render/volume/kept_volume.h): what is opaque there

@@ -41,8 +41,8 @@ std::string render_json(const RenderSummary& summary) {
             {"renderer", summary.renderer},
             {"version", version()}};
   if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
-    json["bricks"] = {
-        {"held", bricks.held}, {"wanted", bricks.wanted}, {"all", bricks.all}, {"bytes", bricks.bytes}};
+    json["bricks"] = {{"held", bricks.held},       {"wanted", bricks.wanted}, {"all", bricks.all},
+                      {"entered", bricks.entered}, {"left", bricks.left},     {"bytes", bricks.bytes}};
   for (const TakenScalar& taken : summary.volumes) {
     json["resampled"].push_back({{"scalar", taken.name},
                                  {"points", {taken.points.x, taken.points.y, taken.points.z}},
@@ -57,6 +57,13 @@ std::string render_json(const RenderSummary& summary) {
     const Vec3& x = picked->place;
     json["picked"] = {{"what", name_of(*picked)}, {"x", x.x}, {"y", x.y}, {"z", x.z}};
   }
+  if (const auto& estimate = summary.estimate) {
+    json["image_error_spread"] = estimate->spread;
+    json["image_error_worst"] = estimate->worst;
+    json["image_error_pixels"] = estimate->pixels;
+    json["image_error_ms"] = estimate->milliseconds;
+  }
+  if (!summary.tables_by.empty()) json["tables_by"] = summary.tables_by;
   if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
   add_plan(json, summary.plan, summary.measured);
   return json_text(json);

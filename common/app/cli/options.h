@@ -111,6 +111,7 @@ struct VolumeOptions {
   double context_viewport = 1.0;        ///< ContextQuality::viewport
   int context_level = 0;                ///< ContextQuality::level
   double gpu_memory = 0.0;              ///< that voxels may take there [2^20 bytes]; 0: no bound
+  std::string tables = "faster";        ///< VolumeView::table_maker
   bool shading = true;                  ///< Phong
   std::string projection = "perspective";
 };

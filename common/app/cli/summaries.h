@@ -17,6 +17,7 @@
 #include "common/haptics/constraint.h"
 #include "common/render/frame_budget.h"
 #include "common/render/gl/gpu_objects.h"
+#include "common/render/volume/image_error.h"
 #include "common/render/volume/volume_view.h"
 #include "common/scene/input.h"
 #include "common/scene/plan.h"
@@ -274,10 +275,12 @@ struct RenderSummary {
   FrameQuality quality;  ///< that --frame-budget left
   double image_error = 0.0;
   std::string image_error_kind;
+  std::optional<ImageError> estimate;  ///< of a volume: what image_error is from
   double seconds_load = 0.0;
   std::vector<TakenScalar> volumes;  ///< DrawnScene::volumes
   double seconds_trace = 0.0;
   std::string renderer;
+  std::string tables_by;         ///< SceneRenderer::tables_by()
   bool picks = false;            ///< --pick
   std::optional<Picked> picked;  ///< by it
   BrickShare bricks;             ///< of a volume that is stored in bricks

@@ -64,7 +64,8 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const WindowResult result = run_user_window(*model, std::move(window),
                                               [&](const std::string& line) { context.console.note(line); });
   if (felt) tell_of_touch(result, context);
-  if (options.common.explain) context.console.print(gpu_text(result.gpu) + model->measured());
+  if (options.common.explain)
+    context.console.print(gpu_text(result.gpu) + tables_text(result.tables_by) + model->measured());
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

@@ -101,6 +101,12 @@ void add_storage(SceneOptions& options, VolumeOptions& volume) {
            "of it",
            "MB", kGroup)
       ->check(CLI::Range(0.001, 1e9));
+  options
+      .add("--tables", volume.tables,
+           "who fills preintegrated tables: processor, gpu (compute shaders; the same numbers) or the faster "
+           "one of these, which --explain tells; default faster",
+           "NAME", kGroup)
+      ->check(CLI::IsMember({"faster", "processor", "gpu"}));
 }
 
 void add_volume(SceneOptions& options, VolumeOptions& volume) {

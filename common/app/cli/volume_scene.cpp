@@ -201,6 +201,9 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Options& options)
   volume.far_sampling = options.volume.far_sampling;
   volume.context.viewport = options.volume.context_viewport;
   volume.context.level = options.volume.context_level;
+  volume.table_maker = options.volume.tables == "gpu"         ? TableMaker::kGpu
+                       : options.volume.tables == "processor" ? TableMaker::kProcessor
+                                                              : TableMaker::kFaster;
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {

@@ -25,21 +25,33 @@ constexpr std::uint64_t kBrickUpload = std::uint64_t{8} << 20;
 
 void LivePicture::draw(SceneView view, int width, int height, const PictureMoment& moment) {
   const double rest = moment.seconds - lens_moved_;
-  const bool moving = moment.moving || rest < kLensRest;
+  if (moment.editing && is_edited(view)) edited_ = moment.seconds;
+  asked_ = view.volume;
+  const bool moving =
+      moment.moving || rest < kLensRest || (moment.editing && moment.seconds - edited_ < kLensRest);
   const bool volume = view.volume && view.volume->shown;
   budget_.show(volume, volume && !view.volume->lenses.empty());
   const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
   view = with_quality(std::move(view), quality);
   if (view.volume) {
     view.volume->storage.upload = kBrickUpload;
-    const bool stands =
-        shown_.volume && shown_.camera == view.camera && same_picture(*shown_.volume, *view.volume);
-    if (!stands || width != width_ || height != height_) local_.begin();
+    const bool stands = shown_.volume && shown_.camera == view.camera &&
+                        same_picture(*shown_.volume, *view.volume) && width == width_ && height == height_;
+    if (!stands) {
+      local_.begin();
+      figures_.error.reset();
+      error_known_ = false;
+    }
     view.volume->keep_picture = !moving && local_.on();
   }
-  if (dirty_ || width != width_ || height != height_ || !same_picture(view, shown_) ||
-      quality.resolution != figures_.quality.resolution || !renderer_.complete()) {
+  const bool wants_error = volume && !moving && !error_known_ && moment.interrupted;
+  if (dirty_ || (wants_error && !estimating_) || width != width_ || height != height_ ||
+      !same_picture(view, shown_) || quality.resolution != figures_.quality.resolution ||
+      !renderer_.complete()) {
     const bool patient = !moving && moment.interrupted;
+    renderer_.keep_for_error(wants_error);
+    estimating_ = wants_error && !has_two_eyes(view);
+    error_known_ = error_known_ || (wants_error && !estimating_);
     renderer_.draw(view, width, height, quality.resolution,
                    (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
                    patient ? moment.interrupted : nullptr);
@@ -63,12 +75,32 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     dirty_ = false;
   }
   preparing_ = false;
-  if (moving) return;
+  if (moving) {
+    estimating_ = false;
+    return;
+  }
+  estimate_error(moment);
   if (moment.next_cut && volume) {
     prepare(moment);
   } else if (rest > kSlabRest) {
     renderer_.forget_slabs();
   }
+}
+
+// Whether a panel has changed how the same volume is shown.
+bool LivePicture::is_edited(const SceneView& view) const {
+  return view.volume && asked_ && view.volume->image == asked_->image && !same_picture(*view.volume, *asked_);
+}
+
+// While nobody waits; the picture is told with what is known so far.
+void LivePicture::estimate_error(const PictureMoment& moment) {
+  if (!estimating_ || !moment.interrupted || !renderer_.complete()) return;
+  const Stopwatch watch;
+  do {
+    estimating_ = renderer_.estimate_error();
+    figures_.error = renderer_.image_error();
+  } while (estimating_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
+  error_known_ = !estimating_;
 }
 
 // Where planes move in coarser pictures, what is kept of full ones is of no use to them.

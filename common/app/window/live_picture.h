@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/render/frame_budget.h"
@@ -21,6 +22,8 @@ struct PictureFigures {
   FrameQuality quality;
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
   BrickShare bricks;                     ///< likewise
+  /// Of a volume at rest, as far as it is known: from a sparse set of its pixels.
+  std::optional<ImageError> error;
   TractShare tracts;
 };
 
@@ -28,6 +31,8 @@ struct PictureFigures {
 struct PictureMoment {
   double seconds = 0.0;  ///< of the window's clock
   bool moving = false;   ///< something is dragged or played: the budget holds
+  bool editing =
+      false;  ///< something of a panel is held: while that changes the volume, the budget holds, too
   /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, until it
   /// returns true.
   std::function<bool()> interrupted;
@@ -53,23 +58,30 @@ class LivePicture {
   void show(int left, int bottom) { renderer_.show(left, bottom); }
 
   /// Whether nothing is left to be added, or to be kept for what comes next.
-  [[nodiscard]] bool complete() const { return renderer_.complete() && !preparing_; }
+  [[nodiscard]] bool complete() const { return renderer_.complete() && !preparing_ && !estimating_; }
   [[nodiscard]] const PictureFigures& figures() const { return figures_; }
   [[nodiscard]] auto read() { return renderer_.read(); }
+  /// As SceneRenderer.
+  [[nodiscard]] std::string tables_by() const { return renderer_.tables_by(); }
   /// Of all pictures [ms]; 0 where there are none.
   [[nodiscard]] double median_milliseconds() const;
 
  private:
+  [[nodiscard]] bool is_edited(const SceneView& view) const;
   void prepare(const PictureMoment& moment);
+  void estimate_error(const PictureMoment& moment);
 
   SceneRenderer renderer_;
   FrameBudget budget_;
   LocalRedraw local_;
-  TractTime tract_time_;  // what is left of tracts then is added by the next pictures
-  SceneView shown_;       // as it was drawn last
+  TractTime tract_time_;             // what is left of tracts then is added by the next pictures
+  SceneView shown_;                  // as it was drawn last
+  std::optional<VolumeView> asked_;  // the volume as it was asked for last
   int width_ = 0, height_ = 0;
   bool dirty_ = true, preparing_ = false;
-  double lens_moved_ = -1.0, last_drawn_ = 0.0;  // [s]
+  bool estimating_ = false;                                      // the error of the last picture is looked at
+  bool error_known_ = false;                                     // of this view, as well as may be
+  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;
 };

@@ -57,7 +57,7 @@ std::string status_text(const SceneState& scene) {
 std::string frame_text(const PanelState& state) {
   std::string text;
   const FrameQuality& quality = state.picture.quality;
-  std::array<char, 80> part{};
+  std::array<char, 128> part{};
   const auto give_up = [&](double share, const char* what) {
     if (share >= 1.0) return;
     std::snprintf(part.data(), part.size(), "%.0f %% of the %s, ", 100.0 * share, what);
@@ -71,12 +71,19 @@ std::string frame_text(const PanelState& state) {
     text += part.data();
   }
   if (const BrickShare& bricks = state.picture.bricks; bricks.all > 0) {
-    std::snprintf(part.data(), part.size(), "bricks: %zu of %zu, %zu in all, %.0f MB, ", bricks.held,
-                  bricks.wanted, bricks.all, std::ldexp(static_cast<double>(bricks.bytes), -20));
+    std::snprintf(part.data(), part.size(), "bricks: %zu of %zu, %zu in all, %llu in, %llu out, %.0f MB, ",
+                  bricks.held, bricks.wanted, bricks.all, static_cast<unsigned long long>(bricks.entered),
+                  static_cast<unsigned long long>(bricks.left),
+                  std::ldexp(static_cast<double>(bricks.bytes), -20));
     text += part.data();
   }
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
+  if (const auto& error = state.picture.error) {
+    std::snprintf(part.data(), part.size(), "error %.2g/255, worst %.0f, ", 255.0 * error->rms,
+                  255.0 * error->worst);
+    text += part.data();
+  }
   std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);
   return text + part.data();
 }
@@ -170,6 +177,11 @@ void draw_readouts(const PanelState& state, const WindowLayout& layout) {
   ReadoutRows rows("rates");
   rows.add("picture", "%.1f ms", state.picture.milliseconds);
   rows.add("frames", "%.1f /s", state.picture.frames_per_second);
+  if (const auto& error = state.picture.error) {
+    rows.add("image error", "%.2g +- %.1g /255, worst %.0f", 255.0 * error->rms, 255.0 * error->spread,
+             255.0 * error->worst);
+    rows.add("looked at", "%.0f pixels in %.0f ms", static_cast<double>(error->pixels), error->milliseconds);
+  }
   if (state.scene != nullptr) {
     std::size_t points = 0;
     for (const Line& line : *state.scene->lines) points += line.points.size();

@@ -65,6 +65,7 @@ struct WindowResult {
   SceneSettings settings;          ///< at the end
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
+  std::string tables_by;       ///< SceneRenderer::tables_by(), at the end
   std::vector<GpuObject> gpu;  ///< what its context holds at the end; without labels those of the panels
   std::optional<Box> region;   ///< at the end
   ProbeReadout probe;          ///< at the end

@@ -214,7 +214,8 @@ void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, 
   if (glfw_.take_damage()) live_->damage();
   PictureMoment moment{.seconds = glfwGetTime(),
                        .moving = control_.dragging() || slice_control_.dragging() || state_.playing ||
-                                 (bench_ && bench_->moved())};
+                                 (bench_ && bench_->moved()),
+                       .editing = ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
   if (!lively() && !job_->running() && !scripted()) {
     moment.interrupted = [this] {
       glfwPollEvents();

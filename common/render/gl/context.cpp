@@ -1,6 +1,8 @@
 #include "common/render/gl/context.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -38,6 +40,11 @@ EGLDisplay open_display() {
   throw work_error(
       "cannot draw without a display: EGL offers neither a surfaceless nor a device platform; install "
       "libegl1 and libgl1-mesa-dri");
+}
+
+std::string text_of_driver(GLenum name) {
+  const GLubyte* value = glGetString(name);
+  return value == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(value));
 }
 
 }  // namespace
@@ -79,11 +86,16 @@ void OffscreenContext::make_current() {
 }
 
 std::string gl_description() {
-  const auto text = [](GLenum name) {
-    const GLubyte* value = glGetString(name);
-    return value == nullptr ? std::string("unknown") : std::string(reinterpret_cast<const char*>(value));
-  };
-  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
+  return text_of_driver(GL_RENDERER) + ", OpenGL " + text_of_driver(GL_VERSION);
+}
+
+bool is_software_rasteriser() {
+  // Mesa's, Google's and Microsoft's.
+  constexpr std::array<std::string_view, 6> kNames{"llvmpipe",    "softpipe", "swrast",
+                                                   "SwiftShader", "Software", "Basic Render"};
+  const std::string renderer = text_of_driver(GL_RENDERER);
+  return std::any_of(kNames.begin(), kNames.end(),
+                     [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
 }  // namespace palpate

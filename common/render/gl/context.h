@@ -25,4 +25,7 @@ class OffscreenContext {
 /// Renderer and version of the current context, for reports.
 [[nodiscard]] std::string gl_description();
 
+/// Whether the current context draws on the processor, as its renderer's name tells.
+[[nodiscard]] bool is_software_rasteriser();
+
 }  // namespace palpate

@@ -102,6 +102,10 @@ std::string_view name_of(Kind kind) noexcept {
   return kind == Kind::kProgram ? "program" : kind == Kind::kTexture ? "texture" : "renderbuffer";
 }
 
+std::string tables_text(const std::string& tables_by) {
+  return tables_by.empty() ? std::string() : "preintegrated tables filled by the " + tables_by + "\n";
+}
+
 std::string gpu_text(const std::vector<GpuObject>& objects) {
   std::string shaders, memory;
   std::uint64_t sum = 0;
@@ -124,7 +128,7 @@ std::string gpu_text(const std::vector<GpuObject>& objects) {
   };
   const auto files = shader_files();
   const auto left_out = std::count_if(files.begin(), files.end(), [&](const ShaderFile& file) {
-    return file.path.ends_with(".frag") && !is_compiled(file.path);
+    return (file.path.ends_with(".frag") || file.path.ends_with(".comp")) && !is_compiled(file.path);
   });
   return "shaders compiled: " + shaders + "; " + std::to_string(left_out) + " left out\n" +
          "textures and framebuffers, " + bytes_text(sum) + ":\n" + memory;

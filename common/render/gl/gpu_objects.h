@@ -14,7 +14,8 @@ namespace palpate {
 struct GpuObject {
   enum class Kind : std::uint8_t { kProgram, kTexture, kRenderbuffer };
   Kind kind = Kind::kProgram;
-  std::string what;  ///< its label; of a program its fragment shader, below shaders/; empty: it has none
+  std::string
+      what;  ///< its label; of a program its fragment or compute shader, below shaders/; empty: it has none
   std::uint64_t bytes = 0;  ///< texels, all levels and samples; 0 of a program
 
   bool operator==(const GpuObject&) const = default;
@@ -29,6 +30,8 @@ void label_object(GpuObject::Kind kind, std::uint32_t name, std::string_view wha
 
 /// "program", "texture", "renderbuffer".
 [[nodiscard]] std::string_view name_of(GpuObject::Kind kind) noexcept;
+/// A line about who filled the tables of volumes (SceneRenderer::tables_by()); empty: nothing.
+[[nodiscard]] std::string tables_text(const std::string& tables_by);
 /// Lines of text: the programs and how many are left out, then what takes memory.
 [[nodiscard]] std::string gpu_text(const std::vector<GpuObject>& objects);
 

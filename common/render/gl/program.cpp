@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 
 #include <epoxy/gl.h>
 
@@ -82,6 +83,24 @@ GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile
   return shader;
 }
 
+// @param problem what the message of an error begins with. @param label of the program.
+GlProgram link(std::initializer_list<GLuint> shaders, const std::string& problem, std::string_view label) {
+  GlProgram program(glCreateProgram());
+  for (const GLuint shader : shaders) glAttachShader(program.name(), shader);
+  glLinkProgram(program.name());
+  GLint done = GL_FALSE;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
+  if (done != GL_TRUE) {
+    GLint size = 0;
+    glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
+    std::string log(static_cast<std::size_t>(std::max(size, 1)), '\0');
+    glGetProgramInfoLog(program.name(), size, nullptr, log.data());
+    throw work_error(problem + log.substr(0, log.find('\n')));
+  }
+  label_object(GpuObject::Kind::kProgram, program.name(), label);
+  return program;
+}
+
 }  // namespace
 
 ShaderSource assemble_shader(std::string_view path, std::span<const ShaderFile> files,
@@ -101,22 +120,15 @@ GlProgram compile_program(std::string_view vertex, std::string_view fragment,
                           std::span<const ShaderFile> files, std::span<const std::string> defines) {
   const GlShader vertex_shader = compile(GL_VERTEX_SHADER, vertex, files, defines);
   const GlShader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment, files, defines);
-  GlProgram program(glCreateProgram());
-  glAttachShader(program.name(), vertex_shader.name());
-  glAttachShader(program.name(), fragment_shader.name());
-  glLinkProgram(program.name());
-  GLint done = GL_FALSE;
-  glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
-  if (done != GL_TRUE) {
-    GLint size = 0;
-    glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
-    std::string log(static_cast<std::size_t>(std::max(size, 1)), '\0');
-    glGetProgramInfoLog(program.name(), size, nullptr, log.data());
-    throw work_error("shaders " + std::string(vertex) + " and " + std::string(fragment) +
-                     " do not link: " + log.substr(0, log.find('\n')));
-  }
-  label_object(GpuObject::Kind::kProgram, program.name(), fragment);
-  return program;
+  return link(
+      {vertex_shader.name(), fragment_shader.name()},
+      "shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link: ", fragment);
+}
+
+GlProgram compile_compute(std::string_view path, std::span<const ShaderFile> files,
+                          std::span<const std::string> defines) {
+  const GlShader shader = compile(GL_COMPUTE_SHADER, path, files, defines);
+  return link({shader.name()}, "shader " + std::string(path) + " does not link: ", path);
 }
 
 }  // namespace palpate

@@ -46,4 +46,9 @@ struct ShaderSource {
                                         std::span<const ShaderFile> files = shader_files(),
                                         std::span<const std::string> defines = {});
 
+/// The same of a compute shader.
+[[nodiscard]] GlProgram compile_compute(std::string_view path,
+                                        std::span<const ShaderFile> files = shader_files(),
+                                        std::span<const std::string> defines = {});
+
 }  // namespace palpate

@@ -13,18 +13,19 @@
 namespace palpate {
 
 const GradientRanges& FieldBricks::gradients() {
-  if (gradients_.ranges.empty()) gradients_ = gradient_ranges(*image_, ranges_.bricks);
-  return gradients_;
+  if (known_->gradients.ranges.empty())
+    known_->gradients = gradient_ranges(*known_->image, known_->ranges.bricks);
+  return known_->gradients;
 }
 
-bool FieldVoxels::update(const VolumeView& view, std::uint64_t memory) {
+bool FieldVoxels::update(const VolumeView& view, std::uint64_t memory, const FieldVoxels* other) {
   PALPATE_CHECK(view.fields.size() < kMostFields);
   bool changed = false;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Place& place = places_[i];
     const bool shown = i < view.fields.size() && shows_field(view, i + 1);
     if (!shown) {
-      changed = changed || place.voxels;
+      changed = changed || place.voxels != nullptr;
       place = {};
       continue;
     }
@@ -32,9 +33,13 @@ bool FieldVoxels::update(const VolumeView& view, std::uint64_t memory) {
     PALPATE_CHECK(asked != nullptr);
     if (place.asked == asked && place.memory == memory) continue;
     place = {};
-    place.image = fitting_image(asked, memory);
-    place.voxels = upload_whole(*place.image);
-    place.bricks = FieldBricks(place.image, brick_ranges(*place.image));
+    if (other != nullptr && other->places_[i].image == asked) {
+      place = other->places_[i];
+    } else {
+      place.image = fitting_image(asked, memory);
+      place.voxels = std::make_shared<const GlTexture>(upload_whole(*place.image));
+      place.bricks = FieldBricks(place.image, brick_ranges(*place.image));
+    }
     place.asked = asked;
     place.memory = memory;
     changed = true;
@@ -45,7 +50,7 @@ bool FieldVoxels::update(const VolumeView& view, std::uint64_t memory) {
 void FieldVoxels::bind() const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (places_[i].voxels)
-      glBindTextureUnit(volume_shader::kFieldVoxels + static_cast<GLuint>(i), places_[i].voxels.name());
+      glBindTextureUnit(volume_shader::kFieldVoxels + static_cast<GLuint>(i), places_[i].voxels->name());
   }
 }
 

@@ -15,28 +15,32 @@
 
 namespace palpate {
 
-/// Where matter of one field lies. Depends on its image alone.
+/// Where matter of one field lies. Depends on its image alone; copies share it.
 class FieldBricks {
  public:
   FieldBricks() = default;
   FieldBricks(std::shared_ptr<const VolumeImage> image, BrickRanges ranges)
-      : image_(std::move(image)), ranges_(std::move(ranges)) {}
+      : known_(std::make_shared<Known>(Known{std::move(image), std::move(ranges), {}})) {}
 
-  [[nodiscard]] const BrickRanges& ranges() const noexcept { return ranges_; }
+  [[nodiscard]] const BrickRanges& ranges() const noexcept { return known_->ranges; }
   /// Made when first asked for.
   [[nodiscard]] const GradientRanges& gradients();
 
  private:
-  std::shared_ptr<const VolumeImage> image_;
-  BrickRanges ranges_;
-  GradientRanges gradients_;
+  struct Known {
+    std::shared_ptr<const VolumeImage> image;
+    BrickRanges ranges;
+    GradientRanges gradients;
+  };
+  std::shared_ptr<Known> known_ = std::make_shared<Known>();
 };
 
 class FieldVoxels {
  public:
   /// Uploads the fields of `view` that some lens shows, as far as they are not there, and frees others.
-  /// @param memory for each of them [bytes]; 0: no bound. @return whether other voxels are there than before.
-  bool update(const VolumeView& view, std::uint64_t memory);
+  /// @param memory for each of them [bytes]; 0: no bound. @param other whose voxels are taken where it draws
+  /// these images; null: none. @return whether other voxels are there than before.
+  bool update(const VolumeView& view, std::uint64_t memory, const FieldVoxels* other = nullptr);
   /// To the units of shaders/volume/voxels.glsl.
   void bind() const;
 
@@ -51,7 +55,7 @@ class FieldVoxels {
   struct Place {
     std::shared_ptr<const VolumeImage> asked, image;
     std::uint64_t memory = 0;
-    GlTexture voxels;
+    std::shared_ptr<const GlTexture> voxels;
     FieldBricks bricks;
   };
   std::array<Place, kMostFields - 1> places_;

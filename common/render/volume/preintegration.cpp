@@ -190,11 +190,28 @@ void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, in
     for (std::size_t group = first; group < last; ++group) {
       float group_lengths[kLengthGroup];
       for (std::size_t l = 0; l < kLengthGroup; ++l) {
-        group_lengths[l] = static_cast<float>(group * kLengthGroup + l) / static_cast<float>(lengths - 1);
+        group_lengths[l] = segment_length(group * kLengthGroup + l, lengths);
       }
       fill_group(entries, group_lengths, kept, rgba.data() + layer * group * kLengthGroup);
     }
   });
+}
+
+void classify_fronts(std::span<const OpticalEntry> entries, std::size_t lengths,
+                     std::span<std::uint16_t> rgba) {
+  const std::size_t count = entries.size();
+  PALPATE_CHECK(lengths >= 2 && rgba.size() == 4 * count * count * lengths);
+  const auto part_of = [](float x) { return static_cast<std::uint16_t>(65535.0F * x + 0.5F); };
+  std::uint16_t* to = rgba.data();
+  for (std::size_t l = 0; l < lengths; ++l) {
+    for (std::size_t back = 0; back < count; ++back) {
+      for (const OpticalEntry& front : entries) {
+        const float opacity = 1.0F - std::exp(-segment_length(l, lengths) * front.depth);
+        for (int c = 0; c < 3; ++c) *to++ = part_of(opacity * front.color[c]);
+        *to++ = part_of(opacity);
+      }
+    }
+  }
 }
 
 }  // namespace palpate

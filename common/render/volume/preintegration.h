@@ -48,6 +48,11 @@ struct OpticalEntry {
 /// Lengths of a table come in groups of this many.
 inline constexpr std::size_t kLengthGroup = 8;
 
+/// The length of layer `l` of `lengths`, in units of the longest one.
+[[nodiscard]] inline float segment_length(std::size_t l, std::size_t lengths) {
+  return static_cast<float>(l) / static_cast<float>(lengths - 1);
+}
+
 /// Fills the table of all pairs of entries and `lengths` equally spaced lengths, from zero to the longest.
 /// @param rgba 4 * n * n * lengths numbers for n entries: red, green, blue, opacity as parts of 65535; the
 /// front entry varies fastest, then the back one, then the length.
@@ -55,5 +60,10 @@ inline constexpr std::size_t kLengthGroup = 8;
 /// The result does not depend on the number of threads (0: as many as there are cores).
 void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, int threads,
                   std::span<std::uint16_t> rgba);
+
+/// What a table shows that is not preintegrated, for reports of what that is worth: the matter of the front
+/// entry all along each segment. Same layout and conditions.
+void classify_fronts(std::span<const OpticalEntry> entries, std::size_t lengths,
+                     std::span<std::uint16_t> rgba);
 
 }  // namespace palpate

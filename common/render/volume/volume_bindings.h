@@ -26,8 +26,8 @@ inline constexpr std::uint32_t kRegionTables = 15;
 // Uniforms.
 inline constexpr std::int32_t kHasOpaqueDepth = 0;
 inline constexpr std::int32_t kSlabNormal = 1, kSlabBorders = 2;
-inline constexpr std::int32_t kDepthPixel = 3, kContextPixel = 4, kWantedKind = 5, kFarthestLens = 6;
-inline constexpr std::int32_t kHasKept = 40;
+inline constexpr std::int32_t kContextPixel = 4, kWantedKind = 5, kFarthestLens = 6;
+inline constexpr std::int32_t kHasKept = 40, kDepthPixel = 41;
 
 /// A uniform block's buffer.
 template <typename Block>

@@ -16,9 +16,11 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/volume/context_picture.h"
+#include "common/render/volume/converged_volume.h"
 #include "common/render/volume/kept_volume.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/shape_block.h"
@@ -77,7 +79,8 @@ struct VolumePass::State {
   GlBuffer volume_block, shape_block;
   ShapeRoom room;
   Cost cost;
-  std::unique_ptr<ContextPicture> context;  // where the context is drawn by itself
+  std::unique_ptr<ConvergedVolume> converged;  // once some of its rays were asked for
+  std::unique_ptr<ContextPicture> context;     // where the context is drawn by itself
 
   PlaneImagePass planes;
   Variant variant = Variant::kPlain;
@@ -142,13 +145,32 @@ struct VolumePass::State {
 
   void bind(const GlProgram& program, const GlBuffer& volume, const GlBuffer& shapes,
             std::uint32_t opaque_depth) {
-    glUseProgram(program.name());
     bind_volume(volume, shapes);
+    use(program, opaque_depth, 1.0F);
+    if (!context) glUniform1i(volume_shader::kHasKept, 0);
+  }
+
+  // @param step pixels of opaque_depth to one of the picture.
+  void use(const GlProgram& program, std::uint32_t opaque_depth, float step) const {
+    glUseProgram(program.name());
     glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
     glUniform1i(volume_shader::kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
-    if (!context) glUniform1i(volume_shader::kHasKept, 0);
+    glUniform3f(volume_shader::kDepthPixel, step, 0.0F, 0.0F);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(no_vertices.name());
+  }
+
+  // What is shown and what is converged have one program where they are told the same.
+  const GlProgram& converged_program() {
+    ConvergedVolume& c = *converged;
+    if (c.defines == defines) return program_of(Reach::kAll);
+    if (!c.program) {
+      const char* fragment = fragment_of(Reach::kAll, variant);
+      c.program = compile_program("volume/volume.vert", fragment, shader_files(), c.defines);
+      label_object(GpuObject::Kind::kProgram, c.program.name(), std::string(fragment) + ", converged");
+      ++cost.programs;
+    }
+    return c.program;
   }
 
   void cast_rays() const {
@@ -250,6 +272,8 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   State& s = *state_;
   VolumeView view = asked;
   view.storage = storage_of_whole(asked);
+  if (s.converged && s.asked != asked.image) s.converged.reset();
+  if (s.converged) s.converged->textures.release_bricks();
   const std::uint64_t voxels = s.textures.changes();
   s.textures.update(view, make_brick_sight(block, frame));
   if (s.textures.changes() != voxels) {
@@ -267,8 +291,10 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
     s.programs = {};
     s.planes = {};
     s.context.reset();
+    if (s.converged) s.converged->program.reset();
     s.defines = std::move(defines);
   }
+  if (s.converged && s.variant != variant_of(view)) s.converged->program.reset();
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
@@ -308,6 +334,23 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   s.drawn_view = s.shown;
   s.drawn_block = block;
   s.drawn_depth = opaque_depth;
+}
+
+void VolumePass::draw_converged(std::uint32_t opaque_depth, float step) {
+  State& s = *state_;
+  PALPATE_CHECK(s.drawn_view && bricks().complete());
+  if (!s.converged) s.converged = std::make_unique<ConvergedVolume>();
+  ConvergedVolume& c = *s.converged;
+  c.update(*s.drawn_view, s.frame, s.textures);
+  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, c.volume_block.name());
+  bind_shape_block(c.shape_block, c.room);
+  c.textures.bind(s.colored());
+  s.use(s.converged_program(), opaque_depth, step);
+  glUniform1i(volume_shader::kHasKept, 0);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
 }
 
 bool VolumePass::prepare_slabs(std::size_t cut) {
@@ -353,7 +396,7 @@ void VolumePass::forget_slabs() {
   state_->cost.slab_bytes = 0;
 }
 
-VolumePass::Cost VolumePass::cost() const noexcept {
+VolumePass::Cost VolumePass::cost() const {
   Cost cost = state_->cost;
   const VolumeTextures::Cost& textures = state_->textures.cost();
   cost.programs += state_->textures.tiles().compiled() ? 1 : 0;
@@ -361,7 +404,10 @@ VolumePass::Cost VolumePass::cost() const noexcept {
   cost.table_bytes = textures.table_bytes;
   cost.brick_bytes = textures.brick_bytes;
   cost.table_ms = textures.table_ms;
+  cost.tables_made = textures.tables_made;
+  cost.tables_by = state_->textures.table_choice().text();
   cost.empty_share = textures.empty_share;
+  if (state_->converged) cost.converged_bytes = state_->converged->textures.cost().table_bytes;
   if (state_->context) {
     const ContextPicture::Cost context = state_->context->cost();
     cost.programs += context.programs;

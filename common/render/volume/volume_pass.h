@@ -13,6 +13,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "common/render/camera.h"
 #include "common/render/frame_block.h"
@@ -55,6 +57,13 @@ class VolumePass {
   /// @param block the frame's.
   void draw_planes(const FrameBlock& block);
 
+  /// Draws rays through the volume of the last draw() again, as converged_view() has them, over the
+  /// framebuffer that is bound: for a sparse set of its pixels (error_estimate.h). Needs the block of that
+  /// frame bound to 0.
+  /// @param opaque_depth as draw() was given it. @param step its pixels along either edge, to one of these.
+  /// @pre draw(), and bricks().complete().
+  void draw_converged(std::uint32_t opaque_depth, float step);
+
   /// Draws nothing, but keeps one more picture of a slab for when the cut of that number moves, and has what
   /// draw() then needs compiled: for while nobody waits. Over the framebuffer of the last draw(), with the
   /// frame's uniform block bound to 0.
@@ -81,13 +90,16 @@ class VolumePass {
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU
     std::uint64_t table_bytes = 0;
     std::uint64_t brick_bytes = 0;
-    std::uint64_t slab_bytes = 0;     ///< kept of a plane that moves
-    std::uint64_t kept_bytes = 0;     ///< the picture that is kept of a volume that stands still
-    std::uint64_t context_bytes = 0;  ///< coarser voxels, tables and pictures of the context, drawn alone
-    double table_ms = 0.0;            ///< of the last preintegration
-    double empty_share = 0.0;         ///< of the bricks, for the context
+    std::uint64_t slab_bytes = 0;       ///< kept of a plane that moves
+    std::uint64_t kept_bytes = 0;       ///< the picture that is kept of a volume that stands still
+    std::uint64_t converged_bytes = 0;  ///< tables of draw_converged()
+    std::uint64_t context_bytes = 0;    ///< coarser voxels, tables and pictures of the context, drawn alone
+    double table_ms = 0.0;              ///< of the last preintegration
+    int tables_made = 0;                ///< then
+    std::string tables_by;              ///< TableChoice::text(): who filled them, and why
+    double empty_share = 0.0;           ///< of the bricks, for the context
   };
-  [[nodiscard]] Cost cost() const noexcept;
+  [[nodiscard]] Cost cost() const;
 
  private:
   struct State;

@@ -12,6 +12,7 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/render/gl/context.h"
 #include "common/render/volume/coarse_image.h"
 #include "common/render/volume/preintegration.h"
 #include "common/render/volume/volume_bindings.h"
@@ -51,12 +52,21 @@ std::uint64_t memory_of_field(const VolumeView& view) {
 }  // namespace
 
 bool VolumeTextures::TableKey::operator==(const TableKey& other) const {
+  return same_places(other) && transfers == other.transfers;
+}
+
+bool VolumeTextures::TableKey::same_places(const TableKey& other) const {
   const auto same = [](const PlaceRange& a, const PlaceRange& b) {
     return a.lower == b.lower && a.upper == b.upper;
   };
-  return transfers == other.transfers &&
+  const auto alike = [](const FieldTransfer& a, const FieldTransfer& b) {
+    return a.field == b.field && a.regions.has_value() == b.regions.has_value();
+  };
+  return std::equal(transfers.begin(), transfers.end(), other.transfers.begin(), other.transfers.end(),
+                    alike) &&
          std::equal(places.begin(), places.end(), other.places.begin(), other.places.end(), same) &&
-         longest == other.longest && entries == other.entries && lengths == other.lengths;
+         longest == other.longest && entries == other.entries && lengths == other.lengths &&
+         preintegrate == other.preintegrate;
 }
 
 void VolumeTextures::update(const VolumeView& view, const BrickSight& sight, const VolumeTextures* other) {
@@ -71,7 +81,7 @@ void VolumeTextures::update(const VolumeView& view, const BrickSight& sight, con
     first.storage.memory -= view.storage.memory - memory;
     place_voxels(first, sight);
   }
-  if (fields_.update(view, memory)) {
+  if (fields_.update(view, memory, other == nullptr ? nullptr : &other->fields_)) {
     ++changes_;
     key_ = {};
   }
@@ -104,7 +114,7 @@ void VolumeTextures::bind(bool colors) const {
   glBindTextureUnit(volume_shader::kEmptyBricks, empty_bricks_.name());
   if (regions_) glBindTextureUnit(volume_shader::kRegionTables, region_tables_.name());
   fields_.bind();
-  if (colors) glBindTextureUnit(volume_shader::kColors, colors_.name());
+  if (colors) glBindTextureUnit(volume_shader::kColors, colors_->name());
 }
 
 void VolumeTextures::bind_voxels(std::uint32_t unit) const { glBindTextureUnit(unit, voxels_->name()); }
@@ -121,12 +131,17 @@ void VolumeTextures::take_image(const std::shared_ptr<const VolumeImage>& image,
   if (image_ == image) return;
   image_ = image;
   bricks_of_image_ = FieldBricks(image, ranges);
-  colors_ = GlTexture();
+  colors_.reset();
   key_ = {};
 }
 
 void VolumeTextures::share_voxels(const VolumeTextures& other) {
-  take_image(other.image_, other.bricks_of_image_.ranges());
+  if (image_ != other.image_) {
+    image_ = other.image_;
+    bricks_of_image_ = other.bricks_of_image_;
+    key_ = {};
+  }
+  colors_ = other.colors_;
   voxels_ = other.voxels_;
   bricks_ = other.bricks_;
   placed_ = {};
@@ -137,6 +152,8 @@ void VolumeTextures::share_voxels(const VolumeTextures& other) {
 BrickShare VolumeTextures::bricks_held() const noexcept {
   BrickShare share = bricks_ ? bricks_->share() : BrickShare{};
   share.wanted += left_out_;
+  share.entered += entered_before_;
+  share.left += entered_before_;  // with the places that they had
   return share;
 }
 
@@ -175,7 +192,7 @@ void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sigh
 
 void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges) {
   if (image_ == image && voxels_) return;
-  bricks_.reset();
+  forget_bricks();
   voxels_.reset();
   voxels_ = std::make_shared<const GlTexture>(upload_whole(*image));
   cost_.voxel_bytes = image->byte_count();
@@ -204,6 +221,12 @@ bool VolumeTextures::add_level(const VolumeView& view, bool wait) {
   }
   levels_.push_back(std::move(made));
   return true;
+}
+
+// What they held has left.
+void VolumeTextures::forget_bricks() {
+  if (bricks_) entered_before_ += bricks_->share().entered;
+  bricks_.reset();
 }
 
 // The finest level of which all that the picture looks up fits.
@@ -254,13 +277,13 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
     if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells || bricks_->coarse() != coarse) {
       BrickPool pool;
       if (bricks_ && coarse && bricks_.use_count() == 1) pool = std::move(*bricks_).give_pool();
-      bricks_.reset();
+      forget_bricks();
       bricks_ = std::make_shared<VoxelBricks>(at.image, layout, at.ranges, coarse, finer, std::move(pool));
       ++changes_;
     }
-    const std::uint64_t before = bricks_->uploads();
+    const std::uint64_t before = bricks_->share().entered;
     bricks_->hold(at.needed, wanted, view.storage);
-    changes_ += bricks_->uploads() != before ? 1 : 0;
+    changes_ += bricks_->share().entered != before ? 1 : 0;
     cost_.voxel_bytes = bricks_->bytes();
     take_image(at.image, at.ranges);
     sight_.reset();
@@ -272,7 +295,7 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
 void VolumeTextures::update_colors(const VolumeView& view) {
   if (colors_ || !has_colored_parts(view)) return;
   PALPATE_CHECK(image_->colors->size() == image_->point_count());
-  colors_ = upload_colors(*image_);
+  colors_ = std::make_shared<const GlTexture>(upload_colors(*image_));
   cost_.voxel_bytes += image_->colors->size() * sizeof(image_->colors->front());
 }
 
@@ -286,28 +309,38 @@ void VolumeTextures::update_tables(const VolumeView& view) {
   wanted.longest = step_lengths(view).longest / opacity_length_of(view);
   wanted.entries = view.table_entries;
   wanted.lengths = view.table_lengths;
+  wanted.preintegrate = view.preintegrate;
   if (wanted == key_) return;
 
+  // While one transfer function is dragged, the tables of the others stay.
   const Stopwatch clock;
-  key_ = std::move(wanted);
-  allocate_tables(view);
+  const TableKey before = std::exchange(key_, std::move(wanted));
+  const bool stay = before.same_places(key_);
+  if (before.entries != key_.entries || before.lengths != key_.lengths) choice_.begin();
+  if (!stay) allocate_tables(view);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  std::vector<std::uint8_t> maps;  // of the context's field
   const std::vector<TransferPlace> places = transfer_places(view, field_bricks_);
+  distances_.resize(places.size());
+  cost_.tables_made = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
+    if (stay && before.transfers[i] == key_.transfers[i]) continue;
     const TransferPlace& place = places[i];
-    const std::vector<std::uint8_t> distances = place.regions
-                                                    ? update_regions(view, key_.transfers[i], place)
-                                                    : update_preintegrated(view, key_.transfers[i], place);
+    distances_[i] = place.regions ? update_regions(view, key_.transfers[i], place)
+                                  : update_preintegrated(view, key_.transfers[i], place);
     const Index3 b = field_bricks_[place.field];
     glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, place.first_brick_z, b.x, b.y, b.z, GL_RED_INTEGER,
-                        GL_UNSIGNED_BYTE, distances.data());
-    if (place.field == 0) maps.insert(maps.end(), distances.begin(), distances.end());
-    if (i > 0) continue;
-    const auto empty = std::count_if(distances.begin(), distances.end(), [](auto d) { return d > 0; });
-    cost_.empty_share = static_cast<double>(empty) / static_cast<double>(distances.size());
+                        GL_UNSIGNED_BYTE, distances_[i].data());
+    ++cost_.tables_made;
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  std::vector<std::uint8_t> maps;  // of the context's field
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].field == 0) maps.insert(maps.end(), distances_[i].begin(), distances_[i].end());
+  }
+  const std::vector<std::uint8_t>& first = distances_.front();
+  cost_.empty_share =
+      static_cast<double>(std::count_if(first.begin(), first.end(), [](auto d) { return d > 0; })) /
+      static_cast<double>(first.size());
   tiles_.set_bricks(shell_bricks(bricks(), maps));
   cost_.table_ms = 1e3 * clock.seconds();
 }
@@ -346,20 +379,41 @@ void VolumeTextures::allocate_tables(const VolumeView& view) {
                       static_cast<std::uint64_t>(maps.z);
 }
 
+// Where a compute shader does it, the table never crosses the bus.
+void VolumeTextures::fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries,
+                                int first_layer) {
+  const std::size_t count = entries.size();
+  const auto lengths = static_cast<std::size_t>(view.table_lengths);
+  const auto fill = [&](const auto& by_processor) {
+    table_.resize(4 * count * count * lengths);
+    by_processor();
+    glTextureSubImage3D(tables_.name(), 0, 0, 0, first_layer, view.table_entries, view.table_entries,
+                        view.table_lengths, GL_RGBA, GL_UNSIGNED_SHORT, table_.data());
+  };
+  if (!view.preintegrate) return fill([&] { classify_fronts(entries, lengths, table_); });
+  const TableMaker maker =
+      choice_.next(view.table_maker, GpuPreintegration::possible(count), is_software_rasteriser());
+  if (choice_.timed()) glFinish();
+  const Stopwatch clock;
+  if (maker == TableMaker::kGpu) {
+    gpu_.fill(entries, lengths, tables_, first_layer);
+  } else {
+    fill([&] { preintegrate(entries, lengths, 0, table_); });
+  }
+  if (choice_.timed()) glFinish();
+  choice_.filled(1e3 * clock.seconds());
+}
+
 // @return distances between empty bricks
 std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView& view,
                                                                const FieldTransfer& transfer,
                                                                const TransferPlace& place) {
-  const auto entries = static_cast<std::size_t>(view.table_entries);
-  const auto lengths = static_cast<std::size_t>(view.table_lengths);
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange values = table_places(view, place.field);
   const std::vector<OpticalEntry> optical =
-      optical_entries(transfer.colors, values.lower.x, values.upper.x, entries, key_.longest);
-  table_.resize(4 * entries * entries * lengths);
-  preintegrate(optical, lengths, 0, table_);
-  glTextureSubImage3D(tables_.name(), 0, 0, 0, place.first_layer, view.table_entries, view.table_entries,
-                      view.table_lengths, GL_RGBA, GL_UNSIGNED_SHORT, table_.data());
+      optical_entries(transfer.colors, values.lower.x, values.upper.x,
+                      static_cast<std::size_t>(view.table_entries), key_.longest);
+  fill_table(view, optical, place.first_layer);
   const BrickRanges& ranges =
       place.field == 0 ? bricks_of_image_.ranges() : fields_.bricks(place.field).ranges();
   return empty_distances(ranges, optical, numbers.lower, numbers.upper);

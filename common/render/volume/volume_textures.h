@@ -12,6 +12,8 @@
 #include "common/render/volume/brick_demand.h"
 #include "common/render/volume/brick_map.h"
 #include "common/render/volume/field_voxels.h"
+#include "common/render/volume/gpu_preintegration.h"
+#include "common/render/volume/table_choice.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_view.h"
@@ -28,10 +30,13 @@ class VolumeTextures {
   /// lengths a multiple of kLengthGroup.
   /// @throws Error (usage) where a volume with colours is larger than the driver's textures, or no memory is
   /// given.
-  /// @param other whose voxels on the GPU are these, too, where it has the same image, and whose program for
-  /// tiles is; null: none.
+  /// @param other whose voxels and colours on the GPU are these, too, where it has the same images, and whose
+  /// program for tiles is; null: none.
   /// @param sight from where the picture is taken, which of a volume in bricks holds what it looks up.
   void update(const VolumeView& view, const BrickSight& sight, const VolumeTextures* other = nullptr);
+
+  /// Gives up bricks that are another one's, which then may use their pool for others.
+  void release_bricks() { bricks_.reset(); }
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
@@ -63,9 +68,11 @@ class VolumeTextures {
     std::uint64_t voxel_bytes = 0, table_bytes = 0, brick_bytes = 0;
     std::uint64_t field_bytes = 0;  ///< voxels of fields beside that of the context
     double table_ms = 0.0;          ///< of the last preintegration
+    int tables_made = 0;            ///< then, preintegrated and of regions
     double empty_share = 0.0;       ///< of the bricks, for the context
   };
   [[nodiscard]] const Cost& cost() const noexcept { return cost_; }
+  [[nodiscard]] const TableChoice& table_choice() const noexcept { return choice_; }
 
  private:
   /// All that the tables depend on.
@@ -74,8 +81,12 @@ class VolumeTextures {
     std::vector<PlaceRange> places;  ///< of each field's tables, in numbers of its image
     double longest = 0.0;            ///< in units of the opacity length
     int entries = 0, lengths = 0;
+    bool preintegrate = true;
 
     bool operator==(const TableKey& other) const;
+    /// Whether tables of both are as large, stand in the same places and are of the same matter but for some
+    /// transfer functions.
+    [[nodiscard]] bool same_places(const TableKey& other) const;
   };
   /// All that decides where the voxels of a view stand.
   struct PlaceKey {
@@ -98,11 +109,13 @@ class VolumeTextures {
   void place_voxels(const VolumeView& view, const BrickSight& sight);
   void place_bricks(VolumeView view, const BrickSight& sight);
   bool add_level(const VolumeView& view, bool wait);
+  void forget_bricks();
   void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
   void allocate_tables(const VolumeView& view);
+  void fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries, int first_layer);
   std::vector<std::uint8_t> update_preintegrated(const VolumeView& view, const FieldTransfer& transfer,
                                                  const TransferPlace& place);
   std::vector<std::uint8_t> update_regions(const VolumeView& view, const FieldTransfer& transfer,
@@ -110,6 +123,7 @@ class VolumeTextures {
 
   std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
   std::shared_ptr<VoxelBricks> bricks_;
+  std::uint64_t entered_before_ = 0;  ///< bricks of this volume, into other places than `bricks_`
   PlaceKey placed_;
   std::optional<BrickSight> sight_;  ///< for which all that is looked up is there
   std::vector<Lens> lenses_;         ///< likewise
@@ -121,11 +135,15 @@ class VolumeTextures {
   bool regions_ = false;         ///< some part is shown by value and gradient magnitude
   std::size_t field_count_ = 1;  ///< up to the last one that is shown
   std::vector<Index3> field_bricks_;
-  GlTexture colors_, tables_, region_tables_, empty_bricks_;
+  std::shared_ptr<const GlTexture> colors_;
+  GlTexture tables_, region_tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;
   FieldBricks bricks_of_image_;
   TilePass tiles_;
   TableKey key_;
+  std::vector<std::vector<std::uint8_t>> distances_;  ///< between empty bricks, for each transfer function
+  TableChoice choice_;
+  GpuPreintegration gpu_;
   /// Kept: it is large and asked for again while a function is dragged.
   std::vector<std::uint16_t> table_;
   Cost cost_;

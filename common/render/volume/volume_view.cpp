@@ -14,9 +14,10 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
          a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
          a.far_sampling == b.far_sampling && a.shading == b.shading && a.lenses == b.lenses &&
          a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
-         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
-         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
-         a.keep_slabs == b.keep_slabs && a.context == b.context && a.storage == b.storage;
+         a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
+         a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
+         a.stop_where_opaque == b.stop_where_opaque && a.keep_slabs == b.keep_slabs &&
+         a.context == b.context && a.storage == b.storage;
 }
 
 FieldTransfer transfer_of(const VolumeView& view, const Lens& lens) {

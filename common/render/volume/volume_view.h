@@ -64,10 +64,12 @@ struct VoxelStorage {
 
 /// How many bricks of a volume are there for a picture; zeros where it stands as a whole.
 struct BrickShare {
-  std::size_t held = 0;     ///< of those that the picture looks up
-  std::size_t wanted = 0;   ///< that it looks up
-  std::size_t all = 0;      ///< of the volume
-  std::uint64_t bytes = 0;  ///< of the pool and the index
+  std::size_t held = 0;       ///< of those that the picture looks up
+  std::size_t wanted = 0;     ///< that it looks up
+  std::size_t all = 0;        ///< of the volume
+  std::uint64_t bytes = 0;    ///< of the pool and the index
+  std::uint64_t entered = 0;  ///< bricks that were uploaded so far
+  std::uint64_t left = 0;     ///< of these, whose place others took
 
   [[nodiscard]] bool complete() const noexcept { return held == wanted; }
 };
@@ -80,6 +82,9 @@ struct VolumeField {
   bool operator==(const VolumeField&) const = default;
 };
 inline constexpr std::size_t kMostFields = 4;  ///< of one picture, that of the context included
+
+/// Who fills preintegrated tables (table_choice.h); the numbers are the same.
+enum class TableMaker : std::uint8_t { kFaster, kProcessor, kGpu };
 
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;
@@ -107,6 +112,8 @@ struct VolumeView {
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;
   int table_lengths = 32;
+  bool preintegrate = true;  ///< false: tables of classify_fronts(), made by the processor
+  TableMaker table_maker = TableMaker::kFaster;  ///< kGpu where the driver can
   bool skip_empty = true;  ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
   /// Keep pictures of slabs while one cut moves (slab_cache.h); changes no pixel by 1/255.
   bool keep_slabs = true;
@@ -118,8 +125,8 @@ struct VolumeView {
   bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
 };
 
-/// Whether both give the same picture, by the same means but for keep_picture; images count as the same where
-/// they are the same objects.
+/// Whether both give the same picture, by the same means but for keep_picture and table_maker; images count
+/// as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
 
 /// A transfer function and the field whose values it shows.

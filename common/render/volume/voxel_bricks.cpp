@@ -297,6 +297,8 @@ void VoxelBricks::find_pool(std::size_t needed, std::size_t wanted, std::uint64_
              layout_.points, image_->type};
   }
   placed_ = true;
+  share_.left += static_cast<std::uint64_t>(
+      std::count_if(slots_.begin(), slots_.end(), [](int slot) { return slot >= 0; }));
   bytes_ = brick_index_bytes(layout_) + pool_bytes(pool_.bricks, layout_, image_->type);
   std::fill(slots_.begin(), slots_.end(), -1);
   std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
@@ -335,7 +337,7 @@ void VoxelBricks::upload(std::size_t brick, std::size_t slot) {
     scratch_.swap(whole);
   }
   upload_voxels(pool_.texture, place_of(slot), size, image_->type, scratch_.data());
-  ++uploads_;
+  ++share_.entered;
 }
 
 // Of those that have no coarse one, the first ones get theirs: as many as a picture has time for.
@@ -384,6 +386,7 @@ void VoxelBricks::find_room(std::size_t places) {
   for (const std::size_t i : leaving) {
     if (free_.size() >= places) return;
     free_.push_back(std::exchange(slots_[i], -1));
+    ++share_.left;
   }
 }
 

@@ -103,7 +103,6 @@ class VoxelBricks {
   [[nodiscard]] bool coarse() const noexcept { return coarse_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] const BrickShare& share() const noexcept { return share_; }  ///< of the last hold()
-  [[nodiscard]] std::uint64_t uploads() const noexcept { return uploads_; }  ///< of bricks, so far
 
  private:
   void find_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory);
@@ -130,7 +129,7 @@ class VoxelBricks {
   std::size_t coarse_room_ = 0, coarse_held_ = 0;
   GlTexture index_;
   std::vector<std::byte> scratch_;
-  std::uint64_t bytes_ = 0, uploads_ = 0, pictures_ = 0;
+  std::uint64_t bytes_ = 0, pictures_ = 0;
   BrickShare share_;
 };
 

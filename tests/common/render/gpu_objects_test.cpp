@@ -13,7 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/field/grid/sparse/sparse_builder.h"
+#include "common/render/gl/context.h"
 #include "common/render/render_image.h"
+#include "common/render/scene_renderer.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
 namespace palpate::test {
@@ -32,13 +35,17 @@ struct Made {
   std::map<std::string, std::uint64_t> textures;  ///< bytes, of all with one label
 };
 
-Made made_for(const VolumeView& volume) {
+SceneView scene_of(const VolumeView& volume) {
   SceneView view;
   view.bounds = volume.image->bounds();
   view.camera = camera_of(volume);
   view.volume = volume;
+  return view;
+}
+
+Made sorted(const std::vector<GpuObject>& objects) {
   Made made;
-  for (const GpuObject& object : render_image(view, kWidth, kHeight).gpu) {
+  for (const GpuObject& object : objects) {
     if (object.what.empty()) continue;
     if (object.kind == Kind::kProgram) {
       EXPECT_TRUE(made.shaders.insert(object.what).second) << object.what << " is compiled twice";
@@ -46,6 +53,10 @@ Made made_for(const VolumeView& volume) {
     if (object.kind == Kind::kTexture) made.textures[object.what] += object.bytes;
   }
   return made;
+}
+
+Made made_for(const VolumeView& volume, bool error = false) {
+  return sorted(render_image(scene_of(volume), kWidth, kHeight, 0, 0.0, error).gpu);
 }
 
 Names with(Names names, const Names& more) {
@@ -183,6 +194,72 @@ TEST(GpuObjects, OfFieldsAndRegionsAreThoseThatLensesShow) {
   made = made_for(view);
   EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag", "volume/tiles.frag"}));
   EXPECT_EQ(made.textures.count("preintegrated tables"), 0U) << "nothing is preintegrated";
+}
+
+// Whoever fills tables, samples less far off, looks at pixels again or keeps pictures takes nothing before
+// that is asked for, and no more than that.
+TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
+  VolumeView view = byte_view();
+  const Made plain = made_for(view);
+  const auto expect = [&](const char* what, const Made& made, const Names& shaders, const Names& textures) {
+    EXPECT_EQ(made.shaders, with(plain.shaders, shaders)) << what;
+    EXPECT_EQ(names_of(made), with(names_of(plain), textures)) << what;
+  };
+  view.table_maker = TableMaker::kGpu;
+  expect("tables by a compute shader", made_for(view), {"volume/preintegrate.comp"}, {});
+  view.table_maker = TableMaker::kProcessor;
+
+  Made made = made_for(view, true);
+  expect("the error", made, {}, {});
+  constexpr std::uint64_t kConvergedTable = 512U * 512U * 8U * 8U;
+  EXPECT_EQ(made.textures["preintegrated tables"], 64U * 64U * 16U * 8U + kConvergedTable);
+  EXPECT_EQ(made.textures["voxels"], std::uint64_t{kPoints} * kPoints * kPoints) << "they are shared";
+
+  view.far_sampling = 3.0;
+  expect("fewer samples far off", made_for(view), {}, {});
+  expect("and the error, of all samples", made_for(view, true), {"volume/volume.frag, converged"}, {});
+  view.far_sampling = 1.0;
+
+  view.keep_picture = true;
+  expect("a kept picture", made_for(view), {"volume/kept.frag"},
+         {"kept volume", "depths of the kept volume"});
+  view.keep_picture = false;
+
+  // A plane that moves.
+  view.cuts = {{.kept = {{0.0, 0.0, 1.0}, 0.30}}};
+  const OffscreenContext context;
+  SceneRenderer renderer;
+  renderer.draw(scene_of(view), kWidth, kHeight);
+  expect("a plane", sorted(gpu_objects()), {}, {});
+  view.cuts[0].kept.offset = 0.31;
+  renderer.draw(scene_of(view), kWidth, kHeight);
+  expect("that moves", sorted(gpu_objects()), {"volume/slab_volume.frag"},
+         {"kept slab", "depths of kept slabs"});
+  renderer.forget_slabs();
+  expect("and rests", sorted(gpu_objects()), {"volume/slab_volume.frag"}, {});
+}
+
+// Of a sparse volume only bricks that show something stand on the GPU; a long list of cuts takes a buffer, no
+// texture.
+TEST(GpuObjects, OfASparseVolumeAreItsBricks) {
+  VolumeView view = sampled_view([](const Vec3& x) { return glm::distance(x, Vec3(-0.5)) < 0.3 ? 0.9 : 0.0; },
+                                 ScalarType::kFloat32, 65);
+  std::vector<float> numbers(view.image->point_count());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(view.image->number(i));
+  auto image = std::make_shared<VolumeImage>(*view.image);
+  image->sparse = make_sparse(numbers, image->points, 0.0F);
+  image->bytes = {};
+  view.image = image;
+  view.storage = {.brick_cells = 16};
+  view.cuts.assign(40, {.kept = {{0.0, 0.0, 1.0}, 0.9}});
+  const Made made = made_for(view);
+  EXPECT_EQ(made.shaders, with(kAnyScene, {"volume/volume.frag", "volume/tiles.frag"}));
+  EXPECT_EQ(made.textures.count("voxels"), 0U);
+  std::uint64_t bytes = 0;
+  for (const auto& [what, size] : made.textures) bytes += what.starts_with("voxels in bricks") ? size : 0;
+  EXPECT_GT(bytes, 0U);
+  EXPECT_LT(bytes, 4U * 65U * 65U * 65U / 3U);
+  EXPECT_EQ(made.textures.at("index of bricks"), 16U * 4U * 4U * 4U);
 }
 
 TEST(GpuObjects, AreNamedWithWhatTheyTake) {

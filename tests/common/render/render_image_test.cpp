@@ -1,6 +1,8 @@
 #include "common/render/render_image.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +14,7 @@
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/sample_probe.h"
 #include "tests/common/render/sample_scenes.h"
+#include "tests/common/render/volume/sample_volumes.h"
 
 namespace palpate {
 namespace {
@@ -289,6 +292,84 @@ TEST(Look, AtWhatUsersSee) {
   view.camera.focal_point = view.probe->proxy;
   zoom(view.camera, 2.6);
   test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_near");
+}
+
+// A solid with an enamel about it and a sharp transfer function, as a tooth has; an opaque line goes through
+// it.
+SceneView tooth_like(double samples) {
+  const auto tooth = [](const Vec3& x) {
+    const double r = glm::length(x * Vec3(1.0, 1.3, 0.8)) + 0.06 * std::sin(9.0 * x.x) * std::cos(7.0 * x.z);
+    return r > 0.8 ? 0.0 : r > 0.6 ? 1.0 : r > 0.25 ? 0.6 : 0.2;
+  };
+  SceneView view = test::front_view({test::polyline({{-0.9, 0.0, 0.9}, {0.9, 0.1, -0.8}})});
+  VolumeView volume = test::sampled_view(tooth, ScalarType::kUint8, 33);
+  volume.transfer = ColorTransfer({{0.15 * 255, Vec3f(0.6F, 0.1F, 0.1F), 0.0},
+                                   {0.25 * 255, Vec3f(0.8F, 0.3F, 0.2F), 0.08},
+                                   {0.5 * 255, Vec3f(0.9F, 0.8F, 0.5F), 0.01},
+                                   {0.9 * 255, Vec3f(1.0F, 1.0F, 0.9F), 0.3}});
+  volume.shading = true;
+  volume.samples_per_voxel = samples;
+  view.volume = volume;
+  return view;
+}
+
+// Against the error of all pixels, within four times the spread that as many of these, taken at random, have.
+TEST(ImageErrorEstimate, AgreesWithTheErrorOfAllPixels) {
+  constexpr int kWidth = 150, kHeight = 110;
+  double before = 1.0;
+  for (const double samples : {0.25, 4.0}) {
+    SceneView view = tooth_like(samples);
+    if (samples > 1.0) {  // a part of it enlarged
+      view.volume->lenses = {{.shape = make_sphere(Vec3(0.2, 0.0, 0.1), 0.5)}};
+      view.volume->lenses[0].magnification = 1.5;
+    }
+    SceneView best = view;
+    best.volume = converged_view(*view.volume);
+    const RenderedImage rendered = render_image(view, kWidth, kHeight, 0, 0.0, true);
+    const Image converged = render_image(best, kWidth, kHeight).image;
+    double sum = 0.0, squares = 0.0;
+    int worst = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        double q = 0.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const int off = std::abs(rendered.image.pixel(x, y)[c] - converged.pixel(x, y)[c]);
+          worst = std::max(worst, off);
+          q += off * off / (3.0 * 255.0 * 255.0);
+        }
+        sum += q;
+        squares += q * q;
+      }
+    }
+    constexpr double kPixels = kWidth * kHeight;
+    const double mean = sum / kPixels, deviation = std::sqrt(squares / kPixels - mean * mean);
+    ASSERT_TRUE(rendered.error);
+    const ImageError& error = *rendered.error;
+    EXPECT_GT(error.pixels, 600U);
+    EXPECT_LT(error.pixels, 0.2 * kPixels) << "that is not sparse";
+    const double off = 4.0 * deviation / std::sqrt(static_cast<double>(error.pixels));
+    EXPECT_NEAR(error.rms * error.rms, mean, off) << samples;
+    EXPECT_NEAR(error.spread, off / 4.0 / (2.0 * std::sqrt(mean)), 0.5 * off / 4.0 / (2.0 * std::sqrt(mean)));
+    EXPECT_LE(error.worst, worst / 255.0 + 1e-9);
+    EXPECT_GT(error.worst, error.rms);
+    EXPECT_LT(error.rms, before) << "more samples are no better";
+    before = error.rms;
+  }
+  SceneView best = tooth_like(1.0);
+  best.volume = converged_view(*best.volume);
+  const RenderedImage exact = render_image(best, kWidth, kHeight, 0, 0.0, true);
+  EXPECT_EQ(exact.error->rms, 0.0) << "converged";
+}
+
+// With fewer pixels outside lenses, and in all.
+TEST(ImageErrorEstimate, TellsWhatFewerPixelsCost) {
+  SceneView view = tooth_like(4.0);
+  view.volume->lenses = {{.shape = make_sphere(Vec3(0.2, 0.0, 0.1), 0.3)}};
+  const double whole = render_image(view, 96, 72, 0, 0.0, true).error->rms;
+  view.volume->context.viewport = 0.4;
+  EXPECT_GT(render_image(view, 96, 72, 0, 0.0, true).error->rms, 1.5 * whole);
+  view.volume->shown = false;
+  EXPECT_FALSE(render_image(view, 96, 72, 0, 0.0, true).error) << "there is no volume";
 }
 
 }  // namespace

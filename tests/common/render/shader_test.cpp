@@ -43,6 +43,10 @@ TEST(CompileProgram, EveryEmbeddedShaderCompiles) {
   const OffscreenContext context;
   int programs = 0;
   for (const ShaderFile& file : shader_files()) {
+    if (file.path.ends_with(".comp")) {
+      const std::vector<std::string> defines{"ENTRIES 64"};
+      EXPECT_TRUE(static_cast<bool>(compile_compute(file.path, shader_files(), defines))) << file.path;
+    }
     if (!file.path.ends_with(".vert")) continue;
     const std::string stem(file.path.substr(0, file.path.size() - 5));
     const GlProgram program = compile_program(file.path, stem + ".frag");

@@ -56,6 +56,27 @@ TEST_F(VolumeQualityOfBlobs, FullResolutionIsThePictureItself) {
   EXPECT_EQ(scales.back().worst, plain->worst);
 }
 
+// What preintegration is worth at as many samples, and what bricks and a kept picture change: nothing that is
+// seen.
+TEST_F(VolumeQualityOfBlobs, TellsWhatTablesBricksAndKeptPicturesAreWorth) {
+  const auto tables = rows_of(quality_, "samples a voxel");
+  for (const VolumeQualityRow& row : rows_of(quality_, "samples a voxel, not preintegrated")) {
+    const auto same = std::find_if(tables.begin(), tables.end(), [&](const VolumeQualityRow& one) {
+      return one.parameter == row.parameter;
+    });
+    if (same != tables.end()) {
+      EXPECT_GT(row.rms, same->rms) << row.parameter;
+    }
+  }
+  const auto plain = std::find_if(tables.begin(), tables.end(),
+                                  [](const VolumeQualityRow& row) { return row.parameter == 4.0; });
+  for (const char* method : {"voxels in bricks of so many cells", "kept while it stands still"}) {
+    const auto rows = rows_of(quality_, method);
+    ASSERT_EQ(rows.size(), 1U) << method;
+    EXPECT_NEAR(rows[0].rms, plain->rms, 1.0 / 255.0) << method;
+  }
+}
+
 TEST(VolumeQuality, MeasuresWhatIsSavedAroundLenses) {
   VolumeView view = sampled_view(blobs, ScalarType::kFloat32, 25);
   view.lenses = {Lens{make_sphere({0.1, 0.0, 0.2}, 0.4)}};

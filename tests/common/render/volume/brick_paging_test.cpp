@@ -109,7 +109,15 @@ TEST(BrickPaging, APartThatIsLookedAtCloselyIsHeldAtItsOwnResolution) {
     EXPECT_EQ(paged.bricks().all, 125U);
     EXPECT_LT(paged.bricks().wanted, 100U);
     EXPECT_LE(paged.bricks().bytes, small.storage.memory);
+    EXPECT_GE(paged.bricks().entered - paged.bricks().left, paged.bricks().held);
   }
+  // The same ones again have nothing to do; a pool that has room for no more has others leave for each.
+  const Camera close = camera_of(view, {.azimuth = 250.0, .elevation = 30.0, .roll = 0.0, .zoom = 9.0});
+  const BrickShare before = paged.bricks();
+  EXPECT_GT(before.left, 0U) << "bricks of the coarser level, at least";
+  (void)paged.draw(small, close);
+  EXPECT_EQ(paged.bricks().entered, before.entered);
+  EXPECT_EQ(paged.bricks().left, before.left);
 }
 
 TEST(BrickPaging, BricksInSightCoverAllThatLookedAtPicturesHold) {
@@ -188,20 +196,26 @@ TEST(BrickPaging, WhatWasLookedUpTheLongestAgoLeavesFirst) {
   // Room for eight.
   const VoxelStorage storage{.memory = bricked_bytes(8, layout, view.image->type, 2048)};
   const auto uploads = [&](const std::vector<std::size_t>& wanted) {
-    const std::uint64_t before = bricks.uploads();
+    const std::uint64_t before = bricks.share().entered;
     bricks.hold(needed, wanted, storage);
     EXPECT_TRUE(bricks.share().complete());
     EXPECT_LE(bricks.bytes(), storage.memory);
-    return bricks.uploads() - before;
+    return bricks.share().entered - before;
   };
   EXPECT_EQ(uploads({0, 1, 2, 3}), 4U);
   EXPECT_EQ(uploads({10, 11, 12, 13}), 4U);
   EXPECT_EQ(uploads({2, 3}), 0U) << "still there";
+  EXPECT_EQ(bricks.share().left, 0U);
   EXPECT_EQ(uploads({20, 21}), 2U) << "in place of 0 and 1";
+  EXPECT_EQ(bricks.share().left, 2U);
   EXPECT_EQ(uploads({2, 3, 10, 11, 12, 13}), 0U);
   EXPECT_EQ(uploads({0, 1}), 2U) << "in place of 20 and 21";
   EXPECT_EQ(uploads({2, 3, 10, 11, 12, 13}), 0U);
   EXPECT_EQ(uploads({20, 30, 40, 50, 60, 70, 80, 90}), 8U) << "all of it";
+  EXPECT_EQ(bricks.share().entered - bricks.share().left, 8U);
+  // Another pool begins with none of them.
+  bricks.hold(needed, {0, 1, 2}, {.memory = bricked_bytes(4, layout, view.image->type, 2048)});
+  EXPECT_EQ(bricks.share().entered - bricks.share().left, 3U);
 }
 
 }  // namespace

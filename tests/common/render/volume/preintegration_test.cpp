@@ -6,7 +6,12 @@
 #include <random>
 #include <vector>
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
+
+#include "common/render/gl/context.h"
+#include "common/render/volume/gpu_preintegration.h"
+#include "common/render/volume/table_choice.h"
 
 namespace palpate {
 namespace {
@@ -166,6 +171,88 @@ TEST(Preintegration, DrawsAStepBetweenEntriesWithinItsBound) {
 TEST(Preintegration, DoesNotDependOnTheNumberOfThreads) {
   const auto entries = random_entries(40, 5, 6.0F);
   EXPECT_EQ(Table(entries, 64, 1).rgba, Table(entries, 64, 4).rgba);
+}
+
+// The layers from 2 on of a texture that the compute shader fills.
+std::vector<std::uint16_t> filled_by_gpu(GpuPreintegration& gpu, const std::vector<OpticalEntry>& entries,
+                                         std::size_t lengths) {
+  const auto n = static_cast<GLsizei>(entries.size()), layers = static_cast<GLsizei>(lengths);
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
+  const GlTexture table(name);
+  glTextureStorage3D(name, 1, GL_RGBA16, n, n, layers + 2);
+  gpu.fill(entries, lengths, table, 2);
+  std::vector<std::uint16_t> rgba(4 * entries.size() * entries.size() * lengths);
+  glGetTextureSubImage(name, 0, 0, 0, 2, n, n, layers, GL_RGBA, GL_UNSIGNED_SHORT,
+                       static_cast<GLsizei>(rgba.size() * sizeof(rgba[0])), rgba.data());
+  return rgba;
+}
+
+// Clear, deep and opaque matter side by side, ramps and steps; tables of sizes that blocks of cells divide
+// and leave over.
+TEST(GpuPreintegration, FillsTheTableOfTheProcessorToTheBit) {
+  const OffscreenContext context;
+  GpuPreintegration gpu;
+  struct Size {
+    std::size_t count, lengths;
+    int functions;
+  };
+  std::size_t numbers = 0, off = 0;
+  for (const Size size : {Size{2, 8, 4}, Size{3, 8, 4}, Size{24, 16, 12}, Size{65, 8, 6}, Size{128, 8, 2}}) {
+    for (int seed = 0; seed < size.functions; ++seed) {
+      const float deepest =
+          std::array{0.01F, 2.0F, 11.0F, 300.0F, 9000.0F}[static_cast<std::size_t>(seed % 5)];
+      std::vector<OpticalEntry> entries =
+          random_entries(size.count, 7U + static_cast<unsigned>(seed), deepest);
+      if (seed % 3 == 2) {  // a step: nothing, then one matter
+        for (std::size_t i = 0; i < size.count; ++i)
+          entries[i] = i < size.count / 3 ? OpticalEntry{} : OpticalEntry{Vec3f(0.7F, 0.2F, 1.0F), deepest};
+      }
+      const std::vector<std::uint16_t> expected = Table(entries, size.lengths).rgba;
+      const std::vector<std::uint16_t> filled = filled_by_gpu(gpu, entries, size.lengths);
+      ASSERT_EQ(filled.size(), expected.size());
+      for (std::size_t i = 0; i < filled.size(); ++i) off += filled[i] != expected[i] ? 1 : 0;
+      numbers += filled.size();
+    }
+  }
+  EXPECT_EQ(off, 0U) << "of " << numbers;
+}
+
+TEST(GpuPreintegration, IsPossibleWhereALineOfCellsFitsWhatAWorkGroupShares) {
+  const OffscreenContext context;
+  EXPECT_TRUE(GpuPreintegration::possible(256));
+  EXPECT_TRUE(GpuPreintegration::possible(GpuPreintegration::kMostEntries));
+  EXPECT_FALSE(GpuPreintegration::possible(GpuPreintegration::kMostEntries + 1));
+}
+
+TEST(TableChoice, TimesBothOnceAndTakesTheFaster) {
+  for (const double gpu : {3.0, 30.0}) {
+    TableChoice choice;
+    EXPECT_EQ(choice.next(TableMaker::kFaster, true, false), TableMaker::kProcessor);
+    EXPECT_TRUE(choice.timed());
+    choice.filled(18.0);
+    EXPECT_EQ(choice.next(TableMaker::kFaster, true, false), TableMaker::kGpu);
+    choice.filled(500.0);  // compiles
+    EXPECT_EQ(choice.next(TableMaker::kFaster, true, false), TableMaker::kGpu);
+    choice.filled(gpu);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(choice.next(TableMaker::kFaster, true, false),
+                gpu < 18.0 ? TableMaker::kGpu : TableMaker::kProcessor);
+      EXPECT_FALSE(choice.timed());
+      choice.filled(1e3);
+    }
+    EXPECT_NE(choice.text().find("the processor 18.0 ms"), std::string::npos) << choice.text();
+  }
+}
+
+TEST(TableChoice, LeavesSoftwareRasterisersToTheProcessorUnlessAsked) {
+  TableChoice choice;
+  EXPECT_EQ(choice.next(TableMaker::kFaster, true, true), TableMaker::kProcessor);
+  EXPECT_FALSE(choice.timed());
+  EXPECT_NE(choice.text().find("software"), std::string::npos) << choice.text();
+  EXPECT_EQ(choice.next(TableMaker::kGpu, true, true), TableMaker::kGpu);
+  EXPECT_EQ(choice.next(TableMaker::kProcessor, true, false), TableMaker::kProcessor);
+  EXPECT_EQ(choice.next(TableMaker::kGpu, false, false), TableMaker::kProcessor) << "it cannot";
 }
 
 TEST(OpticalEntries, SampleTheTransferFunctionForTheLongestSegment) {

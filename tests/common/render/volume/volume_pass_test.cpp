@@ -241,6 +241,32 @@ TEST(VolumePass, DrawsTheSameBitsAtAnyPowerOfTwo) {
   }
 }
 
+// A compute shader makes the same tables, so the pictures are the same bits; while one transfer function is
+// dragged, only its table is made anew, and the picture is that of all made at once.
+TEST(VolumePass, TablesOfAComputeShaderAndThoseOfOneFunctionAlone) {
+  VolumeView view = sampled_view(blobs, ScalarType::kUint8);
+  view.table_entries = 64;
+  view.lenses = {{.shape = make_sphere(Vec3(0.0), 0.5)}};
+  view.lenses[0].transfer = ColorTransfer({{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(1.0F, 0.0F, 0.2F), 0.3}});
+  const Camera camera = camera_of(view);
+  VolumePicture picture(kSize, kSize);
+  (void)picture.draw(view, camera);
+  EXPECT_EQ(picture.cost().tables_made, 2);
+  EXPECT_EQ(picture.cost().tables_by.substr(0, 9), "processor");
+  for (const TableMaker maker : {TableMaker::kProcessor, TableMaker::kGpu}) {
+    view.table_maker = maker;
+    view.lenses[0].transfer = ColorTransfer(
+        {{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(0.0F, 0.5F, 0.2F), maker == TableMaker::kGpu ? 0.5 : 0.2}});
+    const FloatImage dragged = picture.draw(view, camera);
+    EXPECT_EQ(picture.cost().tables_made, 1);
+    EXPECT_EQ(picture.cost().programs, 2) << "rays and tiles";
+    view.table_maker = TableMaker::kProcessor;
+    VolumePicture fresh(kSize, kSize, VolumePicture::Context::kCurrent);
+    EXPECT_EQ(worst_difference(dragged, fresh.draw(view, camera)), 0.0);
+  }
+  EXPECT_EQ(picture.cost().tables_by, "GPU, as asked for");
+}
+
 TEST(VolumePass, CompilesOnlyTheShadersThatItNeeds) {
   VolumeView view = sampled_view(blobs, ScalarType::kUint8);
   VolumePicture picture(16, 16);

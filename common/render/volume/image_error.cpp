@@ -1,0 +1,64 @@
+#include "common/render/volume/image_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "common/render/volume/preintegration.h"
+
+namespace palpate {
+
+VolumeView converged_view(VolumeView view) {
+  constexpr double kSamples = 32.0;
+  constexpr int kEntries = 512;
+  view.samples_per_voxel = kSamples;
+  for (Lens& lens : view.lenses) lens.samples_per_voxel = kSamples;
+  view.far_sampling = 1.0;
+  view.context = {};
+  // Steps so short show the same from tables of few lengths.
+  view.table_entries = kEntries;
+  view.table_lengths = static_cast<int>(kLengthGroup);
+  view.preintegrate = true;
+  view.skip_empty = view.stop_where_opaque = false;
+  view.keep_slabs = view.keep_picture = false;
+  return view;
+}
+
+PixelLattice PixelLattice::of(int width, int height, int round) noexcept {
+  const int side =
+      static_cast<int>(std::sqrt(static_cast<double>(width) * height / kErrorPixels)) / 2 * 2 + 1;
+  const int largest = (std::min(width, height) - 1) / 2 * 2 + 1;
+  PixelLattice lattice;
+  lattice.step = std::min(side + 2 * round, largest);
+  lattice.columns = (width + lattice.step / 2) / lattice.step;
+  lattice.rows = (height + lattice.step / 2) / lattice.step;
+  return lattice;
+}
+
+void ErrorSum::add(const std::array<int, 4>& shown, const std::array<int, 4>& converged) noexcept {
+  constexpr double kFull = 255.0;
+  double q = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int off = std::abs(shown[c] - converged[c]);
+    worst_ = std::max(worst_, off);
+    q += off * off / (3.0 * kFull * kFull);
+  }
+  ++pixels_;
+  sum_ += q;
+  squares_ += q * q;
+}
+
+ImageError ErrorSum::error() const noexcept {
+  ImageError error;
+  error.pixels = pixels_;
+  if (pixels_ == 0) return error;
+  const auto n = static_cast<double>(pixels_);
+  const double mean = sum_ / n;
+  error.rms = std::sqrt(mean);
+  error.worst = worst_ / 255.0;
+  if (pixels_ > 1 && mean > 0.0)
+    error.spread = std::sqrt(std::max(0.0, squares_ / n - mean * mean) / (n - 1.0) / (4.0 * mean));
+  return error;
+}
+
+}  // namespace palpate

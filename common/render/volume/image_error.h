@@ -1,0 +1,56 @@
+/// How far a picture of a volume is from a converged one, estimated from a sparse set of its pixels.
+///
+/// Symbols. k odd; n pixels looked at, those in the middle of squares of k x k; q mean over red, green and
+/// blue of the squared difference between a pixel and the same one, converged (1 is full scale).
+///
+///   rms^2 = sum q / n,   spread^2 = sum (q - rms^2)^2 / (n (n - 1)) / (4 rms^2)                    (1)
+///
+/// spread is the standard error of rms, as of pixels taken at random. Rounds of larger and larger k look at
+/// other pixels, all but a few. A converged pixel is that of converged_view() along the same ray over the
+/// same opaque things, rounded as the picture is: of a picture that is converged the error is zero.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/render/volume/volume_view.h"
+
+namespace palpate {
+
+struct ImageError {
+  double rms = 0.0;     ///< 1 is full scale
+  double spread = 0.0;  ///< of rms
+  double worst = 0.0;   ///< of any component of a pixel that was looked at
+  std::size_t pixels = 0;
+  double milliseconds = 0.0;  ///< that it took
+};
+
+/// The view with so many samples and entries of tables that more change nothing that is seen, and nothing
+/// left out or kept: what errors are told against. Of the same voxels, coarser ones where these are drawn.
+[[nodiscard]] VolumeView converged_view(VolumeView view);
+
+/// Which pixels a round looks at: columns x rows, at step (i + 1/2) - 1/2 of either axis.
+struct PixelLattice {
+  int step = 1;  ///< k
+  int columns = 0, rows = 0;
+
+  /// Of a picture of so many pixels; some kErrorPixels in round 0, fewer in those that follow.
+  [[nodiscard]] static PixelLattice of(int width, int height, int round) noexcept;
+  [[nodiscard]] int place(int i) const noexcept { return step * i + step / 2; }
+};
+inline constexpr int kErrorPixels = 1024;
+
+/// (1), pixel by pixel.
+class ErrorSum {
+ public:
+  void add(const std::array<int, 4>& shown, const std::array<int, 4>& converged) noexcept;
+  [[nodiscard]] ImageError error() const noexcept;
+
+ private:
+  std::size_t pixels_ = 0;
+  double sum_ = 0.0, squares_ = 0.0;  ///< of q
+  int worst_ = 0;
+};
+
+}  // namespace palpate
