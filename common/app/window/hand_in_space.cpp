@@ -10,7 +10,7 @@ std::optional<std::string> HandInSpace::follow(MenuControl& menu, ProbeSession& 
   // On a haptic grid the button takes hold of a region's face, or of the view.
   const bool on_grid = touch.takes_hold() && !touch.planes();
   const bool busy = menu_works || on_grid || touch.dial() || (touches && !pick_.holding());
-  const auto words = pick_.follow(busy ? std::nullopt : picking_hand(touch, seeing), view, touch);
+  auto words = pick_.follow(busy ? std::nullopt : picking_hand(touch, seeing), view, touch);
   touch.engage(menu_works || pick_.holding());
   return words;
 }

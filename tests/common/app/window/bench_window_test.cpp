@@ -62,22 +62,6 @@ TEST_F(BenchWindow, ShowsEveryScreenFromTheHead) {
       << "as the front screen lies";
 }
 
-// A display without a buffer for each eye, as nearly all are, is told apart before anything is drawn, and the
-// message names what does without.
-TEST_F(BenchWindow, SaysWhereThereIsNoBufferForEachEye) {
-  options_.touch.modes.clear();
-  options_.view.stereo.mode = StereoMode::kQuadBuffer;
-  try {
-    (void)run();
-    GTEST_SKIP() << "this display has a buffer for each eye";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kWorkFailed);
-    const std::string line = error.what();
-    EXPECT_NE(line.find("no window with a buffer for each eye"), std::string::npos) << line;
-    EXPECT_NE(line.find("rows, side-by-side or anaglyph"), std::string::npos) << line;
-  }
-}
-
 TEST_F(BenchWindow, MeasuresTheLatencyOfItsPictures) {
   options_.touch.modes.clear();
   options_.bench = corner_of_two(coming_head());
