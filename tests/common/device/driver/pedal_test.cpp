@@ -228,7 +228,8 @@ TEST_F(PedalLinkTest, BearsEveryFaultForTwoHours) {
   double released_at = 0.0;  // when nothing was pressed any more
   bool down = false;
   std::uint64_t rounds = 0, helds = 0;
-  while (bus_.now() < soak_seconds(kTwoHours)) {
+  const double seconds = soak_seconds(kTwoHours);
+  while (bus_.now() < seconds) {
     const bool bad = unit(random) < 0.5;
     bus_.set_faults({.lost_read = bad ? 0.3 * unit(random) : 0.0,
                      .short_read = bad ? 0.3 * unit(random) : 0.0,
@@ -251,8 +252,8 @@ TEST_F(PedalLinkTest, BearsEveryFaultForTwoHours) {
     if (bus_.devices().empty()) bus_.plug("1-4", pedal_);
     ASSERT_LE(bus_.open_connections(), 1);
   }
-  EXPECT_GT(rounds, 100'000U);
-  EXPECT_GT(helds, 10'000U);
+  EXPECT_GT(static_cast<double>(rounds), 25.0 * seconds);
+  EXPECT_GT(static_cast<double>(helds), 2.5 * seconds);
 }
 
 }  // namespace
