@@ -104,10 +104,10 @@ void ExplorerWindow::wait_for_events() {
     return;
   }
   // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-  if (live_->complete()) {
+  if (live_->complete() && glfw_.events().empty()) {
     glfwWaitEventsTimeout(lively() ? kBusyRest : job_->running() ? kJobRest : kIdleRest);
   } else {
-    glfwPollEvents();  // there is work to do meanwhile: more tracts
+    glfwPollEvents();  // there is work to do meanwhile: more tracts, or events that the last frame has left
   }
   lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
 }

@@ -129,8 +129,10 @@ class ExplorerWindow {
 
   /// @name Mouse, keys and panels
   /// @{
+  /// Those of this frame; others stay for the next one.
+  [[nodiscard]] std::vector<InputEvent> take_events();
   /// Panels first: what happens over them is not for the camera.
-  void handle_events();
+  void handle_events(const std::vector<InputEvent>& events);
   /// While the probe is grabbed the mouse is its own.
   bool handle_region(const InputEvent& event, const PictureArea& area);
   bool handle_plane_image(const InputEvent& event, const PictureArea& area);

@@ -118,7 +118,6 @@ void Gui::begin_frame(const std::vector<InputEvent>& events, int width, int heig
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
-  pressed_ = {};
   for (const InputEvent& event : events) {
     const auto button = static_cast<std::size_t>(event.button);
     switch (event.kind) {
@@ -126,7 +125,7 @@ void Gui::begin_frame(const std::vector<InputEvent>& events, int width, int heig
         io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};
         break;
       case InputKind::kPress:
-        held_[button] = pressed_[button] = true;
+        held_[button] = true;
         break;
       case InputKind::kRelease:
         held_[button] = false;
@@ -151,7 +150,7 @@ void Gui::begin_frame(const std::vector<InputEvent>& events, int width, int heig
         break;
     }
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) io.MouseDown[i] = held_[i] || pressed_[i];
+  for (std::size_t i = 0; i < held_.size(); ++i) io.MouseDown[i] = held_[i];
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }

@@ -22,7 +22,7 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
-  /// Gives the events of a frame to the panels and starts it.
+  /// Gives the events of a frame (events_of_frame()) to the panels and starts it.
   void begin_frame(const std::vector<InputEvent>& events, int width, int height, double seconds);
   /// Draws the panels over the framebuffer that is bound.
   void end_frame();
@@ -33,8 +33,7 @@ class Gui {
  private:
   ImGuiContext* context_ = nullptr;
   float text_height_;
-  std::array<bool, 3> held_{};     // buttons
-  std::array<bool, 3> pressed_{};  // since the last frame: a quick click may be over before it
+  std::array<bool, 3> held_{};  // buttons
 };
 
 }  // namespace palpate

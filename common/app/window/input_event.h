@@ -2,8 +2,10 @@
 /// to the panels and to the camera alike.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace palpate {
@@ -36,6 +38,12 @@ struct InputEvent {
   int modifiers = 0;
   std::vector<std::filesystem::path> files;
 };
+
+/// How many of the events that have come, oldest first, one frame takes. Panels see a button, a key and the
+/// place of the mouse only as they are at the end of them: where a slow frame has kept a click waiting
+/// together with what came after it, the press has a frame of its own, and so has the release. The key that
+/// switches the force off waits for nothing: all are taken then.
+[[nodiscard]] std::size_t events_of_frame(std::span<const InputEvent> events);
 
 /// An event at a frame.
 struct ScriptedEvent {

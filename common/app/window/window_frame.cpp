@@ -26,15 +26,14 @@ void ExplorerWindow::draw_frame(double seconds) {
   const WindowLayout parts = layout(width, height, gui_->text_height());
   picture_ = parts.picture;
   gui_->set_background(view_.background);
-  // Those that come while the picture is drawn are for the next frame.
-  const auto handled = static_cast<std::ptrdiff_t>(glfw_.events().size());
-  gui_->begin_frame(glfw_.events(), width, height, seconds);
+  const std::vector<InputEvent> events = take_events();
+  gui_->begin_frame(events, width, height, seconds);
   look();
   menu_.place(view_.camera, picture_, touch_->device_reach());
   // An orthographic picture has one eye, but a workbench's is never that.
   const bool two = has_two_eyes(view_) || (bench_ && !screens_);
   pointer_.over(two ? view_.stereo : StereoView{}, picture_);
-  handle_events();
+  handle_events(events);
   work_in_space();
   if (needs_camera_ && scene_) reset_camera();
   tell_panels();
@@ -52,8 +51,6 @@ void ExplorerWindow::draw_frame(double seconds) {
   draw_second_pointer();
   gui_->end_frame();
   if (screens_) screens_->draw(picture, *bench_, state_.picture.quality);
-  std::vector<InputEvent>& events = glfw_.events();
-  events.erase(events.begin(), events.begin() + handled);
 }
 
 void ExplorerWindow::tell_panels() {

@@ -1,5 +1,8 @@
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -11,9 +14,17 @@
 
 namespace palpate {
 
-void ExplorerWindow::handle_events() {
+std::vector<InputEvent> ExplorerWindow::take_events() {
+  std::vector<InputEvent>& waiting = glfw_.events();
+  const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(events_of_frame(waiting));
+  std::vector<InputEvent> taken(std::make_move_iterator(waiting.begin()), std::make_move_iterator(end));
+  waiting.erase(waiting.begin(), end);
+  return taken;
+}
+
+void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
-  for (const InputEvent& event : glfw_.events()) {
+  for (const InputEvent& event : events) {
     pointer_.follow(event);
     const Aim aim(view_.camera, seeing());
     if (event.kind == InputKind::kDrop && !question_.asking()) open({event.files, {}});

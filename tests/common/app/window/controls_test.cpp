@@ -18,6 +18,31 @@ namespace {
 const Box kBox{Vec3(-1.0), Vec3(1.0)};
 const PictureArea kArea{100.0, 50.0, 400.0, 200.0};
 
+TEST(EventsOfFrame, LeavePressAndReleaseAFrameEach) {
+  constexpr int kLetter = 'A', kF12 = 301;
+  const InputEvent move{.kind = InputKind::kMove}, press{.kind = InputKind::kPress},
+      release{.kind = InputKind::kRelease}, wheel{.kind = InputKind::kWheel},
+      down{.kind = InputKind::kKeyDown, .key = kLetter}, up{.kind = InputKind::kKeyUp, .key = kLetter},
+      other{.kind = InputKind::kKeyDown, .key = kLetter + 1}, off{.kind = InputKind::kKeyDown, .key = kF12};
+  const auto shares = [](std::vector<InputEvent> events) {
+    std::vector<std::size_t> counts;
+    while (!events.empty()) {
+      counts.push_back(events_of_frame(events));
+      if (counts.back() == 0) break;  // would never end
+      events.erase(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(counts.back()));
+    }
+    return counts;
+  };
+  using Counts = std::vector<std::size_t>;
+  EXPECT_EQ(shares({}), Counts{});
+  EXPECT_EQ(shares({move, move, wheel, wheel, move}), Counts{5});
+  EXPECT_EQ(shares({move, press, release, move, move}), (Counts{2, 1, 2})) << "the mouse is led on after it";
+  EXPECT_EQ(shares({press, release, press, release}), (Counts{1, 1, 1, 1})) << "a double click";
+  EXPECT_EQ(shares({press, move, move, release}), (Counts{1, 3})) << "a drag";
+  EXPECT_EQ(shares({down, other, down, up, down}), (Counts{3, 1, 1})) << "a key that repeats, then again";
+  EXPECT_EQ(shares({press, release, move, off, press}), Counts{5}) << "the force goes off at once";
+}
+
 class ViewControlTest : public ::testing::Test {
  protected:
   bool send(InputKind kind, double x, double y, MouseButton button = MouseButton::kLeft) {

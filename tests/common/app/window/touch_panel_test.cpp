@@ -114,6 +114,16 @@ TEST_F(TouchPanelTest, TickMarksAreASecondLink) {
   EXPECT_EQ(run().probe.servo.hand.chain.links, 2);
 }
 
+TEST_F(TouchPanelTest, AClickCountsThoughTheMouseIsElsewhereBeforeTheNextFrame) {
+  const int frame = next();
+  move(frame, kBox, row(kTicks));
+  at(frame, {.kind = InputKind::kPress});
+  at(frame, {.kind = InputKind::kRelease});
+  move_by(frame, 0.0, 0.0);
+  grab();
+  EXPECT_EQ(run().probe.servo.hand.chain.links, 2);
+}
+
 TEST_F(TouchPanelTest, BallsAndPathAreSwitchedOff) {
   grab();
   lead_to(40.0, 0.0);
