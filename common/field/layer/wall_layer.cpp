@@ -5,44 +5,30 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 
-#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_shape.h"
+#include "common/field/layer/layer_solver.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Residual over right side. Depths are then within some 1e-7 of the discrete solution (measured on a million
-/// tetrahedra), which is itself 1e-3 or more away from the potential.
-constexpr double kTolerance = 1e-8;
-constexpr int kMostIterations = 20'000;
-/// Of rows that a thread takes at a time; never as many as threads, or results would depend on these. A few
-/// more iterations than with a factor of the whole (104 for 92 on a million tetrahedra) buy two threads'
-/// work on all of each.
-constexpr std::size_t kBlocks = 8;
 /// Volume over the cube of the longest edge below which a cell has no say: 0.118 for a regular one. Such a
 /// sliver ties its corners to one plane of values, however thin it is, which throws values far out of range;
 /// without it its neighbours still meet at all four corners.
 constexpr double kThin = 1e-3;
 
 using Matrix = Eigen::SparseMatrix<double>;
-/// In the order of the points: one that saves fill in a full factor spoils an incomplete one (four times the
-/// iterations on a million tetrahedra). In single precision: it only has to be near, and half as much memory
-/// is read.
-using Factor = Eigen::IncompleteCholesky<float, Eigen::Lower, Eigen::NaturalOrdering<int>>;
-
 /// With its orientation's sign.
 double volume_of(const TetMesh& mesh, const TetMesh::Tet& tet) {
   const Vec3 x0 = mesh.points()[tet[0]];
@@ -228,111 +214,6 @@ System assemble(const TetMesh& mesh, const std::vector<WallSurface>& surface,
   return system;
 }
 
-/// Where the iteration stopped.
-struct Solution {
-  Eigen::VectorXd x;
-  int iterations = 0;
-  double residual = 0.0;  ///< |b - A x| / |b|
-  [[nodiscard]] bool converged() const { return residual <= kTolerance && x.allFinite(); }
-};
-
-/// Nearly the inverse of the matrix: incomplete factors of its diagonal blocks, each over rows that follow
-/// one another, so that threads work side by side.
-class Preconditioner {
- public:
-  /// @param threads as parallel_for().
-  Preconditioner(const Matrix& a, int threads) {
-    const auto rows = static_cast<std::size_t>(a.rows());
-    for (std::size_t n = 0; n <= kBlocks; ++n) begin_[n] = static_cast<Eigen::Index>(rows * n / kBlocks);
-    parallel_for(kBlocks, threads, [&](std::size_t first, std::size_t last) {
-      for (std::size_t n = first; n < last; ++n) {
-        if (size(n) == 0) continue;  // of a few rows, which Eigen's factors cannot be of
-        factors_[n].compute(a.block(begin_[n], begin_[n], size(n), size(n)).cast<float>());
-      }
-    });
-  }
-
-  [[nodiscard]] bool failed() const {
-    for (std::size_t n = 0; n < kBlocks; ++n) {
-      if (size(n) > 0 && factors_[n].info() != Eigen::Success) return true;
-    }
-    return false;
-  }
-  [[nodiscard]] Eigen::Index begin(std::size_t block) const { return begin_[block]; }
-  [[nodiscard]] Eigen::Index size(std::size_t block) const { return begin_[block + 1] - begin_[block]; }
-  /// @param r the rows of the block.
-  template <typename Rows>
-  [[nodiscard]] Eigen::VectorXf solve(std::size_t block, const Rows& r) const {
-    const Eigen::VectorXf single = r.template cast<float>();
-    return factors_[block].solve(single);
-  }
-
- private:
-  std::array<Eigen::Index, kBlocks + 1> begin_{};
-  std::array<Factor, kBlocks> factors_;
-};
-
-/// Preconditioned conjugate gradients (Saad 2003, alg. 9.1), shared among threads block by block; sums run
-/// over the rows of a block and then over the blocks, whatever the number of threads.
-Solution solve(const System& system, int threads) {
-  const Matrix& a = system.matrix;
-  const Eigen::VectorXd& b = system.right;
-  Solution out{.x = Eigen::VectorXd::Zero(b.size())};
-  const double size = b.norm();
-  if (size == 0.0) return out;
-  out.residual = 1.0;
-  const Preconditioner near_inverse(a, threads);
-  if (near_inverse.failed()) return out;
-  Eigen::VectorXd r = b, p = Eigen::VectorXd::Zero(b.size()), q = Eigen::VectorXd::Zero(b.size());
-  std::array<Eigen::VectorXf, kBlocks> near;
-  std::array<double, kBlocks> parts{}, squares{};
-  const auto in_blocks =
-      [&](const std::function<void(std::size_t block, Eigen::Index begin, Eigen::Index size)>& act) {
-        parallel_for(kBlocks, threads, [&](std::size_t first, std::size_t last) {
-          for (std::size_t n = first; n < last; ++n) {
-            if (near_inverse.size(n) > 0) act(n, near_inverse.begin(n), near_inverse.size(n));
-          }
-        });
-      };
-  const auto sum = [](const std::array<double, kBlocks>& of) {
-    return std::accumulate(of.begin(), of.end(), 0.0);
-  };
-  // x and r go `alpha` along p; the sum of r . M^-1 r.
-  const auto go = [&](double alpha) {
-    in_blocks([&](std::size_t n, Eigen::Index begin, Eigen::Index rows) {
-      out.x.segment(begin, rows) += alpha * p.segment(begin, rows);
-      auto rest = r.segment(begin, rows);
-      rest -= alpha * q.segment(begin, rows);
-      squares[n] = rest.squaredNorm();
-      near[n] = near_inverse.solve(n, rest);
-      parts[n] = rest.dot(near[n].cast<double>());
-    });
-    return sum(parts);
-  };
-  double rho = go(0.0), beta = 0.0;
-  while (out.residual > kTolerance && out.iterations < kMostIterations && rho > 0.0) {
-    in_blocks([&](std::size_t n, Eigen::Index begin, Eigen::Index rows) {
-      auto ahead = p.segment(begin, rows);
-      ahead = near[n].cast<double>() + beta * ahead;
-    });
-    in_blocks([&](std::size_t n, Eigen::Index begin, Eigen::Index rows) {
-      for (Eigen::Index row = begin; row < begin + rows; ++row) {
-        double product = 0.0;
-        for (auto at = a.outerIndexPtr()[row]; at < a.outerIndexPtr()[row + 1]; ++at)
-          product += a.valuePtr()[at] * p[a.innerIndexPtr()[at]];
-        q[row] = product;
-      }
-      parts[n] = p.segment(begin, rows).dot(q.segment(begin, rows));
-    });
-    const double before = rho;
-    rho = go(rho / sum(parts));
-    beta = rho / before;
-    ++out.iterations;
-    out.residual = std::sqrt(sum(squares)) / size;
-  }
-  return out;
-}
-
 }  // namespace
 
 WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads) {
@@ -346,10 +227,10 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
 
   WallLayer layer;
   layer.notes.push_back(surfaces.note);
-  const Solution solution = solve(system, threads);
+  const LayerSolution solution = solve_layers(system.matrix, system.right, threads);
   layer.iterations = solution.iterations;
   layer.residual = solution.residual;
-  if (!solution.converged())
+  if (!solution.converged)
     throw work_error(file + ": the layers of the wall were not found: " +
                      counted(static_cast<std::uint64_t>(layer.iterations), "iteration") +
                      " left a residual of " + short_number(layer.residual));
