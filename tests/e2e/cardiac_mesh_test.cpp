@@ -1,6 +1,10 @@
 // `cardiac mesh`, run as a user runs it, on the measured dog heart and the Chaste ellipsoid.
 
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
@@ -113,6 +117,74 @@ TEST_F(CardiacMesh, HeartsOpenOnTheMeshersTetrahedraAndKeepThem) {
     return read_file(folder_.path("d.csv"));
   };
   EXPECT_EQ(depths({"--mesher", "delaunay"}), depths({})) << "points and their arrays are the file's";
+}
+
+/// A quarter of a tube's wall as a curvilinear grid of VTK, with fibres around it and a potential that no
+/// interpolation in space or time would hit.
+struct TubeWall {
+  static constexpr int kAlong = 5, kAround = 6, kDeep = 4;  // points
+
+  static std::array<double, 3> place(int i, int j, int k) {
+    const double radius = 2.0 + 0.4 * k, angle = 0.5 * std::numbers::pi * j / (kAround - 1);
+    return {radius * std::cos(angle), radius * std::sin(angle), 0.7 * i};
+  }
+  static double potential(int i, int j, int k, int step) {
+    return -80.0 + std::fmod(37.3 * i + 11.9 * j + 53.7 * k + 71.1 * step, 100.0);
+  }
+  static std::string text(int step) {
+    std::string places, potentials, fibres;
+    for (int k = 0; k < kDeep; ++k) {
+      for (int j = 0; j < kAround; ++j) {
+        for (int i = 0; i < kAlong; ++i) {
+          const auto [x, y, z] = place(i, j, k);
+          places += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+          fibres += std::to_string(-y) + " " + std::to_string(x) + " 0\n";
+          potentials += std::to_string(potential(i, j, k, step)) + "\n";
+        }
+      }
+    }
+    const std::string extent = "0 4 0 5 0 3";
+    const auto array = [](const char* name, int components, const std::string& values) {
+      return "<DataArray type=\"Float64\" Name=\"" + std::string(name) + "\" NumberOfComponents=\"" +
+             std::to_string(components) + "\" format=\"ascii\">" + values + "</DataArray>";
+    };
+    return "<VTKFile type=\"StructuredGrid\" version=\"0.1\"><StructuredGrid WholeExtent=\"" + extent +
+           "\"><Piece Extent=\"" + extent + "\"><Points>" + array("x", 3, places) + "</Points><PointData>" +
+           array("vm", 1, potentials) + array("fibre", 3, fibres) +
+           "</PointData></Piece></StructuredGrid></VTKFile>";
+  }
+};
+
+// The mesh is made once; the values of each step come to its points, which are the file's.
+TEST_F(CardiacMesh, ATimeSeriesKeepsItsValuesOnTheMeshersTetrahedra) {
+  constexpr int kSteps = 3;
+  std::string list = "<?xml version=\"1.0\"?><VTKFile type=\"Collection\" version=\"0.1\"><Collection>";
+  for (int step = 0; step < kSteps; ++step) {
+    const std::string name = "wall" + std::to_string(step) + ".vts";
+    (void)folder_.write(name, TubeWall::text(step));
+    list += "<DataSet timestep=\"" + std::to_string(10 * step) + "\" file=\"" + name + "\"/>";
+  }
+  (void)folder_.write("wall.pvd", list + "</Collection></VTKFile>");
+  const std::vector<std::array<int, 3>> nodes{{1, 1, 1}, {3, 4, 2}, {2, 2, 1}, {1, 3, 2}};
+  std::vector<std::string> command{"series", "wall.pvd", "--mesher", "delaunay", "--value", "vm"};
+  for (const auto& [i, j, k] : nodes) {
+    const auto [x, y, z] = TubeWall::place(i, j, k);
+    command.insert(command.end(),
+                   {"--at", std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z)});
+  }
+  const Json series = json(command);
+  ASSERT_EQ(series["times"], Json({0.0, 10.0, 20.0}));
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto& [i, j, k] = nodes[n];
+    for (int step = 0; step < kSteps; ++step) {
+      EXPECT_NEAR(series["places"][n]["values"][static_cast<std::size_t>(step)].get<double>(),
+                  TubeWall::potential(i, j, k, step), 1e-4)  // digits of the text
+          << n << " " << step;
+    }
+  }
+  const Json info = json({"info", "wall.pvd", "--mesher", "delaunay", "--time", "last"});
+  EXPECT_NE(info["notes"].dump().find("by delaunay in place of 60 cells"), std::string::npos)
+      << info["notes"];
 }
 
 TEST_F(CardiacMesh, SurfacesThatTouchAreRefusedByTetgenAndNotByDelaunay) {
