@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
                   {{"cardiac convert --example wave --out wave.pts",
                     "for openCARP: mesh, fibres, potential.igb, activation.dat"},
                    {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
-              mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu",
+              mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu --picture heart.png",
                           "eight cells along each axis of an element"},
                          {"cardiac mesh heart.exelem.gz --mesher tetgen --json",
                           "fill the surfaces anew; the report alone, as JSON"}}),

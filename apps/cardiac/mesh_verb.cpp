@@ -1,21 +1,27 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/mesh_picture.h"
 #include "apps/cardiac/remesh.h"
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/summaries.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/base/version.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/scalar_cell.h"
 #include "common/field/heart/wall_frame.h"
+#include "common/render/png.h"
+#include "common/render/render_image.h"
 
 namespace palpate {
 namespace {
@@ -30,6 +36,7 @@ std::string summary_text(const MeshSummary& summary) {
   std::string text = summary.input + ": " + std::to_string(quality.cells) + " tetrahedra" + " over " +
                      counted(quality.points, "point") +
                      (summary.output.empty() ? "\n" : " -> " + summary.output + "\n");
+  if (!summary.picture.empty()) text += "  picture    " + summary.picture + "\n";
   text += "  mesher     " + summary.mesher;
   if (summary.mesher == "delaunay")
     text += ", " + std::to_string(summary.outside) + " tetrahedra outside the wall and " +
@@ -90,9 +97,14 @@ std::vector<ArrayInfo> infos_of(const DataSet& data) {
 ExitCode run_mesh(const Options& given, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(given, context)) return ExitCode::kDone;
-  if (given.out.empty() && !given.common.json)
+  const std::filesystem::path& picture = given.heart.mesh_picture;
+  if (given.out.empty() && picture.empty() && !given.common.json)
     throw usage_error("mesh needs an output: try --out heart.vtu (or --json to get the report alone)");
   if (!given.out.empty()) check_mesh_output(given.out, given.common.force);
+  if (!picture.empty()) {
+    if (picture.extension() != ".png") throw usage_error(picture.string() + ": pictures are written as .png");
+    check_output(picture, given.common.force);
+  }
   Options options = given;
   if (options.input.refine == 0) options.input.refine = kMeshRefine;
   options.input.remesher = nullptr;  // it is made here, with its counts
@@ -128,7 +140,8 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
 
   watch.restart();
   context.progress.begin("looking at the mesh", 0);
-  summary.quality = mesh_quality(TetMesh(mesh.points, mesh.tets, options.common.threads));
+  const TetMesh tetrahedra(mesh.points, mesh.tets, options.common.threads);
+  summary.quality = mesh_quality(tetrahedra);
   if (summary.quality.folded_faces > 0)
     throw input_error({input.title(), "",
                        "has " + counted(summary.quality.folded_faces, "face") +
@@ -153,6 +166,15 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
                input.file()->long_axis);
     context.interrupt.keep(options.out);
   }
+  if (!picture.empty()) {
+    context.progress.begin("drawing", 0);
+    constexpr int kWidth = 1200, kHeight = 900;
+    const SceneView view = mesh_view(tetrahedra, summary.input, static_cast<double>(kWidth) / kHeight);
+    write_png(picture, render_image(view, kWidth, kHeight).image,
+              {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});
+    context.interrupt.keep(picture);
+    summary.picture = picture.string();
+  }
   console.print(summary_text(summary));
   console.print_json(mesh_json(summary));
   return ExitCode::kDone;
@@ -163,7 +185,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
 Verb mesh_verb(std::vector<UsageExample> examples) {
   return {.name = "mesh",
           .summary = "fill the wall with tetrahedra, and say how good they are",
-          .groups = {.out = true},
+          .groups = {.mesh_picture = true, .out = true},
           .examples = std::move(examples),
           .run = run_mesh};
 }

@@ -18,8 +18,8 @@ struct ColorLegend {
   bool values_below = false;  ///< some lie below the range
   bool values_above = false;
   std::array<std::size_t, kEndCount> ends{};  ///< lines by end reason
-  bool has_lines = false;                     ///< coloured ones are shown, the followed one among them
-  bool forces_above = false;                  ///< some along the path lie above its range
+  bool has_lines = false;     ///< coloured ones, the followed one among them, or surfaces are shown
+  bool forces_above = false;  ///< some along the path lie above its range
 };
 
 /// Needs the OpenGL context current in which it was made.

@@ -102,6 +102,9 @@ ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
 
 bool has_colored_lines(const SceneView& view) {
   if (view.lines && !view.lines->empty()) return true;
+  if (std::ranges::any_of(view.surfaces,
+                          [](const SurfaceView& surface) { return surface.values != nullptr; }))
+    return true;
   return view.probe && view.probe->followed && !view.probe->followed->values.empty();
 }
 

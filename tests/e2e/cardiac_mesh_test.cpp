@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -37,7 +38,11 @@ TEST_F(CardiacMesh, TheDogsWallConvergesToTheCurvedModelsVolumeAtSecondOrder) {
 }
 
 TEST_F(CardiacMesh, ItsMeshIsAHeartAgain) {
-  const Json made = json({"mesh", "--example", "ventricle", "--out", "heart.vtu"});
+  const Json made = json({"mesh", "--example", "ventricle", "--out", "heart.vtu", "--picture", "heart.png"});
+  EXPECT_EQ(made["picture"], "heart.png");
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("heart.png")));
+  EXPECT_EQ(run({"mesh", "--example", "ventricle", "--picture", "heart.jpg"}).exit_code, 2);
+  EXPECT_EQ(run({"mesh", "--example", "ventricle", "--picture", "heart.png"}).exit_code, 2) << "it exists";
   EXPECT_LT(made["backward_cells"].get<double>(), 1e-3 * made["layer_cells"].get<double>());
   EXPECT_LT(std::abs(made["volume_error"].get<double>()), 1e-9);  // the example's border is that of its cells
   const Json map = json({"map", "heart.vtu", "--angle", "helix"});

@@ -36,13 +36,14 @@ struct VerbContext {
 struct VerbGroups {
   bool input = true;
   bool tracing = false;
-  bool tracts = false;    ///< seeds, regions and limits of tracts
-  bool fibres = false;    ///< seeds and limits of lines along fibres
-  bool layer = false;     ///< --layer of a heart
-  bool angle = false;     ///< --angle, --convention, --axis
-  bool contours = false;  ///< --contours, --contour-spacing of a layer
-  bool series = false;    ///< --value, --at, --along
-  bool plot = false;      ///< --plot
+  bool tracts = false;        ///< seeds, regions and limits of tracts
+  bool fibres = false;        ///< seeds and limits of lines along fibres
+  bool layer = false;         ///< --layer of a heart
+  bool angle = false;         ///< --angle, --convention, --axis
+  bool contours = false;      ///< --contours, --contour-spacing of a layer
+  bool mesh_picture = false;  ///< --picture of a made mesh
+  bool series = false;        ///< --value, --at, --along
+  bool plot = false;          ///< --plot
   bool view = false;
   bool touch = false;
   bool path = false;    ///< --path

@@ -66,6 +66,7 @@ std::string mesh_json(const MeshSummary& summary) {
   const double reference = curved ? summary.exact_volume : summary.cells_volume;
   return json_text({{"input", summary.input},
                     {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                    {"picture", summary.picture.empty() ? Json(nullptr) : Json(summary.picture)},
                     {"mesher", summary.mesher},
                     {"points", quality.points},
                     {"tetrahedra", quality.cells},

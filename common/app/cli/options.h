@@ -157,6 +157,7 @@ struct HeartOptions {
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;
+  std::filesystem::path mesh_picture;  ///< of a made mesh; empty: none
 };
 
 /// What is looked at over time.

@@ -243,6 +243,7 @@ struct ConvertSummary {
 
 /// A wall that was filled with tetrahedra.
 struct MeshSummary {
+  std::string picture;  ///< file; empty: none
   std::string input;
   std::string output;  ///< empty: none
   std::string mesher;

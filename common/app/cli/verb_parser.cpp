@@ -40,6 +40,7 @@ VerbParser::VerbParser(CLI::App& app, const Explorer& explorer, const Verb& verb
   if (verb.groups.record) add_record();
   if (verb.groups.replay) add_replay();
   if (verb.groups.out) add_out(verb);
+  if (verb.groups.mesh_picture) add_mesh_picture();
   if (verb.groups.picture) add_picture();
   if (verb.groups.picture && !verb.groups.path) add_workbench();
   if (verb.groups.effort) add_effort();
@@ -56,6 +57,8 @@ void VerbParser::check() const {
   check_not_negative(options_.tracing.step, "--step");
   check_not_negative(options_.tracing.max_length, "--max-length");
   check_not_negative(options_.tracing.max_time, "--max-time");
+  check_not_negative(options_.input.largest_volume, "--largest-volume");
+  check_not_negative(options_.heart.contours, "--contour-spacing");
   check_touch_options(options_.touch);
   if (options_.tracing.tolerance == 0.0)
     throw usage_error("--tolerance: a number above zero is expected, such as 1e-6");
@@ -228,6 +231,13 @@ void VerbParser::add_replay() {
 void VerbParser::add_out(const Verb& verb) {
   app_.add_option("--out,-o", options_.out, verb.groups.effort ? "folder to be made" : "file to be written")
       ->type_name(verb.groups.effort ? "DIR" : "FILE")
+      ->group("Output");
+}
+
+void VerbParser::add_mesh_picture() {
+  app_.add_option("--picture", options_.heart.mesh_picture,
+                  "the mesh cut open, its cells coloured by their smallest angle between faces")
+      ->type_name("FILE.png")
       ->group("Output");
 }
 

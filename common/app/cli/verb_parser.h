@@ -42,6 +42,7 @@ class VerbParser {
   void add_record();
   void add_replay();
   void add_out(const Verb& verb);
+  void add_mesh_picture();
   void add_picture();
   void add_head(const char* what);
   void add_image();

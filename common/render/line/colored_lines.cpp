@@ -40,6 +40,8 @@ bool ColoredLines::update_colors(const SceneView& view) {
         std::any_of(values.begin(), values.end(), [&](double v) { return v > legend_.range.upper; });
     for (const Line& line : *view.lines) ++legend_.ends[static_cast<std::size_t>(line.end)];
     lines_.set_values(map_coordinates(values, view.style, legend_.range));
+  } else {
+    legend_.range = view.style.range.value_or(ValueRange{});  // of surfaces alone
   }
   shown_style_ = view.style;
   return true;
