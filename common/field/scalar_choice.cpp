@@ -52,7 +52,7 @@ ScalarChoice choose_scalar(const std::vector<ArrayInfo>& arrays, std::string_vie
     if (label == requested || whole) return choice;
     known += (known.empty() ? "" : ", ") + label;
   }
-  throw usage_error("--field " + std::string(requested) + ": " + file + " has " + known);
+  throw usage_error("there is no scalar " + std::string(requested) + ": " + file + " has " + known);
 }
 
 }  // namespace palpate

@@ -53,6 +53,9 @@ class CardiacLoader : public Loader {
     for (const auto& file : request.files) named.push_back(file.string());
     FileInfo info;
     info.format = name_of(format);
+    if (!request.surface_markers.empty() && (format == Format::kEx || format == Format::kCarp))
+      throw usage_error("--surface-markers " + request.surface_markers + ": " + info.format +
+                        " has no .face file; markers are those of TetGen's");
     switch (format) {
       case Format::kEx:
         open_ex(named, request.refine > 0 ? request.refine : kRefine, info);

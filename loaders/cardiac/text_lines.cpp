@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/number_text.h"
+#include "common/base/text.h"
 
 namespace palpate {
 
@@ -124,7 +125,7 @@ double TextLines::number(const char* what) {
 std::int64_t TextLines::integer(const char* what, std::int64_t least, std::int64_t most) {
   const double value = number(what);
   if (value != std::floor(value) || value < static_cast<double>(least) || value > static_cast<double>(most)) {
-    refuse("has " + std::to_string(value),
+    refuse("has " + short_number(value),
            std::string(what) + " from " + std::to_string(least) + " to " + std::to_string(most));
   }
   return static_cast<std::int64_t>(value);

@@ -161,6 +161,25 @@ TEST_F(CardiacDegenerate, OneElementWithoutADepthIsNoWall) {
   EXPECT_EQ(json({"info", "--example", "ventricle"})["no_layers"], nullptr);
 }
 
+// A word that names the option, what was wrong and what is there or expected; nothing of how a program stores
+// it.
+TEST_F(CardiacDegenerate, OddOptionsAreNamed) {
+  const auto refused = [&](std::vector<std::string> command, const std::string& words) {
+    command.insert(command.end(), {"--json", "--quiet"});
+    const ProgramResult result = run(command);
+    EXPECT_EQ(result.exit_code, 2) << words;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_LT(result.err.size(), 300U) << result.err;
+  };
+  const std::string file = vtu(Element());
+  const std::string points = carp("1\n1 0 0\n").front();
+  refused({"info", file, "--mesher", "tetgen", "--largest-volume", "-1"},
+          "--largest-volume: a finite number");
+  refused({"map", file, "--angle", "vm", "--contour-spacing", "nan"}, "--contour-spacing");
+  refused({"series", file, "--value", "nothing", "--at", "0,0,0"}, "there is no scalar nothing");
+  refused({"info", points, "--surface-markers", "1/2"}, "openCARP has no .face file");
+}
+
 TEST_F(CardiacDegenerate, MissingFibresAndPotentials) {
   const double nan = std::nan("");
   Element none;

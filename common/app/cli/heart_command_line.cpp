@@ -11,10 +11,9 @@ void add_mesher_options(SceneOptions& options, InputOptions& input) {
            "(default of mesh) joins their points anew; tetgen keeps the surfaces alone",
            "cells|delaunay|tetgen", "Input")
       ->check(CLI::IsMember({"cells", "delaunay", "tetgen"}));
-  options
-      .add("--largest-volume", input.largest_volume,
-           "of a tetrahedron, with tetgen; default: twice the mean of the cells that are there", "V", "Input")
-      ->check(CLI::NonNegativeNumber);
+  options.add("--largest-volume", input.largest_volume,
+              "of a tetrahedron, with tetgen; default: twice the mean of the cells that are there", "V",
+              "Input");
 }
 
 void add_refine_option(SceneOptions& options, InputOptions& input) {
@@ -84,12 +83,11 @@ void add_layer_look(SceneOptions& options, HeartOptions& heart) {
 }
 
 void add_contour_spacing(SceneOptions& options, HeartOptions& heart) {
-  options
-      .add("--contour-spacing", heart.contours,
-           "lines of equal value on the layer where --angle is a multiple of this: isochrones of a time of "
-           "activation",
-           "D", "View")
-      ->check(CLI::NonNegativeNumber);
+  options.add(
+      "--contour-spacing", heart.contours,
+      "lines of equal value on the layer where --angle is a multiple of this: isochrones of a time of "
+      "activation",
+      "D", "View");
 }
 
 void add_contour_options(SceneOptions& options, HeartOptions& heart) {

@@ -56,7 +56,7 @@ TEST(Carp, MicrometresRegionsAndDirectionsAreRead) {
     EXPECT_EQ(mesh.find("normal", Association::kCell)->at(0, 2), 1.0);
   }
   folder.write("m.elem", "2\nTt 0 1 2 3 9\nTt 0 1 2 6 9\n");
-  expect_refused(elem, "line 3");
+  expect_refused(elem, "line 3: has 6; expected");
   folder.write("m.elem", "2\nTt 0 1 2 3 9\n");
   expect_refused(elem, "m.elem");
   folder.write("m.elem", "1099511627776\nTt 0 1 2 3 9\n");
