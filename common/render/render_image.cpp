@@ -18,7 +18,8 @@ FrameQuality settled_quality(SceneRenderer& renderer, const SceneView& view, int
   for (int i = 0; i < kMostFrames && still < kStill; ++i) {
     const FrameQuality quality = budget.quality();
     renderer.draw(with_quality(view, quality), width, height, quality.resolution);
-    budget.drawn(renderer.finish());
+    renderer.finish();
+    budget.drawn(renderer.gpu_milliseconds());
     still = budget.quality() == quality ? still + 1 : 0;
   }
   return budget.quality();
@@ -52,6 +53,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
   result.image = renderer.read();
   result.coarser_voxels = renderer.coarser_voxels();
   result.bricks = renderer.bricks();
+  result.timer_query = renderer.timed_by_query();
   result.gpu = gpu_objects();
   return result;
 }

@@ -17,6 +17,7 @@ struct RenderedImage {
   double first_frame_ms = 0.0;           ///< with the upload and the compiling of shaders
   std::vector<double> frame_ms;          ///< of the repeated frames, by the clock
   FrameQuality quality;                  ///< that the budget left
+  bool timer_query = false;              ///< it was held by timer queries, not by the clock
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
   BrickShare bricks;                     ///< likewise
   std::optional<ImageError> error;       ///< of the volume's part, where asked for

@@ -12,6 +12,7 @@
 #include "common/geometry/box_edges.h"
 #include "common/math/power_of_two.h"
 #include "common/render/frame_block.h"
+#include "common/render/gl/frame_timer.h"
 #include "common/render/gl/framebuffer.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
@@ -134,7 +135,7 @@ struct SceneRenderer::State {
   std::unique_ptr<SignPass> signs;
   std::unique_ptr<Overlay> overlay;
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
-  Stopwatch since_draw;
+  FrameTimer timer;
 
   // What the uploaded buffers were made from.
   bool filled = false;
@@ -418,7 +419,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   State& s = *state_;
   s.stop_tracts = stop_tracts;
   s.estimate.reset();
-  s.since_draw.restart();
+  s.timer.begin();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
     s.draw_eye(view, width, height, resolution, tract_milliseconds);
@@ -508,10 +509,11 @@ void SceneRenderer::forget_slabs() {
   if (state_->volume) state_->volume->forget_slabs();
 }
 
-double SceneRenderer::finish() {
-  glFinish();
-  return 1e3 * state_->since_draw.seconds();
-}
+double SceneRenderer::finish() { return state_->timer.finish(); }
+
+double SceneRenderer::gpu_milliseconds() const noexcept { return state_->timer.milliseconds(); }
+
+bool SceneRenderer::timed_by_query() const noexcept { return state_->timer.by_query(); }
 
 Image SceneRenderer::read() const { return state_->stereo ? state_->stereo->read() : state_->target.read(); }
 

@@ -68,9 +68,12 @@ class SceneRenderer {
   /// By whom and for which reason the preintegrated tables of the last volume were filled
   /// (TableChoice::text()); empty: none was drawn.
   [[nodiscard]] std::string tables_by() const;
-  /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock: the timer queries of
-  /// some drivers lie.
+  /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock.
   double finish();
+  /// What the last picture that was waited for took, for a frame budget [ms]: by a timer query where those of
+  /// the driver hold against the clock (gl/frame_timer.h), else by the clock.
+  [[nodiscard]] double gpu_milliseconds() const noexcept;
+  [[nodiscard]] bool timed_by_query() const noexcept;
   [[nodiscard]] Image read() const;
   /// Copies the picture to the framebuffer that the window shows, or to another one, `left` and `bottom`
   /// pixels from its lower left corner. One for a window with two buffers is twice as high in another one,

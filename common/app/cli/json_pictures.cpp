@@ -34,6 +34,7 @@ std::string render_json(const RenderSummary& summary) {
               {"focus_samples", summary.quality.focus},
               {"context_resolution", summary.quality.viewport},
               {"resolution", summary.quality.resolution}}},
+            {"budget_held_by", summary.timer_query ? "timer queries" : "the clock"},
             {"image_error", summary.image_error},
             {"image_error_kind", summary.image_error_kind},
             {"seconds_load", summary.seconds_load},

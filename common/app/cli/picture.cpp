@@ -169,6 +169,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
     summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
     summary.renderer = rendered.renderer;
     summary.quality = rendered.quality;
+    summary.timer_query = rendered.timer_query;
     summary.bricks = rendered.bricks;
     summary.tables_by = rendered.tables_by;
     context.progress.check();

@@ -273,7 +273,8 @@ struct RenderSummary {
   double first_frame_ms = 0.0;
   double frame_ms = 0.0;
   int frames_timed = 0;
-  FrameQuality quality;  ///< that --frame-budget left
+  FrameQuality quality;      ///< that --frame-budget left
+  bool timer_query = false;  ///< it was held by timer queries, not by the clock
   double image_error = 0.0;
   std::string image_error_kind;
   std::optional<ImageError> estimate;  ///< of a volume: what image_error is from

@@ -61,7 +61,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     figures_.bricks = renderer_.bricks();
     if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
     // A picture that keeps slabs for the next ones says nothing of their time.
-    if (moving && !renderer_.made_slabs()) budget_.drawn(figures_.milliseconds);
+    if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
     if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume()))
       renderer_.forget_volume();
     figures_.quality = quality;

@@ -11,6 +11,7 @@ void delete_framebuffer(std::uint32_t name) noexcept { glDeleteFramebuffers(1, &
 void delete_renderbuffer(std::uint32_t name) noexcept { glDeleteRenderbuffers(1, &name); }
 void delete_program(std::uint32_t name) noexcept { glDeleteProgram(name); }
 void delete_shader(std::uint32_t name) noexcept { glDeleteShader(name); }
+void delete_query(std::uint32_t name) noexcept { glDeleteQueries(1, &name); }
 }  // namespace detail
 
 GlVertexArray make_vertex_array() {

@@ -42,6 +42,7 @@ void delete_framebuffer(std::uint32_t name) noexcept;
 void delete_renderbuffer(std::uint32_t name) noexcept;
 void delete_program(std::uint32_t name) noexcept;
 void delete_shader(std::uint32_t name) noexcept;
+void delete_query(std::uint32_t name) noexcept;
 }  // namespace detail
 
 using GlBuffer = GlObject<detail::delete_buffer>;
@@ -51,6 +52,7 @@ using GlFramebuffer = GlObject<detail::delete_framebuffer>;
 using GlRenderbuffer = GlObject<detail::delete_renderbuffer>;
 using GlProgram = GlObject<detail::delete_program>;
 using GlShader = GlObject<detail::delete_shader>;
+using GlQuery = GlObject<detail::delete_query>;
 
 [[nodiscard]] GlVertexArray make_vertex_array();
 
