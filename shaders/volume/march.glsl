@@ -2,8 +2,8 @@
 // samples, their values taken as the ends of a linear course, adds what the table of its length holds:
 //   C <- C + (1 - A) C_table,   A <- A + (1 - A) A_table
 // Software rasterisers compute both branches of an `if`: a step reads one voxel and one entry of a table whichever way
-// it goes, bricks are asked every other step, light is computed once a stretch that is seen, and stretches cut short by
-// borders come before and after the loop.
+// it goes, bricks are asked every other step (before each one where rays look for the next stretch that light falls on),
+// light is computed once a stretch that is seen, and stretches cut short by borders come before and after the loop.
 // Needs volume/volume_block.glsl and volume/ray.glsl, volume/slope.glsl and shaded() where rays are shaded and volume/blend.glsl where values
 // are blended.
 
@@ -80,6 +80,9 @@ struct Walk {
   float last;   // the sample at which the walk ends
 };
 
+// The last sample that is still in empty bricks; the present one or one before it where none is empty.
+float last_empty(Walk walk, Ray ray, float map) { return floor(end_of_empty(ray, walk.n * walk.d, map) / walk.d); }
+
 // Goes to the next sample, over samples up to `inside` in one step; at the last one it stays.
 vec4 walk_on(inout Walk walk, Ray ray, float inside) {
 #ifdef FAR
@@ -113,7 +116,7 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   walk.step = layer;
   walk.stretch = 1.0;
 #endif
-  bool leaps = field.bricks.w > 0.5;
+  bool leaps = part.y >= field.bricks.w;
 #ifdef BLENDED
   leaps = leaps && blended < 0;  // coarser voxels reach into bricks that are empty
 #endif
@@ -123,13 +126,11 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   gather(short_stretch(value_at(point_at(ray, from)), walk.front, first_layer, t - from),
          ray.direction, part, point_at(ray, 0.5 * (from + t)), gathered);
 
-  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
-    // The last sample that is still in empty bricks.
-    float inside = leaps ? floor(end_of_empty(ray, walk.n * walk.d, map) / walk.d) : walk.n;
 #ifdef SHADED
+  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
     vec4 seen;
     for (int i = 0; i < 8 && walk.n < walk.last; ++i) {  // light costs most: on to the next stretch that is seen
-      seen = walk_on(walk, ray, inside);
+      seen = walk_on(walk, ray, leaps ? last_empty(walk, ray, map) : walk.n);
       if (seen.a > 0.0) break;
     }
 #ifdef FAR
@@ -138,11 +139,19 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
     float middle = walk.n - 0.5;
 #endif
     gather(seen, ray.direction, part, point_at(ray, middle * walk.d), gathered);
-#else
-    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
-    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
-#endif
   }
+#else
+  // Two loops, as only one that no ray enters takes no time.
+  while (leaps && walk.n < walk.last && gathered.a <= volume.lengths.z) {
+    float inside = last_empty(walk, ray, map);
+    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
+    gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
+  }
+  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
+    gather(walk_on(walk, ray, walk.n), ray.direction, part, vec3(0.0), gathered);
+    gather(walk_on(walk, ray, walk.n), ray.direction, part, vec3(0.0), gathered);
+  }
+#endif
 
   if (walk.n == walk.last && gathered.a <= volume.lengths.z) {
     t = walk.n * walk.d;

@@ -40,7 +40,7 @@ void march_regions(Ray ray, vec4 part, float from, float to, inout vec4 gathered
   ivec4 transfer = volume.transfers[int(part.x)];
   const float kDenser = 2.0;  // than from preintegrated tables
   float d = layer_for(kDenser * part.y, ray) * volume.lengths.x;
-  bool leaps = field.bricks.w > 0.5;
+  bool leaps = part.y >= field.bricks.w;
 #ifdef BLENDED
   leaps = leaps && blended < 0;
 #endif

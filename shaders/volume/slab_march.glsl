@@ -6,7 +6,7 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   float first_layer = float(transfer.z), map = float(transfer.w);
   float d = layer_for(part.y, ray) * volume.lengths.x;
   stay_in_slab(d, from, to);
-  bool leaps = field.bricks.w > 0.5;
+  bool leaps = part.y >= field.bricks.w;
   float t = from, front = value_at(point_at(ray, t));
   while (t < to && gathered.a <= volume.lengths.z) {
     vec4 seen = vec4(0.0);

@@ -11,7 +11,7 @@ struct Field {
   vec4 lower;   // xyz: corner of the volume, g; w: number at the first entry of a table
   vec4 upper;   // xyz: opposite corner; w: table coordinate a number
   vec4 points;  // xyz: voxels an axis; w: table coordinate of the first entry
-  vec4 bricks;  // xyz: bricks an axis; w: 1 leave out empty ones
+  vec4 bricks;  // xyz: bricks an axis; w: samples a voxel from which on empty ones are left out
   vec4 slopes;  // x: row coordinate of region tables a table coordinate of values per N; y: that of the first row; z: reference lengths a unit of N
 };
 layout(std140, binding = 1) uniform Volume {

@@ -211,4 +211,27 @@ std::vector<std::uint8_t> empty_distances(const BrickRanges& ranges, const Gradi
   return distances;
 }
 
+double gap_share(const Index3& bricks, std::span<const std::uint8_t> distances) {
+  const std::size_t row = size_of(bricks.x), count = row * size_of(bricks.y) * size_of(bricks.z);
+  PALPATE_CHECK(count > 0 && distances.size() % count == 0);
+  std::size_t gaps = 0, all = 0;
+  for (std::size_t first = 0; first < count; first += row) {
+    std::size_t since = 0;  // empty ones since the last one that is not
+    bool inside = false;
+    for (std::size_t i = first; i < first + row; ++i) {
+      bool shows = false;
+      for (std::size_t map = i; map < distances.size(); map += count) shows = shows || distances[map] == 0;
+      if (shows) {
+        gaps += inside ? since : 0;
+        all += inside ? since + 1 : 1;
+        since = 0;
+        inside = true;
+      } else {
+        ++since;
+      }
+    }
+  }
+  return all > 0 ? static_cast<double>(gaps) / static_cast<double>(all) : 0.0;
+}
+
 }  // namespace palpate

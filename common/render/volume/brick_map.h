@@ -48,4 +48,10 @@ struct BrickRanges {
                                                         const RegionTable& table, double lower, double upper,
                                                         double highest);
 
+/// Which of the bricks between others along x that show something show nothing, as a share; 0 where none lie
+/// between others.
+/// @param distances of empty_distances(), one or several maps one after another: bricks that show something
+/// in any.
+[[nodiscard]] double gap_share(const Index3& bricks, std::span<const std::uint8_t> distances);
+
 }  // namespace palpate

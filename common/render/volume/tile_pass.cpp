@@ -16,18 +16,26 @@ namespace palpate {
 namespace {
 
 // Locations and bindings of shaders/volume/tiles.vert.
-enum TileUniform : GLint { kSceneFromGrid = 1, kRadius = 2, kTileCount = 3 };
+enum TileUniform : GLint { kSceneFromGrid = 1, kHalfCells = 2, kTileCount = 3 };
 constexpr GLuint kBricks = 0;
-// The farthest corner of a brick from its middle; along an axis of one voxel a brick begins half a step
-// earlier.
-double brick_radius(const Mat3& scene_from_grid) {
-  constexpr double kHalf = 0.5 * kBrickCells + 0.5;
+
+// Half edges of a brick [cells], a little more for rounding; along an axis of one voxel a brick begins half a
+// cell earlier.
+Vec3 half_cells_of(const Index3& points) {
+  constexpr double kHalf = 0.5 * kBrickCells, kRounding = 1.0 / 64.0;
+  Vec3 half(kHalf + kRounding);
+  for (int a = 0; a < 3; ++a) half[a] += points[a] == 1 ? 0.5 : 0.0;
+  return half;
+}
+
+// The farthest corner of a brick from its middle.
+double brick_radius(const Mat3& scene_from_grid, const Vec3& half) {
   double radius = 0.0;
   for (const double y : {-1.0, 1.0}) {
     for (const double z : {-1.0, 1.0})
-      radius = std::max(radius, glm::length(scene_from_grid * Vec3(1.0, y, z)));
+      radius = std::max(radius, glm::length(scene_from_grid * (half * Vec3(1.0, y, z))));
   }
-  return kHalf * radius;
+  return radius;
 }
 
 }  // namespace
@@ -107,7 +115,9 @@ std::uint32_t TilePass::draw(const VolumeImage& image, const SceneFrame& frame, 
   glViewport(0, 0, grid.columns, grid.rows);
   glUseProgram(program_->name());
   glUniformMatrix4fv(kSceneFromGrid, 1, GL_FALSE, glm::value_ptr(scene_from_grid));
-  glUniform1f(kRadius, static_cast<float>(brick_radius(axes)));
+  const Vec3f half(half_cells_of(image.points));
+  glUniform4f(kHalfCells, half.x, half.y, half.z,
+              static_cast<float>(brick_radius(axes, half_cells_of(image.points))));
   glUniform2f(kTileCount, static_cast<float>(grid.columns), static_cast<float>(grid.rows));
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBricks, bricks_.name());
   glDisable(GL_DEPTH_TEST);

@@ -1,5 +1,5 @@
 /// A small picture that says for each tile of the large one between which distances rays can meet something:
-/// the shell of bricks that show something, drawn as squares about their bounding spheres
+/// the shell of bricks that show something, drawn as rectangles about what is seen of them
 /// (shaders/volume/tiles.vert; Krueger and Westermann 2003 draw their faces). Rays of the other tiles are not
 /// cast at all.
 #pragma once

@@ -49,7 +49,8 @@ FieldBlock make_field_block(const VolumeView& view, std::size_t field, const Sce
   block.lower = {Vec3f(image.lower()), range.lower / unit};
   block.upper = {Vec3f(image.upper()), (entries - 1.0) / entries * unit / (range.upper - range.lower)};
   block.points = {Vec3f(image.points), 0.5 / entries};
-  block.bricks = {Vec3f(bricks), view.skip_empty ? 1.0F : 0.0F};
+  constexpr float kNoSampling = 1e30F;
+  block.bricks = {Vec3f(bricks), view.skip_empty ? 0.0F : kNoSampling};
 
   // m = scale (upper - lower) E / (E - 1) |grad_N p| / 2^e for the table coordinate p of values.
   const double rows = kGradientEntries;

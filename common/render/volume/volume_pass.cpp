@@ -132,6 +132,15 @@ struct VolumePass::State {
     return true;
   }
 
+  [[nodiscard]] VolumeBlock make_volume(const VolumeView& view) const {
+    VolumeBlock block = make_volume_block(view, frame, textures.field_bricks());
+    // Beside light it costs little to ask.
+    float& fewest = block.fields[0].bricks.w;
+    if (variant == Variant::kPlain)
+      fewest = std::max(fewest, static_cast<float>(textures.fewest_samples_to_leap()));
+    return block;
+  }
+
   [[nodiscard]] GlBuffer make_shapes(const VolumeView& view) const {
     return make_buffer(make_shape_block(view, frame, room));
   }
@@ -205,9 +214,8 @@ struct VolumePass::State {
     struct Blocks {
       GlBuffer volume, shapes;
     };
-    auto uncut = std::make_shared<const Blocks>(Blocks{
-        volume_shader::make_block_buffer(make_volume_block(slabs->uncut(), frame, textures.field_bricks())),
-        make_shapes(slabs->uncut())});
+    auto uncut = std::make_shared<const Blocks>(
+        Blocks{volume_shader::make_block_buffer(make_volume(slabs->uncut())), make_shapes(slabs->uncut())});
     return [this, uncut](const SlabCache::Slab& slab) {
       bind(program_of(Reach::kSlab), uncut->volume, uncut->shapes, slab.depth);
       set_slab(slab);
@@ -298,7 +306,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
-  VolumeBlock told = make_volume_block(view, frame, s.textures.field_bricks());
+  VolumeBlock told = s.make_volume(view);
   told.far = far_range(view, frame, block);
   s.volume_block = volume_shader::make_block_buffer(told);
   s.shape_block = s.make_shapes(view);

@@ -292,6 +292,11 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
   }
 }
 
+double VolumeTextures::fewest_samples_to_leap() const noexcept {
+  constexpr double kManyGaps = 0.5, kFew = 1.0;
+  return gaps_ < kManyGaps ? kFew : 0.0;
+}
+
 void VolumeTextures::update_colors(const VolumeView& view) {
   if (colors_ || !has_colored_parts(view)) return;
   PALPATE_CHECK(image_->colors->size() == image_->point_count());
@@ -342,6 +347,7 @@ void VolumeTextures::update_tables(const VolumeView& view) {
       static_cast<double>(std::count_if(first.begin(), first.end(), [](auto d) { return d > 0; })) /
       static_cast<double>(first.size());
   tiles_.set_bricks(shell_bricks(bricks(), maps));
+  gaps_ = gap_share(bricks(), maps);
   cost_.table_ms = 1e3 * clock.seconds();
 }
 

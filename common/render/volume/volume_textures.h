@@ -56,6 +56,9 @@ class VolumeTextures {
   }  ///< an axis
   /// The same of each field up to the last one that is shown.
   [[nodiscard]] const std::vector<Index3>& field_bricks() const noexcept { return field_bricks_; }
+  /// Samples a voxel below which rays of the context's field do not ask for empty bricks: to ask costs more
+  /// than it saves where few samples lie in a brick and few bricks between others are empty.
+  [[nodiscard]] double fewest_samples_to_leap() const noexcept;
   [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
   [[nodiscard]] const TilePass& tiles() const noexcept { return tiles_; }
 
@@ -140,6 +143,7 @@ class VolumeTextures {
   std::shared_ptr<const VolumeImage> image_;
   FieldBricks bricks_of_image_;
   TilePass tiles_;
+  double gaps_ = 1.0;  ///< gap_share() of the context's field
   TableKey key_;
   std::vector<std::vector<std::uint8_t>> distances_;  ///< between empty bricks, for each transfer function
   TableChoice choice_;

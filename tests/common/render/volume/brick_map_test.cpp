@@ -129,5 +129,18 @@ TEST(ShellBricks, LeaveOutThoseBetweenOthers) {
   EXPECT_EQ(shell_bricks(bricks, maps).size(), 5U * 6U * 7U - 3U * 4U * 5U);
 }
 
+TEST(GapShare, CountsEmptyBricksBetweenOthersInARow) {
+  const Index3 bricks{7, 2, 1};
+  // Rows of two maps; a brick shows something in either.
+  const std::vector<std::uint8_t> maps{2, 0, 1, 1, 0, 1, 2, 3, 3, 3, 3, 3, 3, 3,
+                                       2, 1, 1, 0, 1, 1, 2, 3, 3, 0, 3, 3, 3, 3};
+  EXPECT_DOUBLE_EQ(gap_share(bricks, maps), 1.0 / 5.0) << "one of four in the first row, one alone";
+  EXPECT_EQ(gap_share(bricks, std::vector<std::uint8_t>(14, 3)), 0.0);
+  EXPECT_EQ(gap_share(bricks, std::vector<std::uint8_t>(14, 0)), 0.0);
+  std::vector<std::uint8_t> ends(14, 3);
+  ends[0] = ends[6] = 0;
+  EXPECT_DOUBLE_EQ(gap_share(bricks, ends), 5.0 / 7.0);
+}
+
 }  // namespace
 }  // namespace palpate::test

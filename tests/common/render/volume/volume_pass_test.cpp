@@ -120,8 +120,10 @@ TEST(VolumePass, LeapsOverEmptyBricksWithoutATrace) {
   view.transfer = spread(ColorTransfer({{0.8, Vec3f(0.0F), 0.0}, {1.0, Vec3f(1.0F), 0.5}}), 0.0, 1.0);
   VolumePicture picture(kSize, kSize);
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
-    for (const double azimuth : {0.0, 30.0}) {
-      const Camera camera = camera_of(view, {.azimuth = azimuth, .elevation = azimuth}, projection);
+    for (const double azimuth : {0.0, 30.0, 50.0}) {
+      // The last one from within the volume, where bricks lie beside the eye.
+      const Camera camera = camera_of(
+          view, {.azimuth = azimuth, .elevation = azimuth, .zoom = azimuth == 50.0 ? 5.0 : 1.0}, projection);
       view.skip_empty = true;
       const FloatImage leaping = picture.draw(view, camera);
       EXPECT_GT(picture.cost().empty_share, 0.5);
