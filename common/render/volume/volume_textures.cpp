@@ -44,8 +44,8 @@ std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20U)
 
 // The part of the memory for voxels that each field gets.
 std::uint64_t memory_of_field(const VolumeView& view) {
-  std::uint64_t shown = 0;
-  for (std::size_t field = 0; field < field_count(view); ++field) shown += shows_field(view, field) ? 1 : 0;
+  std::uint64_t shown = 1;  // that of the context
+  for (std::size_t field = 1; field < field_count(view); ++field) shown += shows_field(view, field) ? 1 : 0;
   return view.storage.memory / shown;
 }
 
