@@ -201,7 +201,7 @@ void classify_fronts(std::span<const OpticalEntry> entries, std::size_t lengths,
                      std::span<std::uint16_t> rgba) {
   const std::size_t count = entries.size();
   PALPATE_CHECK(lengths >= 2 && rgba.size() == 4 * count * count * lengths);
-  const auto part_of = [](float x) { return static_cast<std::uint16_t>(65535.0F * x + 0.5F); };
+  const auto part_of = [](float x) { return static_cast<std::uint16_t>(std::lround(65535.0F * x)); };
   std::uint16_t* to = rgba.data();
   for (std::size_t l = 0; l < lengths; ++l) {
     for (std::size_t back = 0; back < count; ++back) {
