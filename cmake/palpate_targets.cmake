@@ -15,6 +15,20 @@ function(palpate_module folder)
   add_library(palpate::${name} ALIAS palpate_${name})
 endfunction()
 
+# palpate_join(target SOURCES a.cpp b.cpp … SOURCES c.cpp d.cpp …)
+# What a unity build joins of a target whose sources name their parts alike: those of each list. Others stay alone.
+function(palpate_join target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set(list 0)
+  foreach(word ${ARGN})
+    if(word STREQUAL SOURCES)
+      math(EXPR list "${list} + 1")
+    else()
+      set_source_files_properties(${word} PROPERTIES UNITY_GROUP ${list})
+    endif()
+  endforeach()
+endfunction()
+
 # palpate_helper(name SOURCES … USES …): a helper program, in lib/palpate beside bin/.
 function(palpate_helper name)
   cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
