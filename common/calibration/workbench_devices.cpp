@@ -31,8 +31,8 @@ std::vector<std::pair<std::string, const toml::table*>> tables_of(const toml::ta
 
 const TunedDevice* find_tuned(const std::vector<TunedDevice>& all, std::string_view device) {
   for (const std::string_view name : {device, device.substr(0, device.find(':'))}) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [name](const TunedDevice& each) { return each.device == name; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [name](const TunedDevice& each) { return each.device == name; });
     if (found != all.end()) return &*found;
   }
   return nullptr;

@@ -10,8 +10,9 @@
 ///   places = [[x, y, z, stiffness], …]     # [m] frame of the device, and where each began to swing [N/m]
 ///
 /// A simulated arm is `[tuned."simulated:falcon"]`, by its class. Of several devices of one driver each is
-/// told by what it is asked for with: `[tuned."dhd:1234"]` of `--device dhd:serial=1234`, or the `name`, `device`,
-/// `port` or address of other drivers. What stands there comes before what stands under the driver's name.
+/// told by what it is asked for with: `[tuned."dhd:1234"]` of `--device dhd:serial=1234`, or the `name`,
+/// `device`, `port` or address of other drivers. What stands there comes before what stands under the
+/// driver's name.
 #pragma once
 
 #include <string>

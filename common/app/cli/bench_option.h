@@ -14,8 +14,8 @@ namespace palpate {
 /// @throws Error (usage) as parse_device() does.
 [[nodiscard]] DeviceText device_at_bench(const std::string& text, const WorkbenchGeometry& bench);
 
-/// What workbench.toml knows it by: its driver, and what tells it from others of that driver where it is asked
-/// for so, "dhd:1234".
+/// What workbench.toml knows it by: its driver, and what tells it from others of that driver where it is
+/// asked for so, "dhd:1234".
 [[nodiscard]] std::string device_key(const DeviceText& device);
 
 /// Opens it with the workbench's calibration (calibrated_link.h): [arm] of an arm that tells its joints,

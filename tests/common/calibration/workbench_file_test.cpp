@@ -311,7 +311,8 @@ TEST_F(WorkbenchFileTest, KnowsDevicesByTheirNames) {
 
   // Two of a driver, each by what it is asked for with; what is said of the driver is of both.
   write(
-      "[device.dhd]\ncap = 4\naxes = 'yzx'\n\n[device.\"dhd:12\"]\ncap = 6\n\n[tuned.dhd]\nstiffness = 900\n\n"
+      "[device.dhd]\ncap = 4\naxes = 'yzx'\n\n[device.\"dhd:12\"]\ncap = 6\n\n[tuned.dhd]\nstiffness = "
+      "900\n\n"
       "[tuned.\"dhd:12\"]\nstiffness = 700\n\n[interaction]\narm_rotation = [0.6, 0, 0.8, 0]\n"
       "arm_middle = [1, 2, 3]\n");
   const WorkbenchGeometry two = read_workbench(path_);
