@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/usual_look.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
@@ -44,7 +45,12 @@ std::uint64_t fingerprint(Input& input, Progress& progress) {
 /// Whether both mean the same lines and triangles of one heart.
 bool same_layer(const SceneSettings& a, const SceneSettings& b) {
   return a.layer == b.layer && a.seeds == b.seeds && a.max_length == b.max_length && a.step == b.step &&
-         a.random_seed == b.random_seed;
+         a.random_seed == b.random_seed && a.cut == b.cut;
+}
+
+/// As --cut takes it; empty: none.
+std::string cut_text(const std::optional<ConvexShape::HalfSpace>& cut) {
+  return cut ? exact_text(cut->outward) + "," + exact_number(cut->offset) : std::string();
 }
 
 /// By their labels, the likeliest one first.
@@ -103,6 +109,7 @@ void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const 
   settings.random_seed = options.common.seed;
   settings.color_array = options.heart.angle;
   settings.contours = options.heart.contours;
+  if (const auto plane = parse_cut(options.heart.cut)) settings.cut = {plane->normal, plane->distance};
   if (!options.heart.lens.empty()) settings.lens_array = options.heart.lens_angle;
 }
 
@@ -114,6 +121,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   const int threads = options.common.threads;
   Options with = options;
   with.heart.layer = exact_number(settings.layer);
+  with.heart.cut = cut_text(settings.cut);
   with.heart.angle = settings.color_array.empty() ? options.heart.angle : settings.color_array;
   with.tracing.seeds = settings.seeds;
   with.tracing.max_length = settings.max_length;
@@ -194,7 +202,7 @@ void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/,
   add_option(session, "angle", settings.color_array);
   add_option(session, "convention", options.heart.convention);
   add_option(session, "axis", options.heart.axis);
-  add_option(session, "cut", options.heart.cut);
+  add_option(session, "cut", cut_text(settings.cut));
   if (settings.contours > 0.0) add_option(session, "contour-spacing", exact_number(settings.contours));
   if (view.style.range)
     add_option(session, "range",

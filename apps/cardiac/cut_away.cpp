@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/math/normal_length.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -12,7 +13,7 @@ std::optional<CutPlane> parse_cut(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto v = parse_numbers(text, 4, "--cut takes nx,ny,nz,d for the plane n.x = d");
   CutPlane plane{{v[0], v[1], v[2]}, v[3]};
-  const double length = glm::length(plane.normal);
+  const double length = normal_length(plane.normal);
   if (!(length > 0.0)) throw usage_error("--cut " + text + ": the normal is zero");
   plane.normal /= length;
   plane.distance /= length;

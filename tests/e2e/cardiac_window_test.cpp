@@ -334,7 +334,8 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
       {"seeds", "random:3"},     {"step", "0.015625"},
       {"least-gap", "0.125"},    {"angle", "transverse"},
       {"contour-spacing", "10"}, {"range", "-30,30"},
-      {"mesher", "cells"},       {"largest-volume", "2.5"}};
+      {"mesher", "cells"},       {"largest-volume", "2.5"},
+      {"cut", "0,1,0,0.25"}};
   Options options;
   options.common.threads = 1;
   options.input.files = {file};
@@ -350,6 +351,7 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
   options.heart.angle = "transverse";
   options.heart.contours = 10.0;
   options.heart.range = "-30,30";
+  options.heart.cut = "0,1,0,0.25";
   CardiacModel model(options, "cardiac");
   Progress progress;
   const SceneState state = model.start(progress);
@@ -373,6 +375,46 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
       << "always kept, as the session has it";
   EXPECT_EQ(back, lines("given.csv", {"--cell-directions", "constant", "--layer", "0.25", "--seeds",
                                       "random:3", "--step", "0.015625", "--least-gap", "0.125"}));
+}
+
+// The panel's cut is that of --cut, and a session keeps it to the bit.
+TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
+  Options options;
+  options.input.example = "ventricle";
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState whole = model.start(progress);
+  SceneSettings settings = whole.settings;
+  EXPECT_FALSE(settings.cut);
+  const Vec3 outward = glm::normalize(Vec3(1.0, 2.0, -0.7));
+  settings.cut = {outward, 0.1};
+  const SceneState half = model.update(settings, progress);
+  const auto farthest = [&](const SceneState& state) {
+    double most = -std::numeric_limits<double>::infinity();
+    const IsosurfaceMesh& mesh = *state.surfaces.front().mesh;
+    for (const auto& triangle : mesh.triangles)
+      for (const std::uint32_t corner : triangle)
+        most = std::max(most, glm::dot(outward, mesh.points[corner]));
+    for (const Line& line : *state.lines)
+      for (const LinePoint& point : line.points) most = std::max(most, glm::dot(outward, point.position));
+    return most;
+  };
+  EXPECT_GT(farthest(whole), 0.2);
+  EXPECT_NEAR(farthest(half), 0.1, 1e-9);
+  SceneView view;
+  show_scene(half, true, view);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const Session saved = load_session(model.save_session(half.settings, view, {}));
+  std::filesystem::current_path(before);
+  const auto cut = std::find_if(saved.options.begin(), saved.options.end(),
+                                [](const auto& option) { return option.first == "cut"; });
+  ASSERT_NE(cut, saved.options.end());
+  options.heart.cut = cut->second;
+  CardiacModel again(options, "cardiac");
+  EXPECT_EQ(again.start(progress).settings.cut, settings.cut);
+  settings.cut.reset();
+  EXPECT_NEAR(farthest(model.update(settings, progress)), farthest(whole), 0.0);
 }
 
 TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {

@@ -47,6 +47,28 @@ void draw_seeds(PanelState& state, bool speed) {
   state.settings.seeds = seeds_text(state.seeds);
 }
 
+/// The plane across the middle of `bounds` whose nearer side is left out.
+ConvexShape::HalfSpace facing(const Camera& camera, const Box& bounds) {
+  return {camera.axes[2], glm::dot(camera.axes[2], 0.5 * (bounds.lower + bounds.upper))};
+}
+
+/// Where it is cut, whether it is turned to the viewer anew, and how deep.
+void draw_cut(std::optional<ConvexShape::HalfSpace>& cut, const Box& bounds, const Camera& camera) {
+  bool on = cut.has_value();
+  if (ImGui::Checkbox("cut away", &on)) {
+    cut.reset();
+    if (on) cut = facing(camera, bounds);
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("what lies before a plane is left out of the picture");
+  if (!cut) return;
+  ImGui::SameLine();
+  if (ImGui::SmallButton("face me")) cut = facing(camera, bounds);
+  // All of the box lies between these.
+  const double middle = glm::dot(cut->outward, 0.5 * (bounds.lower + bounds.upper));
+  const double reach = 0.5 * glm::dot(glm::abs(cut->outward), bounds.upper - bounds.lower);
+  (void)slider("cut at", cut->offset, middle - reach, middle + reach, "%.4g");
+}
+
 }  // namespace
 
 void draw_lines(PanelState& state, const SceneState& scene) {
@@ -79,7 +101,7 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   }
 }
 
-void draw_layer(PanelState& state, const SceneState& scene) {
+void draw_layer(PanelState& state, const SceneState& scene, const Camera& camera) {
   section("LAYER");
   SceneSettings& settings = state.settings;
   const SceneInfo& info = *scene.info;
@@ -87,6 +109,7 @@ void draw_layer(PanelState& state, const SceneState& scene) {
   draw_time(state, info.times);
   (void)slider("depth", settings.layer, info.layers->lower, info.layers->upper, "%.2f");
   draw_seeds(state, false);
+  draw_cut(settings.cut, info.bounds, camera);
   choose_plotted(state, info);
   double spacing = settings.contours;
   if (ImGui::InputDouble("contour spacing", &spacing, 0.0, 0.0, "%.4g",

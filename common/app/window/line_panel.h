@@ -2,13 +2,15 @@
 #pragma once
 
 #include "common/app/window/panel.h"
+#include "common/render/camera.h"
 
 namespace palpate {
 
 void draw_lines(PanelState& state, const SceneState& scene);
 
-/// Of a heart: which layer is shown, and where its fibres start.
-void draw_layer(PanelState& state, const SceneState& scene);
+/// Of a heart: which layer is shown, where its fibres start, and where it is cut away.
+/// @param camera a new cut faces it.
+void draw_layer(PanelState& state, const SceneState& scene, const Camera& camera);
 
 /// What colours the lines, or the layer.
 void draw_color(PanelState& state, const SceneState& scene, SceneView& view);

@@ -165,7 +165,7 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       draw_volume(state, *state.scene, *view.volume, actions);
     } else {
       if (state.scene->info->layers) {
-        draw_layer(state, *state.scene);
+        draw_layer(state, *state.scene, view.camera);
       } else {
         draw_lines(state, *state.scene);
       }

@@ -20,6 +20,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
+#include "common/render/lens/lens.h"
 #include "common/render/scene_view.h"
 #include "common/scene/input.h"
 
@@ -52,6 +53,8 @@ struct SceneSettings {
   std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
   double layer = 0.5;       ///< of a heart: the depth that is shown
   double contours = 0.0;    ///< of a heart: distance of lines of equal value on the layer; 0: none
+  /// Of a heart: what is not in it is left out of the picture, as --cut; none: nothing is.
+  std::optional<ConvexShape::HalfSpace> cut;
   std::string lens_array;   ///< of a heart: what a lens shows in place of color_array; empty: there is none
   /// Of a flow: scalars that are a volume around the lines, as --volume; the first one is seen around lenses,
   /// none: no volume.
