@@ -65,7 +65,7 @@ TEST(ChainRivals, TellsTheReport) {
   EXPECT_EQ(section.table.size(), measured().size());
   for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size());
   for (const RivalMethod method : kRivalMethods) {
-    EXPECT_NE(section.plots.at(0).svg.find(">" + std::string(name_of(method)) + "<"), std::string::npos);
+    EXPECT_NE(section.plots.at(0).content.find(">" + std::string(name_of(method)) + "<"), std::string::npos);
   }
 }
 

@@ -64,7 +64,7 @@ TEST(ChainWork, TellsTheReport) {
   EXPECT_EQ(section.table.size(), measured().rows.size());
   EXPECT_EQ(section.work_precision.size(), measured().rows.size());
   for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size());
-  EXPECT_NE(section.plots.at(0).svg.find("consistent, weak"), std::string::npos);
+  EXPECT_NE(section.plots.at(0).content.find("consistent, weak"), std::string::npos);
 }
 
 }  // namespace

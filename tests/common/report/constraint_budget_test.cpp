@@ -73,7 +73,7 @@ TEST(ConstraintBudget, TellsTheReport) {
   EXPECT_EQ(section.table.size(), measured().rows.size());
   for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size());
   EXPECT_EQ(section.work_precision.size(), 3 * measured().rows.size());
-  EXPECT_NE(section.plots.at(0).svg.find("isosurface"), std::string::npos);
+  EXPECT_NE(section.plots.at(0).content.find("isosurface"), std::string::npos);
 }
 
 }  // namespace
