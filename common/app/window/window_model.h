@@ -55,7 +55,7 @@ struct SceneSettings {
   double contours = 0.0;    ///< of a heart: distance of lines of equal value on the layer; 0: none
   /// Of a heart: what is not in it is left out of the picture, as --cut; none: nothing is.
   std::optional<ConvexShape::HalfSpace> cut;
-  std::string lens_array;   ///< of a heart: what a lens shows in place of color_array; empty: there is none
+  std::string lens_array;  ///< of a heart: what a lens shows in place of color_array; empty: there is none
   /// Of a flow: scalars that are a volume around the lines, as --volume; the first one is seen around lenses,
   /// none: no volume.
   std::vector<std::string> volumes;
