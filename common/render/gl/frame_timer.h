@@ -23,7 +23,7 @@ class TimerCheck {
  public:
   static constexpr std::size_t kFrames = 16;
   static constexpr double kShare = 0.75;               ///< of the last frames
-  static constexpr double kLeast = 0.5, kMost = 1.05;  ///< q / c
+  static constexpr double kLeast = 0.9, kMost = 1.05;  ///< q / c
 
   /// A frame. @return what it took: q or c [ms]
   double add(double query, double clock) noexcept;
