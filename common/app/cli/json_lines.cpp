@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "common/app/cli/json_output.h"
 #include "common/app/cli/json_parts.h"
@@ -10,6 +11,17 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostSeedsNamed = 10;
+
+/// The text of a run's JSON, with why it failed, where it did, its plan and what that took.
+template <typename Summary>
+std::string ended(Json json, const Summary& summary) {
+  if (!summary.failure.empty()) {
+    json["error"] = summary.failure;
+    json["exit"] = 1;
+  }
+  add_plan(json, summary.plan, summary.measured);
+  return json_text(json);
+}
 
 }  // namespace
 
@@ -41,12 +53,7 @@ std::string trace_json(const TraceSummary& summary) {
             {"seconds_write", summary.seconds_write},
             {"advice", summary.advice},
             {"version", version()}};
-  if (!summary.failure.empty()) {
-    json["error"] = summary.failure;
-    json["exit"] = 1;
-  }
-  add_plan(json, summary.plan, summary.measured);
-  return json_text(json);
+  return ended(std::move(json), summary);
 }
 
 std::string tract_json(const TractSummary& summary) {
@@ -83,12 +90,7 @@ std::string tract_json(const TractSummary& summary) {
             {"seconds_write", summary.seconds_write},
             {"advice", summary.advice},
             {"version", version()}};
-  if (!summary.failure.empty()) {
-    json["error"] = summary.failure;
-    json["exit"] = 1;
-  }
-  add_plan(json, summary.plan, summary.measured);
-  return json_text(json);
+  return ended(std::move(json), summary);
 }
 
 std::string tract_fit_json(const TractFitSummary& summary) {
