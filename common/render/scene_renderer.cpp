@@ -20,6 +20,7 @@
 #include "common/render/glyph/probe_pass.h"
 #include "common/render/line/colored_lines.h"
 #include "common/render/line/line_geometry.h"
+#include "common/render/line/line_layers.h"
 #include "common/render/line/line_pass.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
@@ -89,6 +90,20 @@ bool shows_volume(const SceneView& view) { return view.volume && view.volume->sh
 
 bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0 || view.style.clearing > 0.0; }
 
+// Transparent lines that rays through a volume have to pass, and all that they look like from one place.
+struct LayeredLines {
+  std::shared_ptr<const std::vector<Line>> lines;
+  LineStyle style;
+  std::optional<ColorLens> color_lens;
+  Background background = Background::kDark;
+
+  [[nodiscard]] static std::optional<LayeredLines> of(const SceneView& view) {
+    if (!shows_volume(view) || !is_transparent(view) || !view.lines || view.lines->empty()) return {};
+    return LayeredLines{view.lines, view.style, view.color_lens, view.background};
+  }
+  bool operator==(const LayeredLines&) const = default;
+};
+
 // The range of a followed line's values where no other lines set one.
 ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
   if (style.range) return *style.range;
@@ -120,7 +135,9 @@ struct SceneRenderer::State {
   RenderTarget target;
   GlProgram background;
   GlVertexArray no_vertices = make_vertex_array();
-  LineProgram line_program;
+  LineProgram line_program, layer_program{LineProgram::Into::kLayers};
+  LineLayers layers;
+  std::optional<LayeredLines> layered;  // what `layers` held in the last picture
   ColoredLines lines;
   LineSet outline;
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
@@ -269,8 +286,21 @@ struct SceneRenderer::State {
     volume->update(*view.volume, frame, block);
   }
 
-  // Behind and between opaque things, by their depths, into the framebuffer that is bound.
-  void draw_volume(const SceneView& view) {
+  // Has the volume show transparent lines in it: those that what is opaque by now does not hide.
+  void show_layers(const SceneView& view, const LineDraw& base, float unit) {
+    std::optional<LayeredLines> wanted = LayeredLines::of(view);
+    const auto draw = [&] { lines.draw(layer_program, view, frame, base, unit); };
+    if (wanted && !layers.collect(target.scene_width(), target.scene_height(), draw)) wanted.reset();
+    if (!wanted) layers = {};
+    if (!volume) volume = std::make_unique<VolumePass>();
+    volume->show_layers(wanted ? &layers : nullptr, wanted == layered);
+    layered = std::move(wanted);
+  }
+
+  // Behind and between opaque things, by their depths, into the framebuffer that is bound, and with it the
+  // transparent lines in it.
+  void draw_volume(const SceneView& view, const LineDraw& base, float unit) {
+    show_layers(view, base, unit);
     update_volume(view);
     opaque_depth = target.copy_depth();
     if (!keeps_for_error || stereo) return volume->draw(opaque_depth, block);
@@ -323,9 +353,9 @@ struct SceneRenderer::State {
     }
     if (!shows_volume(view)) return;
     if (grown) {
-      time_volume(view);
+      time_volume(view, base, unit);
     } else {
-      draw_volume(view);
+      draw_volume(view, base, unit);
     }
     if (view.probe) probe->draw_through(line_program, view, base, unit);
   }
@@ -345,11 +375,11 @@ struct SceneRenderer::State {
   }
 
   // As draw_volume(), over tracts that have come to stay.
-  void time_volume(const SceneView& view) {
+  void time_volume(const SceneView& view, const LineDraw& base, float unit) {
     if (volume) volume->forget_picture();
     glFinish();
     const Stopwatch watch;
-    draw_volume(view);
+    draw_volume(view, base, unit);
     glFinish();
     volume_ms = 1e3 * watch.seconds();
   }
@@ -389,9 +419,14 @@ struct SceneRenderer::State {
       target.bind_scene();
       draw_still_part(view, base, unit, transform);
       if (begin_tracts(view, tract_milliseconds)) draw_tracts(view, base, unit, tract_milliseconds);
-      if (shows_volume(view)) draw_volume(view);
+      if (shows_volume(view)) draw_volume(view, base, unit);
     }
-    if (is_transparent(view)) lines.draw(line_program, view, frame, base, unit);
+    if (!draws_volume && layered) {
+      layered.reset();
+      layers = {};
+    }
+    // Where more of them lie in a volume than there is room for, they are drawn over it.
+    if (is_transparent(view) && !layered) lines.draw(line_program, view, frame, base, unit);
     if (!view.signs.empty()) {
       if (!signs) signs = std::make_unique<SignPass>();
       signs->draw(view.signs, frame, view.camera.axes);

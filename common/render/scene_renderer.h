@@ -23,7 +23,8 @@ struct TractShare {
 /// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
 /// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
 /// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
-/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time, and
+/// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time (in
+/// a volume as layers of its rays: what lies before them veils them, and they veil what is behind), and
 /// the volume, of which a picture of its own may be kept (VolumeView::keep_picture). The probe is in it: what
 /// lies before it veils it, and it shines through as through anything nearer.
 /// A view with two eyes is drawn once for each, then composed (stereo_pass.h). What stands still is kept for

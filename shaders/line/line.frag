@@ -1,10 +1,17 @@
 #version 450 core
-// Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width.
+// Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width. With LAYERS they are not drawn
+// but put into the list of each pixel (line/layers.glsl), as far as nothing opaque hides them.
 #include "include/frame.glsl"
 #include "include/color.glsl"
 #include "include/color_table.glsl"
 #include "include/shade.glsl"
 #include "include/line_light.glsl"
+#ifdef LAYERS
+#include "line/layers.glsl"
+layout(early_fragment_tests) in;
+#else
+layout(location = 0) out vec4 color;
+#endif
 
 layout(location = 3) uniform bool has_values;
 layout(location = 4) uniform int coloring;       // 0 colour map, 1 direction, 2 one colour, 3 one colour without light
@@ -30,7 +37,18 @@ in Vertex {
 } vertex;
 noperspective in float halo_z;
 
-layout(location = 0) out vec4 color;
+#ifdef LAYERS
+void keep_layer(vec4 color) {
+  uint cover = uint(gl_SampleMaskIn[0]) & 0xffffu;
+  uint opacity = uint(clamp(color.a, 0.0, 1.0) * 65535.0 + 0.5);
+  if (cover == 0u || opacity == 0u) return;
+  uint place = atomicAdd(layer_count, 1u);
+  if (place >= uint(layers.length())) return;
+  uint pixel = uint(gl_FragCoord.y) * uint(frame.size.x) + uint(gl_FragCoord.x);
+  layers[place] = Layer(gl_FragCoord.z, packUnorm4x8(vec4(color.rgb, 0.0)), cover | opacity << 16u,
+                        atomicExchange(heads[pixel], place + 1u));
+}
+#endif
 
 vec3 base_color(vec3 t) {
   if (coloring == 1) return abs(t);
@@ -62,7 +80,12 @@ void main() {
   // Halo beyond the edge; the border between the two is smoothed over one pixel.
   float soft = 0.5 * fwidth(vertex.across);
   float halo = vertex.outer > 1.0 ? smoothstep(1.0 - soft, 1.0 + soft, u) : 0.0;
-  color = vec4(mix(srgb, rim, halo), line_color.a * mix(1.0, clamp(vertex.value, 0.0, 1.0), clearing));
+  vec4 seen = vec4(mix(srgb, rim, halo), line_color.a * mix(1.0, clamp(vertex.value, 0.0, 1.0), clearing));
+#ifdef LAYERS
+  keep_layer(seen);  // transparent lines have no halos
+#else
+  color = seen;
   float sink = vertex.outer > 1.0 ? clamp((u - 1.0) / (vertex.outer - 1.0), 0.0, 1.0) : 0.0;
   gl_FragDepth = mix(gl_FragCoord.z, max(halo_z, gl_FragCoord.z), sink);
+#endif
 }

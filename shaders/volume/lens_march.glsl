@@ -21,6 +21,9 @@
 #ifdef CONTEXT
 #include "volume/enlarge.glsl"
 #endif
+#ifdef LAYERS
+#include "volume/layers.glsl"
+#endif
 
 layout(location = 0) out vec4 color;  // associated
 
@@ -56,7 +59,12 @@ void main() {
   t = max(reach.x, ray.from);
   end = min(reach.y, ray.to);
 #endif
+#ifdef LAYERS
+  begin_layers(ray);
+  if (!(t < end) && layer == 0u) discard;
+#else
   if (!(t < end)) discard;
+#endif
   color = vec4(0.0);
 #ifdef SLABS
   bool in_front;
@@ -76,6 +84,10 @@ void main() {
     // The first lens that holds t owns the stretch, up to its end or where one before it in the list begins.
     int owner = 0;
     float stop = end;
+#ifdef LAYERS
+    pass_layers(ray, t, color);
+    stop = min(stop, layer_at);
+#endif
     for (int i = 0; i < count; ++i) {
       if (!(inside[i].x < inside[i].y)) continue;
       if (inside[i].x > t) {
@@ -108,7 +120,13 @@ void main() {
     if (seen) march(through, shapes.parts[owner], t, stop, color);
 #endif
     t = stop;
+#ifdef LAYERS
+    if (stop == layer_at) --k;  // lenses alone make no more than 2 count + 1 stretches
+#endif
   }
+#ifdef LAYERS
+  pass_layers(ray, 1e30, color);
+#endif
 #ifdef SLABS
   if (!in_front) color += (1.0 - color.a) * kept;
 #endif

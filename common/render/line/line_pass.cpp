@@ -1,8 +1,11 @@
 #include "common/render/line/line_pass.h"
 
+#include <string>
+
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
+#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -24,6 +27,15 @@ enum Uniform : GLint {
   kClearing = 11
 };
 constexpr GLuint kTableUnit = 0, kLensTableUnit = 1;
+
+GlProgram compile_lines() { return compile_program("line/line.vert", "line/line.frag"); }
+
+GlProgram compile_layers() {
+  const std::vector<std::string> defines{"LAYERS"};
+  GlProgram program = compile_program("line/line.vert", "line/line.frag", shader_files(), defines);
+  label_object(GpuObject::Kind::kProgram, program.name(), "line/line.frag, as layers");
+  return program;
+}
 
 }  // namespace
 
@@ -63,7 +75,7 @@ void end_lines() {
 }  // namespace detail
 
 void LineProgram::use(ColorMap map, std::optional<ColorMap> lens_map) {
-  if (!program_) program_ = compile_program("line/line.vert", "line/line.frag");
+  if (!program_) program_ = into_ == Into::kLayers ? compile_layers() : compile_lines();
   glUseProgram(program_.name());
   tables_.bind(map, kTableUnit);
   tables_.bind(lens_map.value_or(map), kLensTableUnit);

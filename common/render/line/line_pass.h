@@ -53,10 +53,14 @@ inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1, kLineLensValues
 /// block bound to 0.
 class LineProgram {
  public:
+  /// Where fragments go: into the picture, or into the lists of its pixels (line_layers.h).
+  enum class Into : std::uint8_t { kPicture, kLayers };
+  explicit LineProgram(Into into = Into::kPicture) : into_(into) {}
   /// @param lens_map of what is inside the ball of LineDraw, where there is one.
   void use(ColorMap map, std::optional<ColorMap> lens_map = std::nullopt);
 
  private:
+  Into into_;
   GlProgram program_;  ///< compiled at the first use
   ColorTables tables_;
 };

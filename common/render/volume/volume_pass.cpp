@@ -19,6 +19,7 @@
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
+#include "common/render/line/line_layers.h"
 #include "common/render/volume/context_picture.h"
 #include "common/render/volume/converged_volume.h"
 #include "common/render/volume/kept_volume.h"
@@ -48,6 +49,8 @@ constexpr std::array<std::array<const char*, 6>, 4> kFragments{
       "volume/focus_magnified_colored.frag"},
      {nullptr, nullptr, "volume/focus_blended.frag", "volume/focus_blended_colored.frag",
       "volume/focus_blended_magnified.frag", "volume/focus_blended_magnified_colored.frag"}}};
+
+constexpr const char* kLayersDefine = "LAYERS";
 
 const char* fragment_of(Reach reach, Variant variant) {
   return kFragments[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
@@ -87,6 +90,7 @@ struct VolumePass::State {
   std::vector<std::string> defines;  // of all programs
   SceneFrame frame;
   bool asks_tiles = true;
+  const LineLayers* layers = nullptr;
 
   // What was drawn last, and what is kept of it.
   VolumeView shown;                          // of update()
@@ -115,7 +119,7 @@ struct VolumePass::State {
   }
 
   [[nodiscard]] bool keeps_slabs() const {
-    return shown.keep_slabs && !has_regions(shown) && !samples_less_far(shown) &&
+    return shown.keep_slabs && layers == nullptr && !has_regions(shown) && !samples_less_far(shown) &&
            fragment_of(Reach::kSlab, variant) != nullptr;
   }
 
@@ -165,6 +169,7 @@ struct VolumePass::State {
     glBindTextureUnit(volume_shader::kOpaqueDepth, opaque_depth);
     glUniform1i(volume_shader::kHasOpaqueDepth, opaque_depth != 0 ? 1 : 0);
     glUniform3f(volume_shader::kDepthPixel, step, 0.0F, 0.0F);
+    if (layers != nullptr) layers->bind();
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(no_vertices.name());
   }
@@ -172,10 +177,12 @@ struct VolumePass::State {
   // What is shown and what is converged have one program where they are told the same.
   const GlProgram& converged_program() {
     ConvergedVolume& c = *converged;
-    if (c.defines == defines) return program_of(Reach::kAll);
+    std::vector<std::string> told = c.defines;
+    if (layers != nullptr) told.emplace_back(kLayersDefine);
+    if (told == defines) return program_of(Reach::kAll);
     if (!c.program) {
       const char* fragment = fragment_of(Reach::kAll, variant);
-      c.program = compile_program("volume/volume.vert", fragment, shader_files(), c.defines);
+      c.program = compile_program("volume/volume.vert", fragment, shader_files(), told);
       label_object(GpuObject::Kind::kProgram, c.program.name(), std::string(fragment) + ", converged");
       ++cost.programs;
     }
@@ -183,7 +190,7 @@ struct VolumePass::State {
   }
 
   void cast_rays() const {
-    if (asks_tiles) return draw_tiles(textures.tiles().grid());
+    if (asks_tiles && layers == nullptr) return draw_tiles(textures.tiles().grid());
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
@@ -271,6 +278,16 @@ struct VolumePass::State {
 VolumePass::VolumePass() : state_(std::make_unique<State>()) {}
 VolumePass::~VolumePass() = default;
 
+void VolumePass::show_layers(const LineLayers* layers, bool same) {
+  State& s = *state_;
+  if ((layers != nullptr) != (s.layers != nullptr)) {
+    s.slabs.reset();
+    s.kept.reset();
+  }
+  if (!same) s.kept.reset();
+  s.layers = layers;
+}
+
 void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const FrameBlock& block) {
   PALPATE_CHECK(asked.image != nullptr);
   PALPATE_CHECK(asked.samples_per_voxel > 0.0 && std::isfinite(asked.samples_per_voxel));
@@ -279,7 +296,8 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   }
   State& s = *state_;
   VolumeView view = asked;
-  view.storage = storage_of_whole(asked);
+  if (s.layers != nullptr) view.context = {};
+  view.storage = storage_of_whole(view);
   if (s.converged && s.asked != asked.image) s.converged.reset();
   if (s.converged) s.converged->textures.release_bricks();
   const std::uint64_t voxels = s.textures.changes();
@@ -295,6 +313,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   std::vector<std::string> defines = s.textures.shader_defines();
   defines.push_back(s.room.shader_define());
   if (samples_less_far(view)) defines.emplace_back("FAR");
+  if (s.layers != nullptr) defines.emplace_back(kLayersDefine);
   if (defines != s.defines) {
     s.programs = {};
     s.planes = {};

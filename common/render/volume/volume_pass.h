@@ -22,6 +22,8 @@
 
 namespace palpate {
 
+class LineLayers;
+
 class VolumePass {
  public:
   VolumePass();
@@ -36,6 +38,12 @@ class VolumePass {
   /// @param block of the picture that draw() is to make: a volume in bricks holds those that it looks up.
   /// @throws Error as VolumeTextures::update().
   void update(const VolumeView& asked, const SceneFrame& frame, const FrameBlock& block);
+  /// Has rays show transparent lines in their place, too, from the next update() on (null: none any more).
+  /// Nothing is kept of slabs then, and the context of lenses is not drawn alone: what is saved so would have
+  /// to be divided at each line.
+  /// @param layers of each pixel; their content may change with each picture. Outlives the pass.
+  /// @param same whether they are as in the last picture; else no picture is kept.
+  void show_layers(const LineLayers* layers, bool same);
   /// How many bricks there are for the picture: where some of them lack, the same one drawn again has more.
   [[nodiscard]] BrickShare bricks() const noexcept;
 

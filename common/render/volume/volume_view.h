@@ -1,6 +1,7 @@
 /// What a picture shows of a volume, as plain data.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -85,6 +86,7 @@ inline constexpr std::size_t kMostFields = 4;  ///< of one picture, that of the 
 
 /// Who fills preintegrated tables (table_choice.h); the numbers are the same.
 enum class TableMaker : std::uint8_t { kFaster, kProcessor, kGpu };
+inline constexpr std::array<const char*, 3> kTableMakerNames{"faster", "processor", "gpu"};
 
 struct VolumeView {
   std::shared_ptr<const VolumeImage> image;

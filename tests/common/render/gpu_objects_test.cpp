@@ -18,6 +18,7 @@
 #include "common/render/render_image.h"
 #include "common/render/scene_renderer.h"
 #include "tests/common/render/lens/sample_lenses.h"
+#include "tests/common/render/sample_scenes.h"
 
 namespace palpate::test {
 namespace {
@@ -224,6 +225,15 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   expect("a kept picture", made_for(view), {"volume/kept.frag"},
          {"kept volume", "depths of the kept volume"});
   view.keep_picture = false;
+
+  // Transparent lines in the volume, and without it.
+  SceneView lines = scene_of(view);
+  lines.lines = std::make_shared<const std::vector<Line>>(std::vector{polyline({Vec3(-0.5), Vec3(0.5)})});
+  lines.style.opacity = 0.5;
+  made = sorted(render_image(lines, kWidth, kHeight).gpu);
+  expect("transparent lines", made, {"line/line.frag, as layers", "line/sort_layers.comp"}, {});
+  lines.volume->shown = false;
+  EXPECT_EQ(sorted(render_image(lines, kWidth, kHeight).gpu).shaders, kAnyScene);
 
   // A plane that moves.
   view.cuts = {{.kept = {{0.0, 0.0, 1.0}, 0.30}}};
