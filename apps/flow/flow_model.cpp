@@ -226,6 +226,10 @@ void FlowModel::describe_session(Session& session, const InputSpec& /*spec*/, co
   describe_camera(session, view);
   add_option(session, "color",
              settings.color_array.empty() ? std::string(name_of(view.style.color_by)) : settings.color_array);
+  const LineStyle usual;
+  if (view.style.width != usual.width) add_option(session, "line-width", exact_number(view.style.width));
+  if (view.style.opacity != usual.opacity)
+    add_option(session, "line-opacity", exact_number(view.style.opacity));
   add_option(session, "scalar", options.touch.scalar);
 }
 

@@ -25,6 +25,7 @@ SceneUse use_of(const Input& input, const Options& options) {
 
 void style(const Options& options, SceneView& view) {
   style_projection(options, view);
+  style_lines(options.view, view.style);
   // Any other name is an array of the input: the model knows it once that is open.
   for (int i = 0; i < kColorByCount; ++i) {
     const auto by = static_cast<ColorBy>(i);

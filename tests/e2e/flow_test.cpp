@@ -275,6 +275,8 @@ TEST_F(Flow, ColoursLinesByMeasuresAndArrays) {
     return png.substr(png.find("IDAT"));  // without the text, which names the colour
   };
   EXPECT_NE(picture({"--example", "abc"}, "speed"), picture({"--example", "abc"}, "vorticity"));
+  EXPECT_NE(picture({"--example", "abc", "--line-opacity", "0.3"}, "speed"),
+            picture({"--example", "abc", "--line-width", "9"}, "speed"));
   const auto disk = shared_data("flow/disk/disk_out_ref.ex2");
   if (disk.empty()) GTEST_SKIP() << "sample data missing: flow/disk/disk_out_ref.ex2";
   EXPECT_NE(picture({disk.string()}, "speed"), picture({disk.string()}, "Temp"));

@@ -1,6 +1,7 @@
 #include "common/app/cli/input_model.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include "common/app/cli/lens_text.h"
 #include "common/app/cli/line_view.h"
@@ -51,6 +52,8 @@ void describe_rays(Session& session, const VolumeView& volume) {
   if (volume.storage.memory > 0)
     add_option(session, "gpu-memory",
                exact_number(std::ldexp(static_cast<double>(volume.storage.memory), -20)));
+  if (volume.table_maker != TableMaker::kFaster)
+    add_option(session, "tables", kTableMakerNames[static_cast<std::size_t>(volume.table_maker)]);
   if (volume.context.level > 0) add_option(session, "context-level", std::to_string(volume.context.level));
   add_option(session, "shading", volume.shading ? "on" : "off");
 }

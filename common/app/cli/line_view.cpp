@@ -57,6 +57,11 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
          short_number(angles.zoom);
 }
 
+void style_lines(const ViewOptions& options, LineStyle& style) {
+  style.width = options.line_width;
+  style.opacity = options.line_opacity;
+}
+
 SceneView make_line_view(const Input& input, const VectorField& field,
                          std::shared_ptr<const std::vector<Line>> lines, const Options& options,
                          const LineStyle& style, double aspect) {
@@ -65,6 +70,7 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   view.lines = std::move(lines);
   view.outline = domain_outline(field);
   view.style = style;
+  style_lines(options.view, view.style);
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);

@@ -36,6 +36,9 @@ inline constexpr double kViewDiagonals = 1.0;
 /// them.
 [[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
 
+/// Sets what `--line-width` and `--line-opacity` say.
+void style_lines(const ViewOptions& options, LineStyle& style);
+
 /// A scene of `lines` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,

@@ -80,6 +80,8 @@ struct ViewOptions {
   std::string camera;            ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
   std::string focal;             ///< x,y,z in the middle of the picture; empty: the middle of what is shown
   std::string color;             ///< array that colours the lines; empty: speed
+  double line_width = 3.0;       ///< LineStyle::width
+  double line_opacity = 1.0;     ///< LineStyle::opacity
   double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
   double play_rate = 5.0;        ///< time steps a second
   std::string stereo = "none";   ///< kStereoModeNames

@@ -1,6 +1,10 @@
 #include "common/app/cli/view_command_line.h"
 
+#include <string>
+#include <vector>
+
 #include "common/app/cli/heart_command_line.h"
+#include "common/render/volume/volume_view.h"
 
 namespace palpate {
 namespace {
@@ -106,7 +110,7 @@ void add_storage(SceneOptions& options, VolumeOptions& volume) {
            "who fills preintegrated tables: processor, gpu (compute shaders; the same numbers) or the faster "
            "one of these, which --explain tells; default faster",
            "NAME", kGroup)
-      ->check(CLI::IsMember({"faster", "processor", "gpu"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kTableMakerNames.begin(), kTableMakerNames.end())));
 }
 
 void add_volume(SceneOptions& options, VolumeOptions& volume) {
@@ -121,6 +125,19 @@ void add_volume(SceneOptions& options, VolumeOptions& volume) {
   add_lenses(options, volume, "the same inside lenses; without it the denser half of what is seen outside");
   add_rays(options, volume);
   add_storage(options, volume);
+}
+
+void add_line_look(SceneOptions& options, ViewOptions& view) {
+  options
+      .add("--line-width", view.line_width, "of lines, in thousandths of the picture's height; default 3",
+           "W", kGroup)
+      ->check(CLI::Range(0.1, 1000.0));
+  options
+      .add(
+          "--line-opacity", view.line_opacity,
+          "of lines; in a volume what lies before them veils them, and they veil what lies behind; default 1",
+          "0..1", kGroup)
+      ->check(CLI::Range(0.01, 1.0));
 }
 
 void add_flow_volume(SceneOptions& options, VolumeOptions& volume) {
@@ -243,6 +260,7 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
                   "what colours the lines: speed, time, arc, error, direction, termination, seed, vorticity, "
                   "q, lambda2, divergence, or an array of the file",
                   "NAME", kGroup);
+      add_line_look(options, bound.view);
       add_flow_volume(options, bound.volume);
       add_plane_images(options, bound.volume);
       add_projection(options, bound.volume);

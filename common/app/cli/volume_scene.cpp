@@ -14,6 +14,7 @@
 #include "common/app/cli/line_view.h"
 #include "common/app/cli/plane_image_text.h"
 #include "common/app/cli/volume_fields.h"
+#include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/color_transfer_file.h"
@@ -201,9 +202,9 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Options& options)
   volume.far_sampling = options.volume.far_sampling;
   volume.context.viewport = options.volume.context_viewport;
   volume.context.level = options.volume.context_level;
-  volume.table_maker = options.volume.tables == "gpu"         ? TableMaker::kGpu
-                       : options.volume.tables == "processor" ? TableMaker::kProcessor
-                                                              : TableMaker::kFaster;
+  const auto maker = std::ranges::find(kTableMakerNames, options.volume.tables);
+  PALPATE_CHECK(maker != kTableMakerNames.end());
+  volume.table_maker = static_cast<TableMaker>(maker - kTableMakerNames.begin());
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/app/cli/line_view.h"
 #include "common/base/error.h"
 #include "common/scene/session.h"
 #include "tests/support/temp_folder.h"
@@ -111,6 +112,7 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
   options.volume.lenses = {"sphere:2,3,4,0.5,field=mass"};
   options.volume.clips = {"1,0,0,3"};
   options.volume.projection = "orthographic";
+  options.volume.tables = "processor";
   FlowModel model(options, "flow");
   Progress progress;
   const SceneState state = model.start(progress);
@@ -118,11 +120,17 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
   view.volume = state.volume;
   view.bounds = state.info->bounds;
   view.camera = make_camera(view.bounds, {}, 1.0, Projection::kOrthographic);
+  options.view.line_width = 2.5;
+  options.view.line_opacity = 0.3;
+  style_lines(options.view, view.style);
   const Session session = load_session(model.save_session(state.settings, view, {}));
   EXPECT_TRUE(has_option(session, "volume", "speed,mass"));
   EXPECT_TRUE(has_option(session, "resample", "7"));
   EXPECT_TRUE(has_option(session, "transfer-function", "ct"));
   EXPECT_TRUE(has_option(session, "projection", "orthographic"));
+  EXPECT_TRUE(has_option(session, "tables", "processor"));
+  EXPECT_TRUE(has_option(session, "line-width", "2.5"));
+  EXPECT_TRUE(has_option(session, "line-opacity", "0.3"));
   EXPECT_TRUE(has_option(session, "lens", "halfspace:1,0,0,3,cut;sphere:2,3,4,0.5,field=mass"))
       << "as the command line takes it";
 }
