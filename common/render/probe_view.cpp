@@ -36,7 +36,8 @@ ValueRange force_range(const ProbeView& view) noexcept {
 }
 
 bool same_picture(const ProbeView& a, const ProbeView& b) noexcept {
-  return same_place(a.probe, b.probe) && same_place(a.proxy, b.proxy) && same_number(a.force, b.force) &&
+  return same_place(a.probe, b.probe) && same_place(a.proxy, b.proxy) &&
+         std::ranges::equal(a.links, b.links, same_place) && same_number(a.force, b.force) &&
          same_number(a.force_cap, b.force_cap) && a.show_force == b.show_force &&
          same_place(a.velocity, b.velocity) && same_number(a.reference_speed, b.reference_speed) &&
          a.tensor == b.tensor && a.followed == b.followed && a.path == b.path && a.seeds == b.seeds &&

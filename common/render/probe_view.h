@@ -76,6 +76,7 @@ struct KeptLine {
 struct ProbeStyle {
   double probe_size = 16.0;     ///< diameter
   double proxy_size = 22.0;     ///< diameter
+  double link_size = 13.0;      ///< diameter of further proxies of a chain
   double ball_size = 16.0;      ///< diameter
   double seed_size = 10.0;      ///< diameter
   double handle_size = 13.0;    ///< diameter
@@ -95,8 +96,11 @@ struct ProbeStyle {
 };
 
 struct ProbeView {
-  Vec3 probe{HUGE_VAL};    ///< where the hand is
-  Vec3 proxy{HUGE_VAL};    ///< where the constraints let it be
+  Vec3 probe{HUGE_VAL};  ///< where the hand is
+  Vec3 proxy{HUGE_VAL};  ///< where the constraints let it be
+  /// Proxies of all links of a chain, in its order (Ikits 2006, figure 6.7): smaller balls stand at those
+  /// other than `proxy`, thin lines between them. Empty: there is one.
+  std::vector<Vec3> links;
   double force = 0.0;      ///< [N], size of the force on the hand
   double force_cap = 0.0;  ///< [N], the largest that the safety stage lets through; 0: no band, no colours
   bool show_force = true;  ///< write the newtons beside the band

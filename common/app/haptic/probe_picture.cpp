@@ -13,6 +13,13 @@ double ball_interval(const VectorField& field, const Workspace& workspace) noexc
   return kTicks * default_tick_interval(field, workspace);
 }
 
+std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < step.links; ++i)
+    places.push_back(workspace.data_from_workspace(step.proxies[static_cast<std::size_t>(i)]));
+  return places;
+}
+
 ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
                       const DeviceLimits& limits, ColorBy color_by) {
   const Workspace& workspace = scene.workspace;
@@ -33,6 +40,7 @@ ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const Hap
     view.force = glm::length(step.force);
     taken->append(view.proxy, view.force);
   }
+  view.links = link_proxies(step.chain, workspace);
   view.path = PathView{taken, taken->size(), std::nullopt};
   if (scene.field) {
     CellHint hint;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "common/app/haptic/haptic_mode.h"
 #include "common/device/device.h"
 #include "common/device/probe_path.h"
+#include "common/haptics/proxy_chain.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -13,8 +15,11 @@ namespace palpate {
 /// Time between stream balls [data units].
 [[nodiscard]] double ball_interval(const VectorField& field, const Workspace& workspace) noexcept;
 
-/// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxy, the line
-/// that is followed then, and where the proxy has been.
+/// The proxies of all links [data units], in the order of the chain.
+[[nodiscard]] std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace);
+
+/// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
+/// line that is followed then, and where the first proxy has been.
 [[nodiscard]] ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
                                     const DeviceLimits& limits, ColorBy color_by);
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/app/haptic/chain_description.h"
 #include "common/field/vector_field.h"
@@ -19,8 +20,9 @@ struct ProbeReadout {
   ForceCut cut = ForceCut::kNone;
   Vec3 probe{0.0};
   Vec3 proxy{0.0};
-  std::string cell;    ///< of the grid, at the proxy: a number, or i j k; empty where there is none
-  Vec3 velocity{0.0};  ///< at the proxy, of a flow; meaningless where `sampled` is false
+  std::vector<Vec3> links;  ///< the proxies of all links, in the order of the chain
+  std::string cell;         ///< of the grid, at the proxy: a number, or i j k; empty where there is none
+  Vec3 velocity{0.0};       ///< at the proxy, of a flow; meaningless where `sampled` is false
   bool sampled = false;
   std::optional<Mat3> tensor;    ///< at the proxy, of an image of tensors; none where there is none
   std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data

@@ -91,6 +91,7 @@ void ProbeSession::take(const HandStep& step) {
   readout_.cut = step.cut;
   readout_.probe = workspace.data_from_workspace(step.probe);
   readout_.proxy = proxy;
+  readout_.links = link_proxies(step.chain, workspace);
   readout_.residual = step.chain.residual / workspace.scale();
   readout_.force = force;
   constexpr double kMillimetres = 1e3;
@@ -159,6 +160,8 @@ void ProbeSession::ask_local(const Camera& camera) {
 void ProbeSession::describe(ProbeView& view) const {
   view.probe = readout_.held ? readout_.probe : Vec3{kNotThere};
   view.proxy = readout_.held ? readout_.proxy : Vec3{kNotThere};
+  view.links.clear();
+  if (readout_.held && !dial_) view.links = readout_.links;
   view.force = readout_.force;
   view.force_cap = options_.limits.force_cap;
   view.velocity = readout_.held && readout_.sampled ? readout_.velocity : Vec3{0.0};

@@ -177,6 +177,7 @@ SceneView ExplorerWindow::with_focus() const {
     if (picture.probe) {
       picture.probe->probe += moved;
       picture.probe->proxy += moved;
+      for (Vec3& proxy : picture.probe->links) proxy += moved;
     }
   }
   const bool hand = touch_->readout().held || !touch_->kept().entries().empty();

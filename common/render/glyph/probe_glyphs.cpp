@@ -124,6 +124,17 @@ void add_seeds(Builder& builder, const ProbeView& probe, const Palette& colors) 
   for (const Vec3& seed : seeds.seeds) builder.sphere(seed, probe.style.seed_size, colors.ink);
 }
 
+// The proxies of a chain beside the one that stands for it.
+void add_links(Builder& builder, const ProbeView& probe, const Palette& colors) {
+  constexpr double kLinkWidth = 2.5;  // thousandths of the picture's height
+  for (std::size_t i = 0; i < probe.links.size(); ++i) {
+    if (probe.links[i] != probe.proxy) builder.sphere(probe.links[i], probe.style.link_size, colors.proxy);
+    if (i > 0)
+      builder.tube(
+          probe.links[i - 1], probe.links[i], [](double) { return kLinkWidth; }, colors.proxy);
+  }
+}
+
 }  // namespace
 
 bool colored_by_value(const LineStyle& style) noexcept {
@@ -143,6 +154,7 @@ ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame, co
     builder.sphere(probe.proxy, probe.style.proxy_size, colors.proxy);
   }
   builder.sphere(probe.probe, probe.style.probe_size, colors.ink);
+  add_links(builder, probe, colors);
   if (is_finite(probe.probe) && is_finite(probe.proxy) && probe.force_cap > 0.0) {
     builder.tube(
         probe.probe, probe.proxy,

@@ -256,7 +256,9 @@ TEST(ProbeSession, ChoicesTakeEffectWhileTheHandIsOn) {
 
   choice.ticks = true;  // another chain: with a second link
   hand.session.choose(choice);
-  EXPECT_TRUE(hand.wait_for([&] { return readout.servo.hand.chain.links == 2; }));
+  EXPECT_TRUE(hand.wait_for([&] { return hand.view.links.size() == 2; })) << "both are in the picture";
+  EXPECT_EQ(readout.servo.hand.chain.links, 2);
+  EXPECT_EQ(hand.view.links.front(), hand.view.proxy) << "the line's is the hand's";
   choice.ticks = false;
   choice.mode = 1;
   hand.session.choose(choice);

@@ -40,6 +40,37 @@ TEST(ProbeGlyphs, SizesAreInThousandthsOfTheHeight) {
   }
 }
 
+// A chain: a smaller ball for each proxy but the one that stands for it, and thin lines from link to link.
+TEST(ProbeGlyphs, ShowAllProxiesOfAChain) {
+  SceneView view = simple_view(0.3);
+  const ProbeView alone = *view.probe;
+  const Vec3 second{0.3, 0.2, 0.0}, third{0.1, 0.2, 0.0};
+  view.probe->links = {view.probe->proxy, second, third};
+  EXPECT_FALSE(same_picture(*view.probe, alone));
+  ProbeGlyphs glyphs = glyphs_of(view);
+  ASSERT_EQ(glyphs.spheres.size(), 4U);  // proxy, probe, two links
+  for (const std::size_t i : {2U, 3U}) {
+    EXPECT_LT(glyphs.spheres[i].radius, glyphs.spheres[0].radius);
+    EXPECT_EQ(glyphs.spheres[i].color, glyphs.spheres[0].color);
+  }
+  EXPECT_EQ(glyphs.spheres[2].center, Vec3f(second));
+  EXPECT_EQ(glyphs.spheres[3].center, Vec3f(third));
+  ASSERT_EQ(glyphs.arrows.size(), 3U);  // two lines, the band
+  EXPECT_LT(glyphs.arrows[1].shaft_radius, glyphs.arrows[2].shaft_radius) << "thinner than the band";
+  EXPECT_FLOAT_EQ(glyphs.arrows[0].shaft_length, 0.2F);
+  EXPECT_EQ(glyphs.arrows[1].origin, Vec3f(second));
+
+  // On a heart the last link stands for the chain.
+  view.probe->proxy = third;
+  EXPECT_EQ(glyphs_of(view).spheres[2].center, Vec3f(0.3F, 0.0F, 0.0F));
+  // One link is the proxy itself; what is not finite is not drawn.
+  view.probe->links = {third};
+  EXPECT_EQ(glyphs_of(view).spheres.size(), 2U);
+  view.probe->links = {third, Vec3(HUGE_VAL)};
+  EXPECT_EQ(glyphs_of(view).spheres.size(), 2U);
+  EXPECT_EQ(glyphs_of(view).arrows.size(), 1U);
+}
+
 TEST(ProbeGlyphs, BandThinsAsItStretchesAndTakesTheColourOfTheTension) {
   float before = 1e9F;
   for (const double stretch : {0.01, 0.1, 0.3, 0.6}) {
