@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr auto kFiles = std::to_array<std::string_view>(
     {"index.html", "report.json", "work_precision.csv", "work_precision.svg", "stability.csv",
-     "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg",
+     "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg",
      // of sections
      "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
      "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
@@ -160,11 +160,13 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     write_part("constraint.csv", constraint_csv);
     write_part("constraint_force.svg", constraint_force_plot);
     write_part("constraint_distance.svg", constraint_distance_plot);
+    const auto write_named = [&](const std::string& name, const std::string& content) {
+      PALPATE_CHECK(std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end());
+      write_file(temporary / name, content);
+    };
     for (const ReportSection& section : report.sections) {
-      for (const ReportPlot& plot : section.plots) {
-        PALPATE_CHECK(std::find(kFiles.begin(), kFiles.end(), plot.file) != kFiles.end());
-        write_file(temporary / plot.file, plot.content);
-      }
+      for (const ReportPlot& plot : section.plots) write_named(plot.file, plot.content);
+      if (!section.csv.file.empty()) write_named(section.csv.file, section.csv.content);
     }
   } catch (const Error&) {
     fs::remove_all(temporary, error);

@@ -19,7 +19,10 @@ std::string section_html(const ReportSection& section) {
     for (const std::string& text : row) out += cell(text);
     out += "</tr>\n";
   }
-  return out + "</table>\n";
+  out += "</table>\n";
+  if (section.csv.file.empty()) return out;
+  const std::string file = escaped(section.csv.file);
+  return out + "<p><a href=\"" + file + "\">" + file + "</a></p>\n";
 }
 
 }  // namespace palpate

@@ -14,6 +14,12 @@ struct ReportPlot {
   std::string content;  ///< of the file: SVG, or the bytes of a PNG
 };
 
+/// The table with all digits, as a file of its own.
+struct ReportCsv {
+  std::string file;  ///< as ReportPlot::file; empty: there is none
+  std::string content;
+};
+
 /// A number that is neither error nor time, for report.json.
 struct Measurement {
   std::string subject;    ///< "virtual wall, delay"
@@ -29,6 +35,7 @@ struct ReportSection {
   std::vector<ReportPlot> plots;
   std::vector<std::string> columns;             ///< headings; the first column holds text
   std::vector<std::vector<std::string>> table;  ///< rows of as many cells
+  ReportCsv csv;
   std::vector<WorkPrecision> work_precision;    ///< for report.json
   std::vector<Measurement> measurements;        ///< likewise
 };

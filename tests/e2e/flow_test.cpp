@@ -372,6 +372,7 @@ TEST_F(Flow, ReportsErrorAgainstTime) {
   }
   EXPECT_GE(constraint_rows, 100U);
   for (const Json& row : report["stability"]) EXPECT_TRUE(row["holds"].get<bool>()) << row["case"];
+  EXPECT_NE(read_file(folder_.path("r/resampling.csv")).find("\"speed\",64,"), std::string::npos);
   EXPECT_EQ(run({"report", "--example", "saddle", "--quick", "--out", "r"}).exit_code, 2);
 }
 

@@ -88,24 +88,6 @@ std::optional<UniformTopology> image_lattice(const VectorField& field) {
   return lattice;
 }
 
-/// A scalar of the flow at any place.
-ScalarSampler sampler_of(const std::string& name, Input& input,
-                         const std::shared_ptr<const VectorField>& field, int threads, Progress* progress) {
-  if (const std::optional<Measure> measure = measure_of(name)) {
-    return
-        [field, measure](const Vec3& x, CellHint& hint) { return sample_measure(*field, *measure, x, hint); };
-  }
-  std::shared_ptr<const ScalarField> scalar;
-  if (name == kSpeed) {
-    scalar = make_speed_field(field);
-  } else {
-    const ScalarChoice choice = *array_of(input, name);
-    if (progress) progress->begin("reading " + name, 0);
-    scalar = make_scalar_field(*field, input.read({choice.array}, progress), choice, file_of(input), threads);
-  }
-  return [scalar](const Vec3& x, CellHint& hint) { return scalar->sample(x, hint); };
-}
-
 /// An array on an image, in the type of its file.
 std::shared_ptr<const VolumeImage> own_voxels(Input& input, const ScalarChoice& choice, Progress* progress) {
   if (progress) progress->begin("reading " + choice.array, 0);
@@ -200,6 +182,23 @@ std::string taken_text(const TakenScalar& taken) {
   return text;
 }
 
+ScalarSampler flow_sampler(const std::string& name, Input& input,
+                           const std::shared_ptr<const VectorField>& field, int threads, Progress* progress) {
+  if (const std::optional<Measure> measure = measure_of(name)) {
+    return
+        [field, measure](const Vec3& x, CellHint& hint) { return sample_measure(*field, *measure, x, hint); };
+  }
+  std::shared_ptr<const ScalarField> scalar;
+  if (name == kSpeed) {
+    scalar = make_speed_field(field);
+  } else {
+    const ScalarChoice choice = *array_of(input, name);
+    if (progress) progress->begin("reading " + name, 0);
+    scalar = make_scalar_field(*field, input.read({choice.array}, progress), choice, file_of(input), threads);
+  }
+  return [scalar](const Vec3& x, CellHint& hint) { return scalar->sample(x, hint); };
+}
+
 FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorField>& field,
                             const std::vector<std::string>& names, const std::string& resample, int threads,
                             Progress* progress) {
@@ -213,7 +212,7 @@ FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorFiel
       image = own_voxels(input, *array, progress);
     } else {
       const UniformTopology lattice = lattice_for(*field, name, resample);
-      const ScalarSampler sampler = sampler_of(name, input, field, threads, progress);
+      const ScalarSampler sampler = flow_sampler(name, input, field, threads, progress);
       const DataSet block = take_scalar(sampler, name, lattice, threads, progress);
       volume.taken.push_back({name, lattice.points, lattice_error(sampler, block, threads, progress)});
       image = make_volume_image(block, name, input.title());

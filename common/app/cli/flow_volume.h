@@ -47,6 +47,12 @@ struct TakenScalar {
 /// worst; …"
 [[nodiscard]] std::string taken_text(const TakenScalar& taken);
 
+/// A scalar of the flow at any place.
+/// @param name a scalar of flow_scalars(), not of another file. @throws Error, Cancelled where it is read.
+[[nodiscard]] ScalarSampler flow_sampler(const std::string& name, Input& input,
+                                         const std::shared_ptr<const VectorField>& field, int threads,
+                                         Progress* progress);
+
 struct FlowVolume {
   TangibleVolume voxels;           ///< those of the first name as `image`; nothing of it is felt
   std::vector<TakenScalar> taken;  ///< those that were resampled or derived

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "common/app/cli/flow_volume.h"
 #include "common/app/cli/report_output.h"
 #include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
@@ -9,9 +11,11 @@
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/scalar_choice.h"
 #include "common/report/constraint_studies.h"
 #include "common/report/haptic_stability.h"
 #include "common/report/report.h"
+#include "common/report/resampling.h"
 #include "common/report/stability_sweep.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
@@ -64,6 +68,22 @@ std::string figures_text(const Report& report) {
             short_number(row.force_error.max) + " N, " + short_number(row.us_p99) + " us a step\n";
   }
   return text;
+}
+
+/// What it costs to draw scalars of the flow from another grid: the speed, which every flow has, and the
+/// first scalar of the file.
+ReportSection resampling(Input& input, const std::shared_ptr<const VectorField>& field,
+                         const Options& options, Effort effort, Progress* progress) {
+  std::vector<ResampledScalar> scalars;
+  const auto add = [&](const std::string& name) {
+    scalars.push_back({name, flow_sampler(name, input, field, options.common.threads, progress)});
+  };
+  add("speed");
+  const std::vector<ScalarChoice> choices = scalar_choices(input.arrays());
+  if (!choices.empty() && choices.front().component != ScalarChoice::kMagnitude)
+    add(label_of(choices.front(), input.arrays()));
+  return resampling_section(
+      input.title(), run_resampling(scalars, field->bounds(), effort, options.common.threads, progress));
 }
 
 ExitCode run_report(const Options& options, const VerbContext& context) {
@@ -121,6 +141,7 @@ ExitCode run_report(const Options& options, const VerbContext& context) {
   }
   report.stability = run_stability(stability, &context.progress);
   append(run_haptic_stability(field, report.constraint, stability, &context.progress), report.stability);
+  report.sections.push_back(resampling(input, field, options, effort, &context.progress));
   add_constraint_studies(report, effort, &context.progress);
   WallStability wall = run_wall_stability(options.common.threads, &context.progress);
   append(std::move(wall.cases), report.stability);
