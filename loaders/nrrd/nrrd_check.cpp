@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/load/gzip_head.h"
+#include "common/load/numbered_files.h"
 #include "common/load/sniff.h"
 #include "loaders/nrrd/gzip_rest.h"
 
@@ -83,40 +85,9 @@ std::vector<std::string> words(const std::string& text) {
 
 /// "name%03d.raw 1 20 1 [subdim]": the names that it stands for.
 void add_numbered(const std::vector<std::string>& parts, NrrdClaims& claims) {
-  const std::string& format = parts[0];
-  // One %d with optional zero and width; anything else is not expanded, and Teem would refuse it too.
-  const std::size_t percent = format.find('%');
-  std::size_t end = percent + 1;
-  while (end < format.size() && std::isdigit(static_cast<unsigned char>(format[end])) != 0) ++end;
-  const bool plain = percent != std::string::npos && end < format.size() && format[end] == 'd' &&
-                     end - percent <= 4 && format.find('%', end) == std::string::npos;
-  const auto parse = [](const std::string& text) -> std::optional<long long> {
-    long long value = 0;
-    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || last != text.data() + text.size()) return std::nullopt;
-    return value;
-  };
-  const auto first = parse(parts[1]);
-  const auto last = parse(parts[2]);
-  const auto step = parse(parts[3]);
-  constexpr long long kLargest = 1'000'000'000;
-  if (!plain || !first || !last || !step || *step == 0 || std::abs(*first) > kLargest ||
-      std::abs(*last) > kLargest || std::abs(*step) > kLargest) {
-    claims.problem = "its list of data files makes no sense";
-    return;
-  }
-  const std::string digits = format.substr(percent + 1, end - percent - 1);
-  const std::size_t width = std::min<std::size_t>(number(digits).value_or(0), 100);
-  const bool zeros = !digits.empty() && digits.front() == '0';
-  for (long long i = *first; *step > 0 ? i <= *last : i >= *last; i += *step) {
-    std::string text = std::to_string(i);
-    if (text.size() < width) text.insert(0, width - text.size(), zeros ? '0' : ' ');
-    claims.data_files.push_back(format.substr(0, percent) + text + format.substr(end + 1));
-    if (claims.data_files.size() > kMaxDataFiles) {
-      claims.problem = "names too many data files";
-      return;
-    }
-  }
+  NumberedFiles files = numbered_files(parts[0], parts[1], parts[2], parts[3], kMaxDataFiles);
+  claims.problem = std::move(files.problem);
+  claims.data_files.insert(claims.data_files.end(), files.names.begin(), files.names.end());
 }
 
 void read_field(const std::string& field, const std::string& value, NrrdClaims& claims, bool& list_follows) {

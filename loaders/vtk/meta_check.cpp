@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,13 +14,15 @@
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
 #include "common/load/gzip_head.h"
+#include "common/load/numbered_files.h"
 #include "common/load/sniff.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMetaHeadBytes = std::size_t{64} << 10;
+constexpr std::size_t kMetaHeadBytes = std::size_t{4} << 20;  // with a long list of files
 constexpr std::size_t kLongestLine = 1000;
+constexpr std::size_t kMostPieces = 100'000;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
 
 std::string_view trim(std::string_view text) {
@@ -73,7 +76,48 @@ struct Fields {
   std::vector<std::string_view> size;
   std::uint64_t bytes = 0;
   std::int64_t channels = 1;
+  std::int64_t piece_axes = 0;  ///< of the files of a list; 0: not stated
+  bool list = false;            ///< their names follow
+  bool numbered = false;
 };
+
+/// "file%03d.raw [FIRST [LAST [STEP]]]", by default as many from 1 on as the last axis has. The names are
+/// made when that is known.
+void read_numbered(const std::vector<std::string_view>& parts, Fields& fields, MetaClaims& claims) {
+  if (fields.size.empty()) {
+    claims.problem = "names numbered files before 'DimSize'";
+    return;
+  }
+  const std::string_view first = parts.size() > 1 ? parts[1] : "1";
+  const std::string_view step = parts.size() > 3 ? parts[3] : "1";
+  const auto from = number(first), count = number(fields.size.back());
+  constexpr std::int64_t kMost = std::int64_t{1} << 30;
+  const bool counted = from && count && *from > -kMost && *from<kMost&& * count> 0 && *count <= kMost;
+  const std::string last = parts.size() > 2 ? std::string(parts[2])
+                           : counted        ? std::to_string(*from + *count - 1)
+                                            : std::string();
+  NumberedFiles files = numbered_files(parts[0], first, last, step, kMostPieces);
+  claims.problem = std::move(files.problem);
+  claims.pieces = std::move(files.names);
+  fields.numbered = true;
+}
+
+void read_data_file(std::string_view value, Fields& fields, MetaClaims& claims) {
+  const std::vector<std::string_view> parts = words(value);
+  if (parts.empty()) {
+    claims.problem = "'ElementDataFile' names no file";
+  } else if (parts[0] == "LIST") {
+    fields.list = true;
+    const auto axes = parts.size() > 1 ? number(parts[1]) : std::optional<std::int64_t>(0);
+    if (!axes || *axes < 0 || *axes > 3 || parts.size() > 2)
+      claims.problem = "'ElementDataFile' is '" + std::string(value.substr(0, 40)) + "'";
+    fields.piece_axes = axes.value_or(0);
+  } else if (parts[0].find('%') != std::string_view::npos && parts.size() <= 4) {
+    read_numbered(parts, fields, claims);
+  } else if (value != "LOCAL" && value != "Local" && value != "local") {
+    claims.data_file = value;
+  }
+}
 
 void read_field(std::string_view key, std::string_view value, Fields& fields, MetaClaims& claims) {
   const auto count = [&](std::int64_t least, std::int64_t most) {
@@ -102,11 +146,7 @@ void read_field(std::string_view key, std::string_view value, Fields& fields, Me
   } else if (key == "HeaderSize") {
     claims.skip = count(-1, static_cast<std::int64_t>(kMaxBytes));
   } else if (key == "ElementDataFile") {
-    if (value == "LIST" || words(value).size() != 1) {
-      claims.problem = "has its voxels in a list of files, expected LOCAL or one file";
-    } else if (value != "LOCAL" && value != "Local" && value != "local") {
-      claims.data_file = value;
-    }
+    read_data_file(value, fields, claims);
   }
 }
 
@@ -130,6 +170,52 @@ void combine(const Fields& fields, MetaClaims& claims) {
     claims.size[axis] = static_cast<std::uint64_t>(*found);
   }
   claims.bytes_per_voxel = fields.bytes * static_cast<std::uint64_t>(fields.channels);
+  if (!fields.list && !fields.numbered) return;
+  const bool stated = fields.piece_axes > 0 && fields.piece_axes <= fields.axes;
+  claims.piece_count = 1;
+  for (std::int64_t axis = stated ? fields.piece_axes : fields.axes - 1; axis < fields.axes; ++axis)
+    claims.piece_count *= claims.size[static_cast<std::size_t>(axis)];  // 2^30 each, of two at most
+  if (claims.compressed || !claims.binary) {
+    claims.problem = "has its voxels in a list of files, and not as plain bytes there";
+  } else if (claims.pieces.size() != claims.piece_count) {
+    claims.problem = "names " + std::to_string(claims.pieces.size()) + " files of voxels, expected " +
+                     std::to_string(claims.piece_count);
+  }
+}
+
+// Relative names start from the header's folder.
+std::string beside(const std::string& file, const std::string& name) {
+  return (std::filesystem::path(file).parent_path() / name).string();
+}
+
+/// Of each piece, without what is passed over. @pre meta_size_problem() of all of it is empty.
+std::uint64_t piece_bytes(const MetaClaims& claims) {
+  return claims.bytes_per_voxel * claims.size[0] * claims.size[1] * claims.size[2] / claims.piece_count;
+}
+
+void check_pieces(const MetaClaims& claims, const std::string& file) {
+  std::uint64_t there = 0;
+  std::vector<std::uint64_t> sizes;
+  for (const std::string& name : claims.pieces) {
+    try {
+      sizes.push_back(read_head(beside(file, name), 0).file_size);
+    } catch (const Error& error) {
+      throw input_error({file, "ElementDataFile", error.what()});
+    }
+    there += sizes.back();
+  }
+  const std::string problem = meta_size_problem(claims, there);
+  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+  const std::uint64_t wanted = piece_bytes(claims);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::uint64_t skip = claims.skip > 0 ? static_cast<std::uint64_t>(claims.skip) : 0;
+    const bool right = sizes[i] >= wanted && (claims.skip < 0 || sizes[i] - wanted == skip);
+    if (right) continue;
+    throw input_error(
+        {file, "ElementDataFile", claims.pieces[i] + " has " + std::to_string(sizes[i]) + " bytes",
+         std::to_string(wanted) + " of voxels behind " + std::to_string(skip) + " of HeaderSize",
+         "HeaderSize = -1 takes the last ones of each file"});
+  }
 }
 
 /// Where the voxels lie: the file, and how many bytes of it are before them.
@@ -140,9 +226,7 @@ struct VoxelPlace {
 
 VoxelPlace place_of(const MetaClaims& claims, const std::string& file) {
   if (claims.data_file.empty()) return {file, claims.header_bytes};
-  // Relative names start from the header's folder.
-  const std::filesystem::path path = std::filesystem::path(file).parent_path() / claims.data_file;
-  return {path.string(), claims.skip > 0 ? static_cast<std::uint64_t>(claims.skip) : 0};
+  return {beside(file, claims.data_file), claims.skip > 0 ? static_cast<std::uint64_t>(claims.skip) : 0};
 }
 
 MetaClaims claims_of(const std::string& file) {
@@ -159,13 +243,19 @@ MetaClaims read_meta_claims(std::string_view head) {
   Fields fields;
   bool ended = false;
   std::size_t at = 0;
-  while (at < head.size() && claims.problem.empty() && !ended) {
+  while (at < head.size() && claims.problem.empty() && (!ended || fields.list)) {
     const std::size_t end = std::min(head.find('\n', at), head.size());
     const std::string_view line = head.substr(at, end - at);
     at = std::min(end + 1, head.size());
     if (line.size() > kLongestLine) {
       claims.problem = "has a line of " + std::to_string(line.size()) + " bytes in its header";
       break;
+    }
+    if (ended) {
+      if (trim(line).empty()) continue;
+      claims.pieces.emplace_back(trim(line));
+      if (claims.pieces.size() > kMostPieces) claims.problem = "names too many data files";
+      continue;
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
@@ -199,8 +289,30 @@ std::string meta_size_problem(const MetaClaims& claims, std::uint64_t available)
          (claims.compressed ? " packed" : "");
 }
 
+std::vector<std::byte> read_meta_pieces(const std::string& file) {
+  const MetaClaims claims = claims_of(file);
+  std::vector<std::byte> voxels;
+  if (claims.piece_count == 0) return voxels;
+  check_pieces(claims, file);
+  const std::uint64_t bytes = piece_bytes(claims);
+  voxels.reserve(bytes * claims.piece_count);
+  for (const std::string& name : claims.pieces) {
+    const MappedFile mapped(beside(file, name));
+    const std::string_view text = mapped.text();
+    const std::uint64_t skip =
+        claims.skip >= 0 ? static_cast<std::uint64_t>(claims.skip) : text.size() - bytes;
+    if (text.size() < bytes || text.size() - bytes < skip)
+      throw input_error(
+          {file, "ElementDataFile", name + " has changed while it was read", "", "open it again"});
+    const auto part = std::as_bytes(std::span(text.substr(skip, bytes)));
+    voxels.insert(voxels.end(), part.begin(), part.end());
+  }
+  return voxels;
+}
+
 void check_meta(const std::string& file) {
   const MetaClaims claims = claims_of(file);
+  if (claims.piece_count > 0) return check_pieces(claims, file);
   const VoxelPlace place = place_of(claims, file);
   std::uint64_t there = 0;
   try {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <vtkmetaio/metaImage.h>
 
@@ -54,6 +58,7 @@ class MetaLoader : public Loader {
     MetaImage image;
     if (!image.Read(file_.c_str(), false)) refuse();
 
+    big_endian_ = image.BinaryDataByteOrderMSB();
     FileInfo info;
     info.format = name_of(Format::kMetaImage);
     place(image, info);
@@ -122,6 +127,7 @@ class MetaLoader : public Loader {
   DataArray values() const {
     check_meta(file_);
     check_meta_stream(file_);
+    if (auto pieces = read_meta_pieces(file_); !pieces.empty()) return joined(std::move(pieces));
     const auto image = std::make_shared<MetaImage>();
     if (!image->Read(file_.c_str(), true) || image->ElementData() == nullptr) refuse();
     (void)image->ElementByteOrderFix();
@@ -140,7 +146,28 @@ class MetaLoader : public Loader {
     return array;
   }
 
+  // Voxels of several files, which stand in the byte order of the header.
+  DataArray joined(std::vector<std::byte> bytes) const {
+    const std::size_t size = byte_size(array_.type);
+    if (bytes.size() != array_.tuples * static_cast<std::size_t>(array_.components) * size)
+      throw input_error({file_, "", "has changed since it was opened", "", "open it again"});
+    if (big_endian_ != (std::endian::native == std::endian::big)) {
+      for (auto at = bytes.begin(); at != bytes.end(); at += static_cast<std::ptrdiff_t>(size))
+        std::reverse(at, at + static_cast<std::ptrdiff_t>(size));
+    }
+    const auto owner = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+    DataArray array;
+    array.name = array_.name;
+    array.components = array_.components;
+    array.type = array_.type;
+    array.tuples = array_.tuples;
+    array.bytes = *owner;
+    array.owner = owner;
+    return array;
+  }
+
   std::string file_;
+  bool big_endian_ = false;
   UniformTopology topology_;
   ArrayInfo array_;
 };

@@ -9,6 +9,7 @@
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/legacy_check.h"
+#include "loaders/vtk/meta_check.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/xml_scan.h"
 
@@ -19,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   const auto bytes = std::as_bytes(std::span(text));
   const auto tail = bytes.last(std::min(bytes.size(), kPlot3dTailBytes));
-  switch (data[0] % 8) {
+  switch (data[0] % 9) {
     case 0:
       (void)sniff({bytes, tail, bytes.size(), ".ex2"});
       break;
@@ -51,6 +52,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 6:
       (void)ensight_variables(text);
       break;
+    case 7: {
+      const MetaClaims claims = read_meta_claims(text);
+      if (claims.header_bytes > text.size()) __builtin_trap();
+      if (!claims.problem.empty()) break;
+      if (claims.piece_count != claims.pieces.size()) __builtin_trap();
+      (void)meta_size_problem(claims, text.size() - claims.header_bytes);
+      break;
+    }
     default: {
       XmlTags tags(text);
       XmlTag tag;

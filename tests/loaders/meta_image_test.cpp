@@ -1,5 +1,8 @@
 // MetaImage files, written by hand and by VTK, read through the helper program.
 #include <cstring>
+#include <filesystem>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
@@ -50,6 +53,41 @@ TEST(MetaImage, TogetherApartAndInTheOtherByteOrder) {
     Source source = Source::open({{file}, {}});
     EXPECT_EQ(source.info().loader, "palpate-load-meta");
     expect_counting(read_block(source), file);
+  }
+}
+
+// Files one after the other: listed, numbered, by planes or whole, with what comes before their voxels, in
+// either byte order, in other folders as the files of NRRD.
+TEST(MetaImage, InListedAndNumberedFiles) {
+  const test::TempFolder folder;
+  std::filesystem::create_directories(folder.path("sub"));
+  const std::string all = counting(24);
+  std::string listed = "ElementDataFile = LIST\n", plain = listed, lines = "ElementDataFile = LIST 1\n";
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string name = "s" + std::to_string(k) + ".raw";
+    folder.write(name, all.substr(12 * k, 12));
+    std::string turned = all.substr(12 * k, 12);
+    for (std::size_t i = 0; i < turned.size(); i += 2) std::swap(turned[i], turned[i + 1]);
+    folder.write("sub/big0" + std::string(k == 0 ? "" : "0") + std::to_string(10 - 2 * k) + ".raw", turned);
+    folder.write("skip" + std::to_string(k + 1), "0123" + all.substr(12 * k, 12));
+    listed += (k % 2 == 0 ? name : folder.path(name).string()) + "\n";
+    plain += "sub/../" + name + "\r\n";
+  }
+  for (std::size_t j = 0; j < 12; ++j) {
+    folder.write("line" + std::to_string(j), all.substr(4 * j, 4));
+    lines += "line" + std::to_string(j) + "\n";
+  }
+  folder.write("whole", all);
+  std::string big = kHead;
+  big.replace(big.find("MSB = False"), 11, "MSB = True");
+  for (const std::string& content :
+       {kHead + listed, kHead + plain, kHead + lines, kHead + "ElementDataFile = LIST 3\nwhole\n",
+        kHead + "ElementDataFile = s%d.raw 0\n", kHead + "ElementDataFile = s%d.raw 0 3 1\n",
+        big + "ElementDataFile = sub/big%03d.raw 10 4 -2\n",
+        kHead + "HeaderSize = 4\nElementDataFile = skip%d\n",
+        kHead + "HeaderSize = -1\nElementDataFile = skip%d 1 4\n"}) {
+    Source source = Source::open({{folder.write("a.mhd", content)}, {}});
+    expect_counting(read_block(source), content);
   }
 }
 
@@ -113,7 +151,28 @@ TEST(MetaImage, WhatCannotBeReadIsNamed) {
     }
     return "accepted";
   };
-  EXPECT_NE(line(kHead + "ElementDataFile = LIST\na.raw\n").find("list of files"), std::string::npos);
+  const auto expect_named = [&](const std::string& more, const char* words) {
+    const std::string said = line(kHead + more + "\n");
+    EXPECT_NE(said.find(words), std::string::npos) << more << ": " << said;
+  };
+  for (const char* name : {"p1", "p2", "p3"}) folder.write(name, counting(6));
+  folder.write("short", counting(5));
+  folder.write("long", counting(7));
+  expect_named("ElementDataFile = LIST\np1\np2\np3", "names 3 files of voxels, expected 4");
+  expect_named("ElementDataFile = LIST\np1\np2\np3\np1\np2", "names 5 files of voxels, expected 4");
+  expect_named("ElementDataFile = LIST\np1\np2\np3\nlost", "lost");
+  expect_named("ElementDataFile = LIST\np1\np2\np3\nshort", "claims 48 bytes of voxels");
+  expect_named("ElementDataFile = LIST\np1\np2\nlong\nshort", "long has 14 bytes");
+  expect_named("ElementDataFile = LIST\np1\np2\nlong\np3", "HeaderSize = -1");
+  expect_named("ElementDataFile = LIST 4\np1", "'LIST 4'");
+  expect_named("ElementDataFile = LIST -1\np1", "'LIST -1'");
+  expect_named("ElementDataFile = p%d 1 4 1", "p4");
+  for (const char* senseless : {"p%s 1 4 1", "p%n 1 4 1", "p%d%d 1 4 1", "p%d 1 4 0", "p%9999d 1 4 1",
+                                "p%d 1 x 1", "p% 1 4 1", "p%d 99999999999 4 1"})
+    expect_named("ElementDataFile = " + std::string(senseless), "makes no sense");
+  expect_named("ElementDataFile = p%d 1 900000000 1", "too many data files");
+  expect_named("CompressedData = True\nElementDataFile = p%d 1 4 1", "plain bytes");
+  expect_named("ElementDataFile =", "names no file");
   EXPECT_NE(line(kHead + "ElementDataFile = lost.raw\n").find("lost.raw"), std::string::npos);
   std::string axes = kHead;
   axes.replace(axes.find("NDims = 3"), 9, "NDims = 9");
