@@ -93,7 +93,7 @@ struct InfoSummary {
   double largest_trace = 0.0;                 ///< of a tensor field, in the data's units
   std::size_t negative_tensors = 0;           ///< of a tensor field: with an eigenvalue below zero
   std::optional<LinesSummary> tracts;         ///< of a file of lines
-  std::string no_layers;                      ///< why a heart has none and none can be made; empty: it has
+  std::string no_layers;                      ///< why a heart has none and none can be made; empty: they can
   Box bounds;
   std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;

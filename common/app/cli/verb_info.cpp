@@ -233,9 +233,9 @@ void add_field(const Input& input, const Field& field, bool explain, InfoSummary
 }
 
 /// Fibres and layers of a heart. What the file holds is of use without layers, too: why there are none is a
-/// part of the answer.
+/// part of the answer. They are not solved for it.
 void add_heart(Input& input, const Options& options, Progress& progress, InfoSummary& summary) {
-  const Heart heart = input.load_heart(options.common.threads, &progress, {}, LayersNeeded::kIfPossible);
+  const Heart heart = input.load_heart(options.common.threads, &progress, {}, LayersNeeded::kSurfaces);
   summary.field = input.field_label();
   summary.bounds = heart.fibres->bounds();
   summary.no_layers = heart.no_layers;

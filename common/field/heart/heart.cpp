@@ -54,12 +54,19 @@ const char* note_on_directions(const TensorField& fibres, const HeartChoice& cho
 
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
 void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
-                const std::string& file, int threads, KeptLayers* kept, Heart& heart) {
+                const std::string& file, int threads, LayersNeeded layers, KeptLayers* kept, Heart& heart) {
   if (!choice.layer.empty()) {
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
   } else {
     std::optional<WallLayer> layer = kept != nullptr ? kept->find(mesh) : std::nullopt;
+    if (!layer && layers == LayersNeeded::kSurfaces) {
+      std::string found = find_wall_surfaces(*grid, mesh, file).note;
+      heart.notes.emplace_back(
+          "layers by Laplace's equation from the inner to the outer surface, solved when they are needed");
+      heart.notes.push_back(std::move(found));
+      return;
+    }
     if (!layer) {
       const Stopwatch watch;
       layer = make_wall_layer(*grid, mesh, file, threads);
@@ -160,7 +167,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   heart.notes.emplace_back(note_on_directions(*heart.fibres, choice));
   if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
   try {
-    add_layers(grid, mesh, choice, file, threads, kept, heart);
+    add_layers(grid, mesh, choice, file, threads, layers, kept, heart);
   } catch (const Error& error) {
     if (layers == LayersNeeded::kAlways || error.code() == ExitCode::kInterrupted) throw;
     heart.layer = nullptr;

@@ -51,15 +51,16 @@ struct HeartChoice {
 struct Heart {
   std::shared_ptr<const TensorField> fibres;
   std::shared_ptr<const TensorField> sheets;  ///< null: not known
-  std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray
-  std::string no_layers;                      ///< why `layer` is null; empty: it is not
+  std::shared_ptr<const ScalarField> layer;   ///< depth s, named kLayerArray; null: none, or not solved
+  std::string no_layers;                      ///< why none can be made; empty: they can
   std::shared_ptr<const ScalarField> value;  ///< a potential, an activation time: what else is shown; or null
   std::optional<Vec3> axis;                  ///< from apex to base, where the file says it; data coordinates
   std::vector<std::string> notes;            ///< of mesh, fibres and layers, for the user
 };
 
-/// What becomes of a heart without layers of which none can be made: an error, or a Heart that says why.
-enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible };
+/// What becomes of a heart without layers: they are solved, and where they cannot be that is an error, or the
+/// Heart says why; or their surfaces alone are found, which takes little time, where they are not kept.
+enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible, kSurfaces };
 
 /// Points at the very same place count as one (same_points.h).
 /// @param kept where layers are looked for before they are solved, and kept when they were; null: nowhere.

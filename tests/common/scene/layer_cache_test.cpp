@@ -152,10 +152,15 @@ TEST_F(LayerCacheTest, HeartsTakeWhatWasKept) {
   const HeartChoice choice{.fibre = {"fibre", Association::kPoint}, .surface = true};
   LayerCache cache(input(), Keeping::kAlways);
   Counted counted(cache);
+  const Heart unsolved = make_heart(wall(), choice, "wall", 0, LayersNeeded::kSurfaces, &counted);
+  EXPECT_EQ(unsolved.layer, nullptr);
+  EXPECT_EQ(unsolved.no_layers, "") << "they can be solved";
+  EXPECT_EQ(counted.solved, 0);
   const Heart first = make_heart(wall(), choice, "wall", 0, LayersNeeded::kAlways, &counted);
   const Heart second = make_heart(wall(), choice, "wall", 0, LayersNeeded::kAlways, &counted);
   EXPECT_EQ(counted.solved, 1);
   EXPECT_EQ(counted.hits, 1);
+  EXPECT_NE(make_heart(wall(), choice, "wall", 0, LayersNeeded::kSurfaces, &counted).layer, nullptr);
   EXPECT_EQ(first.notes, second.notes);
   CellHint one, other;
   const Vec3 x = Ventricle().position({0.66, 1.2, 0.4});
