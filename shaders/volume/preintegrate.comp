@@ -12,6 +12,7 @@ layout(std430, binding = 1) readonly buffer Lengths { float cell_lengths[]; };  
 layout(rgba16ui, binding = 0) writeonly uniform uimage2DArray table;          // front entry, back entry, length
 layout(location = 0) uniform int first_layer;
 layout(location = 1) uniform int group_lengths;  // lengths whose cells are cut into as many parts
+layout(location = 2) uniform ivec2 changed;      // first and last entry that segments are made anew for
 
 const int kCells = ENTRIES - 1;
 const int kNumbers = 7;  // of a stretch both ways: T, then S from its lower end and from its upper one
@@ -82,14 +83,17 @@ void main() {
   const int kThreads = int(gl_WorkGroupSize.x);
   float a = cell_lengths[ENTRIES * layer + k];
   if (k == 0) {
-    for (int i = thread; i < ENTRIES; i += kThreads) {
+    for (int i = changed.x + thread; i <= changed.y; i += kThreads) {
       precise float depth = a * entries[i].w;
       write(i, i, layer, fading(depth), vec3(0.0));
     }
     return;
   }
   float longest_a = cell_lengths[ENTRIES * (layer / group_lengths * group_lengths + group_lengths - 1) + k];
-  for (int i = thread; i < kCells; i += kThreads) {
+  // Segments that meet what changed, from their first cells on, the blocks and all cells that these lie in.
+  int first = max(changed.x - k, 0), last = min(changed.y, kCells - k);
+  int first_block = first / k, end = last + k;
+  for (int i = k * first_block + thread; i < end; i += kThreads) {
     vec3 cell = cell_of(i, a, longest_a);
     precise vec3 color_step = entries[i + 1].rgb - entries[i].rgb;
     begun[i] = rest[i] = cell.x;
@@ -102,9 +106,9 @@ void main() {
   barrier();
 
   // Each block of k cells from its beginning on, and from its end back.
-  int blocks = (kCells + k - 1) / k;
+  int blocks = (end + k - 1) / k - first_block;
   for (int job = thread; job < 2 * blocks; job += kThreads) {
-    int start = k * (job % blocks), stop = min(start + k, kCells);
+    int start = k * (first_block + job % blocks), stop = min(start + k, end);
     if (job < blocks) {
       for (int i = start + 1; i < stop; ++i) {
         float near = begun[i - 1], far = begun[i];
@@ -134,11 +138,11 @@ void main() {
   barrier();
 
   // Segments from entry s to s + k, and back: a block, or the rest of one and the beginning of the next.
-  for (int s = thread; s + k <= kCells; s += kThreads) {
-    int last = s + k - 1;
-    precise float through = begun[last];
-    precise vec3 up = vec3(begun[kCells + last], begun[2 * kCells + last], begun[3 * kCells + last]);
-    precise vec3 down = vec3(begun[4 * kCells + last], begun[5 * kCells + last], begun[6 * kCells + last]);
+  for (int s = first + thread; s <= last; s += kThreads) {
+    int e = s + k - 1;
+    precise float through = begun[e];
+    precise vec3 up = vec3(begun[kCells + e], begun[2 * kCells + e], begun[3 * kCells + e]);
+    precise vec3 down = vec3(begun[4 * kCells + e], begun[5 * kCells + e], begun[6 * kCells + e]);
     if (s % k != 0) {
       vec3 rest_up = vec3(rest[kCells + s], rest[2 * kCells + s], rest[3 * kCells + s]);
       vec3 rest_down = vec3(rest[4 * kCells + s], rest[5 * kCells + s], rest[6 * kCells + s]);

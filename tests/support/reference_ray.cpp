@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <mutex>
 
 #include "common/base/parallel.h"
@@ -277,6 +278,8 @@ Comparison compare(const FloatImage& image, const ReferenceRay& reference, doubl
       }
     }
   });
+  if (result.exempt > 0)
+    std::printf("[  exempt  ] %d of %d pixels\n", result.exempt, image.width * image.height);
   return result;
 }
 

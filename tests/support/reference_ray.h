@@ -69,7 +69,7 @@ struct Comparison {
   int exempt = 0;        ///< whose reference changes more than `bound` under a shift of 1/1000 pixel
   int beyond_bound = 0;  ///< of the pixels that count
 };
-/// Compares every pixel of `image` with its reference.
+/// Compares every pixel of `image` with its reference; says on stdout how many are exempt, where some are.
 [[nodiscard]] Comparison compare(const FloatImage& image, const ReferenceRay& reference, double bound);
 
 }  // namespace palpate::test

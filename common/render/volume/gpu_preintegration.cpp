@@ -13,7 +13,7 @@ namespace {
 
 // Bindings and locations of the shader.
 constexpr GLuint kEntries = 0, kCellLengths = 1, kTable = 0;
-constexpr GLint kFirstLayer = 0, kGroupLengths = 1;
+constexpr GLint kFirstLayer = 0, kGroupLengths = 1, kChanged = 2;
 
 // The length of k cells' segments divided by k, as preintegrate() divides it; of k = 0 the length itself.
 std::vector<float> cell_lengths(std::size_t entries, std::size_t lengths) {
@@ -35,8 +35,9 @@ bool GpuPreintegration::possible(std::size_t entries) {
 }
 
 void GpuPreintegration::fill(std::span<const OpticalEntry> entries, std::size_t lengths,
-                             const GlTexture& table, int first_layer) {
+                             const GlTexture& table, int first_layer, const EntryRange& changed) {
   PALPATE_CHECK(entries.size() >= 2 && possible(entries.size()));
+  PALPATE_CHECK(changed.first <= changed.last && changed.last < entries.size());
   PALPATE_CHECK(lengths >= kLengthGroup && lengths % kLengthGroup == 0);
   if (entries_ != entries.size()) {
     const std::vector<std::string> defines{"ENTRIES " + std::to_string(entries.size())};
@@ -56,6 +57,7 @@ void GpuPreintegration::fill(std::span<const OpticalEntry> entries, std::size_t 
   glBindImageTexture(kTable, table.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16UI);
   glUniform1i(kFirstLayer, first_layer);
   glUniform1i(kGroupLengths, static_cast<GLint>(kLengthGroup));
+  glUniform2i(kChanged, static_cast<GLint>(changed.first), static_cast<GLint>(changed.last));
   glDispatchCompute(static_cast<GLuint>(entries.size()), static_cast<GLuint>(lengths), 1);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
   glBindImageTexture(kTable, 0, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16UI);

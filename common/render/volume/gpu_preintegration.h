@@ -18,10 +18,10 @@ class GpuPreintegration {
   [[nodiscard]] static bool possible(std::size_t entries);
 
   /// Fills layers from `first_layer` on of an array texture of 16-bit RGBA, n x n for n entries, as
-  /// preintegrate() fills its table. What follows sees it.
-  /// @pre possible(entries.size()), and as for preintegrate().
+  /// preintegrate() fills its table: of segments that meet `changed`; those of others stay. What follows sees
+  /// it. @pre possible(entries.size()), and as for preintegrate().
   void fill(std::span<const OpticalEntry> entries, std::size_t lengths, const GlTexture& table,
-            int first_layer);
+            int first_layer, const EntryRange& changed);
 
  private:
   GlProgram program_;

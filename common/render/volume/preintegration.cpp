@@ -127,31 +127,36 @@ class TableWriter {
   std::size_t count_;
 };
 
-// All pairs of entries for one group of lengths; the longest segment is 1.
+// All pairs of entries that meet `changed`, for one group of lengths; the longest segment is 1.
 PALPATE_WIDE void fill_group(std::span<const OpticalEntry> entries, const float* lengths,
-                             std::vector<Cell>& kept, std::uint16_t* group) {
+                             const EntryRange& changed, std::vector<Cell>& kept, std::uint16_t* group) {
   const TableWriter writer(entries, group);
   const std::size_t count = entries.size(), cells = count - 1;
   Lanes length;
   std::memcpy(&length, lengths, sizeof length);
 
-  for (std::size_t f = 0; f < count; ++f) {
+  for (std::size_t f = changed.first; f <= changed.last; ++f) {
     const Lanes zero = all(0.0F);
     writer.write(f, f, {fading(length * entries[f].depth), zero, zero, zero});
   }
   for (std::size_t k = 1; k < count; ++k) {
+    // Windows from the first to the last one that meets what changed, and their cells.
+    const std::size_t first = changed.first > k ? changed.first - k : 0;
+    const std::size_t last = std::min(changed.last, cells - k);
+    if (first > last) continue;
+    const std::size_t begin = first - first % k, end = last + k;
     const Lanes a = length / static_cast<float>(k);
     const float longest_a = lengths[kLengthGroup - 1] / static_cast<float>(k);
     // Blocks of k cells: a window reaches from one block into the next. `kept[r]` joins the cells of the
     // block before from its r-th one to its end; `begun` those of this block up to the present one.
-    for (std::size_t start = 0; start < cells; start += k) {
-      const std::size_t stop = std::min(start + k, cells);
+    for (std::size_t start = begin; start < end; start += k) {
+      const std::size_t stop = std::min(start + k, end);
       Cell begun{};
       for (std::size_t i = start; i < stop; ++i) {
         const Cell cell = make_cell(entries[i], entries[i + 1], a, longest_a);
         begun = i == start ? cell : Cell{joined(begun.up, cell.up), joined(cell.down, begun.down)};
         const std::size_t r = i - start + 1;
-        if (r < k && start > 0) {
+        if (r < k && start > begin && i + 1 >= first + k) {
           const Cell& rest = kept[r];
           writer.write(i + 1 - k, i + 1, joined(rest.up, begun.up));
           writer.write(i + 1, i + 1 - k, joined(begun.down, rest.down));
@@ -159,8 +164,10 @@ PALPATE_WIDE void fill_group(std::span<const OpticalEntry> entries, const float*
         kept[r - 1] = cell;  // its place in the list was read a step before
       }
       if (stop - start < k) break;
-      writer.write(start, stop, begun.up);
-      writer.write(stop, start, begun.down);
+      if (start >= first) {
+        writer.write(start, stop, begun.up);
+        writer.write(stop, start, begun.down);
+      }
       for (std::size_t r = k - 1; r-- > 0;) {
         kept[r] = {joined(kept[r].up, kept[r + 1].up), joined(kept[r + 1].down, kept[r].down)};
       }
@@ -180,9 +187,31 @@ std::vector<OpticalEntry> optical_entries(const ColorTransfer& transfer, double 
   return entries;
 }
 
+std::optional<EntryRange> changed_entries(std::span<const OpticalEntry> before,
+                                          std::span<const OpticalEntry> now) noexcept {
+  const auto differ = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
+  if (differ.first == before.end()) return std::nullopt;
+  const auto back = std::mismatch(before.rbegin(), before.rend(), now.rbegin(), now.rend());
+  return EntryRange{static_cast<std::size_t>(differ.first - before.begin()),
+                    static_cast<std::size_t>(before.rend() - back.first) - 1};
+}
+
+double share_of_segments(const EntryRange& range, std::size_t count) noexcept {
+  const auto below = static_cast<double>(range.first), above = static_cast<double>(count - 1 - range.last);
+  const auto all = static_cast<double>(count);
+  return 1.0 - (below * below + above * above) / (all * all);
+}
+
 void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, int threads,
                   std::span<std::uint16_t> rgba) {
+  PALPATE_CHECK(!entries.empty());
+  preintegrate(entries, lengths, threads, rgba, {0, entries.size() - 1});
+}
+
+void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, int threads,
+                  std::span<std::uint16_t> rgba, const EntryRange& changed) {
   PALPATE_CHECK(entries.size() >= 2 && lengths >= kLengthGroup && lengths % kLengthGroup == 0);
+  PALPATE_CHECK(changed.first <= changed.last && changed.last < entries.size());
   const std::size_t layer = 4 * entries.size() * entries.size();
   PALPATE_CHECK(rgba.size() == layer * lengths);
   parallel_for(lengths / kLengthGroup, threads, [&](std::size_t first, std::size_t last) {
@@ -192,7 +221,7 @@ void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, in
       for (std::size_t l = 0; l < kLengthGroup; ++l) {
         group_lengths[l] = segment_length(group * kLengthGroup + l, lengths);
       }
-      fill_group(entries, group_lengths, kept, rgba.data() + layer * group * kLengthGroup);
+      fill_group(entries, group_lengths, changed, kept, rgba.data() + layer * group * kLengthGroup);
     }
   });
 }

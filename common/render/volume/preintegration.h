@@ -22,10 +22,14 @@
 ///
 /// A step of the transfer function between two entries is drawn as a ramp over its cell. A segment spends 1/k
 /// of its length there, so that no component is off by more than 2 tau_max d / k.
+///
+/// While a point of a transfer function is dragged, entries change between its neighbours alone. Segments
+/// that run beside these keep their numbers: only those that meet them are made anew.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +42,8 @@ namespace palpate {
 struct OpticalEntry {
   Vec3f color{0.0F};   ///< c, sRGB
   float depth = 0.0F;  ///< tau times the longest segment
+
+  bool operator==(const OpticalEntry&) const = default;
 };
 
 /// `transfer` at `count` >= 2 values from `lower` to `upper`.
@@ -53,6 +59,22 @@ inline constexpr std::size_t kLengthGroup = 8;
   return static_cast<float>(l) / static_cast<float>(lengths - 1);
 }
 
+/// A stretch of entries, both ends included.
+struct EntryRange {
+  std::size_t first = 0, last = 0;
+
+  /// Whether the segment between two entries meets it.
+  [[nodiscard]] bool meets(std::size_t front, std::size_t back) const noexcept {
+    return (front < back ? front : back) <= last && (front < back ? back : front) >= first;
+  }
+  bool operator==(const EntryRange&) const = default;
+};
+/// From the first to the last entry that differs; nothing where none does. @pre both are as long.
+[[nodiscard]] std::optional<EntryRange> changed_entries(std::span<const OpticalEntry> before,
+                                                        std::span<const OpticalEntry> now) noexcept;
+/// The part of all pairs of `count` entries that meets `range`.
+[[nodiscard]] double share_of_segments(const EntryRange& range, std::size_t count) noexcept;
+
 /// Fills the table of all pairs of entries and `lengths` equally spaced lengths, from zero to the longest.
 /// @param rgba 4 * n * n * lengths numbers for n entries: red, green, blue, opacity as parts of 65535; the
 /// front entry varies fastest, then the back one, then the length.
@@ -60,6 +82,10 @@ inline constexpr std::size_t kLengthGroup = 8;
 /// The result does not depend on the number of threads (0: as many as there are cores).
 void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, int threads,
                   std::span<std::uint16_t> rgba);
+/// The same of the segments that meet `changed` alone, to the bit; the numbers of others stay.
+/// @pre changed.first <= changed.last < entries.size().
+void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, int threads,
+                  std::span<std::uint16_t> rgba, const EntryRange& changed);
 
 /// What a table shows that is not preintegrated, for reports of what that is worth: the matter of the front
 /// entry all along each segment. Same layout and conditions.

@@ -22,7 +22,7 @@ std::optional<double> compute_table_ms(std::span<const OpticalEntry> entries, st
   std::vector<double> times;
   for (int i = 0; i <= repeats; ++i) {
     const Stopwatch clock;
-    gpu.fill(entries, lengths, table, 0);
+    gpu.fill(entries, lengths, table, 0, {0, entries.size() - 1});
     glFinish();
     if (i > 0 || repeats == 0) times.push_back(1e3 * clock.seconds());
   }

@@ -432,6 +432,7 @@ VolumePass::Cost VolumePass::cost() const {
   cost.brick_bytes = textures.brick_bytes;
   cost.table_ms = textures.table_ms;
   cost.tables_made = textures.tables_made;
+  cost.segments_made = textures.segments_made;
   cost.tables_by = state_->textures.table_choice().text();
   cost.empty_share = textures.empty_share;
   if (state_->converged) cost.converged_bytes = state_->converged->textures.cost().table_bytes;

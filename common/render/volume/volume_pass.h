@@ -104,6 +104,7 @@ class VolumePass {
     std::uint64_t context_bytes = 0;    ///< coarser voxels, tables and pictures of the context, drawn alone
     double table_ms = 0.0;              ///< of the last preintegration
     int tables_made = 0;                ///< then
+    double segments_made = 0.0;         ///< then, of the last of these, the share that was made anew
     std::string tables_by;              ///< TableChoice::text(): who filled them, and why
     double empty_share = 0.0;           ///< of the bricks, for the context
   };

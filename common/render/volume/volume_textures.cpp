@@ -322,16 +322,21 @@ void VolumeTextures::update_tables(const VolumeView& view) {
   const TableKey before = std::exchange(key_, std::move(wanted));
   const bool stay = before.same_places(key_);
   if (before.entries != key_.entries || before.lengths != key_.lengths) choice_.begin();
-  if (!stay) allocate_tables(view);
+  if (!stay) {
+    allocate_tables(view);
+    optical_.clear();
+  }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const std::vector<TransferPlace> places = transfer_places(view, field_bricks_);
   distances_.resize(places.size());
+  optical_.resize(places.size());
   cost_.tables_made = 0;
+  cost_.segments_made = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (stay && before.transfers[i] == key_.transfers[i]) continue;
     const TransferPlace& place = places[i];
     distances_[i] = place.regions ? update_regions(view, key_.transfers[i], place)
-                                  : update_preintegrated(view, key_.transfers[i], place);
+                                  : update_preintegrated(view, key_.transfers[i], place, optical_[i]);
     const Index3 b = field_bricks_[place.field];
     glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, place.first_brick_z, b.x, b.y, b.z, GL_RED_INTEGER,
                         GL_UNSIGNED_BYTE, distances_[i].data());
@@ -385,44 +390,76 @@ void VolumeTextures::allocate_tables(const VolumeView& view) {
                       static_cast<std::uint64_t>(maps.z);
 }
 
+// What of `table_` meets `changed`, to the GPU: its columns from there on of the rows before, its rows, and
+// its columns up to there of the rows behind.
+void VolumeTextures::upload_table(std::size_t lengths, const EntryRange& changed, std::size_t entries,
+                                  int first_layer) {
+  const auto n = static_cast<GLsizei>(entries), layers = static_cast<GLsizei>(lengths);
+  const auto first = static_cast<GLint>(changed.first), end = static_cast<GLint>(changed.last) + 1;
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, n);
+  glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, n);
+  const auto upload = [&](GLint x, GLint y, GLsizei columns, GLsizei rows) {
+    if (columns == 0 || rows == 0) return;
+    const std::size_t from = 4 * (static_cast<std::size_t>(y) * entries + static_cast<std::size_t>(x));
+    glTextureSubImage3D(tables_.name(), 0, x, y, first_layer, columns, rows, layers, GL_RGBA,
+                        GL_UNSIGNED_SHORT, table_.data() + from);
+  };
+  upload(first, 0, n - first, first);
+  upload(0, first, n, end - first);
+  upload(0, end, end, n - end);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
+}
+
 // Where a compute shader does it, the table never crosses the bus.
 void VolumeTextures::fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries,
-                                int first_layer) {
+                                EntryRange changed, int first_layer) {
   const std::size_t count = entries.size();
   const auto lengths = static_cast<std::size_t>(view.table_lengths);
-  const auto fill = [&](const auto& by_processor) {
+  if (!view.preintegrate) {
     table_.resize(4 * count * count * lengths);
-    by_processor();
-    glTextureSubImage3D(tables_.name(), 0, 0, 0, first_layer, view.table_entries, view.table_entries,
-                        view.table_lengths, GL_RGBA, GL_UNSIGNED_SHORT, table_.data());
-  };
-  if (!view.preintegrate) return fill([&] { classify_fronts(entries, lengths, table_); });
+    classify_fronts(entries, lengths, table_);
+    return upload_table(lengths, {0, count - 1}, count, first_layer);
+  }
   const TableMaker maker =
       choice_.next(view.table_maker, GpuPreintegration::possible(count), is_software_rasteriser());
-  if (choice_.timed()) glFinish();
+  if (choice_.timed()) {
+    changed = {0, count - 1};  // both makers do the same
+    glFinish();
+  }
   const Stopwatch clock;
   if (maker == TableMaker::kGpu) {
-    gpu_.fill(entries, lengths, tables_, first_layer);
+    gpu_.fill(entries, lengths, tables_, first_layer, changed);
   } else {
-    fill([&] { preintegrate(entries, lengths, 0, table_); });
+    table_.resize(4 * count * count * lengths);
+    preintegrate(entries, lengths, 0, table_, changed);
+    upload_table(lengths, changed, count, first_layer);
   }
   if (choice_.timed()) glFinish();
   choice_.filled(1e3 * clock.seconds());
+  cost_.segments_made = share_of_segments(changed, count);
 }
 
+// While one point is dragged, only what it changes is made anew.
+// @param before what the table was filled with; empty: nothing. What it is filled with, then.
 // @return distances between empty bricks
 std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView& view,
                                                                const FieldTransfer& transfer,
-                                                               const TransferPlace& place) {
+                                                               const TransferPlace& place,
+                                                               std::vector<OpticalEntry>& before) {
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange values = table_places(view, place.field);
-  const std::vector<OpticalEntry> optical =
+  std::vector<OpticalEntry> optical =
       optical_entries(transfer.colors, values.lower.x, values.upper.x,
                       static_cast<std::size_t>(view.table_entries), key_.longest);
-  fill_table(view, optical, place.first_layer);
+  const std::optional<EntryRange> changed =
+      before.empty() ? EntryRange{0, optical.size() - 1} : changed_entries(before, optical);
+  if (changed) fill_table(view, optical, *changed, place.first_layer);
   const BrickRanges& ranges =
       place.field == 0 ? bricks_of_image_.ranges() : fields_.bricks(place.field).ranges();
-  return empty_distances(ranges, optical, numbers.lower, numbers.upper);
+  std::vector<std::uint8_t> distances = empty_distances(ranges, optical, numbers.lower, numbers.upper);
+  before = std::move(optical);
+  return distances;
 }
 
 // The same. Gradients of a volume in bricks are not measured, as that would read all of it: what is seen

@@ -72,6 +72,7 @@ class VolumeTextures {
     std::uint64_t field_bytes = 0;  ///< voxels of fields beside that of the context
     double table_ms = 0.0;          ///< of the last preintegration
     int tables_made = 0;            ///< then, preintegrated and of regions
+    double segments_made = 0.0;     ///< then, share of the last preintegrated table that was made anew
     double empty_share = 0.0;       ///< of the bricks, for the context
   };
   [[nodiscard]] const Cost& cost() const noexcept { return cost_; }
@@ -118,9 +119,12 @@ class VolumeTextures {
   void update_colors(const VolumeView& view);
   void update_tables(const VolumeView& view);
   void allocate_tables(const VolumeView& view);
-  void fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries, int first_layer);
+  void fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries, EntryRange changed,
+                  int first_layer);
+  void upload_table(std::size_t lengths, const EntryRange& changed, std::size_t entries, int first_layer);
   std::vector<std::uint8_t> update_preintegrated(const VolumeView& view, const FieldTransfer& transfer,
-                                                 const TransferPlace& place);
+                                                 const TransferPlace& place,
+                                                 std::vector<OpticalEntry>& before);
   std::vector<std::uint8_t> update_regions(const VolumeView& view, const FieldTransfer& transfer,
                                            const TransferPlace& place);
 
@@ -146,6 +150,7 @@ class VolumeTextures {
   double gaps_ = 1.0;  ///< gap_share() of the context's field
   TableKey key_;
   std::vector<std::vector<std::uint8_t>> distances_;  ///< between empty bricks, for each transfer function
+  std::vector<std::vector<OpticalEntry>> optical_;    ///< of each preintegrated table; empty: not filled
   TableChoice choice_;
   GpuPreintegration gpu_;
   /// Kept: it is large and asked for again while a function is dragged.

@@ -173,15 +173,63 @@ TEST(Preintegration, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(Table(entries, 64, 1).rgba, Table(entries, 64, 4).rgba);
 }
 
-// The layers from 2 on of a texture that the compute shader fills.
+// `entries` with others from `range.first` to `range.last`.
+std::vector<OpticalEntry> changed_in(std::vector<OpticalEntry> entries, const EntryRange& range) {
+  for (std::size_t i = range.first; i <= range.last; ++i)
+    entries[i] = {Vec3f(0.3F, 0.9F, 0.1F), 0.7F + static_cast<float>(i % 3)};
+  return entries;
+}
+
+// One entry, some, all; at either end and between.
+std::vector<EntryRange> ranges_of(std::size_t count) {
+  return {
+      {0, 0},        {0, count / 3}, {count / 2, count / 2}, {count / 3, count / 2}, {count - 1, count - 1},
+      {0, count - 1}};
+}
+
+TEST(Preintegration, MakesSegmentsAnewThatMeetWhatChanged) {
+  constexpr std::uint16_t kOld = 12345;  // of no meaning
+  for (const std::size_t count : {2U, 3U, 24U, 41U}) {
+    const auto before = random_entries(count, 6, 6.0F);
+    for (const EntryRange& range : ranges_of(count)) {
+      const auto now = changed_in(before, range);
+      EXPECT_EQ(changed_entries(before, now), range);
+      const Table expected(now, 16);
+      Table made = expected;
+      std::fill(made.rgba.begin(), made.rgba.end(), kOld);
+      preintegrate(now, 16, 1, made.rgba, range);
+      std::size_t off = 0, meeting = 0;
+      for (std::size_t i = 0; i < made.rgba.size(); ++i) {
+        const std::size_t pair = i / 4 % (count * count);
+        const bool meets = range.meets(pair % count, pair / count);
+        off += made.rgba[i] != (meets ? expected.rgba[i] : kOld) ? 1 : 0;
+        meeting += meets ? 1 : 0;
+      }
+      EXPECT_EQ(off, 0U) << range.first << " to " << range.last << " of " << count;
+      EXPECT_NEAR(share_of_segments(range, count),
+                  static_cast<double>(meeting) / static_cast<double>(made.rgba.size()), 1e-12);
+      // Beside it the table of before is the one of now.
+      Table whole(before, 16);
+      preintegrate(now, 16, 2, whole.rgba, range);
+      EXPECT_EQ(whole.rgba, expected.rgba);
+    }
+    EXPECT_FALSE(changed_entries(before, before));
+  }
+}
+
+// The layers from 2 on of a texture that the compute shader fills: with `before`, where there is some, and
+// then with what changed.
 std::vector<std::uint16_t> filled_by_gpu(GpuPreintegration& gpu, const std::vector<OpticalEntry>& entries,
-                                         std::size_t lengths) {
+                                         std::size_t lengths, const std::vector<OpticalEntry>& before = {},
+                                         const EntryRange& changed = {}) {
   const auto n = static_cast<GLsizei>(entries.size()), layers = static_cast<GLsizei>(lengths);
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
   const GlTexture table(name);
   glTextureStorage3D(name, 1, GL_RGBA16, n, n, layers + 2);
-  gpu.fill(entries, lengths, table, 2);
+  const EntryRange all{0, entries.size() - 1};
+  if (!before.empty()) gpu.fill(before, lengths, table, 2, all);
+  gpu.fill(entries, lengths, table, 2, before.empty() ? all : changed);
   std::vector<std::uint16_t> rgba(4 * entries.size() * entries.size() * lengths);
   glGetTextureSubImage(name, 0, 0, 0, 2, n, n, layers, GL_RGBA, GL_UNSIGNED_SHORT,
                        static_cast<GLsizei>(rgba.size() * sizeof(rgba[0])), rgba.data());
@@ -216,6 +264,19 @@ TEST(GpuPreintegration, FillsTheTableOfTheProcessorToTheBit) {
     }
   }
   EXPECT_EQ(off, 0U) << "of " << numbers;
+}
+
+TEST(GpuPreintegration, MakesSegmentsAnewThatMeetWhatChanged) {
+  const OffscreenContext context;
+  GpuPreintegration gpu;
+  for (const std::size_t count : {2U, 3U, 41U}) {
+    const auto before = random_entries(count, 6, 6.0F);
+    for (const EntryRange& range : ranges_of(count)) {
+      const auto now = changed_in(before, range);
+      EXPECT_EQ(filled_by_gpu(gpu, now, 8, before, range), Table(now, 8).rgba)
+          << range.first << " to " << range.last << " of " << count;
+    }
+  }
 }
 
 TEST(GpuPreintegration, IsPossibleWhereALineOfCellsFitsWhatAWorkGroupShares) {

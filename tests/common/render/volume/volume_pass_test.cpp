@@ -249,7 +249,11 @@ TEST(VolumePass, TablesOfAComputeShaderAndThoseOfOneFunctionAlone) {
   VolumeView view = sampled_view(blobs, ScalarType::kUint8);
   view.table_entries = 64;
   view.lenses = {{.shape = make_sphere(Vec3(0.0), 0.5)}};
-  view.lenses[0].transfer = ColorTransfer({{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(1.0F, 0.0F, 0.2F), 0.3}});
+  const auto fitted = [&](const ColorTransfer& transfer) {
+    return spread(transfer, view.image->lowest, view.image->highest);
+  };
+  view.lenses[0].transfer =
+      fitted(ColorTransfer({{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(1.0F, 0.0F, 0.2F), 0.3}}));
   const Camera camera = camera_of(view);
   VolumePicture picture(kSize, kSize);
   (void)picture.draw(view, camera);
@@ -257,8 +261,8 @@ TEST(VolumePass, TablesOfAComputeShaderAndThoseOfOneFunctionAlone) {
   EXPECT_EQ(picture.cost().tables_by.substr(0, 9), "processor");
   for (const TableMaker maker : {TableMaker::kProcessor, TableMaker::kGpu}) {
     view.table_maker = maker;
-    view.lenses[0].transfer = ColorTransfer(
-        {{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(0.0F, 0.5F, 0.2F), maker == TableMaker::kGpu ? 0.5 : 0.2}});
+    view.lenses[0].transfer = fitted(ColorTransfer(
+        {{0.1, Vec3f(1.0F), 0.0}, {0.8, Vec3f(0.0F, 0.5F, 0.2F), maker == TableMaker::kGpu ? 0.5 : 0.2}}));
     const FloatImage dragged = picture.draw(view, camera);
     EXPECT_EQ(picture.cost().tables_made, 1);
     EXPECT_EQ(picture.cost().programs, 2) << "rays and tiles";
@@ -267,6 +271,32 @@ TEST(VolumePass, TablesOfAComputeShaderAndThoseOfOneFunctionAlone) {
     EXPECT_EQ(worst_difference(dragged, fresh.draw(view, camera)), 0.0);
   }
   EXPECT_EQ(picture.cost().tables_by, "GPU, as asked for");
+}
+
+// As in an editor: one point of five is moved, step by step, and back.
+TEST(VolumePass, MakesOfATableWhatADraggedPointChanges) {
+  VolumeView view = sampled_view(blobs, ScalarType::kUint8);
+  view.table_entries = 64;
+  const Camera camera = camera_of(view);
+  VolumePicture picture(kSize, kSize);
+  for (const TableMaker maker : {TableMaker::kProcessor, TableMaker::kGpu}) {
+    view.table_maker = maker;
+    for (const double moved : {0.25, 0.3, 0.35, 0.2}) {
+      view.transfer = spread(ColorTransfer({{0.0, Vec3f(0.2F, 0.4F, 1.0F), 0.0},
+                                            {0.1, Vec3f(1.0F, 0.3F, 0.1F), 0.02},
+                                            {moved, Vec3f(0.1F, 1.0F, 0.2F), moved},
+                                            {0.5, Vec3f(1.0F), 0.05},
+                                            {1.0, Vec3f(1.0F, 0.0F, 0.2F), 0.3}}),
+                             view.image->lowest, view.image->highest);
+      const FloatImage dragged = picture.draw(view, camera);
+      if (moved > 0.25) {
+        EXPECT_NEAR(picture.cost().segments_made, 1.0 - 0.01 - 0.25, 0.05);
+      }
+      VolumePicture fresh(kSize, kSize, VolumePicture::Context::kCurrent);
+      EXPECT_EQ(worst_difference(dragged, fresh.draw(view, camera)), 0.0) << moved;
+      EXPECT_EQ(fresh.cost().segments_made, 1.0);
+    }
+  }
 }
 
 TEST(VolumePass, CompilesOnlyTheShadersThatItNeeds) {
