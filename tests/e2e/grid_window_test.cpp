@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <stb_image.h>
+
 #include "apps/grid/grid_model.h"
 #include "apps/grid/grid_modes.h"
 #include "apps/grid/open_verb.h"
@@ -16,6 +18,7 @@
 #include "common/app/cli/window_touch.h"
 #include "common/app/window/panel.h"
 #include "common/app/window/window.h"
+#include "common/render/render_image.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
 
@@ -56,11 +59,31 @@ class GridWindow : public ExplorerTest {
                                return false;
                              },
                          .script = script_};
-    window.frames = next_ + 20;
-    if (const char* folder = std::getenv("PALPATE_PICTURES"))
-      window.screenshot = std::filesystem::path(folder) / ("grid_window_" + picture + ".png");
+    window.frames = next_ + rest_;
+    if (parsed.options.view.frame_budget > 0.0) window.frame_budget = parsed.options.view.frame_budget;
+    window.screenshot = folder_.path("window.png");
     GridModel model(parsed.options, "grid");
-    return run_window(model, window);
+    WindowResult result = run_window(model, window);
+    if (const char* folder = std::getenv("PALPATE_PICTURES"))
+      std::filesystem::copy(window.screenshot,
+                            std::filesystem::path(folder) / ("grid_window_" + picture + ".png"),
+                            std::filesystem::copy_options::overwrite_existing);
+    return result;
+  }
+
+  /// What the last window showed, without its panel.
+  Image picture() {
+    int width = 0, height = 0, channels = 0;
+    unsigned char* pixels = stbi_load(folder_.path("window.png").c_str(), &width, &height, &channels, 4);
+    if (pixels == nullptr) return {};
+    const PictureArea area = layout(kWidth, kHeight, kTextHeight).picture;
+    Image image{.width = static_cast<int>(area.width), .height = static_cast<int>(area.height), .rgba = {}};
+    for (int y = 0; y < image.height; ++y) {
+      const auto* row = pixels + 4 * (y * width + static_cast<int>(area.left));
+      image.rgba.insert(image.rgba.end(), row, row + 4 * image.width);
+    }
+    stbi_image_free(pixels);
+    return image;
   }
 
   void at(InputEvent event) { script_.push_back({next_ += 2, std::move(event)}); }
@@ -92,6 +115,7 @@ class GridWindow : public ExplorerTest {
   Vec3 middle_{0.0};
   std::vector<ScriptedEvent> script_;
   int next_ = 4;
+  int rest_ = 20;  ///< frames behind the last event
 };
 
 // Places in the panel [pixels] as pictures of this window show them.
@@ -167,6 +191,60 @@ TEST_F(GridWindow, AsManyPlanesAndShapesAsASessionHolds) {
       open({"open", "--session", folder_.path("tooth.palpate.toml").string()}, "many_again");
   EXPECT_EQ(again.view.volume->cuts, result.view.volume->cuts);
   EXPECT_EQ(again.view.volume->lenses, result.view.volume->lenses);
+}
+
+// In the middle of a drag the picture is that of the function as it has become, in less time than it takes in
+// full; and in full once the button is let go.
+TEST_F(GridWindow, ThePictureFollowsATransferFunctionWhileItIsDragged) {
+  folder_.write(
+      "matter.csv",
+      "value,red,green,blue,opacity\n0,1,1,1,0\n325,1,1,1,0\n650,1,1,1,0.5\n975,1,1,1,0\n1300,1,1,1,0\n");
+  const std::vector<std::string> arguments{folder_.path("tooth.nhdr").string(),
+                                           "--transfer-function",
+                                           folder_.path("matter.csv").string(),
+                                           "--frame-budget",
+                                           "1",
+                                           "--camera",
+                                           "0,0,0,0.5",
+                                           "--samples",
+                                           "1",
+                                           "--shading",
+                                           "off"};
+  // The third point over the histogram [pixels]: from half the height of the editor to its foot.
+  const double x = 140.0, half = 597.0, foot = 660.0;
+  move(x, half);
+  at({.kind = InputKind::kPress});
+  constexpr int kSteps = 8;
+  for (int i = 1; i <= kSteps; ++i) move(x, half + (foot - half) * i / kSteps);
+  rest_ = 2;
+  const WindowResult dragged = open(arguments, "dragged");
+  ASSERT_TRUE(dragged.view.volume);
+  const auto& points = dragged.view.volume->transfer.points();
+  ASSERT_EQ(points.size(), 5U);
+  EXPECT_EQ(points[2].opacity, 0.0);
+  EXPECT_FALSE(dragged.quality == FrameQuality{}) << "a frame takes more than a millisecond";
+  const auto brightness = [](const Image& image) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+    return sum / static_cast<double>(image.rgba.size() / 4);
+  };
+  const auto drawn = [&](double opacity) {
+    SceneView view = dragged.view;
+    std::vector<ColorPoint> changed = points;
+    changed[2].opacity = opacity;
+    view.volume->transfer = ColorTransfer(changed);
+    const PictureArea area = layout(kWidth, kHeight, kTextHeight).picture;
+    return brightness(render_image(view, static_cast<int>(area.width), static_cast<int>(area.height)).image);
+  };
+  const double before = drawn(0.5), after = drawn(0.0);
+  ASSERT_GT(before, after + 1.0) << "the tooth is seen";
+  EXPECT_NEAR(brightness(picture()), after, 0.1 * (before - after));
+
+  at({.kind = InputKind::kRelease});
+  rest_ = 80;
+  const WindowResult rested = open(arguments, "rested");
+  EXPECT_EQ(rested.view.volume->transfer.points(), points);
+  EXPECT_TRUE(rested.quality == FrameQuality{});
 }
 
 // The button held on the grid carries the scene along one axis; let go, view and hand stay where they are.

@@ -93,6 +93,7 @@ WindowResult ExplorerWindow::run() {
   if (bench_) result.latency = bench_->latency();
   std::tie(result.width, result.height) = glfw_.size();
   result.median_frame_ms = live_->median_milliseconds();
+  result.quality = live_->figures().quality;
   result.tables_by = live_->tables_by();
   result.gpu = gpu_objects();
   return result;

@@ -12,6 +12,7 @@
 #include "common/app/immersive/bench_display.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
+#include "common/render/frame_budget.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"
@@ -65,6 +66,7 @@ struct WindowResult {
   SceneSettings settings;          ///< at the end
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
+  FrameQuality quality;        ///< of the last picture
   std::string tables_by;       ///< SceneRenderer::tables_by(), at the end
   std::vector<GpuObject> gpu;  ///< what its context holds at the end; without labels those of the panels
   std::optional<Box> region;   ///< at the end
