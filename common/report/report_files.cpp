@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr auto kFiles = std::to_array<std::string_view>(
     {"index.html", "report.json", "work_precision.csv", "work_precision.svg", "stability.csv",
-     "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv", "constraint_force.svg", "constraint_distance.svg",
+     "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv", "constraint_force.svg",
+     "constraint_distance.svg",
      // of sections
      "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
      "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",

@@ -36,8 +36,8 @@ struct ReportSection {
   std::vector<std::string> columns;             ///< headings; the first column holds text
   std::vector<std::vector<std::string>> table;  ///< rows of as many cells
   ReportCsv csv;
-  std::vector<WorkPrecision> work_precision;    ///< for report.json
-  std::vector<Measurement> measurements;        ///< likewise
+  std::vector<WorkPrecision> work_precision;  ///< for report.json
+  std::vector<Measurement> measurements;      ///< likewise
 };
 
 /// As it stands on the page.
