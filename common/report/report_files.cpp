@@ -26,9 +26,9 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
      "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg", "fit_angle.svg",
      "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg",
-     "volume_error.svg", "tracker_position.svg", "tracker_orientation.svg", "head_errors.svg",
-     "heart_errors.svg", "fibre_lines.svg", "distortion_lines.png", "orientation_icons.png",
-     "field_icons.png"});
+     "volume_error.svg", "volume_error.csv", "tracker_position.svg", "tracker_orientation.svg",
+     "head_errors.svg", "heart_errors.svg", "fibre_lines.svg", "distortion_lines.png",
+     "orientation_icons.png", "field_icons.png"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {

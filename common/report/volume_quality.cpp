@@ -1,11 +1,13 @@
 #include "common/report/volume_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/text.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/image_error.h"
 #include "common/render/volume/preintegration.h"
@@ -18,6 +20,13 @@ namespace {
 
 int pixels_of(Effort effort) {
   return effort == Effort::kQuick ? 96 : effort == Effort::kThorough ? 512 : 256;
+}
+
+/// Sizes of table 5.3, the larger one where there is time.
+constexpr int kSmallFocus = 512, kLargeFocus = 1024;
+std::vector<int> focus_pixels_of(Effort effort) {
+  if (effort == Effort::kThorough) return {kSmallFocus, kLargeFocus};
+  return {effort == Effort::kQuick ? pixels_of(effort) : kSmallFocus};
 }
 
 int repeats_of(Effort effort) { return effort == Effort::kQuick ? 1 : effort == Effort::kThorough ? 9 : 5; }
@@ -101,27 +110,65 @@ ConvexShape nearest_corner(const VolumeView& view, const Camera& camera, double 
                                Vec3(0.0, 0.0, kMore * half.z)));
 }
 
-std::vector<FocusRate> focus_rates(VolumeView view, const Camera& camera, VolumePicture& picture, int repeats,
-                                   Progress* progress) {
-  std::vector<FocusRate> rows{{1.0, 8.45}, {0.79, 11.52}, {0.63, 20.28}, {0.5, 35.71}, {0.4, 63.29}};
+FocusTable focus_rates(VolumeView view, const Camera& camera, int pixels, int repeats, Progress* progress) {
+  // Shares of the sides, and frames a second as they are printed for 512 x 512 and 1024 x 1024 pixels.
+  struct Printed {
+    double axis, small, large;
+  };
+  constexpr std::array<Printed, 5> kPrinted{{{1.0, 8.45, 3.60},
+                                             {0.79, 11.52, 4.48},
+                                             {0.63, 20.28, 7.76},
+                                             {0.5, 35.71, 13.19},
+                                             {0.4, 63.29, 20.94}}};
   constexpr double kFocusSamples = 4.0, kContextSamples = 1.0;
+  FocusTable table{.pixels = pixels, .rows = {}};
+  VolumePicture picture(pixels, pixels, VolumePicture::Context::kCurrent);
   view.skip_empty = view.stop_where_opaque = false;
-  for (FocusRate& row : rows) {
-    if (progress) progress->check();
+  for (const Printed& printed : kPrinted) {
+    if (progress) {
+      progress->check();
+      progress->advance();
+    }
     view.lenses.clear();
-    view.shading = row.axis == 1.0;  // the first row is drawn without a lens, as in the reference
+    view.shading = printed.axis == 1.0;  // the first row is drawn without a lens, as in the reference
     view.samples_per_voxel = view.shading ? kFocusSamples : kContextSamples;
     view.context = {.viewport = 0.5, .level = 1, .table_entries = view.table_entries / 2};
     if (!view.shading) {
       Lens lens;
-      lens.shape = nearest_corner(view, camera, row.axis);
+      lens.shape = nearest_corner(view, camera, printed.axis);
       lens.samples_per_voxel = kFocusSamples;
       view.lenses.push_back(std::move(lens));
     }
-    (void)picture.draw(view, camera);
-    row.rate = 1e3 / frame_time(picture, repeats);
+    (void)picture.draw_alone(view, camera);
+    table.rows.push_back({printed.axis, pixels == kLargeFocus ? printed.large : printed.small,
+                          1e3 / frame_time(picture, repeats)});
   }
-  return rows;
+  return table;
+}
+
+/// Places of a cutting plane across the data axis that is seen most along, about the middle of the volume.
+std::vector<VolumeView> moved_planes(const VolumeView& view, const Camera& camera) {
+  constexpr int kPlaces = 7;
+  constexpr double kWay = 0.2;  // of the side
+  const Box bounds = view.image->bounds();
+  const Vec3 seen = glm::abs(camera.axes[2]);
+  const int axis = seen.x >= std::max(seen.y, seen.z) ? 0 : seen.y >= seen.z ? 1 : 2;
+  Vec3 normal{0.0};
+  normal[axis] = camera.axes[2][axis] > 0.0 ? 1.0 : -1.0;
+  const Vec3 middle = 0.5 * (bounds.lower + bounds.upper);
+  std::vector<VolumeView> views;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double off = kWay * (static_cast<double>(i) / (kPlaces - 1) - 0.5) * bounds.size()[axis];
+    views.push_back(view);
+    views.back().cuts.push_back({.kept = {normal, glm::dot(normal, middle) + off}});
+  }
+  return views;
+}
+
+std::string asked_for(const VolumeView& view) {
+  return short_number(view.samples_per_voxel) + " samples a voxel, " +
+         (view.preintegrate ? "preintegrated, " : "") + "tables of " + std::to_string(view.table_entries) +
+         " entries, " + (view.shading ? "shaded" : "not shaded");
 }
 
 }  // namespace
@@ -130,22 +177,27 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
                                  Progress* progress) {
   VolumeQuality quality;
   quality.subject = subject;
+  quality.asked_for = asked_for(given);
   quality.pixels = pixels_of(effort);
   const int pixels = quality.pixels, repeats = repeats_of(effort);
+  const std::vector<int> focus_pixels = focus_pixels_of(effort);
   const Camera camera = make_camera(given.image->bounds(), {}, 1.0);
   const OffscreenContext context;
   quality.renderer = gl_description();
   VolumePicture picture(pixels, pixels, VolumePicture::Context::kCurrent);
-  if (progress) progress->begin("drawing the volume", given.lenses.empty() ? 25 : 30);
+  constexpr std::size_t kPictures = 32, kFocusRows = 5;
+  if (progress) progress->begin("drawing the volume", kPictures + kFocusRows * focus_pixels.size());
 
   const FloatImage converged = picture.draw(converged_view(given), camera);
 
+  const auto begin_row = [&] {
+    if (!progress) return;
+    progress->check();
+    progress->advance();
+  };
   const auto measure = [&](const std::string& method, double parameter, const VolumeView& view,
                            const std::vector<float>& opaque_depth = {}) {
-    if (progress) {
-      progress->check();
-      progress->advance();
-    }
+    begin_row();
     const FloatImage image = picture.draw(view, camera, opaque_depth);
     quality.rows.push_back({method, parameter, rms_difference(image, converged),
                             worst_difference(image, converged), frame_time(picture, repeats)});
@@ -172,26 +224,33 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     measure("entries of the table", entries, view);
   }
   for (const double scale : {0.25, 0.35, 0.5, 0.7, 1.0}) {
-    if (progress) {
-      progress->check();
-      progress->advance();
-    }
+    begin_row();
     const int small = static_cast<int>(std::lround(scale * pixels));
     VolumePicture smaller(small, small, VolumePicture::Context::kCurrent);
     const FloatImage image = enlarged(smaller.draw(given, camera), pixels);
     quality.rows.push_back({"resolution", scale, rms_difference(image, converged),
                             worst_difference(image, converged), frame_time(smaller, repeats)});
   }
-  // Of what lies outside lenses, where the picture has some.
+  // Of what lies outside lenses: where there are none, outside a ball that shows the same, so that the
+  // converged picture is the same, too.
+  VolumeView focused = given;
+  quality.made_focus = given.lenses.empty();
+  if (quality.made_focus) {
+    constexpr double kRadius = 0.2;  // of the diagonal
+    const Box bounds = given.image->bounds();
+    Lens lens{.shape = make_sphere(0.5 * (bounds.lower + bounds.upper), kRadius * bounds.diagonal())};
+    lens.samples_per_voxel = given.samples_per_voxel;
+    lens.shading = given.shading;
+    lens.colored = given.colored;
+    focused.lenses.push_back(std::move(lens));
+  }
   for (const double share : {0.25, 0.5, 0.7}) {
-    if (given.lenses.empty()) break;
-    VolumeView view = given;
+    VolumeView view = focused;
     view.context.viewport = share;
     measure("resolution around lenses", share, view);
   }
   for (const int level : {1, 2}) {
-    if (given.lenses.empty()) break;
-    VolumeView view = given;
+    VolumeView view = focused;
     view.context.level = level;
     measure("halvings of voxels around lenses", level, view);
   }
@@ -211,7 +270,25 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   const auto pixel_count = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels);
   measure("kept while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
 
-  quality.focus = focus_rates(given, camera, picture, repeats, progress);
+  // Against the converged picture of the last place.
+  std::vector<VolumeView> places = moved_planes(given, camera);
+  const FloatImage cut = picture.draw(converged_view(places.back()), camera);
+  for (const bool slabs : {false, true}) {
+    begin_row();
+    std::vector<double> times;
+    for (VolumeView& view : places) {
+      view.keep_slabs = slabs;
+      (void)picture.draw_alone(view, camera);  // slabs that lack are made
+    }
+    for (const VolumeView& view : places) times.push_back(picture.draw_alone(view, camera));
+    const FloatImage image = picture.draw(places.back(), camera);
+    quality.rows.push_back({slabs ? "plane moves, slabs kept" : "plane moves, no slabs kept",
+                            given.samples_per_voxel, rms_difference(image, cut), worst_difference(image, cut),
+                            median(times)});
+  }
+
+  for (const int size : focus_pixels)
+    quality.focus.push_back(focus_rates(given, camera, size, std::min(repeats, 3), progress));
   quality.tables = table_times(given, repeats);
   return quality;
 }

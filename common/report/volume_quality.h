@@ -36,27 +36,36 @@ struct TableTime {
       compute_ms;  ///< by a compute shader; absent on a software rasteriser, which is slow at it
 };
 
-/// A row of table 5.3 with the parameters of table 5.2, but for the size and number of its scalars: focus
-/// shaded at 4 samples a voxel; context not shaded, at 1 sample a voxel of twice the size, with a table of
-/// half the entries and half the pixels along either edge; both without leaving out what is empty or hidden.
+/// A row of table 5.3 (FocusTable).
 struct FocusRate {
-  double axis = 1.0;         ///< share of the volume's sides that the focus has
-  double printed_512 = 0.0;  ///< [frames a second]
-  double rate = 0.0;         ///< likewise
+  double axis = 1.0;     ///< share of the volume's sides that the focus has
+  double printed = 0.0;  ///< [frames a second]; of 512 x 512 pixels where the picture has another size
+  double rate = 0.0;     ///< likewise, here
+};
+
+/// Table 5.3 with the parameters of table 5.2, but for the size and number of its scalars: focus shaded at 4
+/// samples a voxel; context not shaded, at 1 sample a voxel of twice the size, with a table of half the
+/// entries and half the pixels along either edge; both without leaving out what is empty or hidden.
+struct FocusTable {
+  int pixels = 0;  ///< of the picture along either edge
+  std::vector<FocusRate> rows;
 };
 
 struct VolumeQuality {
   std::string subject, renderer;
-  int pixels = 0;  ///< of the picture along either edge
+  std::string asked_for;    ///< what the picture was asked for with, in words
+  bool made_focus = false;  ///< it has no lens: what lies around lenses was measured around a ball
+  int pixels = 0;           ///< of the picture along either edge
   std::vector<VolumeQualityRow> rows;
   std::vector<TableTime> tables;
-  std::vector<FocusRate> focus;
+  std::vector<FocusTable> focus;
 };
 
 /// @pre view.image is not null. @throws Error (work failed) without OpenGL, Cancelled.
 [[nodiscard]] VolumeQuality run_volume_quality(const VolumeView& view, const std::string& subject,
                                                Effort effort, Progress* progress);
 
-[[nodiscard]] ReportSection volume_quality_section(const VolumeQuality& quality);
+/// The picture's error, the time of tables, the rates of focus and context.
+[[nodiscard]] std::vector<ReportSection> volume_quality_sections(const VolumeQuality& quality);
 
 }  // namespace palpate

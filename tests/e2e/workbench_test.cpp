@@ -94,7 +94,7 @@ TEST_F(Workbench, SweepsADeviceThatAFileDescribes) {
   folder_.write("arm.toml", "title = 'our arm'\nmass = 0.2\ndamping = 1.5\n");
   const ProgramResult swept = run({"stability", "--model", "arm.toml", "--out", "stability"});
   EXPECT_EQ(swept.exit_code, 0) << swept.err;
-  EXPECT_NE(swept.out.find("our arm: passive up to 3e+03 N/m"), std::string::npos) << swept.out;
+  EXPECT_NE(swept.out.find("our arm: passive up to 3000 N/m"), std::string::npos) << swept.out;
   EXPECT_NE(swept.out.find("PHANToM"), std::string::npos) << swept.out;
   folder_.write("bad.toml", "mass = 0.2\ndamping = -1\n");
   const ProgramResult bad = run({"stability", "--model", "bad.toml", "--out", "other"});

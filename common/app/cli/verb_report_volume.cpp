@@ -11,6 +11,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/haptics/workspace.h"
+#include "common/report/html.h"
 #include "common/report/plane_placing.h"
 #include "common/report/report.h"
 #include "common/report/volume_quality.h"
@@ -22,8 +23,8 @@ namespace {
 std::string figures_text(const VolumeQuality& quality) {
   std::string text;
   for (const VolumeQualityRow& row : quality.rows) {
-    text += "  " + row.method + " " + short_number(row.parameter) + ": error " + short_number(row.rms) +
-            " in " + short_number(row.milliseconds) + " ms\n";
+    text += "  " + row.method + " " + short_number(row.parameter) + ": error " + three_digits(row.rms) +
+            " in " + three_digits(row.milliseconds) + " ms\n";
   }
   return text;
 }
@@ -59,7 +60,7 @@ ExitCode run_volume_report(const Options& options, const VerbContext& context) {
   Report report = begin_report(input, context);
   report.scene.push_back(scene.subtitle + ".");
   const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, &context.progress);
-  report.sections.push_back(volume_quality_section(quality));
+  report.sections = volume_quality_sections(quality);
   const PlacingSettings placing = placing_settings(*scene.volume->image, effort, options.common.seed);
   const std::vector<PlacingRow> placed = run_plane_placing(placing, &context.progress);
   report.sections.push_back(plane_placing_section(placed, placing));

@@ -77,32 +77,58 @@ TEST_F(VolumeQualityOfBlobs, TellsWhatTablesBricksAndKeptPicturesAreWorth) {
   }
 }
 
-TEST(VolumeQuality, MeasuresWhatIsSavedAroundLenses) {
+// With a lens and without one, when a ball that shows the same is drawn with less around it.
+TEST_F(VolumeQualityOfBlobs, MeasuresWhatIsSavedAroundLenses) {
   VolumeView view = sampled_view(blobs, ScalarType::kFloat32, 25);
   view.lenses = {Lens{make_sphere({0.1, 0.0, 0.2}, 0.4)}};
-  const VolumeQuality quality = run_volume_quality(view, "blobs", Effort::kQuick, nullptr);
-  const auto shares = rows_of(quality, "resolution around lenses");
-  ASSERT_EQ(shares.size(), 3U);
-  EXPECT_LT(shares.back().rms, 0.5 * shares.front().rms);
-  const auto levels = rows_of(quality, "halvings of voxels around lenses");
-  ASSERT_EQ(levels.size(), 2U);
-  EXPECT_GT(levels.back().rms, 1.5 * levels.front().rms);
+  const VolumeQuality with_lens = run_volume_quality(view, "blobs", Effort::kQuick, nullptr);
+  EXPECT_FALSE(with_lens.made_focus);
+  EXPECT_TRUE(quality_.made_focus);
+  const auto finest = rows_of(quality_, "samples a voxel").back();
+  for (const VolumeQuality& quality : {with_lens, quality_}) {
+    const auto shares = rows_of(quality, "resolution around lenses");
+    ASSERT_EQ(shares.size(), 3U);
+    EXPECT_LT(shares.back().rms, 0.5 * shares.front().rms);
+    const auto levels = rows_of(quality, "halvings of voxels around lenses");
+    ASSERT_EQ(levels.size(), 2U);
+    EXPECT_GT(levels.back().rms, 1.5 * levels.front().rms);
+    EXPECT_GT(levels.front().rms, finest.rms);
+  }
 }
 
-TEST_F(VolumeQualityOfBlobs, SectionHoldsEveryRowAndBothTablesOfTheReference) {
-  const ReportSection section = volume_quality_section(quality_);
-  EXPECT_EQ(section.table.size(), quality_.rows.size());
-  EXPECT_EQ(section.work_precision.size(), quality_.rows.size());
-  for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size());
-  ASSERT_EQ(section.plots.size(), 1U);
-  std::string text;
-  for (const std::string& paragraph : section.paragraphs) text += paragraph;
-  for (const char* printed : {"4554", "63.29", "8.45"})
-    EXPECT_NE(text.find(printed), std::string::npos) << printed;
-  ASSERT_EQ(quality_.focus.size(), 5U);
-  ASSERT_EQ(quality_.tables.size(), 3U);
+// Slabs change nothing that is seen, and the plane is in both pictures.
+TEST_F(VolumeQualityOfBlobs, MeasuresWhatSlabsAreWorthToAPlaneThatMoves) {
+  const auto kept = rows_of(quality_, "plane moves, slabs kept");
+  const auto anew = rows_of(quality_, "plane moves, no slabs kept");
+  ASSERT_EQ(kept.size(), 1U);
+  ASSERT_EQ(anew.size(), 1U);
+  EXPECT_LT(anew[0].rms, 1.0 / 255.0);
+  EXPECT_NEAR(kept[0].rms, anew[0].rms, 1.0 / 255.0);
+}
+
+TEST_F(VolumeQualityOfBlobs, SectionsHoldEveryRowAndBothTablesOfTheReference) {
+  const std::vector<ReportSection> sections = volume_quality_sections(quality_);
+  ASSERT_EQ(sections.size(), 3U);
+  for (const ReportSection& section : sections) {
+    for (const auto& row : section.table) EXPECT_EQ(row.size(), section.columns.size()) << section.title;
+  }
+  EXPECT_EQ(sections[0].table.size(), quality_.rows.size());
+  EXPECT_EQ(sections[0].work_precision.size(), quality_.rows.size());
+  ASSERT_EQ(sections[0].plots.size(), 1U);
+  const std::string& csv = sections[0].csv.content;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), quality_.rows.size() + 1);
+  // What is printed stands in the row of what was measured.
+  ASSERT_EQ(sections[1].table.size(), 3U);
+  EXPECT_EQ(sections[1].table[2].front(), "128 x 128 x 256");
+  EXPECT_EQ(sections[1].table[2].end()[-2], "4554");
+  EXPECT_EQ(sections[1].table[2].back(), "113");
+  ASSERT_EQ(sections[2].table.size(), 5U);
+  EXPECT_EQ(sections[2].table[4].front(), "40 %");
+  EXPECT_EQ(sections[2].table[4].end()[-2], "63.29");
+  EXPECT_EQ(sections[2].table[4].back(), "7.49");
   for (const TableTime& row : quality_.tables) EXPECT_GT(row.milliseconds, 0.0);
-  for (const FocusRate& row : quality_.focus) EXPECT_TRUE(std::isfinite(row.rate));
+  ASSERT_EQ(quality_.focus.size(), 1U);
+  for (const FocusRate& row : quality_.focus[0].rows) EXPECT_TRUE(std::isfinite(row.rate));
 }
 
 }  // namespace
