@@ -14,7 +14,8 @@ namespace {
 // Layout in SVG user units.
 constexpr double kWidth = 820.0, kHeight = 520.0;
 constexpr double kLeft = 90.0, kRight = 640.0, kTop = 46.0, kBottom = 450.0;
-constexpr double kLegendX = 660.0, kLegendStep = 22.0;
+constexpr double kLegendX = 660.0, kLegendStep = 22.0, kLegendText = 34.0, kLegendGap = 12.0;
+constexpr double kLetter = 7.4;  // of text 13 high, wide ones
 constexpr double kMarker = 4.5;
 constexpr int kMaxTicks = 12;
 
@@ -176,9 +177,13 @@ std::string svg(const LogLogPlot& plot) {
       highest_y = std::max(highest_y, p.y);
     }
   }
+  std::size_t longest = 0;
+  for (const PlotSeries& series : plot.series) longest = std::max(longest, series.name.size());
+  const double width =
+      std::max(kWidth, kLegendX + kLegendText + kLetter * static_cast<double>(longest) + kLegendGap);
   std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(kHeight) +
-      "\" width=\"" + number(kWidth) + "\" height=\"" + number(kHeight) +
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(kHeight) +
+      "\" width=\"" + number(width) + "\" height=\"" + number(kHeight) +
       "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   out += text_at(kLeft, 28, "start", plot.title, 16, " font-weight=\"bold\"");
   if (!(highest_x > 0.0)) return out + text_at(kLeft, 80, "start", "nothing to draw") + "</svg>\n";
@@ -209,7 +214,7 @@ std::string svg(const LogLogPlot& plot) {
     out += line_between(kLegendX, legend_y, kLegendX + 26, legend_y,
                         "stroke=\"" + color_of(s) + "\" stroke-width=\"1.8\"");
     out += marker(s, kLegendX + 13, legend_y, color_of(s)) + "\n";
-    out += text_at(kLegendX + 34, legend_y + 4, "start", plot.series[s].name);
+    out += text_at(kLegendX + kLegendText, legend_y + 4, "start", plot.series[s].name);
     legend_y += kLegendStep;
   }
   return out + "</svg>\n";

@@ -107,7 +107,8 @@ ReportSection focus_section(const VolumeQuality& quality) {
   section.columns = {"focus, of the sides", "of the volume"};
   for (const FocusTable& table : quality.focus) {
     const std::string size = std::to_string(table.pixels) + " x " + std::to_string(table.pixels);
-    section.columns.insert(section.columns.end(), {size + " [1/s]", "times", "printed [1/s]", "times"});
+    section.columns.insert(section.columns.end(),
+                           {size + " [1/s]", "times", "printed [1/s]", "printed times"});
   }
   for (std::size_t i = 0; i < quality.focus.front().rows.size(); ++i) {
     const double axis = quality.focus.front().rows[i].axis;

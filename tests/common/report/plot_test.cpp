@@ -1,6 +1,7 @@
 #include "common/report/plot.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,16 @@ TEST(LogLogPlot, LeavesOutWhatHasNoLogarithm) {
   EXPECT_EQ(count(text, "<circle"), 2U);  // one point and the legend
   EXPECT_EQ(count(text, "nan") + count(text, "inf"), 0U);
   EXPECT_NE(svg({.series = {{"s", {{1.0, 0.0}}}}}).find("nothing to draw"), std::string::npos);
+}
+
+// Names begin at 694; a letter is at least 6 wide.
+TEST(LogLogPlot, HasRoomForLongNames) {
+  const auto width = [](std::size_t letters) {
+    const std::string text = svg({.series = {{std::string(letters, 'm'), {{1.0, 1.0}}}}});
+    return std::stod(text.substr(text.find("viewBox=\"0 0 ") + 13));
+  };
+  EXPECT_EQ(width(5), width(12));
+  EXPECT_GT(width(60), 694.0 + 6.0 * 60);
 }
 
 TEST(LogLogPlot, DrawsTheFloorWithinTheFrame) {
