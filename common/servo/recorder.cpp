@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kRingPause = 20ms;    // between two looks into the ring
 constexpr auto kFlushInterval = 1s;  // what a crash may cost
+constexpr int kLongestEnd = 100;     // [ms]
 
 }  // namespace
 
@@ -27,6 +28,7 @@ Recorder::Recorder(std::filesystem::path path, const RecordingHeader& header, bo
   flush();
   if (failed()) refuse(error_);
   thread_ = std::jthread([this](const std::stop_token& stop) { write_loop(stop); });
+  last_act_.emplace([this] { end_soon(); });
 }
 
 Recorder::~Recorder() {
@@ -49,13 +51,24 @@ void Recorder::event(std::uint64_t step, std::uint64_t frame, std::string_view t
 }
 
 void Recorder::finish() {
+  last_act_.reset();
   if (!thread_.joinable()) return;
   thread_.request_stop();
   thread_.join();
+  if (!ended_) end();
+  if (failed()) refuse(error_);
+}
+
+void Recorder::end() {
   drain();
   text_.end();
   flush();
-  if (failed()) refuse(error_);
+  ended_ = true;
+}
+
+void Recorder::end_soon() {
+  end_asked_ = true;
+  for (int i = 0; i < kLongestEnd && !ended_; ++i) std::this_thread::sleep_for(1ms);
 }
 
 void Recorder::write_loop(const std::stop_token& stop) {
@@ -64,6 +77,7 @@ void Recorder::write_loop(const std::stop_token& stop) {
   std::unique_lock lock(sleeping);
   while (!stop.stop_requested()) {
     (void)wake_.wait_for(lock, stop, kRingPause, [] { return false; });
+    if (end_asked_) return end();
     drain();
     if (const auto now = std::chrono::steady_clock::now(); now - flushed >= kFlushInterval) {
       flush();

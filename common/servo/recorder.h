@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "common/base/last_acts.h"
 #include "common/base/ring.h"
 #include "common/servo/recording.h"
 #include "common/servo/recording_text.h"
@@ -21,7 +23,8 @@ namespace palpate {
 
 /// The servo pushes into a ring, a thread of the recorder's own formats and writes; what is written is handed
 /// to the system each second, so that a crash costs a second. Not written under a temporary name: it must
-/// survive one.
+/// survive one. Where the program is ended in the middle of its work (LastAct), the recording ends there in
+/// order.
 class Recorder {
  public:
   static constexpr std::size_t kCapacity = 1U << 14U;  ///< entries: 16 s at 1 kHz
@@ -76,6 +79,8 @@ class Recorder {
 
   void write_loop(const std::stop_token& stop);
   void drain();
+  void end();
+  void end_soon();
   void write(const RecordedChange& change);
   void write(const StepEntry& entry) { text_.step(entry.input, entry.step); }
   void write(const Overrun& overrun) { text_.overrun(overrun); }
@@ -94,7 +99,9 @@ class Recorder {
   std::vector<std::string> descriptions_;  ///< of chains
   std::vector<WindowEvent> events_;        ///< that wait to be written
   std::condition_variable_any wake_;
-  std::jthread thread_;  // last: it uses all of the above
+  std::atomic<bool> end_asked_{false}, ended_{false};
+  std::jthread thread_;  // it uses all of the above
+  std::optional<LastAct> last_act_;
 };
 
 }  // namespace palpate

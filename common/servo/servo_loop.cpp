@@ -1,6 +1,8 @@
 #include "common/servo/servo_loop.h"
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "common/base/check.h"
@@ -11,6 +13,7 @@ namespace palpate {
 namespace {
 
 constexpr int kServoPriority = 80;      // below the watchdog's, above everything that has none
+constexpr int kLongestLetGo = 50;       // [ms]
 constexpr int kMostReplayedATick = 16;  // a replay that fell behind catches up without holding the processor
 
 }  // namespace
@@ -36,6 +39,7 @@ ServoLoop::ServoLoop(ReplaySource& replay, const ServoOptions& options)
 }
 
 ServoLoop::~ServoLoop() {
+  last_act_.reset();
   if (thread_.joinable()) {
     thread_.request_stop();
     thread_.join();
@@ -58,6 +62,16 @@ void ServoLoop::start(const ServoOptions& options) {
   if (device_ != nullptr) watchdog_.emplace(*device_);
   thread_ = std::jthread(
       [this, real_time = options.real_time](const std::stop_token& stop) { run(stop, real_time); });
+  if (device_ != nullptr) last_act_.emplace([this] { let_go(); });
+}
+
+// A tick at work may have missed the switch: the one after it has not. One that hangs is the watchdog's case.
+void ServoLoop::let_go() {
+  force_off();
+  const std::uint64_t before = next_step();
+  for (int i = 0; i < kLongestLetGo && next_step() < before + 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  device_->emergency_stop();
 }
 
 bool ServoLoop::set_settings(const ChainSettings& settings) noexcept {

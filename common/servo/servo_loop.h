@@ -17,6 +17,7 @@
 #include <string>
 #include <thread>
 
+#include "common/base/last_acts.h"
 #include "common/base/ring.h"
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
@@ -77,7 +78,8 @@ class ServoLoop {
   /// Plays a recording at its own pace, no device on it; changes asked for below are ignored. `replay`
   /// outlives it.
   explicit ServoLoop(ReplaySource& replay, const ServoOptions& options = {});
-  /// Ends the thread after its tick, and sends the device a zero force.
+  /// Ends the thread after its tick, and sends the device a zero force; so does the end of the program in the
+  /// middle of its work (LastAct).
   ~ServoLoop();
   ServoLoop(const ServoLoop&) = delete;
   ServoLoop& operator=(const ServoLoop&) = delete;
@@ -121,6 +123,7 @@ class ServoLoop {
   };
 
   void start(const ServoOptions& options);
+  void let_go();
   void run(const std::stop_token& stop, bool real_time) noexcept;
   void tick(double now) noexcept;
   void play(double now) noexcept;
@@ -156,7 +159,8 @@ class ServoLoop {
   std::uint32_t arm_seen_ = 0;
   std::uint64_t stalls_seen_ = 0;
   double replay_start_ = -1.0;  ///< [s] negative: not started
-  std::jthread thread_;         // last: it uses all of the above
+  std::jthread thread_;         // it uses all of the above
+  std::optional<LastAct> last_act_;
 };
 
 }  // namespace palpate

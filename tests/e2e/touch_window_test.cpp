@@ -29,7 +29,9 @@ class TouchWindow : public ExplorerTest {
     return true;
   }
 
-  /// `open` with a window, which Ctrl-C in the terminal closes once `ready` says so.
+  /// `open` with a window, which Ctrl-C in the terminal closes once `ready` says so. Where the window is in a
+  /// frame that takes longer than the grace of Ctrl-C, the program ends without it; what is asserted of the
+  /// recording holds in either case.
   ProgramResult open_until(const std::vector<std::string>& arguments, const std::function<bool()>& ready,
                            const char* explorer = "flow") {
     std::vector<std::string> command{bin(explorer).string(), "open"};
@@ -144,6 +146,7 @@ TEST_F(TouchWindow, TheWindowRecordsAndReplays) {
   EXPECT_EQ(lived.exit_code, 130) << lived.err;
   const Recording recording = read_recording(file.string());
   EXPECT_TRUE(recording.ended) << "Ctrl-C ends it in order";
+  EXPECT_EQ(lived.err.find("nothing was kept"), std::string::npos) << lived.err;
   EXPECT_FALSE(recording.header.build.empty());
   EXPECT_EQ(recording.header.values.front(), std::pair(std::string("example"), std::string("tornado")));
   EXPECT_EQ(json({"probe", "--example", "tornado", "--replay", "run.txt"})["replay_differs"], false);

@@ -16,6 +16,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/last_acts.h"
 #include "common/base/output_file.h"
 
 namespace palpate {
@@ -57,6 +58,7 @@ struct InterruptGuard::State {
   }
 
   [[noreturn]] void end_now() {
+    run_last_acts();
     remove_unfinished_outputs();
     const std::string line = "\n" + program + ": interrupted; " + kept_text() + "\n";
     {

@@ -9,9 +9,9 @@
 
 namespace palpate {
 
-/// While it lives, SIGINT and SIGTERM cancel `progress`. 0.8 s later a program that is still at work removes
-/// what it was writing (output_file.h) and the unfinished outputs that it announced, says what was kept and
-/// exits with 130; a second signal does so at once. One at a time.
+/// While it lives, SIGINT and SIGTERM cancel `progress`. 0.8 s later a program that is still at work does
+/// its last acts (last_acts.h), removes what it was writing (output_file.h) and the unfinished outputs that
+/// it announced, says what was kept and exits with 130; a second signal does so at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard(Progress& progress, std::string program);

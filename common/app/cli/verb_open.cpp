@@ -61,6 +61,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
       .stop_requested = [] { return InterruptGuard::interrupted(); }};
   verb.style(options, window.view);
   window.view.stereo = stereo;
+  if (!options.record.empty()) context.interrupt.keep(options.record);
   const WindowResult result = run_user_window(*model, std::move(window),
                                               [&](const std::string& line) { context.console.note(line); });
   if (felt) tell_of_touch(result, context);

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/last_acts.h"
 #include "common/device/mouse_device.h"
 #include "tests/common/servo/sphere_drag.h"
 #include "tests/support/allocation_guard.h"
@@ -79,6 +80,29 @@ TEST(ServoLoop, ShowsTheForceAndSendsZeroAtTheEnd) {
     }));
   }
   EXPECT_EQ(device.shown, 0.0);
+}
+
+// As where Ctrl-C meets a window that does not come round: the loop is at work, and nobody will destroy it.
+TEST(ServoLoop, LastActsTakeTheForceAwayAndEndTheRecording) {
+  const TempFolder folder;
+  const auto file = folder.path("run.txt");
+  RestingDevice device;
+  Recorder recorder(file, {.program = "flow"}, false);
+  {
+    ServoLoop servo(device, sphere_chain(kRadius), "", {}, &recorder);
+    ASSERT_TRUE(wait_for([&] { return near(device.shown, kPull); }));
+    run_last_acts();
+    EXPECT_EQ(device.shown, 0.0);
+    EXPECT_EQ(device.stops, 1);
+    const std::uint64_t then = servo.next_step();
+    EXPECT_TRUE(wait_for([&] { return servo.next_step() > then + 10; })) << "it goes on, without force";
+    EXPECT_EQ(device.shown, 0.0);
+  }
+  const Recording ended = read_recording(file.string());
+  EXPECT_TRUE(ended.ended);
+  EXPECT_GT(ended.steps.size(), 0U);
+  recorder.finish();
+  EXPECT_EQ(read_recording(file.string()).steps.size(), ended.steps.size()) << "it had ended";
 }
 
 TEST(ServoLoop, HandsOutEveryStepInOrder) {

@@ -116,6 +116,16 @@ TEST_F(WindowTest, ShowsTheSceneAndClosesAfterItsFrames) {
   EXPECT_GT(result.median_frame_ms, 0.0);
 }
 
+// Ctrl-C is asked about before each frame.
+TEST_F(WindowTest, EndsWithTheFrameInWhichItIsStopped) {
+  constexpr int kThen = 20;
+  options_.frames = 4 * kThen;
+  int asked = 0;
+  options_.stop_requested = [&asked] { return ++asked >= kThen; };
+  EXPECT_LT(run_window(model_, options_).frames, kThen);
+  EXPECT_EQ(asked, kThen);
+}
+
 TEST_F(WindowTest, LeftDragTurnsTheView) {
   move(2, 600, 300);
   press(3, MouseButton::kLeft);
