@@ -1,5 +1,6 @@
 #include "common/render/render_image.h"
 
+#include "common/render/budget/frame_budget.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
 
@@ -7,13 +8,22 @@ namespace palpate {
 
 namespace {
 
-// The quality at which frames of `view` keep the budget.
-FrameQuality settled_quality(SceneRenderer& renderer, const SceneView& view, int width, int height,
-                             double milliseconds) {
+// Draws until frames of `view` keep the budget.
+void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view, int width, int height) {
   constexpr int kMostFrames = 120, kStill = 22;  // frames of one quality, by which time it has settled
-  FrameBudget budget(milliseconds);
   const bool volume = view.volume && view.volume->shown;
   budget.show(volume, volume && !view.volume->lenses.empty());
+  if (volume) {
+    renderer.keep_for_error(true);
+    renderer.draw(view, width, height);
+    renderer.keep_for_error(false);
+    while (renderer.estimate_error()) {
+    }
+    while (renderer.estimate_savings()) {
+    }
+    if (const auto errors = renderer.quality_errors()) budget.learn(*errors);
+  }
+  budget.begin();
   int still = 0;
   for (int i = 0; i < kMostFrames && still < kStill; ++i) {
     const FrameQuality quality = budget.quality();
@@ -22,7 +32,6 @@ FrameQuality settled_quality(SceneRenderer& renderer, const SceneView& view, int
     budget.drawn(renderer.gpu_milliseconds());
     still = budget.quality() == quality ? still + 1 : 0;
   }
-  return budget.quality();
 }
 
 }  // namespace
@@ -35,7 +44,12 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
   SceneRenderer renderer;
   renderer.draw(view, width, height);
   result.first_frame_ms = renderer.finish();
-  if (budget > 0.0) result.quality = settled_quality(renderer, view, width, height, budget);
+  if (budget > 0.0) {
+    FrameBudget held(budget);
+    settle(held, renderer, view, width, height);
+    result.quality = held.quality();
+    result.expected_error = held.expected_error();
+  }
   const SceneView drawn = with_quality(view, result.quality);
   for (int i = 0; i < repeat + (budget > 0.0 ? 1 : 0); ++i) {
     renderer.draw(drawn, width, height, result.quality.resolution);

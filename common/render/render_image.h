@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
 #include "common/render/volume/image_error.h"
@@ -17,6 +17,7 @@ struct RenderedImage {
   double first_frame_ms = 0.0;           ///< with the upload and the compiling of shaders
   std::vector<double> frame_ms;          ///< of the repeated frames, by the clock
   FrameQuality quality;                  ///< that the budget left
+  std::optional<double> expected_error;  ///< of that, RMS, as FrameBudget::expected_error()
   bool timer_query = false;              ///< it was held by timer queries, not by the clock
   std::optional<Index3> coarser_voxels;  ///< as VolumePass
   BrickShare bricks;                     ///< likewise
@@ -27,7 +28,8 @@ struct RenderedImage {
 };
 
 /// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does
-/// while something moves: the frames that settle its quality come before those that are timed. Usable from
+/// while something moves, after it stood still: errors of savings are looked at, then frames settle the
+/// quality, before those that are timed. Usable from
 /// any one thread; leaves no context current.
 /// @param error whether to estimate that of a volume (volume/image_error.h).
 /// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.

@@ -31,6 +31,8 @@
 #include "common/render/tract/tract_pass.h"
 #include "common/render/tract/tract_progress.h"
 #include "common/render/volume/error_estimate.h"
+#include "common/render/volume/saving_estimate.h"
+#include "common/render/volume/sparse_rays.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -144,8 +146,10 @@ struct SceneRenderer::State {
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
   bool keeps_for_error = false;
-  std::optional<ErrorEstimate> estimate;  // of the last picture
-  std::uint32_t opaque_depth = 0;         // of it, where the volume was drawn
+  std::shared_ptr<const StillPicture> picture;  // the last one, where it was kept
+  std::optional<ErrorEstimate> estimate;        // of it
+  std::optional<SavingEstimate> savings;        // likewise
+  bool savings_known = false;
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
@@ -302,17 +306,36 @@ struct SceneRenderer::State {
   void draw_volume(const SceneView& view, const LineDraw& base, float unit) {
     show_layers(view, base, unit);
     update_volume(view);
-    opaque_depth = target.copy_depth();
-    if (!keeps_for_error || stereo) return volume->draw(opaque_depth, block);
-    Image behind = read_picture();
+    const std::uint32_t opaque_depth = target.copy_depth();
+    if (!keeps_for_error) return volume->draw(opaque_depth, block);
+    StillPicture kept{.behind = read_picture(), .opaque_depth = opaque_depth};
     volume->draw(opaque_depth, block);
-    FrameBlock whole = block;
-    whole.size.x = static_cast<float>(behind.width);
-    whole.size.y = static_cast<float>(behind.height);
-    const double resolution = static_cast<double>(block.size.y) / behind.height;
-    whole.size.z = static_cast<float>(block.size.z * resolution);
-    Image shown = read_picture();
-    estimate.emplace(std::move(behind), std::move(shown), whole, resolution);
+    kept.shown = read_picture();
+    kept.resolution = static_cast<double>(block.size.y) / kept.shown.height;
+    kept.block = block;
+    kept.block.size.x = static_cast<float>(kept.shown.width);
+    kept.block.size.y = static_cast<float>(kept.shown.height);
+    kept.block.size.z = static_cast<float>(block.size.z * kept.resolution);
+    forget_estimates();
+    picture = std::make_shared<const StillPicture>(std::move(kept));
+    estimate.emplace(picture);
+  }
+
+  void forget_estimates() {
+    picture.reset();
+    estimate.reset();
+    savings.reset();
+    savings_known = false;
+  }
+
+  // What draws nothing of a picture, but asks for rays.
+  template <typename Work>
+  static bool beside_pictures(const Work& work) {
+    const bool more = work();
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return more;
   }
 
   // What the scene's framebuffer shows now, which stays bound.
@@ -453,7 +476,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
                          double tract_milliseconds, const std::function<bool()>& stop_tracts) {
   State& s = *state_;
   s.stop_tracts = stop_tracts;
-  s.estimate.reset();
+  s.forget_estimates();
   s.timer.begin();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
@@ -501,14 +524,12 @@ bool SceneRenderer::made_slabs() const noexcept { return state_->volume && state
 bool SceneRenderer::prepare_slabs(std::size_t cut) {
   State& s = *state_;
   if (!s.volume || s.stereo) return false;
-  const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-  s.target.bind_scene();
-  const bool more = s.volume->prepare_slabs(cut);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  return more;
+  return State::beside_pictures([&] {
+    const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
+    s.target.bind_scene();
+    return s.volume->prepare_slabs(cut);
+  });
 }
 
 void SceneRenderer::keep_for_error(bool on) { state_->keeps_for_error = on; }
@@ -516,16 +537,36 @@ void SceneRenderer::keep_for_error(bool on) { state_->keeps_for_error = on; }
 bool SceneRenderer::estimate_error() {
   State& s = *state_;
   if (!s.estimate || !complete()) return false;
-  const bool more = s.estimate->add(*s.volume, s.opaque_depth);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  return more;
+  return State::beside_pictures([&] { return s.estimate->add(*s.volume); });
 }
 
 std::optional<ImageError> SceneRenderer::image_error() const {
   if (!state_->estimate || state_->estimate->error().pixels == 0) return std::nullopt;
   return state_->estimate->error();
+}
+
+bool SceneRenderer::estimate_savings() {
+  State& s = *state_;
+  if (!s.estimate || !complete() || s.savings_known) return false;
+  if (!s.savings) s.savings.emplace(s.picture, s.frame, s.estimate->error().rms);
+  const bool more = State::beside_pictures([&] { return s.savings->add(*s.volume); });
+  s.savings_known = !more;
+  return more;
+}
+
+std::optional<QualityErrors> SceneRenderer::quality_errors() const {
+  if (!state_->savings_known) return std::nullopt;
+  return state_->savings->errors();
+}
+
+bool SceneRenderer::refine() {
+  State& s = *state_;
+  if (!s.draws_volume || !s.volume || s.stereo || !complete()) return false;
+  return State::beside_pictures([&] {
+    const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
+    return s.volume->refine();
+  });
 }
 
 std::string SceneRenderer::tables_by() const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "common/render/budget/quality_errors.h"
 #include "common/render/scene_view.h"
 #include "common/render/volume/image_error.h"
 
@@ -58,14 +59,23 @@ class SceneRenderer {
   /// As VolumePass::kept_picture() and forget_picture().
   [[nodiscard]] bool kept_volume() const noexcept;
   void forget_volume();
-  /// From now on pictures of one eye keep what estimate_error() compares, where they show a volume: copies of
-  /// them before and behind it.
+  /// From now on pictures keep what estimate_error() and estimate_savings() compare, where they show a
+  /// volume: copies of them before and behind it; of two eyes that of the one drawn last.
   void keep_for_error(bool on);
-  /// Looks at some pixels of the last picture again (error_estimate.h), as far as they were kept and the
-  /// picture is complete. @return whether more are worth it.
+  /// Looks at some pixels of the last picture again (volume/error_estimate.h), as far as they were kept and
+  /// the picture is complete. @return whether more are worth it.
   bool estimate_error();
   /// Of the pixels of the last picture that were looked at; nothing where none were.
   [[nodiscard]] std::optional<ImageError> image_error() const;
+  /// Looks at what one more saving would add to that error (volume/saving_estimate.h), likewise.
+  /// @return whether there are more.
+  bool estimate_savings();
+  /// Nothing before all of them were looked at.
+  [[nodiscard]] std::optional<QualityErrors> quality_errors() const;
+  /// Refines one more part of the volume's picture, for the next ones of the same view to show: as
+  /// VolumePass::refine(). @return whether parts are left; never for two eyes, or while the picture lacks
+  /// something.
+  bool refine();
   /// By whom and for which reason the preintegrated tables of the last volume were filled
   /// (TableChoice::text()); empty: none was drawn.
   [[nodiscard]] std::string tables_by() const;

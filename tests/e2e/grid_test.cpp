@@ -189,15 +189,25 @@ TEST_F(Grid, GivesUpQualityForABudgetAndSaysHowMuch) {
                  "--frame-budget", budget, "--out", name});
   };
   const Json hasty = render("1", "hasty.png"), patient = render("60000", "patient.png");
-  EXPECT_EQ(hasty["quality"], Json({{"context_samples", 0.25},
-                                    {"focus_samples", 0.5},
-                                    {"context_resolution", 0.5},
-                                    {"resolution", 0.25}}));
-  EXPECT_EQ(patient["quality"], Json({{"context_samples", 1.0},
-                                      {"focus_samples", 1.0},
-                                      {"context_resolution", 1.0},
-                                      {"resolution", 1.0}}));
+  const auto expect_quality = [](const Json& picture, double context, double focus, double viewport,
+                                 double resolution) {
+    const Json& quality = picture["quality"];
+    EXPECT_EQ(quality["context_samples"], context);
+    EXPECT_EQ(quality["focus_samples"], focus);
+    EXPECT_EQ(quality["context_resolution"], viewport);
+    EXPECT_EQ(quality["resolution"], resolution);
+    const double error = picture["image_error"].get<double>();
+    EXPECT_NEAR(quality["expected_error"].get<double>(), error, 0.5 * error);
+  };
+  expect_quality(hasty, 0.25, 0.5, 0.25, 0.25);
+  expect_quality(patient, 1.0, 1.0, 1.0, 1.0);
   EXPECT_GT(hasty["image_error"].get<double>(), 2.0 * patient["image_error"].get<double>());
+  const Json converged = json({"render", "--example", "shells", "--size", "200x150", "--lens",
+                               "sphere:0,0,0,0.5", "--converged", "--out", "converged.png"});
+  EXPECT_LT(255.0 * converged["image_error_worst"].get<double>(), 1.5);
+  EXPECT_EQ(run({"render", "--example", "shells", "--converged", "--frame-budget", "9", "--out", "c.png"})
+                .exit_code,
+            2);
   EXPECT_EQ(run({"render", "--example", "shells", "--frame-budget", "0", "--out", "c.png"}).exit_code, 2);
 }
 

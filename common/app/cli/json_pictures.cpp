@@ -41,6 +41,7 @@ std::string render_json(const RenderSummary& summary) {
             {"seconds_trace", summary.seconds_trace},
             {"renderer", summary.renderer},
             {"version", version()}};
+  if (summary.expected_error) json["quality"]["expected_error"] = *summary.expected_error;
   if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
     json["bricks"] = {{"held", bricks.held},       {"wanted", bricks.wanted}, {"all", bricks.all},
                       {"entered", bricks.entered}, {"left", bricks.left},     {"bytes", bricks.bytes}};

@@ -83,6 +83,7 @@ struct ViewOptions {
   double line_width = 3.0;       ///< LineStyle::width
   double line_opacity = 1.0;     ///< LineStyle::opacity
   double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
+  bool converged = false;        ///< a picture of a volume as a window refines it at rest
   double play_rate = 5.0;        ///< time steps a second
   std::string stereo = "none";   ///< kStereoModeNames
   double eye_separation = 63.0;  ///< [mm]

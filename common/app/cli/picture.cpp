@@ -15,6 +15,7 @@
 #include "common/base/version.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
+#include "common/render/volume/image_error.h"
 
 namespace palpate {
 namespace {
@@ -91,6 +92,14 @@ PickBeam beam_of_option(const ViewOptions& options, const SceneView& view) {
   return parse_beam(options.pick, kRayRadius * view.bounds.diagonal(), "--pick");
 }
 
+/// @throws Error (usage) where there is no volume.
+void refine(SceneView& view) {
+  if (!view.volume) throw usage_error("--converged is for pictures of volumes");
+  VolumeView& volume = *view.volume;
+  volume = converged_view(std::move(volume));
+  volume.skip_empty = volume.stop_where_opaque = true;  // unseen
+}
+
 /// What is told of the drawing once a picture is there.
 void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedImage& rendered,
           Console& console) {
@@ -117,6 +126,8 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
   (void)camera_of(options.view, Box{}, 1.0);
+  if (options.view.converged && options.view.frame_budget > 0.0)
+    throw usage_error("--converged and --frame-budget: a picture is either refined or hurried");
   if (!options.view.pick.empty()) (void)beam_of_option(options.view, {});
   const std::vector<ScreenPicture> pictures = asked_pictures(options);
   const auto [width, height] = pictures.front().size;
@@ -138,6 +149,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
   }
 
   DrawnScene drawn = maker.make(input, options, context, aspect);
+  if (options.view.converged) refine(drawn.view);
   summary.field = drawn.field;
   summary.lines = drawn.lines;
   summary.points = drawn.points;
@@ -169,6 +181,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
     summary.frame_ms = rendered.frame_ms.empty() ? rendered.first_frame_ms : median(rendered.frame_ms);
     summary.renderer = rendered.renderer;
     summary.quality = rendered.quality;
+    summary.expected_error = rendered.expected_error;
     summary.timer_query = rendered.timer_query;
     summary.bricks = rendered.bricks;
     summary.tables_by = rendered.tables_by;

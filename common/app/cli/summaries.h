@@ -15,7 +15,7 @@
 #include "common/geometry/annotation.h"
 #include "common/geometry/tractogram_lengths.h"
 #include "common/haptics/constraint.h"
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/volume/image_error.h"
 #include "common/render/volume/volume_view.h"
@@ -273,8 +273,9 @@ struct RenderSummary {
   double first_frame_ms = 0.0;
   double frame_ms = 0.0;
   int frames_timed = 0;
-  FrameQuality quality;      ///< that --frame-budget left
-  bool timer_query = false;  ///< it was held by timer queries, not by the clock
+  FrameQuality quality;                  ///< that --frame-budget left
+  std::optional<double> expected_error;  ///< RenderedImage::expected_error
+  bool timer_query = false;              ///< it was held by timer queries, not by the clock
   double image_error = 0.0;
   std::string image_error_kind;
   std::optional<ImageError> estimate;  ///< of a volume: what image_error is from

@@ -261,6 +261,11 @@ void VerbParser::add_picture() {
           "that an eye at e looks through; else a cutting plane")
       ->type_name("ray:x,y,z,dx,dy,dz|aperture:ex,ey,ez,ax,ay,az,s")
       ->group("View");
+  app_.add_flag(
+          "--converged", options_.view.converged,
+          "of a volume: with so many samples that more change nothing that is seen, as windows refine a "
+          "picture that stands still")
+      ->group("View");
   app_.add_option("--repeat", options_.repeat, "frames to time after the first one")
       ->type_name("N")
       ->check(CLI::Range(0, 100000))

@@ -233,9 +233,11 @@ void add_view_options(SceneOptions& options, Options& bound, FieldKind kind) {
   add_focal_option(options, bound.view);
   options
       .add("--frame-budget", bound.view.frame_budget,
-           "milliseconds that a picture may take while something moves: samples along rays are given up "
-           "first, "
-           "then pixels, in lenses last; default 60. A picture in a file is drawn as such a one",
+           "milliseconds that a picture may take while something moves: samples and pixels are given up by "
+           "the "
+           "errors that this was measured to make, inside lenses last; default 60. A picture in a file is "
+           "drawn "
+           "as such a one",
            "MS", kGroup)
       ->check(CLI::Range(1.0, 1e5));
   add_stereo(options, bound.view);

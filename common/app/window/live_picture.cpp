@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/math/power_of_two.h"
+#include "common/render/volume/image_error.h"
 
 namespace palpate {
 namespace {
@@ -16,32 +18,50 @@ constexpr double kPatientPictures = 5.0;
 constexpr double kLensRest = 0.3;
 // What is kept of a plane while it moves is given back after so long a rest [s].
 constexpr double kSlabRest = 5.0;
+// Parts of a picture that were refined are shown so often [s].
+constexpr double kRefineShown = 0.3;
+// Of two eyes: what a picture may take [ms], and with how many samples.
+constexpr double kFinestPicture = 1000.0;
+constexpr int kMostDoublings = 6;
 // So long may panels wait while pictures are made that nobody waits for [s].
 constexpr double kPrepareSlice = 0.05;
 // Of a volume in bricks, for one picture: some 10 ms [bytes].
 constexpr std::uint64_t kBrickUpload = std::uint64_t{8} << 20;
 
+// Toward the converged one, by so many doublings of the samples.
+SceneView finer_view(SceneView view, int doublings) {
+  const VolumeView finest = converged_view(*view.volume);
+  const auto samples = [&](double asked) {
+    return std::min(asked * power_of_two(doublings), finest.samples_per_voxel);
+  };
+  VolumeView finer = sampled_view(*view.volume, 1.0, 1.0);
+  finer.table_entries = std::max(finer.table_entries, finest.table_entries);
+  finer.samples_per_voxel = samples(finer.samples_per_voxel);
+  for (Lens& lens : finer.lenses) lens.samples_per_voxel = samples(lens.samples_per_voxel);
+  view.volume = std::move(finer);
+  return view;
+}
+
 }  // namespace
 
 void LivePicture::draw(SceneView view, int width, int height, const PictureMoment& moment) {
-  const double rest = moment.seconds - lens_moved_;
+  const double rest_time = moment.seconds - lens_moved_;
   if (moment.editing && is_edited(view)) edited_ = moment.seconds;
   asked_ = view.volume;
   const bool moving =
-      moment.moving || rest < kLensRest || (moment.editing && moment.seconds - edited_ < kLensRest);
+      moment.moving || rest_time < kLensRest || (moment.editing && moment.seconds - edited_ < kLensRest);
   const bool volume = view.volume && view.volume->shown;
   budget_.show(volume, volume && !view.volume->lenses.empty());
+  if (moving && !std::exchange(moving_, moving)) budget_.begin();
+  moving_ = moving;
   const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
   view = with_quality(std::move(view), quality);
   if (view.volume) {
     view.volume->storage.upload = kBrickUpload;
-    const bool stands = shown_.volume && shown_.camera == view.camera &&
-                        same_picture(*shown_.volume, *view.volume) && width == width_ && height == height_;
-    if (!stands) {
-      local_.begin();
-      figures_.error.reset();
-      error_known_ = false;
-    }
+    if (!stands(view, width, height)) begin_rest();
+    resting_ = view.volume;
+    resting_camera_ = view.camera;
+    if (!moving && finer_ > 0) view = finer_view(std::move(view), finer_);
     view.volume->keep_picture = !moving && local_.on();
   }
   const bool wants_error = volume && !moving && !error_known_ && moment.interrupted;
@@ -50,8 +70,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
       !renderer_.complete()) {
     const bool patient = !moving && moment.interrupted;
     renderer_.keep_for_error(wants_error);
-    estimating_ = wants_error && !has_two_eyes(view);
-    error_known_ = error_known_ || (wants_error && !estimating_);
+    estimating_ = wants_error;
     renderer_.draw(view, width, height, quality.resolution,
                    (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
                    patient ? moment.interrupted : nullptr);
@@ -60,10 +79,13 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     figures_.coarser_voxels = renderer_.coarser_voxels();
     figures_.bricks = renderer_.bricks();
     if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
+    figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
-    if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume()))
+    if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume())) {
       renderer_.forget_volume();
+      refined_ = false;
+    }
     figures_.quality = quality;
     milliseconds_.push_back(figures_.milliseconds);
     figures_.frames_per_second = moment.seconds > last_drawn_ ? 1.0 / (moment.seconds - last_drawn_) : 0.0;
@@ -74,17 +96,38 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     height_ = height;
     dirty_ = false;
   }
-  preparing_ = false;
+  preparing_ = refining_ = false;
   if (moving) {
-    estimating_ = false;
+    estimating_ = saving_ = false;
+  } else {
+    rest(moment, volume);
+    if (!preparing_ && rest_time > kSlabRest) renderer_.forget_slabs();
+  }
+}
+
+// Whether what is known of the last picture is true of this one: its volume, seen from the same place.
+bool LivePicture::stands(const SceneView& view, int width, int height) const {
+  return resting_ && resting_camera_ == view.camera && width == width_ && height == height_ &&
+         same_picture(*resting_, *view.volume);
+}
+
+void LivePicture::begin_rest() {
+  local_.begin();
+  figures_.error.reset();
+  error_known_ = savings_known_ = saving_ = refined_ = false;
+  finer_ = 0;
+}
+
+// What is done while nobody waits, one thing after the other.
+void LivePicture::rest(const PictureMoment& moment, bool volume) {
+  if (!moment.interrupted || !volume || !renderer_.complete()) {
+    estimating_ = saving_ = false;
     return;
   }
   estimate_error(moment);
-  if (moment.next_cut && volume) {
-    prepare(moment);
-  } else if (rest > kSlabRest) {
-    renderer_.forget_slabs();
-  }
+  if (!estimating_) estimate_savings(moment);
+  if (moment.next_cut) prepare(moment);
+  if (!estimating_ && !saving_ && !preparing_) refine(moment);
 }
 
 // Whether a panel has changed how the same volume is shown.
@@ -92,25 +135,61 @@ bool LivePicture::is_edited(const SceneView& view) const {
   return view.volume && asked_ && view.volume->image == asked_->image && !same_picture(*view.volume, *asked_);
 }
 
-// While nobody waits; the picture is told with what is known so far.
+// The picture is told with what is known so far.
 void LivePicture::estimate_error(const PictureMoment& moment) {
-  if (!estimating_ || !moment.interrupted || !renderer_.complete()) return;
+  if (!estimating_) return;
   const Stopwatch watch;
   do {
     estimating_ = renderer_.estimate_error();
     figures_.error = renderer_.image_error();
   } while (estimating_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
   error_known_ = !estimating_;
+  saving_ = error_known_ && !savings_known_;
+}
+
+// For when it moves next.
+void LivePicture::estimate_savings(const PictureMoment& moment) {
+  if (!saving_) return;
+  const Stopwatch watch;
+  do {
+    saving_ = renderer_.estimate_savings();
+  } while (saving_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
+  const std::optional<QualityErrors> errors = renderer_.quality_errors();
+  if (errors) budget_.learn(*errors);
+  savings_known_ = errors.has_value();
 }
 
 // Where planes move in coarser pictures, what is kept of full ones is of no use to them.
 void LivePicture::prepare(const PictureMoment& moment) {
-  if (!moment.interrupted || !renderer_.complete() || budget_.quality() != FrameQuality{}) return;
+  if (budget_.quality() != FrameQuality{}) return;
   const Stopwatch watch;
   do {
     preparing_ = renderer_.prepare_slabs(*moment.next_cut);
     renderer_.finish();
   } while (preparing_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
+}
+
+// Until no pixel would change; shown now and then.
+void LivePicture::refine(const PictureMoment& moment) {
+  if (refined_ || !error_known_ || !figures_.error || is_converged(*figures_.error)) return;
+  if (has_two_eyes(shown_)) {
+    refined_ = finer_ == kMostDoublings || 2.0 * figures_.milliseconds > kFinestPicture;
+    if (refined_) return;
+    ++finer_;
+    error_known_ = false;
+    refining_ = true;
+    return;
+  }
+  const Stopwatch watch;
+  do {
+    refining_ = renderer_.refine();
+    renderer_.finish();
+  } while (refining_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
+  refined_ = !refining_;
+  if (refining_ && moment.seconds - refined_at_ < kRefineShown) return;
+  refined_at_ = moment.seconds;
+  dirty_ = refining_ = true;
+  error_known_ = !refined_;
 }
 
 double LivePicture::median_milliseconds() const {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_budget.h"
 #include "common/render/local_redraw.h"
 #include "common/render/scene_renderer.h"
 #include "common/render/scene_view.h"
@@ -24,6 +24,9 @@ struct PictureFigures {
   BrickShare bricks;                     ///< likewise
   /// Of a volume at rest, as far as it is known: from a sparse set of its pixels.
   std::optional<ImageError> error;
+  /// Of one that moves, where it has rested before: RMS, by what was given up
+  /// (render/budget/quality_errors.h).
+  std::optional<double> expected_error;
   TractShare tracts;
 };
 
@@ -33,8 +36,8 @@ struct PictureMoment {
   bool moving = false;   ///< something is dragged or played: the budget holds
   bool editing =
       false;  ///< something of a panel is held: while that changes the volume, the budget holds, too
-  /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, until it
-  /// returns true.
+  /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, and to
+  /// look at errors and to refine, until it returns true.
   std::function<bool()> interrupted;
   /// The cut of the volume that may be moved next: while nobody waits, what does not change then is kept.
   std::optional<std::size_t> next_cut;
@@ -58,7 +61,9 @@ class LivePicture {
   void show(int left, int bottom) { renderer_.show(left, bottom); }
 
   /// Whether nothing is left to be added, or to be kept for what comes next.
-  [[nodiscard]] bool complete() const { return renderer_.complete() && !preparing_ && !estimating_; }
+  [[nodiscard]] bool complete() const {
+    return renderer_.complete() && !preparing_ && !estimating_ && !saving_ && !refining_;
+  }
   [[nodiscard]] const PictureFigures& figures() const { return figures_; }
   [[nodiscard]] auto read() { return renderer_.read(); }
   /// As SceneRenderer.
@@ -68,8 +73,13 @@ class LivePicture {
 
  private:
   [[nodiscard]] bool is_edited(const SceneView& view) const;
+  [[nodiscard]] bool stands(const SceneView& view, int width, int height) const;
+  void begin_rest();
+  void rest(const PictureMoment& moment, bool volume);
   void prepare(const PictureMoment& moment);
   void estimate_error(const PictureMoment& moment);
+  void estimate_savings(const PictureMoment& moment);
+  void refine(const PictureMoment& moment);
 
   SceneRenderer renderer_;
   FrameBudget budget_;
@@ -78,10 +88,15 @@ class LivePicture {
   SceneView shown_;                  // as it was drawn last
   std::optional<VolumeView> asked_;  // the volume as it was asked for last
   int width_ = 0, height_ = 0;
-  bool dirty_ = true, preparing_ = false;
-  bool estimating_ = false;                                      // the error of the last picture is looked at
-  bool error_known_ = false;                                     // of this view, as well as may be
-  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
+  bool dirty_ = true, preparing_ = false, moving_ = false;
+  std::optional<VolumeView> resting_;  // as it was asked for last: while it stands, what is known of it does
+  Camera resting_camera_;
+  bool estimating_ = false;                           // the error of the last picture is looked at
+  bool error_known_ = false, savings_known_ = false;  // of this view, as well as may be
+  bool saving_ = false;                               // what savings add to it is looked at
+  bool refining_ = false, refined_ = false;
+  int finer_ = 0;  // doublings of the samples of two eyes, which are not refined bit by bit
+  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0, refined_at_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;
 };

@@ -66,6 +66,7 @@ std::string frame_text(const PanelState& state) {
   give_up(quality.context, "samples");
   give_up(quality.viewport, "resolution around lenses");
   give_up(quality.resolution, "resolution");
+  give_up(quality.focus, "samples in lenses");
   if (const auto& n = state.picture.coarser_voxels) {
     std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n->x, n->y, n->z);
     text += part.data();
@@ -82,6 +83,10 @@ std::string frame_text(const PanelState& state) {
   if (const auto& error = state.picture.error) {
     std::snprintf(part.data(), part.size(), "error %.2g/255, worst %.0f, ", 255.0 * error->rms,
                   255.0 * error->worst);
+    text += part.data();
+  }
+  if (const auto& error = state.picture.expected_error) {
+    std::snprintf(part.data(), part.size(), "error about %.2g/255, ", 255.0 * *error);
     text += part.data();
   }
   std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);

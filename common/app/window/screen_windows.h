@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/app/immersive/bench_display.h"
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_quality.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {

@@ -1,35 +1,26 @@
 /// Looks at some pixels of a picture again, converged (image_error.h).
 #pragma once
 
-#include <cstdint>
+#include <memory>
 
-#include "common/render/frame_block.h"
-#include "common/render/gl/object.h"
-#include "common/render/scene_view.h"
 #include "common/render/volume/image_error.h"
+#include "common/render/volume/sparse_rays.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
 
 class ErrorEstimate {
  public:
-  /// @param behind what the volume was drawn over, `shown` with the volume: as large as the picture.
-  /// @param block of the picture, of which the frame that the volume was drawn in has `resolution` as many
-  /// pixels along either edge.
-  ErrorEstimate(Image behind, Image shown, const FrameBlock& block, double resolution);
+  explicit ErrorEstimate(std::shared_ptr<const StillPicture> picture);
 
-  /// Looks at the pixels of one more round. Keeps the framebuffer and viewport; another frame's uniform block
-  /// is bound to 0 then.
-  /// @param pass that drew the volume last, over depths `opaque_depth`.
+  /// Looks at the pixels of one more round, as cast_sparse_rays().
   /// @return whether more are worth it: the error is not known to a tenth.
-  bool add(VolumePass& pass, std::uint32_t opaque_depth);
+  bool add(VolumePass& pass);
 
   [[nodiscard]] ImageError error() const noexcept;
 
  private:
-  Image behind_, shown_;
-  FrameBlock block_;
-  double resolution_;
+  std::shared_ptr<const StillPicture> picture_;
   int rounds_ = 0;
   double milliseconds_ = 0.0;
   ErrorSum sum_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "common/math/power_of_two.h"
 #include "common/render/volume/preintegration.h"
 
 namespace palpate {
@@ -22,6 +23,20 @@ VolumeView converged_view(VolumeView view) {
   view.skip_empty = view.stop_where_opaque = false;
   view.keep_slabs = view.keep_picture = false;
   return view;
+}
+
+VolumeView sampled_view(VolumeView view, double context, double focus) {
+  view.samples_per_voxel *= context * power_of_two(-view.context.level);
+  for (Lens& lens : view.lenses) lens.samples_per_voxel *= focus;
+  view.far_sampling = 1.0;
+  view.context = {};
+  view.keep_slabs = view.keep_picture = false;
+  return view;
+}
+
+bool is_converged(const ImageError& error) noexcept {
+  constexpr double kStep = 1.5 / 255.0;  // one, whatever its rounding
+  return error.worst < kStep;
 }
 
 PixelLattice PixelLattice::of(int width, int height, int round) noexcept {

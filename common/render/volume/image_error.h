@@ -26,9 +26,17 @@ struct ImageError {
   double milliseconds = 0.0;  ///< that it took
 };
 
+/// Whether no pixel that was looked at would be seen to change: none by more than a step of 8 bits.
+[[nodiscard]] bool is_converged(const ImageError& error) noexcept;
+
 /// The view with so many samples and entries of tables that more change nothing that is seen, and nothing
 /// left out or kept: what errors are told against. Of the same voxels, coarser ones where these are drawn.
 [[nodiscard]] VolumeView converged_view(VolumeView view);
+
+/// The view with such shares of its samples outside and inside lenses, along rays through its finest voxels
+/// alone: no smaller picture of the context, none of its coarser voxels, no fewer samples far away, nothing
+/// kept.
+[[nodiscard]] VolumeView sampled_view(VolumeView view, double context, double focus);
 
 /// Which pixels a round looks at: columns x rows, at step (i + 1/2) - 1/2 of either axis.
 struct PixelLattice {

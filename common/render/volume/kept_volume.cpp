@@ -1,6 +1,8 @@
 #include "common/render/volume/kept_volume.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <epoxy/gl.h>
 
@@ -9,6 +11,13 @@
 #include "common/render/volume/volume_bindings.h"
 
 namespace palpate {
+
+namespace {
+
+constexpr int kTile = 64;  // pixels an edge
+constexpr std::array<float, 4> kNothing{};
+
+}  // namespace
 
 bool KeptVolume::possible(const VolumeView& view) { return view.keep_picture && !draws_context_alone(view); }
 
@@ -24,14 +33,33 @@ KeptVolume::KeptVolume(const VolumeView& view, const FrameBlock& block, std::uin
   PALPATE_CHECK(opaque_depth != 0);
   glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
                      width_, height_, 1);
+  for (int bottom = 0; bottom < height_; bottom += kTile)
+    for (int left = 0; left < width_; left += kTile) tiles_.push_back({left, bottom});
+  const auto off_middle = [&](const Tile& tile) {
+    return std::hypot(2 * tile.left + kTile - width_, 2 * tile.bottom + kTile - height_);
+  };
+  std::ranges::stable_sort(tiles_, {}, off_middle);
 }
 
 void KeptVolume::begin() const {
-  constexpr std::array<float, 4> kNothing{};
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, picture_.name(), 0);
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
+}
+
+void KeptVolume::begin_tile() const {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_, height_);
+  const Tile& tile = tiles_[refined_];
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(tile.left, tile.bottom, kTile, kTile);
+  glClearBufferfv(GL_COLOR, 0, kNothing.data());
+}
+
+void KeptVolume::end_tile() {
+  glDisable(GL_SCISSOR_TEST);
+  ++refined_;
 }
 
 bool KeptVolume::fits(const VolumeView& view, const FrameBlock& block) const {

@@ -4,11 +4,15 @@
 ///
 ///   picture = K over opaque where z = z_0,   else the ray up to z over opaque                       (1)
 ///
+/// While nothing moves K is refined tile by tile.
+///
 /// K has one sample a pixel, as rays do, and 16 bits a component; what is opaque keeps its own samples. So
 /// (1) is the picture of a full redraw, but for the rounding of K.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "common/render/frame_block.h"
 #include "common/render/gl/framebuffer.h"
@@ -40,6 +44,21 @@ class KeptVolume {
   [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block) const;
   /// z_0, for shaders/volume/ray.glsl.
   [[nodiscard]] std::uint32_t depth() const noexcept { return depth_.name(); }
+  /// Draws one more tile of K anew, from the middle outward, as it is to be seen from now on: converged.
+  /// @param draw as for the whole picture; over depths z_0. Framebuffer and viewport are kept.
+  /// @return whether tiles are left. Needs the scissor test, off before and after.
+  template <typename Draw>
+  bool refine(const Draw& draw) {
+    if (refined_ == tiles_.size()) return false;
+    const FramebufferGuard before;
+    begin_tile();
+    draw();
+    end_tile();
+    return refined_ < tiles_.size();
+  }
+  /// Whether some of it was refined.
+  [[nodiscard]] bool refined() const noexcept { return refined_ > 0; }
+
   /// Draws K over the framebuffer that is bound, where z = z_0.
   void show(std::uint32_t opaque_depth);
   [[nodiscard]] std::uint64_t bytes() const noexcept;
@@ -47,10 +66,17 @@ class KeptVolume {
  private:
   KeptVolume(const VolumeView& view, const FrameBlock& block, std::uint32_t opaque_depth);
   void begin() const;
+  void begin_tile() const;
+  void end_tile();
 
+  struct Tile {
+    int left = 0, bottom = 0;
+  };
   VolumeView view_;
   FrameBlock block_;
   int width_ = 0, height_ = 0;
+  std::vector<Tile> tiles_;
+  std::size_t refined_ = 0;  ///< of them
   GlTexture picture_, depth_;
   GlFramebuffer framebuffer_;
   GlVertexArray no_vertices_;

@@ -21,7 +21,7 @@
 #include "common/render/gl/program.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/volume/context_picture.h"
-#include "common/render/volume/converged_volume.h"
+#include "common/render/volume/image_error.h"
 #include "common/render/volume/kept_volume.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/shape_block.h"
@@ -29,6 +29,7 @@
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_textures.h"
+#include "common/render/volume/volume_variant.h"
 
 namespace palpate {
 namespace {
@@ -82,8 +83,8 @@ struct VolumePass::State {
   GlBuffer volume_block, shape_block;
   ShapeRoom room;
   Cost cost;
-  std::unique_ptr<ConvergedVolume> converged;  // once some of its rays were asked for
-  std::unique_ptr<ContextPicture> context;     // where the context is drawn by itself
+  std::unique_ptr<VolumeVariant> again;     // once some of its rays were asked for
+  std::unique_ptr<ContextPicture> context;  // where the context is drawn by itself
 
   PlaneImagePass planes;
   Variant variant = Variant::kPlain;
@@ -174,19 +175,34 @@ struct VolumePass::State {
     glBindVertexArray(no_vertices.name());
   }
 
-  // What is shown and what is converged have one program where they are told the same.
-  const GlProgram& converged_program() {
-    ConvergedVolume& c = *converged;
-    std::vector<std::string> told = c.defines;
+  // What is shown and what is drawn again have one program where they are told the same.
+  const GlProgram& program_again() {
+    std::vector<std::string> told = again->defines;
     if (layers != nullptr) told.emplace_back(kLayersDefine);
     if (told == defines) return program_of(Reach::kAll);
-    if (!c.program) {
+    if (!again->program) {
       const char* fragment = fragment_of(Reach::kAll, variant);
-      c.program = compile_program("volume/volume.vert", fragment, shader_files(), told);
-      label_object(GpuObject::Kind::kProgram, c.program.name(), std::string(fragment) + ", converged");
+      again->program = compile_program("volume/volume.vert", fragment, shader_files(), told);
+      label_object(GpuObject::Kind::kProgram, again->program.name(), std::string(fragment) + ", again");
       ++cost.programs;
     }
-    return c.program;
+    return again->program;
+  }
+
+  // Rays of all pixels but those that `seen` shows already, with other samples and tables.
+  void cast_again(const VolumeView& as, std::uint32_t opaque_depth, float step, const KeptVolume* seen) {
+    if (!again) again = std::make_unique<VolumeVariant>();
+    again->update(as, frame, textures);
+    glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, again->volume_block.name());
+    bind_shape_block(again->shape_block, again->room);
+    again->textures.bind(colored());
+    use(program_again(), opaque_depth, step);
+    glUniform1i(volume_shader::kHasKept, seen != nullptr ? 1 : 0);
+    if (seen != nullptr) glBindTextureUnit(volume_shader::kStillDepth, seen->depth());
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
   }
 
   void cast_rays() const {
@@ -298,8 +314,8 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   VolumeView view = asked;
   if (s.layers != nullptr) view.context = {};
   view.storage = storage_of_whole(view);
-  if (s.converged && s.asked != asked.image) s.converged.reset();
-  if (s.converged) s.converged->textures.release_bricks();
+  if (s.again && s.asked != asked.image) s.again.reset();
+  if (s.again) s.again->textures.release_bricks();
   const std::uint64_t voxels = s.textures.changes();
   s.textures.update(view, make_brick_sight(block, frame));
   if (s.textures.changes() != voxels) {
@@ -318,10 +334,10 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
     s.programs = {};
     s.planes = {};
     s.context.reset();
-    if (s.converged) s.converged->program.reset();
+    if (s.again) s.again->program.reset();
     s.defines = std::move(defines);
   }
-  if (s.converged && s.variant != variant_of(view)) s.converged->program.reset();
+  if (s.again && s.variant != variant_of(view)) s.again->program.reset();
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
@@ -345,14 +361,20 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   s.cost.slab_bytes = 0;
   const bool slabs = !s.context && s.uses_slabs(block, opaque_depth != 0);
   const bool stands = s.drawn_view && s.drawn_block == block && same_picture(*s.drawn_view, s.shown);
-  if (opaque_depth != 0 && KeptVolume::possible(s.shown) && bricks().complete() && (stands || !slabs)) {
+  const bool keeps =
+      KeptVolume::possible(s.shown) || (s.kept && s.kept->refined() && s.kept->fits(s.shown, block));
+  if (opaque_depth != 0 && keeps && bricks().complete() && (stands || !slabs)) {
     if (!s.kept || !s.kept->fits(s.shown, block)) {
       s.kept = std::make_unique<KeptVolume>(s.shown, block, opaque_depth,
                                             [&] { s.draw_volume(slabs, opaque_depth, block, nullptr); });
       s.kept_picture = true;
     }
     s.kept->show(opaque_depth);
-    if (!s.kept_picture) s.draw_volume(slabs, opaque_depth, block, s.kept.get());
+    if (!s.kept_picture && s.context) {
+      s.cast_again(sampled_view(s.shown, 1.0, 1.0), opaque_depth, 1.0F, s.kept.get());
+    } else if (!s.kept_picture) {
+      s.draw_volume(slabs, opaque_depth, block, s.kept.get());
+    }
   } else {
     s.kept.reset();
     s.draw_volume(slabs, opaque_depth, block, nullptr);
@@ -363,21 +385,28 @@ void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   s.drawn_depth = opaque_depth;
 }
 
-void VolumePass::draw_converged(std::uint32_t opaque_depth, float step) {
+const VolumeView& VolumePass::drawn_view() const {
+  PALPATE_CHECK(state_->drawn_view);
+  return *state_->drawn_view;
+}
+
+void VolumePass::draw_as(const VolumeView& as, std::uint32_t opaque_depth, float step) {
+  PALPATE_CHECK(state_->drawn_view && bricks().complete());
+  state_->cast_again(as, opaque_depth, step, nullptr);
+}
+
+bool VolumePass::refine() {
   State& s = *state_;
-  PALPATE_CHECK(s.drawn_view && bricks().complete());
-  if (!s.converged) s.converged = std::make_unique<ConvergedVolume>();
-  ConvergedVolume& c = *s.converged;
-  c.update(*s.drawn_view, s.frame, s.textures);
-  glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, c.volume_block.name());
-  bind_shape_block(c.shape_block, c.room);
-  c.textures.bind(s.colored());
-  s.use(s.converged_program(), opaque_depth, step);
-  glUniform1i(volume_shader::kHasKept, 0);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDisable(GL_BLEND);
+  if (!s.drawn_view || s.drawn_depth == 0 || !bricks().complete()) return false;
+  if (!s.kept || !s.kept->fits(s.shown, s.drawn_block)) {
+    s.kept = std::make_unique<KeptVolume>(s.shown, s.drawn_block, s.drawn_depth, [&] {
+      s.draw_volume(false, s.drawn_depth, s.drawn_block, nullptr);
+    });
+    return true;
+  }
+  VolumeView finest = converged_view(s.shown);
+  finest.skip_empty = finest.stop_where_opaque = true;  // unseen
+  return s.kept->refine([&] { draw_as(finest, s.kept->depth(), 1.0F); });
 }
 
 bool VolumePass::prepare_slabs(std::size_t cut) {
@@ -435,7 +464,7 @@ VolumePass::Cost VolumePass::cost() const {
   cost.segments_made = textures.segments_made;
   cost.tables_by = state_->textures.table_choice().text();
   cost.empty_share = textures.empty_share;
-  if (state_->converged) cost.converged_bytes = state_->converged->textures.cost().table_bytes;
+  if (state_->again) cost.again_bytes = state_->again->textures.cost().table_bytes;
   if (state_->context) {
     const ContextPicture::Cost context = state_->context->cost();
     cost.programs += context.programs;

@@ -65,12 +65,22 @@ class VolumePass {
   /// @param block the frame's.
   void draw_planes(const FrameBlock& block);
 
-  /// Draws rays through the volume of the last draw() again, as converged_view() has them, over the
-  /// framebuffer that is bound: for a sparse set of its pixels (error_estimate.h). Needs the block of that
-  /// frame bound to 0.
+  /// The volume of the last draw(), with what was drawn in place of its images. @pre draw().
+  [[nodiscard]] const VolumeView& drawn_view() const;
+  /// Draws rays through that volume again, with other samples and tables, over the framebuffer that is bound:
+  /// for a sparse set of its pixels (sparse_rays.h), or to refine it. Needs the block of that frame bound to
+  /// 0.
+  /// @param as drawn_view() but for samples, tables, what is left out and what is kept; a context that is
+  /// drawn alone, and fewer samples far from the viewer, it has not.
   /// @param opaque_depth as draw() was given it. @param step its pixels along either edge, to one of these.
   /// @pre draw(), and bricks().complete().
-  void draw_converged(std::uint32_t opaque_depth, float step);
+  void draw_as(const VolumeView& as, std::uint32_t opaque_depth, float step);
+
+  /// Draws nothing, but refines one more part of the picture of the last draw(), to what converged_view()
+  /// gives, for the next ones of the same volume to show: while nobody waits. Needs the frame's uniform block
+  /// bound to 0.
+  /// @return whether parts are left; never where there is no picture of depths, or bricks lack.
+  bool refine();
 
   /// Draws nothing, but keeps one more picture of a slab for when the cut of that number moves, and has what
   /// draw() then needs compiled: for while nobody waits. Over the framebuffer of the last draw(), with the
@@ -98,15 +108,15 @@ class VolumePass {
     std::uint64_t voxel_bytes = 0;  ///< textures on the GPU
     std::uint64_t table_bytes = 0;
     std::uint64_t brick_bytes = 0;
-    std::uint64_t slab_bytes = 0;       ///< kept of a plane that moves
-    std::uint64_t kept_bytes = 0;       ///< the picture that is kept of a volume that stands still
-    std::uint64_t converged_bytes = 0;  ///< tables of draw_converged()
-    std::uint64_t context_bytes = 0;    ///< coarser voxels, tables and pictures of the context, drawn alone
-    double table_ms = 0.0;              ///< of the last preintegration
-    int tables_made = 0;                ///< then
-    double segments_made = 0.0;         ///< then, of the last of these, the share that was made anew
-    std::string tables_by;              ///< TableChoice::text(): who filled them, and why
-    double empty_share = 0.0;           ///< of the bricks, for the context
+    std::uint64_t slab_bytes = 0;     ///< kept of a plane that moves
+    std::uint64_t kept_bytes = 0;     ///< the picture that is kept of a volume that stands still
+    std::uint64_t again_bytes = 0;    ///< tables of draw_as()
+    std::uint64_t context_bytes = 0;  ///< coarser voxels, tables and pictures of the context, drawn alone
+    double table_ms = 0.0;            ///< of the last preintegration
+    int tables_made = 0;              ///< then
+    double segments_made = 0.0;       ///< then, of the last of these, the share that was made anew
+    std::string tables_by;            ///< TableChoice::text(): who filled them, and why
+    double empty_share = 0.0;         ///< of the bricks, for the context
   };
   [[nodiscard]] Cost cost() const;
 

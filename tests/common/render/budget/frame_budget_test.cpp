@@ -1,16 +1,13 @@
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_budget.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <random>
 #include <vector>
 
-#include <epoxy/gl.h>
 #include <gtest/gtest.h>
-
-#include "common/render/gl/context.h"
-#include "common/render/gl/frame_timer.h"
 
 namespace palpate {
 namespace {
@@ -40,33 +37,58 @@ std::vector<std::size_t> run(FrameBudget& budget, const Machine& machine, int fr
   return levels;
 }
 
-TEST(FrameBudget, GivesUpSamplesOutsideLensesFirstThenPixelsAndInsideLast) {
-  for (const bool volume : {false, true}) {
-    for (const bool lenses : {false, true}) {
-      const std::vector<FrameQuality> levels = quality_levels(volume, lenses);
-      EXPECT_EQ(levels.front(), FrameQuality{});
-      for (std::size_t i = 1; i < levels.size(); ++i) {
-        const FrameQuality &a = levels[i - 1], &b = levels[i];
-        EXPECT_TRUE(b.context <= a.context && b.focus <= a.focus && b.resolution <= a.resolution &&
-                    b.viewport <= a.viewport);
-        EXPECT_NE(a, b);
-        if (b.focus < 1.0) {
-          EXPECT_TRUE(b.context <= 0.25 && b.resolution <= 0.35) << i;
-        }
-        if (b.resolution < 1.0 && volume) {
-          EXPECT_LE(b.context, 0.25) << i;
-          EXPECT_LE(b.viewport, lenses ? 0.5 : 1.0) << i;
-        }
-        if (!volume) {
-          EXPECT_EQ(b.context, 1.0);
-        }
-        if (!volume || !lenses) {
-          EXPECT_EQ(b.viewport, 1.0);
-          EXPECT_EQ(b.focus, 1.0);
-        }
+QualityErrors random_errors(std::mt19937& random) {
+  std::uniform_real_distribution<double> exponent(-3.0, -1.0);
+  const auto error = [&] {
+    return PartError{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random))};
+  };
+  QualityErrors errors;
+  for (PartError& e : errors.context) e = error();
+  for (PartError& e : errors.focus) e = error();
+  for (PartError& e : errors.viewport) e = error();
+  for (PartError& e : errors.resolution) e = error();
+  return errors;
+}
+
+TEST(FrameBudget, GoesThroughWhatNoOtherQualityBeats) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 24; ++i) {
+    const bool volume = i % 3 > 0, lenses = i % 3 > 1;
+    const QualityErrors errors = i < 3 ? usual_errors() : random_errors(random);
+    const QualityTimes times(volume, lenses);
+    FrameBudget budget(kBudget);
+    budget.show(volume, lenses);
+    budget.learn(errors);
+    budget.begin();
+    const std::vector<FrameQuality>& levels = budget.levels();
+    ASSERT_GE(levels.size(), 2U);
+    EXPECT_EQ(levels.front(), FrameQuality{});
+    for (std::size_t l = 1; l < levels.size(); ++l) {
+      EXPECT_LT(times.of(levels[l]), times.of(levels[l - 1]));
+      EXPECT_GE(weighed(errors.of(levels[l])), weighed(errors.of(levels[l - 1])));
+      for (const FrameQuality& other : frame_qualities(volume, lenses)) {
+        EXPECT_FALSE(times.of(other) <= times.of(levels[l]) &&
+                     weighed(errors.of(other)) < weighed(errors.of(levels[l])));
       }
     }
   }
+}
+
+// All that can be given up around lenses is, before less is seen inside.
+TEST(FrameBudget, KeepsTheFocusLongest) {
+  FrameBudget budget(kBudget);
+  budget.show(true, true);
+  const QualityTimes times(true, true);
+  const auto whole = [](const FrameQuality& quality) {
+    return quality.focus == 1.0 && quality.resolution == 1.0;
+  };
+  const std::vector<FrameQuality>& levels = budget.levels();
+  const auto first = std::find_if_not(levels.begin(), levels.end(), whole);
+  ASSERT_GE(first - levels.begin(), 3);
+  ASSERT_NE(first, levels.end());
+  EXPECT_TRUE(std::none_of(first, levels.end(), whole));
+  const double least = times.of({.context = kContextShares.back(), .viewport = kViewportShares.back()});
+  EXPECT_LT(0.9 * times.of(*(first - 1)), least);
 }
 
 // Whatever the scene costs and wherever its cost lies: in the end the level stays, keeps the budget, and has
@@ -83,7 +105,7 @@ TEST(FrameBudget, SettlesAtTheFinestLevelThatKeepsTheBudget) {
         const std::size_t last = levels.back();
         for (std::size_t i = 250; i < levels.size(); ++i)
           ASSERT_EQ(levels[i], last) << context << " " << focus;
-        const std::vector<FrameQuality> all = quality_levels(true, lenses);
+        const std::vector<FrameQuality>& all = budget.levels();
         const double now = machine.frame(all[last]);
         if (last + 1 < all.size()) {
           EXPECT_LE(now, kBudget) << context << " " << focus;
@@ -147,6 +169,61 @@ TEST(FrameBudget, DoesNotJudgeALevelByItsFirstFrame) {
   EXPECT_GT(budget.level(), level);
 }
 
+// Of all that keeps the budget with some room, nothing has less error, wherever the time of frames lies.
+TEST(FrameBudget, SettlesAtTheLeastError) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> exponent(1.0, 2.6);
+  for (int i = 0; i < 60; ++i) {
+    const QualityErrors errors = random_errors(random);
+    const Machine machine{.context = std::pow(10.0, exponent(random)),
+                          .focus = std::pow(10.0, exponent(random))};
+    FrameBudget budget(kBudget);
+    budget.show(true, true);
+    budget.learn(errors);
+    // Times are known after the first movement.
+    for (int movement = 0; movement < 3; ++movement) {
+      budget.begin();
+      (void)run(budget, machine, 80);
+    }
+    for (const FrameQuality& other : frame_qualities(true, true)) {
+      if (machine.frame(other) <= 0.7 * kBudget) {
+        EXPECT_LE(weighed(errors.of(budget.quality())), weighed(errors.of(other)) + 1e-12) << i;
+      }
+    }
+    EXPECT_TRUE(machine.frame(budget.quality()) <= kBudget || budget.level() + 1 == budget.levels().size());
+  }
+}
+
+TEST(FrameBudget, BeginsWhereTheLastMovementLetsItExpectToKeepTheBudget) {
+  for (const double context : {30.0, 150.0, 600.0}) {
+    const Machine machine{.context = context, .focus = 60.0};
+    FrameBudget budget(kBudget);
+    budget.show(true, true);
+    budget.begin();
+    (void)run(budget, machine, 100);
+    QualityErrors errors = usual_errors();
+    errors.viewport = {{{0.0, 0.1}, {0.0, 0.2}}};
+    budget.learn(errors);
+    budget.begin();
+    const double first = machine.frame(budget.quality());
+    EXPECT_LE(first, kBudget) << context;
+    EXPECT_TRUE(first > 0.5 * kBudget || budget.level() == 0) << context << " " << first;
+  }
+}
+
+// Something else had the machine for some frames, at every level: that is forgotten.
+TEST(FrameBudget, ForgivesFramesThatWereHeldUp) {
+  const Machine machine{.context = 60.0};
+  FrameBudget budget(kBudget);
+  budget.show(true, false);
+  (void)run(budget, machine, 300);
+  const std::size_t settled = budget.level();
+  for (int i = 0; i < 6; ++i) budget.drawn(5.0 * kBudget);
+  EXPECT_GT(budget.level(), settled);
+  (void)run(budget, machine, 1500);
+  EXPECT_LE(budget.level(), settled);
+}
+
 TEST(FrameBudget, LeavesOutWhatIsNoTime) {
   FrameBudget budget(kBudget);
   for (const double t : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) budget.drawn(t);
@@ -165,52 +242,6 @@ TEST(FrameBudget, SharesOutWhatEachPartLoses) {
   EXPECT_EQ(drawn.volume->lenses[0].samples_per_voxel, 4.0);
   EXPECT_EQ(drawn.volume->context.viewport, 0.5);
   EXPECT_TRUE(same_picture(with_quality(view, {}), view));
-}
-
-// Frames of these times by a driver that tells `share` of the GPU's.
-double last_of(TimerCheck& check, double share, std::size_t frames, double clock = 20.0) {
-  double last = 0.0;
-  for (std::size_t i = 0; i < frames; ++i) last = check.add(share * clock, clock);
-  return last;
-}
-
-TEST(TimerCheck, BelievesQueriesThatHoldAgainstTheClock) {
-  TimerCheck check;
-  EXPECT_FALSE(check.holds()) << "nothing is known";
-  EXPECT_EQ(last_of(check, 0.95, TimerCheck::kFrames), 0.95 * 20.0);
-  EXPECT_TRUE(check.holds());
-  // Another program had the processor: what the GPU did is what it was.
-  EXPECT_EQ(check.add(18.0, 90.0), 18.0);
-  EXPECT_EQ(check.add(0.0, 20.0), 20.0) << "no time";
-  EXPECT_EQ(check.add(30.0, 20.0), 20.0) << "more than there was";
-  EXPECT_TRUE(check.holds());
-}
-
-TEST(TimerCheck, GoesByTheClockWhereADriverLies) {
-  for (const double share : {0.0, 0.04, 0.8, 1.3, 25.0, std::nan("")}) {
-    TimerCheck check;
-    EXPECT_EQ(last_of(check, share, 3 * TimerCheck::kFrames), 20.0) << share;
-    EXPECT_FALSE(check.holds()) << share;
-    (void)last_of(check, 0.95, TimerCheck::kFrames);
-    EXPECT_TRUE(check.holds()) << "it came to its senses";
-    (void)last_of(check, share, TimerCheck::kFrames);
-    EXPECT_FALSE(check.holds()) << share;
-  }
-}
-
-TEST(FrameTimer, TellsNoMoreThanTheClock) {
-  const OffscreenContext context;
-  FrameTimer timer;
-  for (std::size_t i = 0; i < 2 * TimerCheck::kFrames; ++i) {
-    timer.begin();
-    if (i % 5 == 0) timer.begin();  // a picture that nobody waited for
-    glFlush();
-    const double clock = timer.finish();
-    EXPECT_GT(timer.milliseconds(), 0.0);
-    EXPECT_LE(timer.milliseconds(), TimerCheck::kMost * clock);
-    EXPECT_GE(timer.finish(), clock) << "nothing was begun";
-  }
-  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 }  // namespace

@@ -1,16 +1,14 @@
-#include "common/render/volume/converged_volume.h"
+#include "common/render/volume/volume_variant.h"
 
 #include <span>
 #include <utility>
 
-#include "common/render/volume/image_error.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate {
 
-void ConvergedVolume::update(const VolumeView& shown, const SceneFrame& frame, const VolumeTextures& whole) {
-  view = converged_view(shown);
+void VolumeVariant::update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole) {
   textures.update(view, {}, &whole);
   room = ShapeRoom::of(view);
   std::vector<std::string> wanted = textures.shader_defines();
@@ -19,7 +17,9 @@ void ConvergedVolume::update(const VolumeView& shown, const SceneFrame& frame, c
     program.reset();
     defines = std::move(wanted);
   }
-  volume_block = volume_shader::make_block_buffer(make_volume_block(view, frame, textures.field_bricks()));
+  VolumeBlock told = make_volume_block(view, frame, textures.field_bricks());
+  told.lengths.w = 0.0F;  // rays of all pixels: the tiles are those of another picture
+  volume_block = volume_shader::make_block_buffer(told);
   shape_block = make_buffer(make_shape_block(view, frame, room));
 }
 

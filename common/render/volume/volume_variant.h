@@ -1,4 +1,4 @@
-/// What converged rays through a volume look up: its own voxels, and tables of more entries.
+/// The volume of a picture with other samples and tables: what rays look up that are cast once more.
 #pragma once
 
 #include <string>
@@ -12,16 +12,15 @@
 
 namespace palpate {
 
-struct ConvergedVolume {
-  VolumeView view;  ///< converged_view() of what is shown
+struct VolumeVariant {
   VolumeTextures textures;
   GlBuffer volume_block, shape_block;
   ShapeRoom room;
   std::vector<std::string> defines;
   GlProgram program;  ///< where its defines are others than those of what is shown
 
-  /// @param shown VolumeTextures::drawn() of `whole`, whose voxels are taken.
-  void update(const VolumeView& shown, const SceneFrame& frame, const VolumeTextures& whole);
+  /// @param view VolumeTextures::drawn() of `whole`, whose voxels are taken, but for samples and tables.
+  void update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole);
 };
 
 }  // namespace palpate

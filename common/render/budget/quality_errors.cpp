@@ -1,0 +1,53 @@
+#include "common/render/budget/quality_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace palpate {
+namespace {
+
+template <std::size_t N>
+void add_squares(PartError& sum, const std::array<double, N>& shares, double share,
+                 const std::array<PartError, N>& errors) noexcept {
+  const auto* const found = std::find(shares.begin(), shares.end(), share);
+  if (found == shares.end()) return;
+  const PartError& error = errors[static_cast<std::size_t>(found - shares.begin())];
+  sum.focus += error.focus * error.focus;
+  sum.context += error.context * error.context;
+}
+
+}  // namespace
+
+PartError QualityErrors::of(const FrameQuality& quality) const noexcept {
+  PartError sum{asked.focus * asked.focus, asked.context * asked.context};
+  add_squares(sum, kContextShares, quality.context, context);
+  add_squares(sum, kFocusShares, quality.focus, focus);
+  add_squares(sum, kViewportShares, quality.viewport, viewport);
+  add_squares(sum, kResolutionShares, quality.resolution, resolution);
+  return {std::sqrt(sum.focus), std::sqrt(sum.context)};
+}
+
+double QualityErrors::rms(const FrameQuality& quality) const noexcept {
+  const PartError error = of(quality);
+  return std::sqrt(focus_share * error.focus * error.focus +
+                   (1.0 - focus_share) * error.context * error.context);
+}
+
+double weighed(const PartError& error) noexcept {
+  return std::hypot(kFocusWeight * std::max(0.0, error.focus - kUnseen), error.context);
+}
+
+const QualityErrors& usual_errors() noexcept {
+  static constexpr QualityErrors kUsual{
+      .asked = {0.0012, 0.0012},
+      .context = {{{0.0044, 0.0017}, {0.0087, 0.0051}}},
+      .focus = {{{0.0019, 0.0008}}},
+      .viewport = {{{0.0, 0.0185}, {0.0, 0.0247}}},
+      .resolution =
+          {{{0.0054, 0.0121}, {0.0077, 0.0147}, {0.0127, 0.0187}, {0.0187, 0.0220}, {0.0196, 0.0247}}},
+      .focus_share = 0.04};
+  return kUsual;
+}
+
+}  // namespace palpate
