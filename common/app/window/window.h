@@ -12,7 +12,7 @@
 #include "common/app/immersive/bench_display.h"
 #include "common/app/window/input_event.h"
 #include "common/app/window/window_model.h"
-#include "common/render/frame_budget.h"
+#include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"

@@ -56,16 +56,19 @@ Color bilinear(const Between& x, const Between& y, const Pixel& pixel) {
   return mixed;
 }
 
-Color color_at(const Image& image, int x, int y) {
-  const auto pixel = image.pixel(x, y);
-  return {static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2])};
-}
-
 Color minus(const Color& a, const Color& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Color color_at(const Image& image, const Image* without, int x, int y) {
+  const auto color = [&](const Image& of) {
+    const auto pixel = of.pixel(x, y);
+    return Color{static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2])};
+  };
+  return without == nullptr ? color(image) : minus(color(image), color(*without));
+}
 
 }  // namespace
 
-std::array<double, 3> coarsened_pixel(const Image& image, double share, int x, int y) {
+std::array<double, 3> coarsened_pixel(const Image& image, const Image* without, double share, int x, int y) {
   const auto coarse = [&](int fine) { return std::max(1, static_cast<int>(std::lround(share * fine))); };
   const int width = coarse(image.width), height = coarse(image.height);
   const double across = static_cast<double>(image.width) / width;
@@ -74,7 +77,7 @@ std::array<double, 3> coarsened_pixel(const Image& image, double share, int x, i
                   [&](int i, int j) {
                     return bilinear(Between((i + 0.5) * across - 0.5, image.width),
                                     Between((j + 0.5) * down - 0.5, image.height),
-                                    [&](int k, int l) { return color_at(image, k, l); });
+                                    [&](int k, int l) { return color_at(image, without, k, l); });
                   });
 }
 
@@ -142,19 +145,20 @@ bool SavingEstimate::add(VolumePass& pass) {
 
 void SavingEstimate::look_at_pixels(bool lenses) {
   const Image& image = picture_->shown;
-  const auto error_of = [&](double share) {
+  const auto error_of = [&](double share, const Image* without) {
     PartSum sum;
     for (std::size_t at = 0; at < in_lens_.size(); ++at) {
       const int x = lattice_.place(static_cast<int>(at) % lattice_.columns);
       const int y = image.height - 1 - lattice_.place(static_cast<int>(at) / lattice_.columns);
-      sum.add(in_lens_[at], minus(coarsened_pixel(image, share, x, y), color_at(image, x, y)));
+      sum.add(in_lens_[at],
+              minus(coarsened_pixel(image, without, share, x, y), color_at(image, without, x, y)));
     }
     return sum.error();
   };
   for (std::size_t k = 0; k < kResolutionShares.size(); ++k)
-    errors_.resolution[k] = error_of(kResolutionShares[k]);
+    errors_.resolution[k] = error_of(kResolutionShares[k], nullptr);
   for (std::size_t k = 0; lenses && k < kViewportShares.size(); ++k)
-    errors_.viewport[k] = {0.0, error_of(kViewportShares[k]).context};
+    errors_.viewport[k] = {0.0, error_of(kViewportShares[k], &picture_->behind).context};
   errors_.focus_share = static_cast<double>(std::count(in_lens_.begin(), in_lens_.end(), true)) /
                         static_cast<double>(std::max<std::size_t>(1, in_lens_.size()));
 }

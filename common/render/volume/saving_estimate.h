@@ -5,8 +5,8 @@
 ///
 ///   a = rms (E_s S - S),   E_s S the picture S from a share s of its pixels                       (1)
 ///
-/// and less samples by rays that are cast once more, with and without the saving. So no frame has to be drawn
-/// for it. A coarser context is enlarged more cautiously than (1) has it (context_picture.h).
+/// of a coarser context in what the volume adds to the picture, as opaque things stay sharp then; and less
+/// samples by rays that are cast once more, with and without the saving. So no frame has to be drawn for it.
 #pragma once
 
 #include <array>
@@ -24,8 +24,9 @@
 namespace palpate {
 
 /// Pixel (x, y), from the top left corner, of a picture from `share` of its pixels along either edge,
-/// enlarged. RGB in [0, 255].
-[[nodiscard]] std::array<double, 3> coarsened_pixel(const Image& image, double share, int x, int y);
+/// enlarged. RGB in [0, 255]. @param without what is taken from it before; null: nothing.
+[[nodiscard]] std::array<double, 3> coarsened_pixel(const Image& image, const Image* without, double share,
+                                                    int x, int y);
 
 /// Which pixels of a lattice show some of a lens, rows from the bottom: their rays meet one before or behind
 /// opaque things.
