@@ -18,8 +18,8 @@ constexpr double kPatientPictures = 5.0;
 constexpr double kLensRest = 0.3;
 // What is kept of a plane while it moves is given back after so long a rest [s].
 constexpr double kSlabRest = 5.0;
-// Parts of a picture that were refined are shown so often [s].
-constexpr double kRefineShown = 0.3;
+// After so long what was refined so far is shown; whoever comes up waits for a part of it alone [s].
+constexpr double kRefineSlice = 0.5;
 // Of two eyes: what a picture may take [ms], and with how many samples.
 constexpr double kFinestPicture = 1000.0;
 constexpr int kMostDoublings = 6;
@@ -82,6 +82,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
+    if (!moving && finer_ == 0) budget_.rested(renderer_.gpu_milliseconds());
     if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume())) {
       renderer_.forget_volume();
       refined_ = false;
@@ -184,12 +185,10 @@ void LivePicture::refine(const PictureMoment& moment) {
   do {
     refining_ = renderer_.refine();
     renderer_.finish();
-  } while (refining_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
+  } while (refining_ && !moment.interrupted() && watch.seconds() < kRefineSlice);
   refined_ = !refining_;
-  if (refining_ && moment.seconds - refined_at_ < kRefineShown) return;
-  refined_at_ = moment.seconds;
-  dirty_ = refining_ = true;
   error_known_ = !refined_;
+  dirty_ = refining_ = true;
 }
 
 double LivePicture::median_milliseconds() const {

@@ -96,7 +96,7 @@ class LivePicture {
   bool saving_ = false;                               // what savings add to it is looked at
   bool refining_ = false, refined_ = false;
   int finer_ = 0;  // doublings of the samples of two eyes, which are not refined bit by bit
-  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0, refined_at_ = 0.0;  // [s]
+  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;
 };

@@ -30,6 +30,7 @@ void FrameBudget::show(bool volume, bool lenses) {
   errors_ = usual_errors();
   measured_ = false;
   times_ = QualityTimes(volume, lenses);
+  rested_ = 0.0;
   level_ = finest_ = 0;
   refused_ = frames_ = 0;
   changed_ = false;
@@ -64,7 +65,12 @@ void FrameBudget::make_levels() {
   levels_ = std::move(levels);
 }
 
+void FrameBudget::rested(double milliseconds) {
+  if (milliseconds > 0.0 && std::isfinite(milliseconds)) rested_ = std::max(rested_, milliseconds);
+}
+
 void FrameBudget::begin() {
+  if (!times_.known() && rested_ > 0.0) times_.add({}, rested_);
   // What was refused stays so, by its time.
   const double refused = finest_ > 0 ? times_.of(levels_[finest_ - 1]) : HUGE_VAL;
   make_levels();

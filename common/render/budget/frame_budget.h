@@ -38,6 +38,9 @@ class FrameBudget {
   void show(bool volume, bool lenses);
   /// Errors were measured; from the next begin() on they count.
   void learn(const QualityErrors& errors);
+  /// A picture with all that was asked for took so long at rest [ms], or less where some of it was kept: for
+  /// as long as no other time is known.
+  void rested(double milliseconds);
   /// Something begins to move.
   void begin();
   /// For the next frame while something moves. At rest frames are drawn with all that was asked for, and are
@@ -63,6 +66,7 @@ class FrameBudget {
   QualityErrors errors_ = usual_errors();
   bool measured_ = false;  ///< they were
   QualityTimes times_;
+  double rested_ = 0.0;  ///< most of the times at rest [ms]
   std::vector<FrameQuality> levels_;
   std::vector<double> since_;  ///< time of a level after the last refusal [ms], 0: not known
   std::size_t level_ = 0;

@@ -211,6 +211,17 @@ TEST(FrameBudget, BeginsWhereTheLastMovementLetsItExpectToKeepTheBudget) {
   }
 }
 
+TEST(FrameBudget, BeginsByWhatPicturesTookAtRest) {
+  const Machine machine{.context = 600.0, .focus = 200.0};
+  FrameBudget budget(kBudget);
+  budget.show(true, true);
+  for (const double t : {std::nan(""), machine.frame({}), 5.0, -1.0}) budget.rested(t);
+  budget.begin();
+  EXPECT_LE(machine.frame(budget.quality()), 1.5 * kBudget);
+  (void)run(budget, machine, 60);
+  EXPECT_GT(machine.frame(budget.quality()), 0.4 * kBudget) << "it comes up again";
+}
+
 // Something else had the machine for some frames, at every level: that is forgotten.
 TEST(FrameBudget, ForgivesFramesThatWereHeldUp) {
   const Machine machine{.context = 60.0};
