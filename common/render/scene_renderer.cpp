@@ -559,13 +559,13 @@ std::optional<QualityErrors> SceneRenderer::quality_errors() const {
   return state_->savings->errors();
 }
 
-bool SceneRenderer::refine() {
+bool SceneRenderer::refine(int doublings) {
   State& s = *state_;
   if (!s.draws_volume || !s.volume || s.stereo || !complete()) return false;
   return State::beside_pictures([&] {
     const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&s.block, 1));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-    return s.volume->refine();
+    return s.volume->refine(doublings);
   });
 }
 

@@ -75,7 +75,7 @@ class SceneRenderer {
   /// Refines one more part of the volume's picture, for the next ones of the same view to show: as
   /// VolumePass::refine(). @return whether parts are left; never for two eyes, or while the picture lacks
   /// something.
-  bool refine();
+  bool refine(int doublings);
   /// By whom and for which reason the preintegrated tables of the last volume were filled
   /// (TableChoice::text()); empty: none was drawn.
   [[nodiscard]] std::string tables_by() const;

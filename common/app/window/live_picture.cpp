@@ -20,27 +20,12 @@ constexpr double kLensRest = 0.3;
 constexpr double kSlabRest = 5.0;
 // After so long what was refined so far is shown; whoever comes up waits for a part of it alone [s].
 constexpr double kRefineSlice = 0.5;
-// Of two eyes: what a picture may take [ms], and with how many samples.
+// Of two eyes: what a picture may take [ms].
 constexpr double kFinestPicture = 1000.0;
-constexpr int kMostDoublings = 6;
 // So long may panels wait while pictures are made that nobody waits for [s].
 constexpr double kPrepareSlice = 0.05;
 // Of a volume in bricks, for one picture: some 10 ms [bytes].
 constexpr std::uint64_t kBrickUpload = std::uint64_t{8} << 20;
-
-// Toward the converged one, by so many doublings of the samples.
-SceneView finer_view(SceneView view, int doublings) {
-  const VolumeView finest = converged_view(*view.volume);
-  const auto samples = [&](double asked) {
-    return std::min(asked * power_of_two(doublings), finest.samples_per_voxel);
-  };
-  VolumeView finer = sampled_view(*view.volume, 1.0, 1.0);
-  finer.table_entries = std::max(finer.table_entries, finest.table_entries);
-  finer.samples_per_voxel = samples(finer.samples_per_voxel);
-  for (Lens& lens : finer.lenses) lens.samples_per_voxel = samples(lens.samples_per_voxel);
-  view.volume = std::move(finer);
-  return view;
-}
 
 }  // namespace
 
@@ -61,7 +46,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     if (!stands(view, width, height)) begin_rest();
     resting_ = view.volume;
     resting_camera_ = view.camera;
-    if (!moving && finer_ > 0) view = finer_view(std::move(view), finer_);
+    if (!moving && finer_ > 0 && has_two_eyes(view)) view.volume = finer_view(*view.volume, finer_);
     view.volume->keep_picture = !moving && local_.on();
   }
   const bool wants_error = volume && !moving && !error_known_ && moment.interrupted;
@@ -85,7 +70,8 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     if (!moving && finer_ == 0) budget_.rested(renderer_.gpu_milliseconds());
     if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume())) {
       renderer_.forget_volume();
-      refined_ = false;
+      refined_ = passing_ = error_known_ = false;
+      finer_ = 0;
     }
     figures_.quality = quality;
     milliseconds_.push_back(figures_.milliseconds);
@@ -115,7 +101,7 @@ bool LivePicture::stands(const SceneView& view, int width, int height) const {
 void LivePicture::begin_rest() {
   local_.begin();
   figures_.error.reset();
-  error_known_ = savings_known_ = saving_ = refined_ = false;
+  error_known_ = savings_known_ = saving_ = refined_ = passing_ = false;
   finer_ = 0;
 }
 
@@ -170,25 +156,27 @@ void LivePicture::prepare(const PictureMoment& moment) {
   } while (preparing_ && !moment.interrupted() && watch.seconds() < kPrepareSlice);
 }
 
-// Until no pixel would change; shown now and then.
+// With twice the samples, and twice again, until no pixel would change: two eyes in whole pictures, as far as
+// these come soon, one tile by tile.
 void LivePicture::refine(const PictureMoment& moment) {
   if (refined_ || !error_known_ || !figures_.error || is_converged(*figures_.error)) return;
-  if (has_two_eyes(shown_)) {
-    refined_ = finer_ == kMostDoublings || 2.0 * figures_.milliseconds > kFinestPicture;
-    if (refined_) return;
-    ++finer_;
-    error_known_ = false;
-    refining_ = true;
-    return;
+  const bool two_eyes = has_two_eyes(shown_);
+  if (!std::exchange(passing_, true)) ++finer_;
+  if (two_eyes) {
+    refined_ = finer_ > most_doublings(*resting_) || 2.0 * figures_.milliseconds > kFinestPicture;
+    if (refined_) --finer_;
+    passing_ = false;
+  } else {
+    const Stopwatch watch;
+    do {
+      passing_ = renderer_.refine(finer_);
+      renderer_.finish();
+    } while (passing_ && !moment.interrupted() && watch.seconds() < kRefineSlice);
+    refined_ = !passing_ && finer_ >= most_doublings(*resting_);
   }
-  const Stopwatch watch;
-  do {
-    refining_ = renderer_.refine();
-    renderer_.finish();
-  } while (refining_ && !moment.interrupted() && watch.seconds() < kRefineSlice);
-  refined_ = !refining_;
-  error_known_ = !refined_;
-  dirty_ = refining_ = true;
+  error_known_ = passing_ || (two_eyes && refined_);
+  refining_ = !(two_eyes && refined_);
+  dirty_ = refining_;
 }
 
 double LivePicture::median_milliseconds() const {

@@ -95,7 +95,8 @@ class LivePicture {
   bool error_known_ = false, savings_known_ = false;  // of this view, as well as may be
   bool saving_ = false;                               // what savings add to it is looked at
   bool refining_ = false, refined_ = false;
-  int finer_ = 0;  // doublings of the samples of two eyes, which are not refined bit by bit
+  bool passing_ = false;  // one pass over the picture, tile by tile, is under way
+  int finer_ = 0;         // doublings of the samples that were asked for
   double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;

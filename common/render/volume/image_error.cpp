@@ -3,15 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "common/math/power_of_two.h"
 #include "common/render/volume/preintegration.h"
 
 namespace palpate {
 
+namespace {
+
+constexpr double kSamples = 32.0;
+constexpr int kEntries = 512;
+
+}  // namespace
+
 VolumeView converged_view(VolumeView view) {
-  constexpr double kSamples = 32.0;
-  constexpr int kEntries = 512;
   view.samples_per_voxel = kSamples;
   for (Lens& lens : view.lenses) lens.samples_per_voxel = kSamples;
   view.far_sampling = 1.0;
@@ -32,6 +38,21 @@ VolumeView sampled_view(VolumeView view, double context, double focus) {
   view.context = {};
   view.keep_slabs = view.keep_picture = false;
   return view;
+}
+
+VolumeView finer_view(VolumeView view, int doublings) {
+  VolumeView finer = sampled_view(std::move(view), power_of_two(doublings), power_of_two(doublings));
+  finer.samples_per_voxel = std::min(finer.samples_per_voxel, kSamples);
+  for (Lens& lens : finer.lenses) lens.samples_per_voxel = std::min(lens.samples_per_voxel, kSamples);
+  finer.table_entries = std::max(finer.table_entries, kEntries);
+  finer.preintegrate = true;
+  return finer;
+}
+
+int most_doublings(const VolumeView& view) noexcept {
+  double fewest = view.samples_per_voxel * power_of_two(-view.context.level);
+  for (const Lens& lens : view.lenses) fewest = std::min(fewest, lens.samples_per_voxel);
+  return std::max(1, static_cast<int>(std::ceil(std::log2(kSamples / fewest))));
 }
 
 bool is_converged(const ImageError& error) noexcept {

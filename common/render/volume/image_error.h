@@ -38,6 +38,11 @@ struct ImageError {
 /// kept.
 [[nodiscard]] VolumeView sampled_view(VolumeView view, double context, double focus);
 
+/// On the way from `view` to the converged one: so many doublings of its samples, tables of as many entries.
+[[nodiscard]] VolumeView finer_view(VolumeView view, int doublings);
+/// How many doublings have the samples of converged_view(); at least 1.
+[[nodiscard]] int most_doublings(const VolumeView& view) noexcept;
+
 /// Which pixels a round looks at: columns x rows, at step (i + 1/2) - 1/2 of either axis.
 struct PixelLattice {
   int step = 1;  ///< k

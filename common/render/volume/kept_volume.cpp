@@ -14,7 +14,7 @@ namespace palpate {
 
 namespace {
 
-constexpr int kTile = 64;  // pixels an edge
+constexpr int kTileWidth = 128, kTileHeight = 64;  // two blocks of pixels of software rasterisers
 constexpr std::array<float, 4> kNothing{};
 
 }  // namespace
@@ -33,10 +33,10 @@ KeptVolume::KeptVolume(const VolumeView& view, const FrameBlock& block, std::uin
   PALPATE_CHECK(opaque_depth != 0);
   glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
                      width_, height_, 1);
-  for (int bottom = 0; bottom < height_; bottom += kTile)
-    for (int left = 0; left < width_; left += kTile) tiles_.push_back({left, bottom});
+  for (int bottom = 0; bottom < height_; bottom += kTileHeight)
+    for (int left = 0; left < width_; left += kTileWidth) tiles_.push_back({left, bottom});
   const auto off_middle = [&](const Tile& tile) {
-    return std::hypot(2 * tile.left + kTile - width_, 2 * tile.bottom + kTile - height_);
+    return std::hypot(2 * tile.left + kTileWidth - width_, 2 * tile.bottom + kTileHeight - height_);
   };
   std::ranges::stable_sort(tiles_, {}, off_middle);
 }
@@ -51,15 +51,15 @@ void KeptVolume::begin() const {
 void KeptVolume::begin_tile() const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
-  const Tile& tile = tiles_[refined_];
+  const Tile& tile = tiles_[next_];
   glEnable(GL_SCISSOR_TEST);
-  glScissor(tile.left, tile.bottom, kTile, kTile);
+  glScissor(tile.left, tile.bottom, kTileWidth, kTileHeight);
   glClearBufferfv(GL_COLOR, 0, kNothing.data());
 }
 
 void KeptVolume::end_tile() {
   glDisable(GL_SCISSOR_TEST);
-  ++refined_;
+  ++next_;
 }
 
 bool KeptVolume::fits(const VolumeView& view, const FrameBlock& block) const {

@@ -44,20 +44,23 @@ class KeptVolume {
   [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block) const;
   /// z_0, for shaders/volume/ray.glsl.
   [[nodiscard]] std::uint32_t depth() const noexcept { return depth_.name(); }
-  /// Draws one more tile of K anew, from the middle outward, as it is to be seen from now on: converged.
+  /// Draws one more tile of K anew, from the middle outward, as it is to be seen from now on.
+  /// @param fineness > 0; another one than before begins with the first tile again.
   /// @param draw as for the whole picture; over depths z_0. Framebuffer and viewport are kept.
   /// @return whether tiles are left. Needs the scissor test, off before and after.
   template <typename Draw>
-  bool refine(const Draw& draw) {
-    if (refined_ == tiles_.size()) return false;
+  bool refine(int fineness, const Draw& draw) {
+    if (fineness != fineness_) next_ = 0;
+    fineness_ = fineness;
+    if (next_ == tiles_.size()) return false;
     const FramebufferGuard before;
     begin_tile();
     draw();
     end_tile();
-    return refined_ < tiles_.size();
+    return next_ < tiles_.size();
   }
   /// Whether some of it was refined.
-  [[nodiscard]] bool refined() const noexcept { return refined_ > 0; }
+  [[nodiscard]] bool refined() const noexcept { return fineness_ > 0; }
 
   /// Draws K over the framebuffer that is bound, where z = z_0.
   void show(std::uint32_t opaque_depth);
@@ -76,7 +79,8 @@ class KeptVolume {
   FrameBlock block_;
   int width_ = 0, height_ = 0;
   std::vector<Tile> tiles_;
-  std::size_t refined_ = 0;  ///< of them
+  int fineness_ = 0;
+  std::size_t next_ = 0;  ///< tile to be refined
   GlTexture picture_, depth_;
   GlFramebuffer framebuffer_;
   GlVertexArray no_vertices_;

@@ -395,7 +395,7 @@ void VolumePass::draw_as(const VolumeView& as, std::uint32_t opaque_depth, float
   state_->cast_again(as, opaque_depth, step, nullptr);
 }
 
-bool VolumePass::refine() {
+bool VolumePass::refine(int doublings) {
   State& s = *state_;
   if (!s.drawn_view || s.drawn_depth == 0 || !bricks().complete()) return false;
   if (!s.kept || !s.kept->fits(s.shown, s.drawn_block)) {
@@ -404,9 +404,8 @@ bool VolumePass::refine() {
     });
     return true;
   }
-  VolumeView finest = converged_view(s.shown);
-  finest.skip_empty = finest.stop_where_opaque = true;  // unseen
-  return s.kept->refine([&] { draw_as(finest, s.kept->depth(), 1.0F); });
+  const VolumeView finer = finer_view(s.shown, doublings);
+  return s.kept->refine(doublings, [&] { draw_as(finer, s.kept->depth(), 1.0F); });
 }
 
 bool VolumePass::prepare_slabs(std::size_t cut) {

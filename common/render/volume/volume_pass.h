@@ -76,11 +76,12 @@ class VolumePass {
   /// @pre draw(), and bricks().complete().
   void draw_as(const VolumeView& as, std::uint32_t opaque_depth, float step);
 
-  /// Draws nothing, but refines one more part of the picture of the last draw(), to what converged_view()
-  /// gives, for the next ones of the same volume to show: while nobody waits. Needs the frame's uniform block
-  /// bound to 0.
+  /// Draws nothing, but refines one more part of the picture of the last draw(), to what finer_view() gives,
+  /// for the next ones of the same volume to show: while nobody waits. Needs the frame's uniform block bound
+  /// to 0.
+  /// @param doublings > 0; other ones than before begin with the first part again.
   /// @return whether parts are left; never where there is no picture of depths, or bricks lack.
-  bool refine();
+  bool refine(int doublings);
 
   /// Draws nothing, but keeps one more picture of a slab for when the cut of that number moves, and has what
   /// draw() then needs compiled: for while nobody waits. Over the framebuffer of the last draw(), with the

@@ -170,10 +170,15 @@ TEST(RefinedPicture, IsTheConvergedOne) {
     const Image coarse = picture_of(renderer, view);
     EXPECT_GT(difference(coarse, best).worst, 6) << level;
     int parts = 0;
-    while (renderer.refine()) ++parts;
-    EXPECT_GT(parts, 4) << "it can be interrupted";
-    EXPECT_LE(difference(picture_of(renderer, view), best).worst, 1) << level;
-    EXPECT_FALSE(renderer.refine());
+    while (renderer.refine(1)) ++parts;
+    EXPECT_GT(parts, 3) << "it can be interrupted";
+    EXPECT_LT(difference(picture_of(renderer, view), best).rms, difference(coarse, best).rms) << level;
+    const int most = most_doublings(*view.volume);
+    EXPECT_EQ(most, 6 + level);
+    while (renderer.refine(most)) {
+    }
+    EXPECT_LE(difference(picture_of(renderer, view), best).worst, 2) << level;
+    EXPECT_FALSE(renderer.refine(most));
 
     // What is refined is forgotten where the volume is seen from elsewhere, and does not come back.
     SceneView turned = view;
