@@ -1,4 +1,5 @@
-/// What each saving of a frame budget adds to the error of a picture of a volume, on a sparse set of its pixels.
+/// What each saving of a frame budget adds to the error of a picture of a volume, on a sparse set of its
+/// pixels.
 ///
 /// Less pixels are looked at in the picture itself: it is made coarser and enlarged again, both bilinearly,
 ///

@@ -218,7 +218,7 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
 
   view.far_sampling = 3.0;
   expect("fewer samples far off", made_for(view), {}, {});
-  expect("and the error, of all samples", made_for(view, true), {"volume/volume.frag, converged"}, {});
+  expect("and the error, of all samples", made_for(view, true), {"volume/volume.frag, again"}, {});
   view.far_sampling = 1.0;
 
   view.keep_picture = true;
