@@ -10,8 +10,7 @@ namespace {
 
 // Draws until frames of `view` keep the budget.
 void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view, int width, int height) {
-  constexpr int kMovements = 3, kMostFrames = 120;
-  constexpr int kStill = 22;  // frames of one quality, by which time it has settled
+  constexpr int kMostFrames = 120, kStill = 22;  // frames of one quality, by which time it has settled
   const bool volume = view.volume && view.volume->shown;
   budget.show(volume, volume && !view.volume->lenses.empty());
   if (volume) {
@@ -24,17 +23,14 @@ void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view,
     }
     if (const auto errors = renderer.quality_errors()) budget.learn(*errors);
   }
-  // The first movement tells what frames take, the others choose by it.
-  for (int movement = 0; movement < kMovements; ++movement) {
-    budget.begin();
-    int still = 0;
-    for (int i = 0; i < kMostFrames && still < kStill; ++i) {
-      const FrameQuality quality = budget.quality();
-      renderer.draw(with_quality(view, quality), width, height, quality.resolution);
-      renderer.finish();
-      budget.drawn(renderer.gpu_milliseconds());
-      still = budget.quality() == quality ? still + 1 : 0;
-    }
+  budget.begin();
+  int still = 0;
+  for (int i = 0; i < kMostFrames && still < kStill; ++i) {
+    const FrameQuality quality = budget.quality();
+    renderer.draw(with_quality(view, quality), width, height, quality.resolution);
+    renderer.finish();
+    budget.drawn(renderer.gpu_milliseconds());
+    still = budget.quality() == quality ? still + 1 : 0;
   }
 }
 

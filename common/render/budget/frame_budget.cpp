@@ -20,7 +20,8 @@ constexpr int kForgiving = 100, kMostRefused = 10;
 
 FrameBudget::FrameBudget(double milliseconds) : budget_(milliseconds) {
   PALPATE_CHECK(milliseconds > 0.0 && std::isfinite(milliseconds));
-  make_levels();
+  levels_ = best_qualities();
+  since_.assign(levels_.size(), 0.0);
 }
 
 void FrameBudget::show(bool volume, bool lenses) {
@@ -31,10 +32,9 @@ void FrameBudget::show(bool volume, bool lenses) {
   measured_ = false;
   times_ = QualityTimes(volume, lenses);
   rested_ = 0.0;
-  level_ = finest_ = 0;
   refused_ = frames_ = 0;
+  choose(best_qualities(), HUGE_VAL, 0);
   changed_ = false;
-  make_levels();
 }
 
 void FrameBudget::learn(const QualityErrors& errors) {
@@ -47,22 +47,39 @@ std::optional<double> FrameBudget::expected_error() const noexcept {
   return errors_.rms(quality());
 }
 
-void FrameBudget::make_levels() {
+std::vector<FrameQuality> FrameBudget::best_qualities() const {
   std::vector<FrameQuality> all = frame_qualities(volume_, lenses_);
   // Savings that no error was found of keep their order, which begins with all that was asked for.
   std::stable_sort(all.begin(), all.end(), [&](const FrameQuality& a, const FrameQuality& b) {
     return weighed(errors_.of(a)) < weighed(errors_.of(b));
   });
-  std::vector<FrameQuality> levels{FrameQuality{}};
+  std::vector<FrameQuality> best{FrameQuality{}};
   for (const FrameQuality& quality : all) {
-    if (times_.of(quality) < kCheaper * times_.of(levels.back())) levels.push_back(quality);
+    if (times_.of(quality) < kCheaper * times_.of(best.back())) best.push_back(quality);
   }
   const auto time = [&](const FrameQuality& a, const FrameQuality& b) { return times_.of(a) < times_.of(b); };
   const FrameQuality& fastest = *std::min_element(all.begin(), all.end(), time);
-  if (time(fastest, levels.back())) levels.push_back(fastest);
-  since_.assign(levels.size(), 0.0);
-  fast_ = 0;
+  if (time(fastest, best.back())) best.push_back(fastest);
+  return best;
+}
+
+std::size_t FrameBudget::first_within(const std::vector<FrameQuality>& levels, double time) const {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() && times_.of(levels[level]) > time) ++level;
+  return level;
+}
+
+double FrameBudget::refused_time() const { return finest_ > 0 ? times_.of(levels_[finest_ - 1]) : HUGE_VAL; }
+
+void FrameBudget::choose(std::vector<FrameQuality> levels, double refused, std::size_t level) {
+  constexpr double kBelow = 1.0 - 1e-9;
+  const FrameQuality before = quality();
   levels_ = std::move(levels);
+  finest_ = first_within(levels_, kBelow * refused);
+  level_ = std::max(level, finest_);
+  since_.assign(levels_.size(), 0.0);
+  changed_ = quality() != before;
+  fast_ = 0;
 }
 
 void FrameBudget::rested(double milliseconds) {
@@ -71,36 +88,33 @@ void FrameBudget::rested(double milliseconds) {
 
 void FrameBudget::begin() {
   if (!times_.known() && rested_ > 0.0) times_.add({}, rested_);
-  // What was refused stays so, by its time.
-  const double refused = finest_ > 0 ? times_.of(levels_[finest_ - 1]) : HUGE_VAL;
-  make_levels();
-  finest_ = 0;
-  while (finest_ + 1 < levels_.size() && times_.of(levels_[finest_]) >= refused) ++finest_;
-  level_ = finest_;
-  while (times_.known() && level_ + 1 < levels_.size() && times_.of(levels_[level_]) > kRoom * budget_)
-    ++level_;
-  changed_ = quality() != FrameQuality{};
-}
-
-void FrameBudget::go_to(std::size_t level) {
-  changed_ = level != level_;
-  level_ = level;
-  fast_ = 0;
-}
-
-double FrameBudget::expected(std::size_t level, double milliseconds) const noexcept {
-  return milliseconds * times_.of(levels_[level]) / times_.of(levels_[level_]);
+  std::vector<FrameQuality> levels = best_qualities();
+  const std::size_t level = times_.known() ? first_within(levels, kRoom * budget_) : 0;
+  choose(std::move(levels), refused_time(), level);
+  changed_ = quality() != FrameQuality{};  // whose tables there are
 }
 
 void FrameBudget::too_slow(double milliseconds) {
   if (level_ + 1 == levels_.size()) return;
-  std::size_t next = level_ + 1;
-  while (next + 1 < levels_.size() && expected(next, milliseconds) > budget_) ++next;
-  finest_ = level_ + 1;
+  const double slow = times_.of(quality());
+  std::vector<FrameQuality> levels = best_qualities();
+  const std::size_t level = first_within(levels, budget_ / milliseconds * slow);
   refused_ = std::min(refused_ + 1, kMostRefused);
   frames_ = 0;
-  since_.assign(levels_.size(), 0.0);
-  go_to(next);
+  choose(std::move(levels), slow, level);
+}
+
+// Where the finest level that is expected to keep the budget is another one, or the next finer one after a
+// long time, there.
+void FrameBudget::room(double milliseconds) {
+  if (++fast_ < kPatience) return;
+  std::vector<FrameQuality> levels = best_qualities();
+  const double now = times_.of(quality()), refused = refused_time();
+  const std::size_t expected = first_within(levels, kRoom * budget_ / milliseconds * now);
+  if (times_.of(levels[expected]) > now) return choose(std::move(levels), refused, expected);
+  const std::size_t here = first_within(levels, now);
+  if (fast_ >= kLonger && here > 0 && (refused_ == 0 || finest_ > 0))
+    choose(std::move(levels), refused, here - 1);
 }
 
 void FrameBudget::drawn(double milliseconds) {
@@ -125,11 +139,7 @@ void FrameBudget::drawn(double milliseconds) {
     fast_ = 0;
     return;
   }
-  ++fast_;
-  std::size_t next = finest_;
-  while (next + 1 < level_ && expected(next, milliseconds) > kRoom * budget_) ++next;
-  const bool likely = expected(next, milliseconds) <= kRoom * budget_;
-  if (likely ? fast_ >= kPatience : fast_ >= kLonger && (refused_ == 0 || finest_ > 0)) go_to(next);
+  room(milliseconds);
 }
 
 }  // namespace palpate

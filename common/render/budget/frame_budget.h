@@ -4,13 +4,12 @@
 /// Levels. Of all qualities those are gone through that no other one beats: by error (QualityErrors, of which
 /// what lies inside lenses counts most, so that these keep their quality longest) from the least on, each by
 /// kCheaper faster than the one before (QualityTimes), the last one the fastest that there is. They are
-/// chosen when something begins to move, from the errors that were measured at rest and the times of frames
-/// so far, and it begins with the first one that these let expect to keep the budget.
+/// chosen anew, by what is known of errors and times by then, when something begins to move and at each
+/// change of level; a movement begins with the first one that is expected to keep the budget.
 ///
 /// Symbols. T budget; t time of a frame at level l; c_i what the model has for level i.
 ///   too slow      t > T: on to the first coarser level with t c_i / c_l <= T; l is refused
-///   room          t <= kRoom T in kPatience frames in a row: to the finest level with t c_i / c_l <= kRoom
-///   T;
+///   room          t <= kRoom T in kPatience frames in a row: to the first level with t c_i / c_l <= kRoom T;
 ///                 or in kLonger frames, whatever is expected: one level finer is tried
 /// A refused level, and those finer than it, are not gone to until frames of some level take less than
 /// kLighter of what they took after the refusal, or so many frames have come that the machine may have been
@@ -56,10 +55,15 @@ class FrameBudget {
   [[nodiscard]] std::optional<double> expected_error() const noexcept;
 
  private:
-  void make_levels();
-  void go_to(std::size_t level);
+  /// The levels that errors and times make, as known by now.
+  [[nodiscard]] std::vector<FrameQuality> best_qualities() const;
+  /// The first of `levels` that takes no longer than `time`, as times_ has it, else the last.
+  [[nodiscard]] std::size_t first_within(const std::vector<FrameQuality>& levels, double time) const;
+  [[nodiscard]] double refused_time() const;
+  /// On with other levels, at `level` or the first one that takes less than what was refused.
+  void choose(std::vector<FrameQuality> levels, double refused, std::size_t level);
   void too_slow(double milliseconds);
-  [[nodiscard]] double expected(std::size_t level, double milliseconds) const noexcept;
+  void room(double milliseconds);
 
   double budget_;
   bool volume_ = false, lenses_ = false;

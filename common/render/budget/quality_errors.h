@@ -1,5 +1,5 @@
 /// How far pictures of less quality are from converged ones: the error of the error-against-time model that a
-/// frame budget chooses by (Ikits 2006, ch. 9, asks for one).
+/// frame budget chooses by.
 ///
 /// Symbols. b error of the picture with all that was asked for, against a converged one; a_k what saving k
 /// adds: the difference that it makes to that picture. All are root mean squares of colours, 1 is full scale,
