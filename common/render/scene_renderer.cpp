@@ -24,44 +24,18 @@
 #include "common/render/line/line_pass.h"
 #include "common/render/overlay.h"
 #include "common/render/palette.h"
+#include "common/render/scene_parts.h"
 #include "common/render/sign/sign_pass.h"
 #include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/tract/tract_pass.h"
 #include "common/render/tract/tract_progress.h"
-#include "common/render/volume/error_estimate.h"
-#include "common/render/volume/saving_estimate.h"
-#include "common/render/volume/sparse_rays.h"
+#include "common/render/volume/picture_estimates.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
 namespace {
-
-// Bounds for clipping: lines may leave the domain's box a little.
-Box reach_of(const SceneView& view) {
-  Box box = view.bounds;
-  if (view.lines) {
-    for (const Line& line : *view.lines) {
-      for (const LinePoint& point : line.points) {
-        if (is_finite(point.position)) box.include(point.position);
-      }
-    }
-  }
-  for (const auto& polyline : view.outline) {
-    for (const Vec3& x : polyline) box.include(x);
-  }
-  if (view.tracts && !view.tracts->bundle->bounds.empty()) {
-    box.include(view.tracts->bundle->bounds.lower);
-    box.include(view.tracts->bundle->bounds.upper);
-  }
-  if (view.tensors) {
-    const Box voxels = view.tensors->image->bounds();
-    box.include(voxels.lower);
-    box.include(voxels.upper);
-  }
-  return box;
-}
 
 // How far a line may be moved unseen [scene frame]: a part of a pixel where the scene is nearest. A
 // power of two, so that it changes rarely while the camera moves.
@@ -73,63 +47,6 @@ double line_tolerance(const ViewTransform& view, bool perspective, double pixel)
 
 // Tracts lie side by side in their thousands, and may be moved further: by half a pixel at most.
 constexpr double kTractTolerance = 2.0;
-
-bool same_box(const Box& a, const Box& b) { return a.lower == b.lower && a.upper == b.upper; }
-
-// Whether what stays while the probe moves is the same picture.
-bool same_still_part(const SceneView& a, const SceneView& b) {
-  if (a.probe.has_value() != b.probe.has_value()) return false;
-  const bool same_path =
-      !a.probe || (a.probe->path.points == b.probe->path.points && a.probe->style == b.probe->style);
-  return same_path && a.lines == b.lines && a.style == b.style && a.camera == b.camera &&
-         same_box(a.bounds, b.bounds) && a.background == b.background && a.show_outline == b.show_outline &&
-         a.outline == b.outline && a.surfaces == b.surfaces && a.color_lens == b.color_lens &&
-         a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
-         same_tensors(a, b) && a.tracts == b.tracts;
-}
-
-bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }
-
-bool is_transparent(const SceneView& view) { return view.style.opacity < 1.0 || view.style.clearing > 0.0; }
-
-// Transparent lines that rays through a volume have to pass, and all that they look like from one place.
-struct LayeredLines {
-  std::shared_ptr<const std::vector<Line>> lines;
-  LineStyle style;
-  std::optional<ColorLens> color_lens;
-  Background background = Background::kDark;
-
-  [[nodiscard]] static std::optional<LayeredLines> of(const SceneView& view) {
-    if (!shows_volume(view) || !is_transparent(view) || !view.lines || view.lines->empty()) return {};
-    return LayeredLines{view.lines, view.style, view.color_lens, view.background};
-  }
-  bool operator==(const LayeredLines&) const = default;
-};
-
-// The range of a followed line's values where no other lines set one.
-ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
-  if (style.range) return *style.range;
-  std::vector<double> values;
-  for (const double v : line.values) {
-    if (std::isfinite(v) && (!is_logarithmic(style) || v > 0.0)) values.push_back(v);
-  }
-  if (values.empty()) return {};
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return {*least, *most};
-}
-
-bool has_colored_lines(const SceneView& view) {
-  if (view.lines && !view.lines->empty()) return true;
-  if (std::ranges::any_of(view.surfaces,
-                          [](const SurfaceView& surface) { return surface.values != nullptr; }))
-    return true;
-  return view.probe && view.probe->followed && !view.probe->followed->values.empty();
-}
-
-bool has_overlay(const SceneView& view) {
-  return !view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar ||
-         view.probe || !view.notes.empty();
-}
 
 }  // namespace
 
@@ -146,10 +63,7 @@ struct SceneRenderer::State {
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
   bool keeps_for_error = false;
-  std::shared_ptr<const StillPicture> picture;  // the last one, where it was kept
-  std::optional<ErrorEstimate> estimate;        // of it
-  std::optional<SavingEstimate> savings;        // likewise
-  bool savings_known = false;
+  PictureEstimates estimates;  // of the last picture
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
@@ -316,16 +230,7 @@ struct SceneRenderer::State {
     kept.block.size.x = static_cast<float>(kept.shown.width);
     kept.block.size.y = static_cast<float>(kept.shown.height);
     kept.block.size.z = static_cast<float>(block.size.z * kept.resolution);
-    forget_estimates();
-    picture = std::make_shared<const StillPicture>(std::move(kept));
-    estimate.emplace(picture);
-  }
-
-  void forget_estimates() {
-    picture.reset();
-    estimate.reset();
-    savings.reset();
-    savings_known = false;
+    estimates.keep(std::move(kept), frame);
   }
 
   // What draws nothing of a picture, but asks for rays.
@@ -476,7 +381,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
                          double tract_milliseconds, const std::function<bool()>& stop_tracts) {
   State& s = *state_;
   s.stop_tracts = stop_tracts;
-  s.forget_estimates();
+  s.estimates.forget();
   s.timer.begin();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
@@ -536,27 +441,20 @@ void SceneRenderer::keep_for_error(bool on) { state_->keeps_for_error = on; }
 
 bool SceneRenderer::estimate_error() {
   State& s = *state_;
-  if (!s.estimate || !complete()) return false;
-  return State::beside_pictures([&] { return s.estimate->add(*s.volume); });
+  if (!s.estimates.kept() || !complete()) return false;
+  return State::beside_pictures([&] { return s.estimates.add_to_error(*s.volume); });
 }
 
-std::optional<ImageError> SceneRenderer::image_error() const {
-  if (!state_->estimate || state_->estimate->error().pixels == 0) return std::nullopt;
-  return state_->estimate->error();
-}
+std::optional<ImageError> SceneRenderer::image_error() const { return state_->estimates.error(); }
 
 bool SceneRenderer::estimate_savings() {
   State& s = *state_;
-  if (!s.estimate || !complete() || s.savings_known) return false;
-  if (!s.savings) s.savings.emplace(s.picture, s.frame, s.estimate->error().rms);
-  const bool more = State::beside_pictures([&] { return s.savings->add(*s.volume); });
-  s.savings_known = !more;
-  return more;
+  if (!s.estimates.kept() || !complete()) return false;
+  return State::beside_pictures([&] { return s.estimates.add_saving(*s.volume); });
 }
 
 std::optional<QualityErrors> SceneRenderer::quality_errors() const {
-  if (!state_->savings_known) return std::nullopt;
-  return state_->savings->errors();
+  return state_->estimates.quality_errors();
 }
 
 bool SceneRenderer::refine(int doublings) {
