@@ -216,7 +216,7 @@ TEST_F(GridWindow, ThePictureFollowsATransferFunctionWhileItIsDragged) {
   at({.kind = InputKind::kPress});
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) move(x, half + (foot - half) * i / kSteps);
-  rest_ = 2;
+  rest_ = 1;
   const WindowResult dragged = open(arguments, "dragged");
   ASSERT_TRUE(dragged.view.volume);
   const auto& points = dragged.view.volume->transfer.points();

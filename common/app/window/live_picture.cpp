@@ -63,7 +63,12 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     figures_.tracts = renderer_.tract_share();
     figures_.coarser_voxels = renderer_.coarser_voxels();
     figures_.bricks = renderer_.bricks();
-    if (moving) tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
+    if (moving) {
+      tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
+      // Nothing rests while a picture of how it moved is made.
+      lens_moved_ += 1e-3 * figures_.milliseconds;
+      edited_ += 1e-3 * figures_.milliseconds;
+    }
     figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
