@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/cardiac/heart_scene.h"
-#include "common/app/cli/input_model.h"
+#include "common/compose/input_model.h"
 #include "common/trace/layer_fibre.h"
 
 namespace palpate {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "common/app/cli/plane_image_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/plane_image_text.h"
 #include "common/trace/surface_contours.h"
 
 namespace palpate {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "apps/cardiac/heart_verbs.h"
-#include "common/app/cli/json_output.h"
-#include "common/app/cli/summaries.h"
-#include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/heart/heart.h"
 #include "common/load/write_carp.h"

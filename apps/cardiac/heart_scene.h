@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "common/app/cli/options.h"
 #include "common/base/progress.h"
 #include "common/field/heart/fibre_angles.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
 #include "common/scene/input.h"
+#include "common/scene/options.h"
 #include "common/trace/fibre_lines.h"
 #include "common/trace/isosurface_mesh.h"
 #include "common/trace/layer_fibre.h"

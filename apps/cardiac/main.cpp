@@ -3,7 +3,7 @@
 #include "apps/cardiac/heart_verbs.h"
 #include "apps/cardiac/open_verb.h"
 #include "apps/cardiac/remesh.h"
-#include "common/app/cli/verbs.h"
+#include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;

@@ -7,7 +7,7 @@
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
-#include "common/app/cli/verb_open.h"
+#include "common/cli/verb_open.h"
 
 namespace palpate {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/app/cli/explorer.h"
+#include "common/cli/explorer.h"
 
 namespace palpate {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "apps/cardiac/wall_mesh.h"
-#include "common/app/cli/options.h"
 #include "common/base/progress.h"
 #include "common/scene/input.h"
+#include "common/scene/options.h"
 #include "common/scene/remesher.h"
 
 namespace palpate {

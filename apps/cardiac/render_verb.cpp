@@ -5,14 +5,14 @@
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
 #include "apps/cardiac/usual_look.h"
-#include "common/app/cli/picture.h"
-#include "common/app/cli/touch_options.h"
-#include "common/app/cli/verbs.h"
-#include "common/app/haptic/probe_picture.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/cli/picture.h"
+#include "common/cli/verbs.h"
 #include "common/device/probe_path.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/hand/probe_picture.h"
+#include "common/hand/touch_options.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {

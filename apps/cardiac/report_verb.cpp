@@ -3,18 +3,18 @@
 
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/heart_verbs.h"
-#include "common/app/cli/report_output.h"
-#include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/cli/report_output.h"
+#include "common/cli/verbs.h"
 #include "common/field/grid/mesh_quality.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/report/fibre_feel.h"
-#include "common/report/heart_errors.h"
-#include "common/report/report.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
+#include "lab/fibre_feel.h"
+#include "lab/heart_errors.h"
+#include "lab/report.h"
 
 namespace palpate {
 namespace {

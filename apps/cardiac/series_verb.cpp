@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "apps/cardiac/heart_verbs.h"
-#include "common/app/cli/json_output.h"
-#include "common/app/cli/summaries.h"
-#include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/csv_reader.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
 #include "common/math/vec_text.h"
 #include "common/scene/seeds.h"
 #include "common/scene/time_series.h"

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "common/app/cli/options.h"
 #include "common/base/progress.h"
 #include "common/scene/input.h"
+#include "common/scene/options.h"
 
 namespace palpate {
 

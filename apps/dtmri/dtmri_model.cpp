@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/app/cli/lens_text.h"
-#include "common/app/cli/tensor_scene.h"
-#include "common/app/cli/underlay.h"
-#include "common/app/cli/view_tracts.h"
+#include "apps/dtmri/tensor_scene.h"
+#include "apps/dtmri/underlay.h"
+#include "apps/dtmri/view_tracts.h"
 #include "common/base/error.h"
+#include "common/compose/lens_text.h"
 #include "common/field/color_transfer_file.h"
 #include "common/field/region_transfer_file.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "common/app/cli/input_model.h"
+#include "common/compose/input_model.h"
 
 namespace palpate {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/app/haptic/haptic_mode.h"
+#include "common/hand/mode/haptic_mode.h"
 
 namespace palpate {
 

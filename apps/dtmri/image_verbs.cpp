@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "common/app/cli/json_output.h"
-#include "common/app/cli/summaries.h"
-#include "common/app/cli/verbs.h"
 #include "common/base/clock.h"
 #include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
 #include "common/field/tensor/tensor_measure.h"
 #include "common/load/write_image.h"
 

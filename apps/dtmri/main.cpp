@@ -3,7 +3,7 @@
 #include "apps/dtmri/image_verbs.h"
 #include "apps/dtmri/open_verb.h"
 #include "apps/dtmri/tracts_verb.h"
-#include "common/app/cli/verbs.h"
+#include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;

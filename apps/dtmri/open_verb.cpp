@@ -4,10 +4,10 @@
 
 #include "apps/dtmri/dtmri_model.h"
 #include "apps/dtmri/dtmri_modes.h"
-#include "common/app/cli/tensor_scene.h"
-#include "common/app/cli/verb_open.h"
-#include "common/app/cli/verbs.h"
-#include "common/app/cli/view_tracts.h"
+#include "apps/dtmri/tensor_scene.h"
+#include "apps/dtmri/view_tracts.h"
+#include "common/cli/verb_open.h"
+#include "common/cli/verbs.h"
 
 namespace palpate {
 

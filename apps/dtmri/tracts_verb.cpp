@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "common/app/cli/json_output.h"
-#include "common/app/cli/summaries.h"
-#include "common/app/cli/verbs.h"
 #include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/write_lines.h"
 #include "common/load/write_tractogram.h"

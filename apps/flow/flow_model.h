@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "common/app/cli/input_model.h"
+#include "common/compose/input_model.h"
 
 namespace palpate {
 

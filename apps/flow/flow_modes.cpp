@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "common/app/haptic/linear_mode.h"
 #include "common/field/scalar_threshold.h"
+#include "common/hand/mode/linear_mode.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/streamline.h"

@@ -1,7 +1,7 @@
 /// flow: streamlines of CFD data, seen and followed.
 #include "apps/flow/flow_modes.h"
 #include "apps/flow/open_verb.h"
-#include "common/app/cli/verbs.h"
+#include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;

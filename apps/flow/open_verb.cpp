@@ -2,11 +2,12 @@
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
-#include "common/app/cli/flow_volume.h"
-#include "common/app/cli/line_color.h"
-#include "common/app/cli/line_view.h"
-#include "common/app/cli/verb_open.h"
-#include "common/app/cli/verbs.h"
+#include "common/cli/verb_open.h"
+#include "common/cli/verbs.h"
+#include "common/compose/line_color.h"
+#include "common/compose/line_view.h"
+#include "common/compose/resampled_volume.h"
+#include "common/compose/trace_options.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {

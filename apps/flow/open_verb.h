@@ -1,7 +1,7 @@
 /// The verb that opens the window.
 #pragma once
 
-#include "common/app/cli/explorer.h"
+#include "common/cli/explorer.h"
 
 namespace palpate {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "common/app/cli/lens_text.h"
-#include "common/app/cli/volume_fields.h"
+#include "common/compose/lens_text.h"
+#include "common/compose/volume_fields.h"
 
 namespace palpate {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "common/app/cli/input_model.h"
-#include "common/app/cli/volume_scene.h"
+#include "common/compose/input_model.h"
+#include "common/compose/volume_scene.h"
 
 namespace palpate {
 

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "common/app/haptic/grid_mode.h"
-#include "common/app/haptic/linear_mode.h"
-#include "common/app/haptic/texture_link.h"
 #include "common/field/scalar_threshold.h"
+#include "common/hand/mode/grid_mode.h"
+#include "common/hand/mode/linear_mode.h"
+#include "common/hand/mode/texture_link.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/force_field/force_field.h"
 

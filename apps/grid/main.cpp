@@ -1,8 +1,8 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_modes.h"
 #include "apps/grid/open_verb.h"
-#include "common/app/cli/verb_report_volume.h"
-#include "common/app/cli/verbs.h"
+#include "apps/grid/report_verb.h"
+#include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;

@@ -4,9 +4,9 @@
 
 #include "apps/grid/grid_model.h"
 #include "apps/grid/grid_modes.h"
-#include "common/app/cli/verb_open.h"
-#include "common/app/cli/verbs.h"
-#include "common/app/cli/volume_scene.h"
+#include "common/cli/verb_open.h"
+#include "common/cli/verbs.h"
+#include "common/compose/volume_scene.h"
 
 namespace palpate {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "common/app/cli/bench_option.h"
-#include "common/app/cli/simulated_option.h"
 #include "common/base/error.h"
+#include "common/cli/simulated_option.h"
+#include "common/device/bench_option.h"
 #include "common/device/replay_device.h"
 
 namespace palpate {
@@ -27,7 +27,7 @@ BenchDevice::BenchDevice(const std::string& text, const WorkbenchGeometry& bench
     throw usage_error(
         "a mouse shows no force: try --device simulated, or feel effects in the explorers' windows");
   const DeviceText named = device_at_bench(text, bench);
-  OpenedDevice opened = open_at_bench(named, bench, console);
+  OpenedDevice opened = open_at_bench(named, bench, [&](const std::string& line) { console.note(line); });
   key_ = device_key(named);
   held_ = description_of(opened.enabling, named);
   held_by_itself_ = opened.enabling.button != DeviceLimits::kNoButton && !opened.enabling.link;

@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
-#include "common/app/cli/console.h"
-#include "common/calibration/workbench_file.h"
+#include "common/cli/console.h"
 #include "common/device/driver_library.h"
 #include "common/device/simulated_device.h"
+#include "common/kinematics/workbench_file.h"
 #include "common/servo/linked_device.h"
 #include "common/servo/placed_device.h"
 #include "common/servo/time_histogram.h"

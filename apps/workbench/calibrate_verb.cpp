@@ -8,8 +8,8 @@
 #include "common/calibration/synthetic_arm.h"
 #include "common/calibration/synthetic_poses.h"
 #include "common/calibration/synthetic_tracker.h"
-#include "common/calibration/workbench_file.h"
-#include "common/report/report.h"
+#include "common/kinematics/workbench_file.h"
+#include "lab/report.h"
 
 namespace palpate {
 namespace {

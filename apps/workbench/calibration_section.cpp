@@ -7,9 +7,9 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "common/report/html.h"
-#include "common/report/plane_picture.h"
-#include "common/report/scatter_plot.h"
+#include "lab/html.h"
+#include "lab/plane_picture.h"
+#include "lab/scatter_plot.h"
 
 namespace palpate {
 namespace {

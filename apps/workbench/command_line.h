@@ -10,7 +10,7 @@
 #include "common/calibration/least_squares.h"
 #include "common/calibration/registration.h"
 #include "common/calibration/tracker_fit.h"
-#include "common/report/feel_score.h"
+#include "lab/feel_score.h"
 
 namespace palpate {
 

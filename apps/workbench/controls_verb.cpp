@@ -8,17 +8,17 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/haptic/immersive_technique.h"
-#include "common/app/immersive/pick.h"
-#include "common/app/immersive/space_menu.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/device/tracked_hands.h"
+#include "common/hand/technique/immersive_technique.h"
+#include "common/hand/technique/pick.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/render/sign/sign_pass.h"
+#include "common/window/immersive/space_menu.h"
 
 namespace palpate {
 namespace {

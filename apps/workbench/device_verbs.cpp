@@ -9,9 +9,9 @@
 #include "apps/workbench/bench_device.h"
 #include "apps/workbench/link_check.h"
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/cli/bench_option.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
 #include "common/servo/real_time.h"
 
@@ -206,7 +206,8 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
     const DeviceText named = device_at_bench(device, bench);
-    const OpenedDevice opened = open_at_bench(named, bench, context.console);
+    const OpenedDevice opened =
+        open_at_bench(named, bench, [&](const std::string& line) { context.console.note(line); });
     const auto work = [&](DriverLink& link, const std::string& name) {
       context.progress.begin("working the device", 0);
       const LinkCheck check = check_link(link, options.seconds, options.patience, context.progress);

@@ -11,16 +11,16 @@
 #include "apps/workbench/bench_device.h"
 #include "apps/workbench/force_keys.h"
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/cli/probe_log.h"
-#include "common/app/cli/simulated_option.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
+#include "common/cli/probe_log.h"
+#include "common/cli/simulated_option.h"
 #include "common/device/probe_path.h"
 #include "common/device/replay_device.h"
 #include "common/haptics/coupling.h"
-#include "common/report/html.h"
 #include "common/servo/servo_loop.h"
+#include "lab/html.h"
 
 namespace palpate {
 namespace {

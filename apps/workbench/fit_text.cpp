@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/text.h"
-#include "common/report/html.h"
+#include "lab/html.h"
 
 namespace palpate {
 namespace {

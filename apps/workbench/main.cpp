@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/cli/interrupt.h"
 #include "common/base/error.h"
+#include "common/cli/interrupt.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 
 #include "apps/workbench/bench_device.h"
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/cli/bench_option.h"
 #include "common/base/text.h"
+#include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
 #include "common/servo/real_time.h"
 
@@ -148,7 +148,9 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
   const WorkbenchGeometry geometry = bench_of(options.workbench);
   const BenchReading bench(geometry);
   const std::unique_ptr<DriverLink> link =
-      open_at_bench(device_at_bench(options.device, geometry), geometry, context.console).link;
+      open_at_bench(device_at_bench(options.device, geometry), geometry, [&](const std::string& line) {
+        context.console.note(line);
+      }).link;
   const std::int64_t start = monotonic_ns();
   const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
   Json samples = Json::array();

@@ -6,9 +6,9 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "common/report/html.h"
-#include "common/report/report.h"
-#include "common/report/stability_sweep.h"
+#include "lab/html.h"
+#include "lab/report.h"
+#include "lab/stability_sweep.h"
 
 namespace palpate {
 

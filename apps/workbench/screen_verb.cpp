@@ -2,8 +2,8 @@
 
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/clock.h"
-#include "common/report/html.h"
-#include "common/report/report.h"
+#include "lab/html.h"
+#include "lab/report.h"
 
 namespace palpate {
 namespace {

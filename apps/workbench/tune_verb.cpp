@@ -8,14 +8,14 @@
 #include "apps/workbench/bench_device.h"
 #include "apps/workbench/force_keys.h"
 #include "apps/workbench/workbench_verbs.h"
-#include "common/app/cli/simulated_option.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
-#include "common/report/html.h"
+#include "common/cli/simulated_option.h"
 #include "common/servo/servo_loop.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"
+#include "lab/html.h"
 
 namespace palpate {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "apps/workbench/command_line.h"
 #include "apps/workbench/distortion_pictures.h"
-#include "common/app/cli/console.h"
 #include "common/base/progress.h"
 #include "common/calibration/fit_report.h"
-#include "common/report/section.h"
-#include "common/report/stability.h"
+#include "common/cli/console.h"
+#include "lab/section.h"
+#include "lab/stability.h"
 
 namespace palpate {
 

@@ -22,8 +22,8 @@
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/math/counter_random.h"
-#include "common/report/probe_run.h"
 #include "common/servo/hand_step.h"
+#include "lab/probe_run.h"
 
 namespace palpate::bench {
 namespace {

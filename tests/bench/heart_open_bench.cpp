@@ -27,12 +27,12 @@
 
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cardiac_modes.h"
-#include "common/app/window/window.h"
 #include "common/base/error.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/field/grid/cell_split.h"
 #include "common/load/write_carp.h"
 #include "common/load/write_mesh.h"
+#include "common/window/window.h"
 
 namespace palpate::bench {
 namespace {

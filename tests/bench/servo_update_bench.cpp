@@ -33,10 +33,10 @@
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/report/probe_paths.h"
-#include "common/report/probe_run.h"
 #include "common/scene/input.h"
 #include "common/servo/hand_step.h"
+#include "lab/probe_paths.h"
+#include "lab/probe_run.h"
 
 namespace palpate::bench {
 namespace {

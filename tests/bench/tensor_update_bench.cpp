@@ -21,8 +21,8 @@
 #include "common/field/analytic/tensor_sampled.h"
 #include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/math/counter_random.h"
-#include "common/report/probe_run.h"
 #include "common/servo/hand_step.h"
+#include "lab/probe_run.h"
 
 namespace palpate::bench {
 namespace {

@@ -28,10 +28,10 @@
 
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
-#include "common/app/cli/simulated_option.h"
-#include "common/app/window/window.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
+#include "common/cli/simulated_option.h"
+#include "common/window/window.h"
 
 namespace palpate::bench {
 namespace {

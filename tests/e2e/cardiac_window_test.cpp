@@ -12,10 +12,10 @@
 
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cardiac_modes.h"
-#include "common/app/window/panel.h"
-#include "common/app/window/shown_scene.h"
-#include "common/app/window/window.h"
 #include "common/scene/session.h"
+#include "common/window/panels/panel.h"
+#include "common/window/shown_scene.h"
+#include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
 

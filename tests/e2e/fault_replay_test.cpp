@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/flow/flow_modes.h"
-#include "common/app/haptic/chain_description.h"
 #include "common/field/analytic/examples.h"
+#include "common/hand/mode/chain_description.h"
 #include "common/servo/fault_recorder.h"
 #include "tests/e2e/explorer_test.h"
 

@@ -3,10 +3,10 @@
 #include <sstream>
 #include <string>
 
-#include "common/app/haptic/box_hold.h"
-#include "common/app/window/region_control.h"
-#include "common/app/window/saved_files.h"
 #include "common/field/analytic/volume_examples.h"
+#include "common/hand/technique/box_hold.h"
+#include "common/window/controls/region_control.h"
+#include "common/window/saved_files.h"
 #include "tests/e2e/explorer_test.h"
 
 namespace palpate::test {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "apps/flow/flow_modes.h"
-#include "common/app/haptic/haptic_mode.h"
 #include "common/device/driver_link.h"
 #include "common/device/simulated_device.h"
 #include "common/field/analytic/examples.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/servo/hand_step.h"
 #include "tests/e2e/explorer_test.h"
 

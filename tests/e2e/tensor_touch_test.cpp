@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "apps/dtmri/dtmri_modes.h"
-#include "common/app/haptic/chain_description.h"
-#include "common/app/haptic/probe_session.h"
 #include "common/field/analytic/tensor_examples.h"
+#include "common/hand/mode/chain_description.h"
+#include "common/hand/probe_session.h"
 #include "common/servo/fault_recorder.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/e2e/probe_log.h"

@@ -7,10 +7,10 @@
 #include <string>
 #include <thread>
 
-#include "common/app/haptic/probe_session.h"
 #include "common/field/analytic/examples.h"
+#include "common/hand/probe_session.h"
 #include "common/servo/recording.h"
-#include "tests/common/app/haptic/sample_modes.h"
+#include "tests/common/hand/sample_modes.h"
 #include "tests/e2e/explorer_test.h"
 
 namespace palpate::test {

@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/calibration/measurements.h"
-#include "common/calibration/workbench_file.h"
+#include "common/kinematics/workbench_file.h"
 #include "tests/fuzz/memory_path.h"
 
 using namespace palpate;

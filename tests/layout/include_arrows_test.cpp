@@ -20,30 +20,31 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kCommon{"base",   "math",  "geometry", "kinematics", "ode",         "field",
                                        "trace",  "load",  "haptics",  "device",     "calibration", "servo",
-                                       "render", "scene", "report",   "app"};
+                                       "render", "scene", "compose",  "hand",       "window",      "cli"};
 
 // What each folder may include directly; allowing a folder allows what it may include.
-const std::map<std::string, std::set<std::string>> kDirect{
-    {"base", {}},
-    {"math", {"base"}},
-    {"geometry", {"math"}},
-    {"ode", {"math"}},
-    {"kinematics", {"geometry"}},
-    {"field", {"geometry"}},
-    {"trace", {"field", "ode"}},
-    {"load", {"field"}},
-    {"haptics", {"trace"}},
-    {"device", {"kinematics"}},
-    {"calibration", {"kinematics"}},
-    {"servo", {"haptics", "device"}},
-    {"render", {"trace"}},
-    {"scene", {"field", "load"}},
-    {"report",
-     {"base", "math", "geometry", "kinematics", "ode", "field", "trace", "load", "haptics", "device",
-      "calibration", "servo", "render", "scene"}},
-    {"app",
-     {"base", "math", "geometry", "kinematics", "ode", "field", "trace", "load", "haptics", "device",
-      "calibration", "servo", "render", "scene", "report"}}};
+const std::map<std::string, std::set<std::string>> kDirect{{"base", {}},
+                                                           {"math", {"base"}},
+                                                           {"geometry", {"math"}},
+                                                           {"ode", {"math"}},
+                                                           {"kinematics", {"geometry"}},
+                                                           {"field", {"geometry"}},
+                                                           {"trace", {"field", "ode"}},
+                                                           {"load", {"field"}},
+                                                           {"haptics", {"trace"}},
+                                                           {"device", {"kinematics"}},
+                                                           {"calibration", {"kinematics"}},
+                                                           {"servo", {"haptics", "device"}},
+                                                           {"render", {"trace"}},
+                                                           {"scene", {"load"}},
+                                                           {"compose", {"scene", "render"}},
+                                                           {"hand", {"compose", "servo"}},
+                                                           {"window", {"hand"}},
+                                                           {"cli", {"hand", "calibration"}}};
+
+// Arrows that are still to be taken out: nothing is to be added here.
+const std::set<std::string> kLeft{"common/cli/verb_open.cpp", "common/cli/window_touch.h",
+                                  "common/cli/report_output.h"};
 
 std::set<std::string> closure(const std::string& folder) {
   std::set<std::string> reached{folder};
@@ -58,7 +59,7 @@ std::set<std::string> closure(const std::string& folder) {
   return reached;
 }
 
-/// "common/field", "loaders/vtk", "apps/flow": the first two parts of a path.
+/// "common/field", "loaders/vtk", "apps/flow", "lab/plot.h": the first two parts of a path.
 std::string room_of(const std::string& path) {
   const auto first = path.find('/');
   const auto second = path.find('/', first + 1);
@@ -77,7 +78,11 @@ bool allowed(const std::string& from, const std::string& to) {
     }();
     return to_common && loader_may.count(to.substr(7)) > 0;
   }
-  return from.starts_with("apps/") && to_common;
+  if (from.starts_with("lab/")) {
+    return to.starts_with("lab/") || (to_common && to != "common/window" && to != "common/cli");
+  }
+  // Until `report` starts a program of its own, the verbs of that name call the studies themselves.
+  return from.starts_with("apps/") && (to_common || to.starts_with("lab/"));
 }
 
 struct Foreign {
@@ -88,7 +93,7 @@ struct Foreign {
 
 const std::vector<Foreign> kForeign{
     {std::regex("^(epoxy/|GL/|GLES|EGL/|GLFW/|imgui)"),
-     {"common/render/", "common/app/"},
+     {"common/render/", "common/window/"},
      "OpenGL or the window"},
     {std::regex("^vtk"), {"loaders/vtk/"}, "VTK"},
     {std::regex("^teem/"), {"loaders/nrrd/"}, "Teem"},
@@ -102,7 +107,7 @@ const std::vector<Foreign> kForeign{
 
 std::vector<fs::path> sources() {
   std::vector<fs::path> files;
-  for (const char* top : {"common", "loaders", "apps"}) {
+  for (const char* top : {"common", "lab", "loaders", "apps"}) {
     for (const auto& entry : fs::recursive_directory_iterator(source_folder() / top)) {
       const std::string ending = entry.path().extension().string();
       if (ending == ".h" || ending == ".cpp") files.push_back(entry.path());
@@ -124,14 +129,14 @@ TEST(IncludeArrows, PointOnlyWhereTheTableAllows) {
       if (!std::regex_search(line, match, include_line)) continue;
       ++read;
       const std::string target = match[2];
-      const bool ours =
-          target.starts_with("common/") || target.starts_with("loaders/") || target.starts_with("apps/");
+      const bool ours = target.starts_with("common/") || target.starts_with("lab/") ||
+                        target.starts_with("loaders/") || target.starts_with("apps/");
       if (match[1] == "\"" && !ours && target.find('/') != std::string::npos &&
           !target.starts_with("imgui")) {
         ADD_FAILURE() << name << ":" << number << ": includes start at the repository root: " << target;
       }
       if (ours) {
-        EXPECT_TRUE(allowed(room_of(name), room_of(target)))
+        EXPECT_TRUE(allowed(room_of(name), room_of(target)) || kLeft.count(name) > 0)
             << name << ":" << number << ": " << room_of(name) << " may not include " << target;
       }
       for (const Foreign& foreign : kForeign) {
@@ -165,7 +170,9 @@ TEST(IncludeArrows, RefuseAWrongArrow) {
   EXPECT_FALSE(allowed("common/servo", "common/render"));
   EXPECT_FALSE(allowed("common/load", "loaders/vtk"));
   EXPECT_FALSE(allowed("apps/flow", "loaders/vtk"));
-  EXPECT_TRUE(allowed("apps/flow", "common/app"));
+  EXPECT_FALSE(allowed("common/compose", "common/hand"));
+  EXPECT_FALSE(allowed("common/hand", "lab"));
+  EXPECT_TRUE(allowed("apps/flow", "common/window"));
   EXPECT_TRUE(allowed("common/haptics", "common/ode"));
 }
 

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/app/cli/line_view.h"
 #include "common/base/error.h"
+#include "common/compose/line_view.h"
 #include "common/scene/session.h"
 #include "tests/support/temp_folder.h"
 

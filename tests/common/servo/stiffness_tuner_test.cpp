@@ -9,9 +9,9 @@
 #include "common/base/error.h"
 #include "common/device/replay_device.h"
 #include "common/device/simulated_device.h"
-#include "common/report/wall_run.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"
+#include "lab/wall_run.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpate::test {

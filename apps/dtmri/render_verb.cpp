@@ -1,0 +1,83 @@
+#include <optional>
+#include <utility>
+
+#include "apps/dtmri/tensor_scene.h"
+#include "apps/dtmri/view_tracts.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/picture.h"
+#include "common/cli/verbs.h"
+
+namespace palpate {
+namespace {
+
+SceneUse use_of(const Options& options, const Input& input) {
+  (void)with_input_role(options, input);  // what cannot be shown is refused before anything is read
+  return {.verb = "render",
+          .field = role_of(input) == FileRole::kTensors,
+          .threads = resolve_threads(options.common.threads),
+          .drawing = true};
+}
+
+ViewTracts tracts_of(const Options& options, const VerbContext& context,
+                     const std::optional<TensorView>& tensors) {
+  if (!options.tract_look.file.empty()) return read_view_tracts(options.tract_look, &context.progress);
+  ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
+  if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
+  return tracts;
+}
+
+DrawnScene make_scene(Input& input, const Options& given, const VerbContext& context, double aspect) {
+  const Options options = with_input_role(given, input);
+  DrawnScene drawn;
+  TensorSceneParts parts;
+  if (role_of(input) == FileRole::kTensors) {
+    auto field = input.load_tensor(options.common.threads, &context.progress);
+    for (const std::string& line : field->notes().lines) context.console.note(line);
+    auto voxels = make_tensor_voxels(std::move(field), input.title(), options.common.threads);
+    drawn.field = input.field_label();
+    drawn.voxels = voxels->directions.size();
+    drawn.what = counted(drawn.voxels, "voxel");
+    parts.tensors = make_tensor_view(std::move(voxels), options.tensors);
+  }
+  drawn.measured = measured_costs(input, nullptr);
+  if (!options.tract_look.file.empty() || !options.tracts.seeds.empty()) {
+    const ViewTracts tracts = tracts_of(options, context, parts.tensors);
+    if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
+    drawn.lines = tracts.bundle->order.size();
+    drawn.points = tracts.bundle->lines->points.size();
+    drawn.seconds_trace = tracts.seconds;
+    drawn.what += (drawn.what.empty() ? "" : ", ") + counted(drawn.lines, "tract");
+    parts.tracts = TractView{
+        .bundle = tracts.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
+  }
+  if (!options.tensors.underlay.empty()) {
+    const Underlay underlay = load_underlay(options.tensors.underlay, &context.progress);
+    for (const std::string& note : show_underlay(underlay, options, parts.tensors))
+      context.console.note(note);
+    drawn.what += ", an underlay of " + counted(underlay.image->point_count(), "voxel");
+  }
+  drawn.view = make_tensor_scene(input, std::move(parts), options, aspect);
+  return drawn;
+}
+
+}  // namespace
+
+Verb tensor_render_verb(std::vector<UsageExample> examples) {
+  return {.name = "render",
+          .summary = "draw a picture of the tensors, with or without a display",
+          .groups = {.tracts = true, .view = true, .out = true, .picture = true},
+          .examples = std::move(examples),
+          .run = [](const Options& options, const VerbContext& context) {
+            const PictureMaker maker{.check =
+                                         [](const Options& given) {
+                                           check_tensor_options(given);
+                                           check_view_tracts(given.tracts, given.tract_look);
+                                         },
+                                     .use = use_of,
+                                     .make = make_scene};
+            return draw_picture(maker, options, context);
+          }};
+}
+
+}  // namespace palpate

@@ -1,0 +1,185 @@
+#include "apps/dtmri/tensor_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+#include "common/compose/domain_outline.h"
+#include "common/compose/lens_text.h"
+#include "common/compose/line_view.h"
+#include "common/compose/volume_scene.h"
+
+namespace palpate {
+namespace {
+
+/// The middle of what shows, on the centre of a voxel.
+Vec3 middle_of(const TensorVoxels& voxels) {
+  const Index3 at = (voxels.first_shown + voxels.last_shown + 1) / 2;
+  return voxels.position(Vec3(at));
+}
+
+}  // namespace
+
+SliceChoice parse_slices(const std::string& text) {
+  if (text == "all") return {};
+  if (text == "none") return {.shown = {false, false, false}};
+  SliceChoice choice;
+  const std::vector<std::string_view> parts = split(text, ',');
+  bool good = parts.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis) {
+    choice.shown[axis] = parts[axis] != "-";
+    if (!choice.shown[axis]) continue;
+    choice.position[axis] = number(parts[axis]);
+    good = choice.position[axis] && std::isfinite(*choice.position[axis]);
+  }
+  if (!good) {
+    throw usage_error("--slices " + text +
+                      ": all, none, or a place on each axis is expected, such as 0,-12.5,30, with '-' for a "
+                      "slice that is left out");
+  }
+  return choice;
+}
+
+std::string slices_text(const TensorView& view) {
+  if (std::none_of(view.slices.begin(), view.slices.end(), [](bool shown) { return shown; })) return "none";
+  const std::array<int, 3> axes = slice_axes(view.image->axes);
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis > 0) text += ',';
+    const bool shown = view.slices[static_cast<std::size_t>(axes[axis])];
+    text += shown ? exact_number(view.position[static_cast<int>(axis)]) : "-";
+  }
+  return text;
+}
+
+void check_tensor_options(const Options& options) {
+  (void)parse_slices(options.tensors.slices);
+  (void)tensor_color_from_name(options.tensors.color);
+  (void)glyph_shape_from_name(options.tensors.glyphs);
+  check_underlay_options(options.tensors);
+  check_volume_options(options.volume);
+}
+
+Lens direction_lens(const VolumeOptions& options, const VolumeImage& image) {
+  Lens lens;
+  if (options.focus.empty()) {
+    lens.transfer = anisotropy_body();
+  } else {
+    take_transfer(focus_transfer_of(options.focus, image, 0), lens);
+  }
+  lens.samples_per_voxel = options.samples;
+  lens.shading = options.shading;
+  lens.colored = true;
+  return lens;
+}
+
+VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const Options& options) {
+  const VolumeOptions& with = options.volume;
+  VolumeView volume;
+  volume.image = make_anisotropy_volume(std::move(voxels));
+  volume.colored = options.tensors.volume == "direction";
+  volume.transfer = volume.colored ? anisotropy_body() : anisotropy_veil();
+  if (!with.transfer.empty()) {
+    VolumeTransfer transfer = volume_transfer_of(with.transfer, *volume.image, 0);
+    volume.transfer = std::move(transfer.colors);
+    volume.regions = std::move(transfer.regions);
+  }
+  volume.samples_per_voxel = with.samples;
+  volume.far_sampling = with.far_sampling;
+  volume.context.viewport = with.context_viewport;
+  volume.context.level = with.context_level;
+  volume.shading = with.shading;
+  const Lens model = direction_lens(with, *volume.image);
+  VolumeParts parts = make_parts(with, model);
+  const auto said = [](const std::string& one) { return !one.empty(); };
+  if (std::any_of(parts.fields.begin(), parts.fields.end(), said) ||
+      std::any_of(parts.transfers.begin(), parts.transfers.end(), said)) {
+    throw usage_error("--lens: lenses of a tensor image show its directions; leave out ',field' and ',tf'");
+  }
+  volume.lenses = std::move(parts.lenses);
+  volume.cuts = std::move(parts.cuts);
+  for (Lens& lens : volume.lenses) lens.colored = !lens.cut;
+  volume.shown = options.tensors.volume == "auto" ? !volume.lenses.empty() || is_cut(volume)
+                                                  : options.tensors.volume != "none";
+  return volume;
+}
+
+TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const TensorOptions& options) {
+  const SliceChoice choice = parse_slices(options.slices);
+  TensorView view;
+  view.position = middle_of(*voxels);
+  const std::array<int, 3> axes = slice_axes(voxels->axes);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    view.slices[static_cast<std::size_t>(axes[axis])] = choice.shown[axis];
+    if (choice.position[axis]) view.position[static_cast<int>(axis)] = *choice.position[axis];
+  }
+  if (!voxels->contains(voxels->grid_coordinates(view.position))) {
+    const Box box = voxels->bounds();
+    const auto corner = [](const Vec3& x) {
+      return short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z);
+    };
+    throw usage_error("--slices " + options.slices + ": lies outside the image, which reaches from " +
+                      corner(box.lower) + " to " + corner(box.upper));
+  }
+  view.color = tensor_color_from_name(options.color);
+  view.glyphs = glyph_shape_from_name(options.glyphs);
+  view.smooth = options.voxels == "linear";
+  view.image = std::move(voxels);
+  return view;
+}
+
+SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Options& options,
+                            double aspect) {
+  SceneView view;
+  view.title = input.title();
+  const FileInfo* file = input.file();
+  view.anatomical = file != nullptr && file->anatomical;
+  view.style.color_by = ColorBy::kDirection;
+  if (parts.tensors) {
+    const TensorVoxels& voxels = *parts.tensors->image;
+    view.bounds = voxels.shown_bounds();  // a head fills a part of its image
+    view.outline = image_outline(voxels.origin, voxels.axes, Vec3(voxels.first_shown) - 0.5,
+                                 Vec3(voxels.last_shown) + 0.5);
+    view.subtitle = std::to_string(voxels.points.x) + " x " + std::to_string(voxels.points.y) + " x " +
+                    std::to_string(voxels.points.z) + " voxels";
+    if (voxels.field) {
+      view.subtitle.insert(0, input.field_label() + ", ");
+      view.volume = make_tensor_volume(parts.tensors->image, options);
+      view.volume_label = "FA";
+    }
+  } else if (parts.tracts) {
+    view.bounds = parts.tracts->bundle->bounds;
+  }
+  if (parts.tracts && !(parts.tensors && parts.tensors->image->field)) {
+    view.bounds.include(parts.tracts->bundle->bounds.lower);
+    view.bounds.include(parts.tracts->bundle->bounds.upper);
+    const std::string count = counted(parts.tracts->bundle->order.size(), "tract");
+    view.subtitle = view.subtitle.empty() ? count : count + ", " + view.subtitle;
+  }
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  view.tensors = std::move(parts.tensors);
+  view.tracts = std::move(parts.tracts);
+  return view;
+}
+
+std::vector<std::string> show_underlay(const Underlay& underlay, const Options& options,
+                                       std::optional<TensorView>& tensors) {
+  std::vector<std::string> notes = underlay.notes;
+  if (!tensors) tensors = make_tensor_view(make_slice_lattice(*underlay.image), options.tensors);
+  tensors->underlay = make_underlay_view(underlay.image, options.tensors, options.common.threads);
+  const Box slices = tensors->image->bounds(), below = underlay.image->bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (below.upper[axis] >= slices.lower[axis] && below.lower[axis] <= slices.upper[axis]) continue;
+    notes.emplace_back("the underlay lies beside the image: nothing of it can be seen on the slices");
+    break;
+  }
+  return notes;
+}
+
+}  // namespace palpate

@@ -1,0 +1,176 @@
+#include <string>
+#include <utility>
+
+#include "apps/dtmri/tract_request.h"
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
+#include "common/load/write_lines.h"
+#include "common/load/write_tractogram.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+std::size_t count_of(const TractResult& result, End end) {
+  return result.end_counts[static_cast<std::size_t>(end)];
+}
+
+std::vector<std::string> advice_for(const TractSummary& summary) {
+  std::vector<std::string> advice;
+  const TractResult& result = summary.result;
+  const auto add = [&](End end, const std::string& what) {
+    const std::size_t count = count_of(result, end);
+    if (count > 0) advice.push_back(counted(count, "end") + " by " + std::string(name_of(end)) + ": " + what);
+  };
+  add(End::kMaxLength, "--max-length above " + short_number(result.max_length) + " follows them further");
+  add(End::kSharpTurn, "--max-angle above " + short_number(result.max_angle) + " lets them turn");
+  return advice;
+}
+
+/// Why there is no line, or empty.
+std::string failure_of(const TractSummary& summary) {
+  if (summary.result.lines.line_count() > 0) return {};
+  return "no line: " + why_no_tract(summary.result, summary.options);
+}
+
+std::string dropped_text(const TractsDropped& d) {
+  std::string text;
+  const auto add = [&text](std::size_t count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::string(what) + " " + std::to_string(count);
+  };
+  add(d.outside, "seeds outside");
+  add(d.bad_data, "seeds without a tensor");
+  add(d.below_cutoff, "seeds below the cut-off");
+  add(d.too_short, "too short");
+  add(d.not_included, "not included");
+  add(d.excluded, "excluded");
+  return text;
+}
+
+std::string summary_text(const TractSummary& summary) {
+  const TractResult& result = summary.result;
+  std::string text = summary.input + ": " + counted(summary.seeds, "seed") + ", " +
+                     counted(result.lines.line_count(), "line") + ", " +
+                     counted(result.lines.points.size(), "point");
+  text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
+  std::string ends;
+  for (int e = 0; e < kEndCount; ++e) {
+    const std::size_t count = count_of(result, static_cast<End>(e));
+    if (count > 0) {
+      ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
+              std::to_string(count);
+    }
+  }
+  text += "  ends       " + ends + " (two a line)\n";
+  if (const std::string dropped = dropped_text(result.dropped); !dropped.empty()) {
+    text += "  dropped    " + dropped + "\n";
+  }
+  text += "  method     " + std::string(name_of(summary.options.integrator)) + ", step " +
+          short_number(result.step) + ", " + std::string(name_of(summary.options.measure)) + " from " +
+          short_number(summary.options.cutoff) + ", turns to " + short_number(result.max_angle) +
+          " degrees a step, length to " + short_number(result.max_length) + "\n";
+  text +=
+      "  error      at most " + short_number(result.error_max) + " by its own estimate (sum of the steps')\n";
+  text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +
+          short_number(summary.seconds_prepare) + ", trace " + short_number(result.seconds) + " (" +
+          counted(static_cast<std::uint64_t>(summary.threads), "thread") + ")\n";
+  for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
+  return text;
+}
+
+/// What files say of each line: its seed, and why its first and its last point are its ends.
+void add_line_columns(TractResult& result) {
+  Tractogram::Column seed{.name = "seed", .values = {}}, first{.name = "termination_first", .values = {}},
+      last{.name = "termination_last", .values = {}};
+  for (std::size_t l = 0; l < result.lines.line_count(); ++l) {
+    seed.values.push_back(static_cast<float>(result.seeds[l]));
+    first.values.push_back(static_cast<float>(result.ends[l][0]));
+    last.values.push_back(static_cast<float>(result.ends[l][1]));
+  }
+  result.lines.of_lines = {std::move(seed), std::move(first), std::move(last)};
+}
+
+ExitCode run_trace(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+
+  // Everything that can be refused is refused before any work is done.
+  if (options.tracts.seeds.empty()) {
+    throw usage_error("trace needs seeds: try --seeds fa:0.4, or --seeds point:x,y,z");
+  }
+  if (options.out.empty() && !options.common.json && !options.common.explain) {
+    throw usage_error("trace needs an output: try --out tracts.tck (or --json to get the counts alone)");
+  }
+  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+  const int threads = options.common.threads;
+  TractSummary summary;
+  Stopwatch regions;
+  summary.options = tract_options(options.tracts, threads, &context.progress);
+  const double seconds_regions = regions.seconds();
+
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  summary.input = input.title();
+  summary.output = options.out.string();
+  summary.threads = resolve_threads(threads);
+  if (options.common.explain) {
+    summary.plan = plan_scene(input, {.verb = "trace", .tracing = true, .threads = summary.threads});
+    console.print(plan_text(summary.plan));
+  }
+
+  const TensorImage image = input.load_tensor_image(threads, &context.progress);
+  for (const std::string& note : image.notes) console.note(input.title() + ": " + note);
+  summary.seconds_load = input.seconds_open() + input.seconds_read();
+  const Stopwatch prepare;
+  const auto field = make_tensor_field(image.image, image.choice, input.title(), threads);
+  for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
+  summary.field = input.field_label();
+  const std::vector<Vec3> seeds =
+      tract_seeds(options.tracts, options.common.seed, *field, image.image, threads, &context.progress);
+  summary.seeds = seeds.size();
+  summary.seconds_prepare = seconds_regions + prepare.seconds();
+
+  summary.result = trace_tracts(*field, seeds, summary.options, &context.progress);
+  summary.advice = advice_for(summary);
+  summary.failure = failure_of(summary);
+  if (!summary.failure.empty()) {
+    summary.output.clear();
+    console.print_json(tract_json(summary));
+    throw work_error(summary.failure);
+  }
+  if (!options.out.empty()) {
+    context.progress.begin("writing " + options.out.string(), 0);
+    const Stopwatch watch;
+    add_line_columns(summary.result);
+    if (const auto* const voxels = std::get_if<UniformTopology>(&image.image.topology)) {
+      summary.result.lines.image = {.voxels = voxels->points, .axes = voxels->axes, .origin = voxels->origin};
+    }
+    write_tractogram(options.out, summary.result.lines, options.common.force);
+    summary.seconds_write = watch.seconds();
+    context.interrupt.keep(options.out);
+  }
+  console.print(summary_text(summary));
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, nullptr);
+    summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * summary.result.seconds});
+    console.print(measured_text(summary.measured));
+  }
+  console.print_json(tract_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb trace_tracts_verb(std::vector<UsageExample> examples) {
+  return {.name = "trace",
+          .summary = "trace tracts from seeds and write them to a file",
+          .groups = {.tracts = true, .out = true},
+          .examples = std::move(examples),
+          .run = run_trace};
+}
+
+}  // namespace palpate

@@ -1,0 +1,155 @@
+#include "apps/dtmri/tract_request.h"
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/scene/input.h"
+#include "common/scene/seeds.h"
+#include "common/scene/voxel_seeds.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kRegionGrammar = "a region is mask:FILE or sphere:x,y,z,r";
+constexpr const char* kSeedGrammar =
+    "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, fa:T, cl:T, mask:FILE or "
+    "sphere:x,y,z,r";
+constexpr std::size_t kMostSeeds = 100'000'000;
+
+/// A mask with its image.
+struct Mask {
+  std::shared_ptr<const ScalarField> field;
+  DataSet image;
+};
+
+Mask read_mask(const std::string& file, int threads, Progress* progress) {
+  Input input = Input::open({.files = {file}, .kind = FieldKind::kScalar}, progress);
+  if (input.times().size() > 1)
+    throw input_error(
+        {file, "", "has " + std::to_string(input.times().size()) + " volumes", "a mask of one", ""});
+  const ScalarChoice choice = input.scalar_choice();
+  const std::vector<DataSet> blocks = input.read_timed({choice.array}, progress);
+  return {make_scalar_field(blocks, choice, file, threads), blocks.front()};
+}
+
+/// What stands behind "kind:", or empty where `text` is of another kind.
+std::string_view after(std::string_view text, std::string_view kind) {
+  return text.starts_with(kind) ? text.substr(kind.size()) : std::string_view();
+}
+
+Sphere parse_sphere(std::string_view numbers, const std::string& grammar) {
+  const auto v = parse_numbers(numbers, 4, grammar);
+  if (!(v[3] > 0.0)) throw usage_error("sphere:" + std::string(numbers) + ": the radius must be above zero");
+  return {.center = {v[0], v[1], v[2]}, .radius = v[3]};
+}
+
+std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, const std::string& option,
+                                       int threads, Progress* progress) {
+  std::vector<TractRegion> regions;
+  for (const std::string& text : texts) {
+    std::string refusal = option;
+    refusal.append(" ").append(text).append(": ").append(kRegionGrammar);
+    if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
+      regions.emplace_back(parse_sphere(numbers, refusal));
+    } else if (const auto file = after(text, "mask:"); !file.empty()) {
+      regions.emplace_back(MaskRegion{read_mask(std::string(file), threads, progress).field});
+    } else {
+      throw usage_error(refusal);
+    }
+  }
+  return regions;
+}
+
+/// @throws Error (usage) where an image has no voxels of its own, such as a mesh.
+const UniformTopology& voxels_of(const DataSet& image, const std::string& seeds) {
+  const auto* const voxels = std::get_if<UniformTopology>(&image.topology);
+  if (voxels == nullptr) throw usage_error("--seeds " + seeds + ": the file holds no image of equal voxels");
+  return *voxels;
+}
+
+/// Whether the measure is above `least` at a place.
+std::function<bool(const Vec3&)> above(const TensorField& field, TractMeasure measure, double least) {
+  return
+      [&field, measure, least, scale = power_of_two(-binary_exponent(field.largest_trace()))](const Vec3& x) {
+        CellHint hint;
+        const TensorSample sample = field.sample(x, hint);
+        if (sample.status != SampleStatus::kOk) return false;
+        const Mat3 d = sample.value * scale;
+        return measure_of(measure, {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]}) >= least;
+      };
+}
+
+}  // namespace
+
+TractOptions tract_options(const TractTracingOptions& options, int threads, Progress* progress) {
+  TractOptions tracts;
+  tracts.integrator = integrator_from_name(options.integrator);
+  tracts.tolerance = options.tolerance;
+  tracts.step = options.step;
+  tracts.measure = tract_measure_from_name(options.measure);
+  tracts.cutoff = options.cutoff;
+  tracts.max_angle = options.max_angle;
+  tracts.min_radius = options.min_radius;
+  tracts.min_length = options.min_length;
+  tracts.max_length = options.max_length;
+  check_tract_options(tracts);
+  tracts.include = parse_regions(options.include, "--include", threads, progress);
+  tracts.exclude = parse_regions(options.exclude, "--exclude", threads, progress);
+  tracts.stop = parse_regions(options.stop, "--stop", threads, progress);
+  tracts.threads = threads;
+  return tracts;
+}
+
+std::string why_no_tract(const TractResult& result, const TractOptions& options) {
+  const TractsDropped& d = result.dropped;
+  std::string why;
+  const auto add = [&why](std::size_t count, const std::string& what) {
+    if (count > 0) why += (why.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(d.outside, "seeds outside the image");
+  add(d.bad_data, "seeds without a tensor");
+  add(d.below_cutoff, "seeds where " + std::string(name_of(options.measure)) + " is below --cutoff " +
+                          short_number(options.cutoff));
+  add(d.too_short, "lines shorter than --min-length");
+  add(d.not_included, "lines that miss an --include region");
+  add(d.excluded, "lines that enter an --exclude region");
+  return why;
+}
+
+std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,
+                              const TensorField& field, const DataSet& image, int threads,
+                              Progress* progress) {
+  const std::string& text = options.seeds;
+  const auto seeds_in = [&](const UniformTopology& voxels, const std::function<bool(const Vec3&)>& wanted) {
+    auto seeds = voxel_seeds(voxels, wanted, options.seeds_per_voxel, random_seed, kMostSeeds);
+    if (seeds.empty()) throw usage_error("--seeds " + text + ": takes no voxel");
+    return seeds;
+  };
+  for (const auto& [kind, measure] :
+       {std::pair{"fa:", TractMeasure::kFa}, std::pair{"cl:", TractMeasure::kLinear}}) {
+    const auto number = after(text, kind);
+    if (number.empty()) continue;
+    const double least = parse_numbers(number, 1, "--seeds " + text + ": " + kSeedGrammar)[0];
+    return seeds_in(voxels_of(image, text), above(field, measure, least));
+  }
+  if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
+    const TractRegion region(parse_sphere(numbers, "--seeds " + text + ": " + kSeedGrammar));
+    return seeds_in(voxels_of(image, text), [&](const Vec3& x) { return region.contains(x); });
+  }
+  if (const auto file = after(text, "mask:"); !file.empty()) {
+    const Mask mask = read_mask(std::string(file), threads, progress);
+    const TractRegion region(MaskRegion{mask.field});
+    return seeds_in(voxels_of(mask.image, text), [&](const Vec3& x) { return region.contains(x); });
+  }
+  const SeedSpec spec = parse_seeds(text, kSeedGrammar);
+  const auto* const list = std::get_if<SeedList>(&spec);
+  if (list == nullptr) throw usage_error("--seeds " + text + ": " + kSeedGrammar);
+  return list->points;
+}
+
+}  // namespace palpate

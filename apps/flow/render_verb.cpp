@@ -1,0 +1,138 @@
+#include <utility>
+
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/picture.h"
+#include "common/cli/verbs.h"
+#include "common/compose/felt_scalar.h"
+#include "common/compose/line_color.h"
+#include "common/compose/line_view.h"
+#include "common/compose/resampled_volume.h"
+#include "common/compose/trace_options.h"
+#include "common/compose/volume_fields.h"
+#include "common/hand/felt_surface_view.h"
+#include "common/hand/probe_picture.h"
+#include "common/hand/touch_options.h"
+#include "common/scene/plan.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+namespace {
+
+/// Adds what a hand on that path has felt.
+void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
+                const Options& options, const std::shared_ptr<const ScalarField>& scalar,
+                const std::shared_ptr<const VectorField>& field) {
+  const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
+  const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
+                          options.common.threads, scalar};
+  view.probe = probe_after(path, mode.make(scene), scene, touch_limits(options.touch), view.style.color_by);
+  view.probe->reference_speed = reference_speed(view);
+}
+
+SeedSpec view_seeds(const Options& options) {
+  return parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
+}
+
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+}
+
+SceneUse use_of(const Options& options, const Input& input) {
+  const LineColor color = line_color(options.view.color, input);
+  const TraceOptions trace = trace_options(options, "both");
+  return {.verb = "render",
+          .tracing = true,
+          .lines = line_count(view_seeds(options), trace),
+          .threads = resolve_threads(trace.threads),
+          .drawing = true,
+          .color_array = color.array ? color.name : std::string(),
+          .volume_arrays = flow_volume_arrays(input, options.volume)};
+}
+
+/// Adds the volume that the options name, and what taking it on an image cost.
+void show_volume(DrawnScene& drawn, Input& input, const std::shared_ptr<const VectorField>& field,
+                 const Options& options, const VerbContext& context) {
+  const std::vector<std::string> names = flow_volume_names(input, options.volume);
+  if (names.empty()) return;
+  const Stopwatch clock;
+  FlowVolume volume = load_flow_volume(input, field, names, options.volume.resample, options.common.threads,
+                                       &context.progress);
+  drawn.measured.push_back(
+      {.what = "volume", .milliseconds = 1e3 * clock.seconds(), .bytes = volume.voxels.image->byte_count()});
+  for (const TakenScalar& taken : volume.taken) context.console.note(taken_text(taken));
+  drawn.volumes = std::move(volume.taken);
+  drawn.voxels = volume.voxels.image->point_count();
+  drawn.what += ", a volume of " + counted(drawn.voxels, "voxel");
+  drawn.view.volume = make_volume_view(volume.voxels, options);
+  drawn.view.volume_label = names.front();
+  drawn.view.subtitle += ", " + names.front() + " as a volume";
+  if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
+}
+
+DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Options& options,
+                      const VerbContext& context, double aspect) {
+  const auto field = input.load_field(options.common.threads, &context.progress);
+  const auto seeds = make_seeds(view_seeds(options), *field, options.common.seed);
+  TraceResult traced = trace_lines(*field, seeds, view_trace_options(options, *field), &context.progress);
+  DrawnScene drawn;
+  drawn.field = field->name();
+  drawn.seconds_trace = traced.seconds_prepare + traced.seconds_trace;
+  drawn.lines = traced.lines.size();
+  drawn.points = traced.points;
+  drawn.what = counted(drawn.lines, "line");
+  drawn.measured = measured_costs(input, field->tet_mesh());
+  drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});
+  if (traced.lines.empty())
+    context.console.note("no seed lies in the data: the picture shows the domain alone");
+
+  const LineColor color = line_color(options.view.color, input);
+  const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
+  const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
+  drawn.view = make_line_view(input, *field, lines, options, style, aspect);
+  show_volume(drawn, input, field, options, context);
+  const HapticMode& mode = mode_of(modes, options);
+  const bool surfaces = wants_surfaces(options, mode.name);
+  std::shared_ptr<const ScalarField> scalar;
+  if (surfaces || (!options.path.empty() && !options.touch.scalar.empty())) {
+    scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
+  }
+  if (surfaces) {
+    const std::string note = show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
+    if (!note.empty()) context.console.note(note);
+  }
+  if (!options.path.empty()) {
+    show_probe(drawn.view, read_probe_path(options.path.string()), mode, options, scalar, field);
+  }
+  if (surfaces || !options.path.empty()) fade_lines(drawn.view);
+  return drawn;
+}
+
+}  // namespace
+
+Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
+  return {
+      .name = "render",
+      .summary = "draw a picture, with or without a display",
+      .groups = {.tracing = true, .view = true, .touch = true, .path = true, .out = true, .picture = true},
+      .examples = std::move(examples),
+      .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+        const PictureMaker maker{
+            .check =
+                [&modes](const Options& given) {
+                  (void)view_seeds(given);
+                  check_flow_volume(given.volume);
+                  (void)trace_options(given, "both");
+                  if (!given.path.empty()) (void)read_probe_path(given.path.string());
+                  (void)mode_of(modes, given);
+                  (void)touch_settings(given.touch);
+                },
+            .use = use_of,
+            .make = [&modes](Input& input, const Options& given, const VerbContext& where,
+                             double aspect) { return make_scene(modes, input, given, where, aspect); }};
+        return draw_picture(maker, options, context);
+      }};
+}
+
+}  // namespace palpate

@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "common/base/clock.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/trace_text.h"
+#include "common/cli/verbs.h"
+#include "common/compose/trace_options.h"
+#include "common/load/write_lines.h"
+#include "common/scene/plan.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kDefaultDiagonals = 10.0;  // --max-length where it is not given (trace.h)
+constexpr std::size_t kMostSeedsNamed = 5;
+
+std::string position_text(const Vec3& x) {
+  return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";
+}
+
+std::string bounds_text(const Box& box) {
+  return position_text(box.lower) + " to " + position_text(box.upper);
+}
+
+std::size_t count_of(const TraceResult& result, End end) {
+  return result.ends[static_cast<std::size_t>(end)];
+}
+
+/// What to change where lines ended by a limit or by the data.
+std::vector<std::string> advice_for(const TraceSummary& summary) {
+  std::vector<std::string> advice;
+  const TraceResult& result = summary.result;
+  const auto add = [&](End end, const std::string& what) {
+    const std::size_t count = count_of(result, end);
+    if (count > 0)
+      advice.push_back(counted(count, "line") + " ended by " + std::string(name_of(end)) + ": " + what);
+  };
+  add(End::kMaxLength, "--max-length above " + short_number(summary.max_length) + " follows them further");
+  add(End::kMaxTime, "a longer --max-time follows them further");
+  add(End::kMaxSteps, "raise --max-steps, or loosen --tolerance " + short_number(summary.tolerance) +
+                          "; a stiff field may need --integrator rodas4");
+  add(End::kBadData, "values there are NaN, infinite or blanked");
+  return advice;
+}
+
+std::string outside_text(const TraceSummary& summary, const Box& bounds) {
+  const auto& outside = summary.result.outside_seeds;
+  std::string text = counted(outside.size(), "seed") + " outside the data gave no line:";
+  for (std::size_t i = 0; i < std::min(outside.size(), kMostSeedsNamed); ++i) {
+    text += (i == 0 ? " " : ", ") + std::to_string(outside[i]) + " " +
+            position_text(summary.seed_points[outside[i]]);
+  }
+  if (outside.size() > kMostSeedsNamed) text += ", …";
+  return text + "; the data spans " + bounds_text(bounds);
+}
+
+/// Why nothing was traced, or empty.
+std::string failure_of(const TraceSummary& summary, const VectorField& field) {
+  const TraceResult& result = summary.result;
+  if (summary.seeds == 0) return "no line: there are no seeds; the mesh has no volume to draw them from";
+  if (result.lines.empty()) {
+    return "no line: all " + counted(summary.seeds, "seed") + " lie outside the data, which spans " +
+           bounds_text(field.bounds());
+  }
+  const bool any = std::any_of(result.lines.begin(), result.lines.end(),
+                               [](const Line& line) { return line.points.size() > 1; });
+  if (any) return {};
+  if (field.max_speed() == 0.0)
+    return "no line: field " + summary.field + " is zero everywhere; try another --field";
+  if (count_of(result, End::kBadData) == result.lines.size()) {
+    return "no line: every seed lies where the data is NaN, infinite or blanked; choose other --seeds";
+  }
+  return "no line: the field does not move any seed (stagnation " +
+         std::to_string(count_of(result, End::kStagnation)) + ", bad_data " +
+         std::to_string(count_of(result, End::kBadData)) + "); choose other --seeds";
+}
+
+std::string summary_text(const TraceSummary& summary) {
+  std::string text = trace_counts_text(summary);
+  text += "  method     " + std::string(name_of(summary.result.integrator)) + ", tolerance " +
+          short_number(summary.tolerance) + ", longest line allowed " + short_number(summary.max_length) +
+          " (" + short_number(summary.max_length / summary.diagonal) + " diagonals)\n";
+  text += trace_error_text(summary) + trace_seconds_text(summary);
+  for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
+  return text;
+}
+
+ExitCode run_trace(const Options& options, const VerbContext& context) {
+  Console& console = context.console;
+  if (list_examples(options, context)) return ExitCode::kDone;
+
+  // Everything that can be refused is refused before any work is done.
+  if (options.tracing.seeds.empty()) {
+    throw usage_error("trace needs seeds: try --seeds grid:8,8,8 or --seeds random:100");
+  }
+  if (options.out.empty() && !options.common.json && !options.common.explain) {
+    throw usage_error("trace needs an output: try --out lines.vtp (or --json to get the counts alone)");
+  }
+  const SeedSpec spec = parse_seeds(options.tracing.seeds);
+  TraceOptions trace = trace_options(options, "forward");
+  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+
+  Input input = open_input(options, context);
+  console.note(input.choice_sentence());
+  TraceSummary summary;
+  summary.input = input.title();
+  summary.output = options.out.string();
+  if (options.common.explain) {
+    summary.plan = plan_scene(input, {.verb = "trace",
+                                      .tracing = true,
+                                      .lines = line_count(spec, trace),
+                                      .threads = resolve_threads(trace.threads)});
+    console.print(plan_text(summary.plan));
+  }
+
+  const auto field = input.load_field(options.common.threads, &context.progress);
+  for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  summary.field = field->name();
+  summary.diagonal = field->diagonal();
+  summary.max_length = trace.max_length > 0.0 ? trace.max_length : kDefaultDiagonals * field->diagonal();
+  summary.tolerance = trace.tolerance;
+  summary.threads = resolve_threads(trace.threads);
+  summary.seed_points = make_seeds(spec, *field, options.common.seed);
+  summary.seeds = summary.seed_points.size();
+
+  summary.result = trace_lines(*field, summary.seed_points, trace, &context.progress);
+  summary.advice = advice_for(summary);
+  summary.failure = failure_of(summary, *field);
+  if (!summary.result.outside_seeds.empty()) console.note(outside_text(summary, field->bounds()));
+
+  if (!summary.failure.empty()) {
+    summary.output.clear();
+    console.print_json(trace_json(summary));
+    throw work_error(summary.failure);
+  }
+  if (!options.out.empty()) {
+    context.progress.begin("writing " + options.out.string(), 0);
+    const Stopwatch watch;
+    write_lines(options.out, summary.result.lines, options.common.force);
+    summary.seconds_write = watch.seconds();
+    context.interrupt.keep(options.out);
+  }
+  console.print(summary_text(summary));
+  if (options.common.explain) {
+    summary.measured = measured_costs(input, field->tet_mesh());
+    summary.measured.push_back(
+        {.what = "lines",
+         .milliseconds = 1e3 * (summary.result.seconds_prepare + summary.result.seconds_trace)});
+    console.print(measured_text(summary.measured));
+  }
+  console.print_json(trace_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb trace_verb(std::vector<UsageExample> examples) {
+  return {.name = "trace",
+          .summary = "trace lines from seeds and write them to a file",
+          .groups = {.tracing = true, .out = true},
+          .examples = std::move(examples),
+          .run = run_trace};
+}
+
+}  // namespace palpate

@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/picture.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
+#include "common/compose/lens_text.h"
+#include "common/compose/slice_plane.h"
+#include "common/compose/volume_scene.h"
+#include "common/field/grid/image_resample.h"
+#include "common/load/write_image.h"
+
+namespace palpate {
+namespace {
+
+bool is_picture(const std::filesystem::path& out) {
+  return out.extension() == ".png" || out.extension() == ".PNG";
+}
+
+void check_request(const Options& options) {
+  check_volume_options(options.volume);
+  if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
+  if (options.slice.box.empty() && options.volume.clips.empty() && options.volume.lenses.empty())
+    throw usage_error("clip needs something to cut with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
+}
+
+/// The voxels in `--box`, all of them without one, as single-precision numbers; NaN where there is no value.
+DataSet cropped(const DataSet& block, const Options& options) {
+  const auto& grid = std::get<UniformTopology>(block.topology);
+  IndexBox part{Index3(0), grid.points - 1};
+  if (!options.slice.box.empty()) {
+    const auto found = points_in(grid, parse_box(options.slice.box, "--box"));
+    if (!found) throw usage_error("--box " + options.slice.box + ": no voxel of the volume lies in it");
+    part = *found;
+  }
+  const UniformTopology lattice = part_of(grid, part);
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const ResampledImage values =
+      resample(grid, block.arrays.front(), 0, lattice, kNone, options.common.threads);
+  DataSet result = block;
+  result.topology = lattice;
+  result.visible.clear();
+  result.arrays = {make_array(block.arrays.front().name, Association::kPoint, 1, values.values)};
+  return result;
+}
+
+/// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
+/// aside, and those on the screen.
+std::vector<ConvexShape> shapes_that_cut(const VolumeOptions& options, const Console& console) {
+  std::vector<ConvexShape> shapes;
+  for (const std::string& plane : options.clips) shapes.push_back(parse_beyond(plane, "--plane " + plane));
+  std::size_t aside = 0;
+  for (const std::string& text : options.lenses) {
+    const LensWords words = parse_lens(text);
+    const bool cuts = words.lens.cut && !words.off && !words.lens.screen;
+    if (cuts) shapes.push_back(words.lens.shape);
+    if (!cuts) ++aside;
+  }
+  if (aside > 0)
+    console.note(std::to_string(aside) + (aside == 1 ? " lens" : " lenses") +
+                 " left aside: voxels are cut by planes, and by shapes with ',cut'");
+  return shapes;
+}
+
+/// Writes the part of the volume; what planes and shapes cut away gets its lowest value.
+ExitCode write_part(const Options& options, const VerbContext& context) {
+  check_image_output(options.out, options.common.force);
+  const std::vector<ConvexShape> beyond = shapes_that_cut(options.volume, context.console);
+  if (options.slice.box.empty() && beyond.empty())
+    throw usage_error("clip needs something to cut voxels with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
+  Input input = open_input(options, context);
+  context.console.note(input.choice_sentence());
+  const DataSet block = cropped(load_volume_block(input, &context.progress), options);
+  const Stopwatch watch;
+  LatticeSummary summary;
+  summary.lattice = std::get<UniformTopology>(block.topology);
+  const DataArray& array = block.arrays.front();
+  std::vector<float> values(array.tuples);
+  float lowest = HUGE_VALF, highest = -HUGE_VALF;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<float>(array.at(i));
+    if (!std::isfinite(values[i])) continue;
+    lowest = std::min(lowest, values[i]);
+    highest = std::max(highest, values[i]);
+  }
+  if (lowest > highest) lowest = highest = 0.0F;
+  const Index3 n = summary.lattice.points;
+  std::size_t i = 0;
+  for (int z = 0; z < n.z; ++z) {
+    for (int y = 0; y < n.y; ++y) {
+      for (int x = 0; x < n.x; ++x, ++i) {
+        const Vec3 at = summary.lattice.origin + summary.lattice.axes * Vec3(x, y, z);
+        const bool cut = std::any_of(beyond.begin(), beyond.end(),
+                                     [&](const ConvexShape& shape) { return shape.contains(at); });
+        if (!cut && std::isfinite(values[i])) continue;
+        values[i] = lowest;
+        ++summary.outside;
+      }
+    }
+  }
+  context.progress.begin("writing " + options.out.filename().string(), 0);
+  context.progress.check();
+  write_image(options.out, summary.lattice, ImageContent::kScalar, values, ImageConvention::kMrtrix,
+              options.common.force, space_of(input));
+  context.interrupt.keep(options.out);
+  summary.input = input.title();
+  summary.field = input.field_label();
+  summary.output = options.out.string();
+  summary.lowest = static_cast<double>(lowest);
+  summary.highest = static_cast<double>(highest);
+  summary.seconds_load = input.seconds_open() + input.seconds_read();
+  summary.seconds_made = watch.seconds();
+  context.console.print(summary.input + ": " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
+                        std::to_string(n.z) + " voxels -> " + summary.output +
+                        (summary.outside > 0
+                             ? "; " + counted(summary.outside, "voxel") + " cut away, at the lowest value"
+                             : std::string()) +
+                        "\n");
+  constexpr int kVtkComponents = 10;
+  if (options.out.extension() == ".nrrd" && n.x < kVtkComponents) {
+    context.console.note(summary.output + ": VTK's NRRD reader takes a first axis of fewer than " +
+                         std::to_string(kVtkComponents) +
+                         " samples for components of vectors, whatever the header says; write .vti for VTK");
+  }
+  context.console.print_json(lattice_json(summary));
+  return ExitCode::kDone;
+}
+
+DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
+  const DataSet block = cropped(load_volume_block(input, &context.progress), options);
+  const auto image = make_volume_image(block, block.arrays.front().name, input.title());
+  DrawnScene drawn;
+  drawn.field = input.field_label();
+  drawn.voxels = image->point_count();
+  drawn.what = counted(drawn.voxels, "voxel");
+  drawn.measured = measured_costs(input, nullptr);
+  drawn.view = make_volume_scene(input, {.image = image}, options, aspect);
+  return drawn;
+}
+
+ExitCode run_clip(const Options& options, const VerbContext& context) {
+  if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.out.empty()) throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
+  check_request(options);
+  if (!is_picture(options.out)) return write_part(options, context);
+  const PictureMaker maker{.check = check_request,
+                           .use =
+                               [](const Options& given, const Input& input) {
+                                 (void)input.scalar_choice();
+                                 return SceneUse{.verb = "render",
+                                                 .threads = resolve_threads(given.common.threads),
+                                                 .drawing = true};
+                               },
+                           .make = make_scene};
+  return draw_picture(maker, options, context);
+}
+
+}  // namespace
+
+Verb clip_verb(std::vector<UsageExample> examples) {
+  return {.name = "clip",
+          .summary = "cut the volume by planes and a box: a picture, or an image of what is left",
+          .groups = {.view = true, .out = true, .picture = true, .part = true},
+          .examples = std::move(examples),
+          .run = run_clip};
+}
+
+}  // namespace palpate

@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/base/output_file.h"
+#include "common/base/text.h"
+#include "common/base/version.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
+#include "common/compose/plane_image_text.h"
+#include "common/compose/slice_plane.h"
+#include "common/compose/volume_scene.h"
+#include "common/field/grid/image_contours.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
+#include "common/field/value_histogram.h"
+#include "common/load/write_image.h"
+#include "common/load/write_lines.h"
+#include "common/render/png.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kMostPixels = 16384;  // an edge: more is a spacing that was not meant
+
+bool is_picture(const std::filesystem::path& out) {
+  return out.extension() == ".png" || out.extension() == ".PNG";
+}
+
+void check_request(const Options& options) {
+  if (options.out.empty()) throw usage_error("slice needs an output: try --out slice.png");
+  if (!parse_contours(options.slice.contours).empty()) {
+    check_line_output(options.out, options.common.force);
+  } else if (is_picture(options.out)) {
+    check_output(options.out, options.common.force);
+  } else {
+    check_image_output(options.out, options.common.force);
+  }
+  Box unit;
+  unit.include(Vec3(0.0));
+  (void)parse_plane(options.slice.plane, unit);
+  const SliceOptions& slice = options.slice;
+  if (!(slice.spacing >= 0.0) || !std::isfinite(slice.spacing))
+    throw usage_error("--spacing: a finite number, not below zero, is expected");
+  if (slice.window && !(*slice.window > 0.0 && std::isfinite(*slice.window)))
+    throw usage_error("--window: a finite number above zero is expected");
+  if (slice.level && !std::isfinite(*slice.level)) throw usage_error("--level: a finite number is expected");
+}
+
+/// Lowest and highest of the finite values, and where black and white lie.
+struct Greys {
+  double lowest = 0.0, highest = 0.0;
+  double window = 1.0, level = 0.5;
+};
+
+Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) {
+  Greys greys{HUGE_VAL, -HUGE_VAL, 1.0, 0.0};
+  if (values.sparse) {
+    const SparseRange range = range_of(*values.sparse, threads);
+    greys.lowest = range.lowest;
+    greys.highest = range.highest;
+  } else {
+    for (std::size_t i = 0; i < values.tuples; ++i) {
+      const double v = values.at(i);
+      if (!std::isfinite(v)) continue;
+      greys.lowest = std::min(greys.lowest, v);
+      greys.highest = std::max(greys.highest, v);
+    }
+  }
+  if (greys.lowest > greys.highest) greys.lowest = greys.highest = 0.0;
+  ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
+  constexpr std::size_t kBins = 1024;
+  if (greys.lowest < greys.highest) {
+    histogram = values.sparse ? count_values(
+                                    *values.sparse, [](double number) { return number; }, greys.lowest,
+                                    greys.highest, kBins, threads)
+                              : count_values(
+                                    values.tuples, [&values](std::size_t i) { return values.at(i); },
+                                    greys.lowest, greys.highest, kBins, threads);
+  }
+  const ValueWindow window = default_window(histogram);
+  greys.window = slice.window.value_or(window.width);
+  greys.level = slice.level.value_or(greys.lowest + 0.5 * greys.window);
+  return greys;
+}
+
+/// Rows of a lattice run up, those of a picture down.
+Image grey_image(const UniformTopology& lattice, const std::vector<float>& values, const Greys& greys) {
+  Image image{lattice.points.x, lattice.points.y, {}};
+  image.rgba.reserve(4 * values.size());
+  const double black = greys.level - 0.5 * greys.window;
+  for (int y = image.height - 1; y >= 0; --y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+      const double part = std::clamp((static_cast<double>(values[at]) - black) / greys.window, 0.0, 1.0);
+      const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * part));
+      image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
+    }
+  }
+  return image;
+}
+
+UniformTopology lattice_of(const UniformTopology& grid, const Options& options, const Box& bounds) {
+  const ImagePlane plane = parse_plane(options.slice.plane, bounds);
+  std::optional<double> spacing;
+  if (options.slice.spacing > 0.0) spacing = options.slice.spacing;
+  auto lattice = plane_lattice(grid, plane, spacing);
+  // Pixels of a picture are square.
+  if (lattice && !spacing && is_picture(options.out)) {
+    const double u = glm::length(lattice->axes[0]), v = glm::length(lattice->axes[1]);
+    constexpr double kEqual = 1e-6;
+    if (std::abs(u - v) > kEqual * std::max(u, v)) lattice = plane_lattice(grid, plane, std::min(u, v));
+  }
+  if (!lattice) {
+    const auto corner = [](const Vec3& x) {
+      return short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z);
+    };
+    throw usage_error("--plane " + options.slice.plane + ": passes by the volume, which reaches from " +
+                      corner(bounds.lower) + " to " + corner(bounds.upper));
+  }
+  if (std::max(lattice->points.x, lattice->points.y) > kMostPixels) {
+    throw usage_error("the slice would have " + std::to_string(lattice->points.x) + " x " +
+                      std::to_string(lattice->points.y) + " pixels, more than " +
+                      std::to_string(kMostPixels) + " along an edge; a larger --spacing makes fewer");
+  }
+  return *lattice;
+}
+
+/// Lines of equal value with their values: one column of all points.
+struct Contours {
+  std::vector<Line> lines;
+  PointColumn values{.name = "value", .values = {}};
+};
+
+Contours contours_of(const UniformTopology& lattice, const std::vector<float>& slice,
+                     const std::vector<double>& values) {
+  Contours contours;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const ContourLine& contour : contour_lines(lattice, slice, values[i])) {
+      const Vec3 &first = contour.front().position, &last = contour.back().position;
+      Line line{.end = first == last ? End::kLoop : End::kLeftDomain, .seed = static_cast<std::uint32_t>(i)};
+      double arc = 0.0;
+      for (const ContourPoint& point : contour) {
+        if (!line.points.empty()) arc += glm::distance(line.points.back().position, point.position);
+        line.points.push_back({.position = point.position, .arc = arc, .error = point.error});
+      }
+      contours.values.values.insert(contours.values.values.end(), line.points.size(), values[i]);
+      contours.lines.push_back(std::move(line));
+    }
+  }
+  return contours;
+}
+
+Box bounds_of(const UniformTopology& grid) {
+  Box box;
+  for (unsigned i = 0; i < 8; ++i) {
+    box.include(grid.origin + grid.axes * Vec3((i & 1U) != 0 ? grid.points.x - 1 : 0,
+                                               (i & 2U) != 0 ? grid.points.y - 1 : 0,
+                                               (i & 4U) != 0 ? grid.points.z - 1 : 0));
+  }
+  return box;
+}
+
+ExitCode run_slice(const Options& options, const VerbContext& context) {
+  if (list_examples(options, context)) return ExitCode::kDone;
+  check_request(options);
+  Input input = open_input(options, context);
+  context.console.note(input.choice_sentence());
+  const DataSet block = load_volume_block(input, &context.progress);
+  const auto& grid = std::get<UniformTopology>(block.topology);
+  const DataArray& values = block.arrays.front();
+  const Stopwatch watch;
+  LatticeSummary summary;
+  summary.lattice = lattice_of(grid, options, bounds_of(grid));
+  const Greys greys = greys_of(values, options.slice, options.common.threads);
+  const std::vector<double> contour_values = parse_contours(options.slice.contours);
+  const bool as_lines = !contour_values.empty();
+  const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
+  const ResampledImage slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
+  context.progress.begin("writing " + options.out.filename().string(), 0);
+  context.progress.check();
+  const bool anatomical = space_of(input) == ImageSpace::kPatient;
+  summary.right = direction_words(glm::normalize(summary.lattice.axes[0]), anatomical);
+  summary.up = direction_words(glm::normalize(summary.lattice.axes[1]), anatomical);
+  if (as_lines) {
+    const Contours contours = contours_of(summary.lattice, slice.values, contour_values);
+    if (contours.lines.empty()) {
+      throw work_error("no value of the slice is one of --contours " + options.slice.contours +
+                       "; the data reach from " + short_number(greys.lowest) + " to " +
+                       short_number(greys.highest));
+    }
+    summary.lines = contours.lines.size();
+    write_lines(options.out, contours.lines, options.common.force, std::span(&contours.values, 1));
+  } else if (is_picture(options.out)) {
+    summary.window = greys.window;
+    summary.level = greys.level;
+    write_png(options.out, grey_image(summary.lattice, slice.values, greys),
+              {{"Software", version_text(context.explorer.name)},
+               {"Command", context.command_line},
+               {"Comment", "right: " + summary.right + "; up: " + summary.up}});
+  } else {
+    write_image(options.out, summary.lattice, ImageContent::kScalar, slice.values, ImageConvention::kMrtrix,
+                options.common.force, space_of(input));
+  }
+  context.interrupt.keep(options.out);
+  summary.input = input.title();
+  summary.field = input.field_label();
+  summary.output = options.out.string();
+  summary.outside = slice.outside;
+  summary.lowest = greys.lowest;
+  summary.highest = greys.highest;
+  summary.seconds_load = input.seconds_open() + input.seconds_read();
+  summary.seconds_made = watch.seconds();
+  const Index3& n = summary.lattice.points;
+  context.console.print(summary.input + ": slice -> " + summary.output + " (" + std::to_string(n.x) + " x " +
+                        std::to_string(n.y) +
+                        (as_lines                  ? ", " + counted(summary.lines, "line")
+                         : is_picture(options.out) ? ", window " + short_number(greys.window) + ", level " +
+                                                         short_number(greys.level)
+                                                   : std::string()) +
+                        "), " + summary.right + " on the right, " + summary.up + " at the top" +
+                        (slice.outside > 0 && !as_lines
+                             ? "; " + counted(slice.outside, "point") + " outside, at the lowest value"
+                             : "") +
+                        "\n");
+  context.console.print_json(lattice_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb slice_verb(std::vector<UsageExample> examples) {
+  return {.name = "slice",
+          .summary = "write a slice through the volume as a picture or an image",
+          .groups = {.out = true, .slice = true},
+          .examples = std::move(examples),
+          .run = run_slice};
+}
+
+}  // namespace palpate

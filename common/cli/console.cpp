@@ -1,0 +1,38 @@
+#include "common/cli/console.h"
+
+#include <cstdio>
+
+#include "common/base/error.h"
+#include "common/base/printable.h"
+#include "common/cli/json/json_output.h"
+
+namespace palpate {
+
+void Console::note(const std::string& line) const {
+  if (!quiet_) std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line).c_str());
+}
+
+void Console::print(const std::string& text) {
+  if (json_) return;
+  std::fputs(printable(text, "\n").c_str(), stdout);
+  std::fflush(stdout);  // a plan is seen before the work that it plans
+}
+
+void Console::print_json(const std::string& object) {
+  if (!json_ || json_printed_) return;
+  json_printed_ = true;
+  std::fputs(object.c_str(), stdout);
+  std::fputc('\n', stdout);
+}
+
+void Console::fail(const std::string& line, int exit_code) {
+  std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line, "\n").c_str());
+  print_json(error_json(line, exit_code));
+  std::fflush(stdout);
+}
+
+void Console::finish() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw work_error("stdout: cannot be written");
+}
+
+}  // namespace palpate

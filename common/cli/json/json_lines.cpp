@@ -1,0 +1,115 @@
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "common/base/version.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/json/json_parts.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMostSeedsNamed = 10;
+
+/// The text of a run's JSON, with why it failed, where it did, its plan and what that took.
+template <typename Summary>
+std::string ended(Json json, const Summary& summary) {
+  if (!summary.failure.empty()) {
+    json["error"] = summary.failure;
+    json["exit"] = 1;
+  }
+  add_plan(json, summary.plan, summary.measured);
+  return json_text(json);
+}
+
+}  // namespace
+
+std::string trace_json(const TraceSummary& summary) {
+  const TraceResult& result = summary.result;
+  Json outside = Json::array();
+  for (const std::uint32_t seed : result.outside_seeds) {
+    if (outside.size() == kMostSeedsNamed) break;
+    outside.push_back({{"seed", seed}, {"position", vec_json(summary.seed_points[seed])}});
+  }
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+            {"seeds", summary.seeds},
+            {"seeds_outside", result.outside_seeds.size()},
+            {"first_outside", outside},
+            {"lines", result.lines.size()},
+            {"points", result.points},
+            {"ends", ends_json(result.ends)},
+            {"integrator", name_of(result.integrator)},
+            {"tolerance", summary.tolerance},
+            {"max_length", summary.max_length},
+            {"diagonal", summary.diagonal},
+            {"error_max", result.error_max},
+            {"threads", summary.threads},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_prepare", result.seconds_prepare},
+            {"seconds_trace", result.seconds_trace},
+            {"seconds_write", summary.seconds_write},
+            {"advice", summary.advice},
+            {"version", version()}};
+  return ended(std::move(json), summary);
+}
+
+std::string tract_json(const TractSummary& summary) {
+  const TractResult& result = summary.result;
+  const TractOptions& options = summary.options;
+  const TractsDropped& dropped = result.dropped;
+  Json json{{"input", summary.input},
+            {"field", summary.field},
+            {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+            {"seeds", summary.seeds},
+            {"lines", result.lines.line_count()},
+            {"points", result.lines.points.size()},
+            {"ends", ends_json(result.end_counts)},
+            {"dropped",
+             {{"seeds_outside", dropped.outside},
+              {"seeds_bad_data", dropped.bad_data},
+              {"seeds_below_cutoff", dropped.below_cutoff},
+              {"lines_too_short", dropped.too_short},
+              {"lines_not_included", dropped.not_included},
+              {"lines_excluded", dropped.excluded}}},
+            {"integrator", name_of(options.integrator)},
+            {"tolerance", options.tolerance},
+            {"measure", name_of(options.measure)},
+            {"cutoff", options.cutoff},
+            {"step", result.step},
+            {"max_angle", result.max_angle},
+            {"min_length", options.min_length},
+            {"max_length", result.max_length},
+            {"error_max", result.error_max},
+            {"threads", summary.threads},
+            {"seconds_load", summary.seconds_load},
+            {"seconds_prepare", summary.seconds_prepare},
+            {"seconds_trace", result.seconds},
+            {"seconds_write", summary.seconds_write},
+            {"advice", summary.advice},
+            {"version", version()}};
+  return ended(std::move(json), summary);
+}
+
+std::string tract_fit_json(const TractFitSummary& summary) {
+  const TractFit& fit = summary.fit;
+  const Json json{{"input", summary.input},
+                  {"tracts", summary.tracts},
+                  {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+                  {"turn", summary.turn.empty() ? Json(nullptr) : Json(summary.turn)},
+                  {"lengths", lines_json(summary.lines)},
+                  {"pieces", fit.pieces},
+                  {"inside", fit.inside},
+                  {"angle", fit.angle},
+                  {"score", fit.score},
+                  {"best_turn", fit.best.words()},
+                  {"turn_gain", std::isfinite(fit.gain) ? Json(fit.gain) : Json(nullptr)},
+                  {"suspicious", fit.suspicious},
+                  {"notes", summary.notes},
+                  {"version", version()}};
+  return json_text(json);
+}
+
+}  // namespace palpate

@@ -1,0 +1,31 @@
+/// The JSON objects of `--json`, made from plain values (the only user of the JSON library among the verbs).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/cli/summaries.h"
+#include "common/field/analytic/examples.h"
+
+namespace palpate {
+
+[[nodiscard]] std::string error_json(const std::string& line, int exit_code);
+[[nodiscard]] std::string examples_json(const std::vector<ExampleInfo>& examples);
+[[nodiscard]] std::string trace_json(const TraceSummary& summary);
+[[nodiscard]] std::string tract_json(const TractSummary& summary);
+[[nodiscard]] std::string info_json(const InfoSummary& summary);
+[[nodiscard]] std::string render_json(const RenderSummary& summary);
+[[nodiscard]] std::string lattice_json(const LatticeSummary& summary);
+[[nodiscard]] std::string tract_fit_json(const TractFitSummary& summary);
+[[nodiscard]] std::string image_json(const ImageSummary& summary);
+[[nodiscard]] std::string map_json(const MapSummary& summary);
+[[nodiscard]] std::string series_json(const SeriesSummary& summary);
+[[nodiscard]] std::string convert_json(const ConvertSummary& summary);
+[[nodiscard]] std::string mesh_json(const MeshSummary& summary);
+[[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
+[[nodiscard]] std::string probe_json(const ProbeSummary& summary);
+[[nodiscard]] std::string open_json(const OpenSummary& summary);
+[[nodiscard]] std::string report_summary_json(const std::string& folder, std::size_t rows,
+                                              std::size_t failed_cases, double seconds);
+
+}  // namespace palpate

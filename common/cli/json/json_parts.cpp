@@ -1,0 +1,56 @@
+#include "common/cli/json/json_parts.h"
+
+#include <string>
+
+namespace palpate {
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
+
+Json vec_json(const Vec3& x) { return {x.x, x.y, x.z}; }
+Json box_json(const Box& box) { return {{"lower", vec_json(box.lower)}, {"upper", vec_json(box.upper)}}; }
+
+Json needs_json(const Needs& needs) {
+  Json list = Json::array();
+  for (const Need& need : needs) {
+    list.push_back({{"what", need.what},
+                    {"why", need.why},
+                    {"used", need.used},
+                    {"bytes", need.bytes},
+                    {"milliseconds", need.milliseconds}});
+  }
+  return list;
+}
+
+Json measured_json(const std::vector<MeasuredCost>& measured) {
+  Json costs = Json::object();
+  for (const MeasuredCost& cost : measured)
+    costs[std::string(cost.what)] = {{"milliseconds", cost.milliseconds}, {"bytes", cost.bytes}};
+  return costs;
+}
+
+void add_plan(Json& json, const Needs& plan, const std::vector<MeasuredCost>& measured) {
+  if (plan.empty()) return;
+  json["plan"] = needs_json(plan);
+  json["measured"] = measured_json(measured);
+}
+
+Json lines_json(const LinesSummary& lines) {
+  return {{"lines", lines.lines},
+          {"points", lines.points},
+          {"length_min", lines.lengths.least},
+          {"length_median", lines.lengths.median},
+          {"length_mean", lines.lengths.mean},
+          {"length_max", lines.lengths.most},
+          {"length_bin", lines.lengths.bin},
+          {"length_histogram", lines.lengths.histogram}};
+}
+
+Json ends_json(const std::array<std::size_t, kEndCount>& counts) {
+  Json ends = Json::object();
+  for (int e = 0; e < kEndCount; ++e) {
+    ends[std::string(name_of(static_cast<End>(e)))] = counts[static_cast<std::size_t>(e)];
+  }
+  return ends;
+}
+
+}  // namespace palpate

@@ -1,0 +1,42 @@
+/// What the verbs that draw share: options and outputs checked, the picture drawn, timed, compared with a
+/// finer one, written and summed up. What is in the picture comes from a PictureMaker.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/cli/explorer.h"
+#include "common/cli/summaries.h"
+#include "common/compose/resampled_volume.h"
+#include "common/render/scene_view.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+
+/// A scene to be drawn.
+struct DrawnScene {
+  SceneView view;
+  std::string field;
+  std::string what;  ///< in words: "300 lines"
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  std::size_t voxels = 0;
+  double seconds_trace = 0.0;
+  std::vector<MeasuredCost> measured;
+  std::vector<TakenScalar> volumes;  ///< of a flow, what drawing them as volumes cost
+};
+
+struct PictureMaker {
+  /// Refuses what can be refused before the input is opened. @throws Error.
+  std::function<void(const Options&)> check;
+  /// What the scene needs. @throws Error for what the input does not have.
+  std::function<SceneUse(const Options&, const Input&)> use;
+  /// @param aspect width / height. @throws Error, Cancelled.
+  std::function<DrawnScene(Input&, const Options&, const VerbContext&, double aspect)> make;
+};
+
+/// Runs a verb that draws. @throws Error, Cancelled.
+ExitCode draw_picture(const PictureMaker& maker, const Options& options, const VerbContext& context);
+
+}  // namespace palpate

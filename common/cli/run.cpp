@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string_view>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/cli/command_line.h"
+#include "common/cli/explorer.h"
+
+namespace palpate {
+namespace {
+
+std::string joined(const std::string& program, const std::vector<std::string>& arguments) {
+  std::string line = program;
+  for (const std::string& argument : arguments) {
+    const bool plain = !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
+/// No output may be one of the inputs, under whatever name: --force would destroy it.
+/// @throws Error (usage).
+void check_outputs(const Options& options) {
+  std::vector<std::filesystem::path> inputs = options.input.files;
+  if (options.input.solution) inputs.push_back(*options.input.solution);
+  std::string device;
+  for (const std::string_view word : {"replay:", "hands:"}) {
+    if (options.device.starts_with(word)) device = options.device.substr(word.size());
+  }
+  for (const std::filesystem::path& input :
+       {options.input.tensor.bval, options.input.tensor.bvec,
+        std::filesystem::path(options.input.tensor.mask), options.path, options.workbench, options.replay,
+        options.session, std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
+    inputs.push_back(input);
+  }
+  const std::array<std::filesystem::path, 3> outputs{options.out, options.record, options.tract};
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    const std::filesystem::path& output = outputs[o];
+    for (std::size_t other = 0; other < o; ++other) {
+      if (!output.empty() && output.lexically_normal() == outputs[other].lexically_normal())
+        throw usage_error(output.string() + " is named for two outputs; give each a name of its own");
+    }
+    for (const std::filesystem::path& input : inputs) {
+      std::error_code ignored;
+      if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored)) {
+        throw usage_error(output.string() + " is the input " + input.string() +
+                          "; give the output another name");
+      }
+    }
+  }
+}
+
+/// Runs `verb` and turns whatever it throws into a line and an exit code.
+ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& context) {
+  const auto interrupted = [&] {
+    context.console.fail("interrupted; " + context.interrupt.kept(),
+                         static_cast<int>(ExitCode::kInterrupted));
+    return ExitCode::kInterrupted;
+  };
+  try {
+    check_outputs(options);
+    const ExitCode code = verb.run(options, context);
+    context.console.finish();
+    return code;
+  } catch (const Error& error) {
+    // What a cancelled job says last is a consequence, not the cause.
+    if (InterruptGuard::interrupted()) return interrupted();
+    context.console.fail(error.what(), static_cast<int>(error.code()));
+    return error.code();
+  } catch (const std::bad_alloc&) {
+    context.console.fail("not enough memory for this data; give fewer seeds, or a part of the data",
+                         static_cast<int>(ExitCode::kWorkFailed));
+  } catch (const std::exception& error) {
+    if (InterruptGuard::interrupted()) return interrupted();
+    context.console.fail(error.what(), static_cast<int>(ExitCode::kWorkFailed));
+  }
+  return ExitCode::kWorkFailed;
+}
+
+}  // namespace
+
+int run_explorer(const Explorer& explorer, int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  ParsedCommand parsed;
+  try {
+    parsed = parse_command_line(explorer, arguments);
+    if (!parsed.verb) {
+      Console console(explorer.name, false, false);
+      console.print(parsed.text);
+      console.finish();
+      return 0;
+    }
+    if (explorer.complete) explorer.complete(parsed.options);
+  } catch (const Error& error) {
+    const bool json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+    Console(explorer.name, json, false).fail(error.what(), static_cast<int>(error.code()));
+    return static_cast<int>(error.code());
+  }
+
+  const CommonOptions& common = parsed.options.common;
+  Console console(explorer.name, common.json, common.quiet);
+  Progress progress;
+  InterruptGuard interrupt(progress, explorer.name);
+  const ProgressBar bar(progress, common.quiet);
+  const VerbContext context{explorer, progress, interrupt, console, joined(explorer.name, arguments)};
+  return static_cast<int>(run_verb(*parsed.verb, parsed.options, context));
+}
+
+}  // namespace palpate

@@ -1,0 +1,295 @@
+/// What the verbs found out, as plain values: printed as text by the verb, as JSON by json_output.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/needs.h"
+#include "common/compose/resampled_volume.h"
+#include "common/device/device.h"
+#include "common/field/grid/mesh_quality.h"
+#include "common/geometry/annotation.h"
+#include "common/geometry/tractogram_lengths.h"
+#include "common/hand/technique/scene_pick.h"
+#include "common/haptics/constraint.h"
+#include "common/render/budget/frame_quality.h"
+#include "common/render/gl/gpu_objects.h"
+#include "common/render/volume/image_error.h"
+#include "common/render/volume/volume_view.h"
+#include "common/scene/input.h"
+#include "common/scene/plan.h"
+#include "common/servo/servo_loop.h"
+#include "common/trace/trace.h"
+#include "common/trace/tract/trace_tracts.h"
+#include "common/trace/tract/tract_orientation.h"
+
+namespace palpate {
+
+struct TraceSummary {
+  std::string input;
+  std::string field;
+  std::string output;  ///< empty: none
+  std::size_t seeds = 0;
+  std::vector<Vec3> seed_points;
+  TraceResult result;  ///< lines included
+  double tolerance = 0.0;
+  double diagonal = 0.0;
+  double max_length = 0.0;  ///< data units, as applied
+  int threads = 0;
+  double seconds_load = 0.0;
+  double seconds_write = 0.0;
+  std::vector<std::string> advice;     ///< what to change
+  std::string failure;                 ///< why there is no line; empty where there is one
+  Needs plan;                          ///< with --explain
+  std::vector<MeasuredCost> measured;  ///< with --explain
+};
+
+struct TractSummary {
+  std::string input;
+  std::string field;
+  std::string output;  ///< empty: none
+  std::size_t seeds = 0;
+  TractOptions options;
+  TractResult result;  ///< lines included
+  int threads = 0;
+  double seconds_load = 0.0;
+  double seconds_prepare = 0.0;  ///< field, regions and seeds
+  double seconds_write = 0.0;
+  std::vector<std::string> advice;     ///< what to change
+  std::string failure;                 ///< why there is no line; empty where there is one
+  Needs plan;                          ///< with --explain
+  std::vector<MeasuredCost> measured;  ///< with --explain
+};
+
+/// Range of an array's component.
+struct ComponentRange {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+struct ArraySummary {
+  ArrayInfo info;
+  std::vector<ComponentRange> ranges;  ///< one a component; finite values only
+  std::uint64_t bad_values = 0;        ///< NaN and infinite numbers
+};
+
+/// Lines of a file, and how long they are.
+struct LinesSummary {
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  TractogramLengths lengths;
+};
+
+struct InfoSummary {
+  const Input* input = nullptr;
+  std::vector<ArraySummary> arrays;
+  std::vector<std::string> orientation;       ///< a sentence a block
+  std::string field;                          ///< empty: none can be made
+  double max_speed = 0.0;                     ///< of a vector field
+  std::optional<ComponentRange> field_range;  ///< of a scalar field with finite values
+  double largest_trace = 0.0;                 ///< of a tensor field, in the data's units
+  std::size_t negative_tensors = 0;           ///< of a tensor field: with an eigenvalue below zero
+  std::optional<LinesSummary> tracts;         ///< of a file of lines
+  std::string no_layers;                      ///< why a heart has none and none can be made; empty: they can
+  Box bounds;
+  std::uint64_t memory_bytes = 0;  ///< arrays as stored
+  std::vector<std::string> notes;
+  double seconds_load = 0.0;
+  struct VerbPlan {
+    std::string verb;
+    Needs plan;
+  };
+  std::vector<VerbPlan> plans;  ///< with --explain
+  std::vector<MeasuredCost> measured;
+};
+
+struct ProbeSummary {
+  std::string input;
+  std::string field;
+  std::string mode;
+  std::string scalar;           ///< of which isosurfaces are felt; empty: of none
+  std::string output;           ///< empty: none
+  PlanePoses planes;            ///< of the plane widget at the end, data coordinates
+  std::vector<Vec4> landmarks;  ///< of the grid: n, d with n.x = d
+  std::optional<Box> box;  ///< of interest, where the hand has left it on a haptic grid, data coordinates
+  std::optional<Vec3> focal_point;  ///< of the view that the hand has moved over the grid
+  std::string tract;                ///< where the way of the proxy was saved; empty: nowhere
+  std::size_t tracts = 0;           ///< in it
+  std::size_t steps = 0;
+  ChainSettings settings;
+  DeviceLimits limits;
+  std::string device;  ///< whose hand it was, "Novint Falcon class in a firm hand"; empty: the path itself
+  double workspace_scale = 0.0;  ///< [m] per data unit
+  double max_force = 0.0;        ///< [N]
+  double max_residual = 0.0;     ///< data units
+  double diagonal = 0.0;         ///< data units
+  std::array<std::size_t, kHoldStateCount> states{};
+  std::string replay;  ///< verdict on a replayed recording; empty: it was none
+  bool replay_differs = false;
+  std::vector<std::string> changed_inputs;          ///< of the recording, a sentence each
+  double us_p50 = 0.0, us_p99 = 0.0, us_max = 0.0;  ///< [us] thread CPU time of a step
+  double seconds_load = 0.0;
+  double seconds_probe = 0.0;
+  Needs plan;
+  std::vector<MeasuredCost> measured;
+};
+
+struct OpenSummary {
+  ServoState servo;    ///< as the window was closed
+  std::string fault;   ///< where the seconds before a fault were saved; empty: there was none
+  std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
+};
+
+/// What was marked and measured.
+struct AnnotationSummary {
+  std::string input;
+  std::string output;  ///< empty: none
+  std::vector<Annotation> annotations;
+  std::vector<double> values;  ///< of the volume at their points, one after the other; NaN outside
+  std::size_t outside = 0;     ///< points
+};
+
+/// An image that was written.
+struct ImageSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  std::string what;  ///< "fa"
+  std::size_t voxels = 0;
+  std::size_t with_tensor = 0;  ///< voxels
+  std::size_t lifted = 0;       ///< of a fit: counts of TensorFit
+  std::size_t unusable = 0;
+  std::size_t negative = 0;
+  std::string turn;  ///< that the orientation check suggests; empty: none
+  double gain = 1.0;
+  double seconds_load = 0.0;
+  double seconds_made = 0.0;
+  double seconds_write = 0.0;
+  std::vector<std::string> notes;
+};
+
+/// A slice or a part of a volume that was written.
+struct LatticeSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  UniformTopology lattice;
+  std::string right, up;  ///< what lies there in a slice, in words; empty for a volume
+  std::size_t outside = 0;
+  double lowest = 0.0, highest = 0.0;  ///< of the data
+  double window = 0.0, level = 0.0;    ///< of a picture
+  std::size_t lines = 0;               ///< of equal value, written in place of an image
+  double seconds_load = 0.0;
+  double seconds_made = 0.0;
+};
+
+/// Tracts held against an image.
+struct TractFitSummary {
+  std::string input;   ///< the image
+  std::string tracts;  ///< the file of lines
+  std::string output;  ///< empty: none
+  LinesSummary lines;  ///< as written
+  TractFit fit;        ///< as read
+  std::string turn;    ///< that was asked for; empty: none
+  std::vector<std::string> notes;
+};
+
+/// A map of a heart's angles that was written.
+struct MapSummary {
+  /// The mean over the points of a range of depths.
+  struct Band {
+    double depth = 0.0;      ///< the middle of the range
+    double mean = 0.0;       ///< degrees; of angles the mean of directions without sign
+    double deviation = 0.0;  ///< root mean square from it
+    std::size_t points = 0;  ///< where the angle is defined
+  };
+  std::string input;
+  std::string field;
+  std::string output;
+  std::string angle;       ///< "helix"
+  std::string convention;  ///< empty for what is no angle
+  Vec3 axis{0.0};          ///< zero for what needs none
+  std::size_t points = 0;
+  std::size_t undefined = 0;
+  std::vector<Band> bands;
+  std::size_t lines = 0;        ///< of equal value
+  std::optional<double> layer;  ///< on which they are; none: none are written
+  double seconds_load = 0.0;
+  double seconds_map = 0.0;
+};
+
+/// A scalar at places over time.
+struct SeriesSummary {
+  std::string input;
+  std::string output;  ///< empty: none
+  std::string value;   ///< its name
+  std::vector<Vec3> places;
+  std::vector<double> times;   ///< rising; several alike in the order of the file
+  std::vector<double> values;  ///< time after time, of each place; NaN outside and where there is none
+  std::size_t unordered = 0;   ///< steps that the file has out of order
+  double seconds = 0.0;
+};
+
+/// A heart that was written in another format.
+struct ConvertSummary {
+  std::string input;
+  std::vector<std::string> files;
+  std::size_t times = 0;  ///< steps; 0: it has no times
+  double seconds = 0.0;
+};
+
+/// A wall that was filled with tetrahedra.
+struct MeshSummary {
+  std::string picture;  ///< file; empty: none
+  std::string input;
+  std::string output;  ///< empty: none
+  std::string mesher;
+  MeshQuality quality;
+  double exact_volume = 0.0;                        ///< of the curved model; 0: not known
+  double cells_volume = 0.0;                        ///< of the cells as sampled
+  std::uint64_t outside = 0, flat = 0, shared = 0;  ///< FinishedMesh of the mesher
+  std::size_t layer_cells = 0;                      ///< that have a depth
+  std::size_t backward_cells = 0;  ///< of these: where it falls along the way out of the wall
+  std::vector<std::string> notes;
+  double seconds_load = 0.0;
+  double seconds_mesh = 0.0;  ///< the next two and passing arrays to and fro
+  double seconds_triangulate = 0.0;
+  double seconds_choose = 0.0;
+  double seconds_report = 0.0;
+};
+
+struct RenderSummary {
+  std::string input;
+  std::string field;
+  std::string output;
+  int width = 0;
+  int height = 0;
+  std::size_t lines = 0;
+  std::size_t points = 0;
+  std::size_t voxels = 0;  ///< of a volume
+  double first_frame_ms = 0.0;
+  double frame_ms = 0.0;
+  int frames_timed = 0;
+  FrameQuality quality;                  ///< that --frame-budget left
+  std::optional<double> expected_error;  ///< RenderedImage::expected_error
+  bool timer_query = false;              ///< it was held by timer queries, not by the clock
+  double image_error = 0.0;
+  std::string image_error_kind;
+  std::optional<ImageError> estimate;  ///< of a volume: what image_error is from
+  double seconds_load = 0.0;
+  std::vector<TakenScalar> volumes;  ///< DrawnScene::volumes
+  double seconds_trace = 0.0;
+  std::string renderer;
+  std::string tables_by;         ///< SceneRenderer::tables_by()
+  bool picks = false;            ///< --pick
+  std::optional<Picked> picked;  ///< by it
+  BrickShare bricks;             ///< of a volume that is stored in bricks
+  std::vector<GpuObject> gpu;    ///< with --explain
+  Needs plan;
+  std::vector<MeasuredCost> measured;
+};
+
+}  // namespace palpate

@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "common/base/parallel.h"
+#include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
+#include "common/field/field_grid.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
+#include "common/load/read_tractogram.h"
+#include "common/scene/plan.h"
+
+namespace palpate {
+namespace {
+
+std::string position_text(const Vec3& x) {
+  // No "-0" for what is turned around.
+  return "(" + short_number(x.x + 0.0) + ", " + short_number(x.y + 0.0) + ", " + short_number(x.z + 0.0) +
+         ")";
+}
+
+/// Ranges of all components over fixed pieces of an array: minima, maxima and counts do not depend on how the
+/// pieces are shared among threads.
+struct PieceRange {
+  std::vector<ComponentRange> ranges;
+  std::uint64_t bad = 0;
+};
+
+void include_sparse(const SparseNumbers& numbers, int threads, ArraySummary& summary) {
+  if (summary.ranges.empty()) summary.ranges.assign(1, {HUGE_VAL, -HUGE_VAL});
+  const SparseRange range = range_of(numbers, threads);
+  summary.bad_values += range.not_finite;
+  summary.ranges.front().lower = std::min(summary.ranges.front().lower, range.lowest);
+  summary.ranges.front().upper = std::max(summary.ranges.front().upper, range.highest);
+}
+
+void include_array(const DataArray& array, int threads, ArraySummary& summary) {
+  if (array.sparse) return include_sparse(*array.sparse, threads, summary);
+  constexpr std::size_t kPiece = 65536;
+  const std::size_t pieces = (array.tuples + kPiece - 1) / kPiece;
+  const auto components = static_cast<std::size_t>(array.components);
+  std::vector<PieceRange> found(pieces);
+  parallel_for(pieces, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = first; p < last; ++p) {
+      PieceRange& piece = found[p];
+      piece.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
+      for (std::size_t t = p * kPiece; t < std::min(array.tuples, (p + 1) * kPiece); ++t) {
+        for (std::size_t c = 0; c < components; ++c) {
+          const double value = array.at(t, static_cast<int>(c));
+          if (!std::isfinite(value)) {
+            ++piece.bad;
+            continue;
+          }
+          piece.ranges[c].lower = std::min(piece.ranges[c].lower, value);
+          piece.ranges[c].upper = std::max(piece.ranges[c].upper, value);
+        }
+      }
+    }
+  });
+  if (summary.ranges.empty()) summary.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
+  for (const PieceRange& piece : found) {
+    summary.bad_values += piece.bad;
+    for (std::size_t c = 0; c < std::min(components, summary.ranges.size()); ++c) {
+      summary.ranges[c].lower = std::min(summary.ranges[c].lower, piece.ranges[c].lower);
+      summary.ranges[c].upper = std::max(summary.ranges[c].upper, piece.ranges[c].upper);
+    }
+  }
+}
+
+/// Where a step of an image leads in RAS+ coordinates: "R" to the right, "L" to the left, "A" to the front, …
+char letter_of(const Vec3& step) {
+  constexpr std::string_view kUp = "RAS";
+  constexpr std::string_view kDown = "LPI";
+  int most = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(step[axis]) > std::abs(step[most])) most = axis;
+  }
+  return (step[most] < 0.0 ? kDown : kUp)[static_cast<std::size_t>(most)];
+}
+
+std::string orientation_of(const DataSet& block, bool anatomical) {
+  const auto* uniform = std::get_if<UniformTopology>(&block.topology);
+  if (!uniform) return anatomical ? "RAS+ mm" : "coordinates as stored";
+  const Mat3& a = uniform->axes;
+  if (anatomical) {
+    return std::string("RAS+ mm; voxel axes run to ") + letter_of(a[0]) + ", " + letter_of(a[1]) + ", " +
+           letter_of(a[2]) + "; steps " + position_text(a[0]) + ", " + position_text(a[1]) + ", " +
+           position_text(a[2]);
+  }
+  const bool aligned =
+      a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
+  if (aligned) return "axes i, j, k along x, y, z; steps " + position_text({a[0].x, a[1].y, a[2].z});
+  return "steps i " + position_text(a[0]) + ", j " + position_text(a[1]) + ", k " + position_text(a[2]);
+}
+
+/// Ranges, orientation and memory of everything in the file.
+void read_all(Input& input, const Options& options, const VerbContext& context, InfoSummary& summary) {
+  std::vector<std::string> names;
+  for (const ArrayInfo& info : input.arrays()) {
+    summary.arrays.push_back({.info = info, .ranges = {}});
+    if (std::find(names.begin(), names.end(), info.name) == names.end()) names.push_back(info.name);
+  }
+  context.progress.begin("reading " + input.title(), 0);
+  const std::vector<DataSet> blocks = input.read(names, &context.progress);
+  if (may_hold_lines(*input.file())) {
+    const Tractogram lines = pack_lines(blocks);
+    if (lines.line_count() > 0 || input.file()->blocks.front().grid == "lines")
+      summary.tracts = LinesSummary{lines.line_count(), lines.points.size(), lengths_of(lines)};
+  }
+  for (const DataSet& block : blocks) {
+    context.progress.check();
+    const std::string orientation = orientation_of(block, input.file()->anatomical);
+    if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) ==
+        summary.orientation.end()) {
+      summary.orientation.push_back(orientation);
+    }
+    for (ArraySummary& array : summary.arrays) {
+      const DataArray* values = block.find(array.info.name, array.info.association);
+      if (!values) continue;
+      include_array(*values, options.common.threads, array);
+      summary.memory_bytes += values->stored_bytes();
+    }
+  }
+}
+
+std::string range_text(const ArraySummary& array) {
+  std::string text;
+  for (const ComponentRange& range : array.ranges) {
+    text += text.empty() ? "" : ", ";
+    text += range.lower <= range.upper ? short_number(range.lower) + " … " + short_number(range.upper)
+                                       : "no value";
+  }
+  if (array.bad_values > 0) text += "; " + counted(array.bad_values, "value") + " NaN or infinite";
+  return text;
+}
+
+std::string tracts_text(const LinesSummary& tracts) {
+  const TractogramLengths& lengths = tracts.lengths;
+  std::string text = "  lines      " + std::to_string(tracts.lines) + " of " +
+                     counted(tracts.points, "point") + ", lengths " + short_number(lengths.least) + " … " +
+                     short_number(lengths.most) + ", median " + short_number(lengths.median) + ", mean " +
+                     short_number(lengths.mean) + "\n";
+  if (!(lengths.bin > 0.0)) return text;
+  constexpr std::size_t kWidth = 40;  // characters of the longest bar
+  const std::size_t most = *std::max_element(lengths.histogram.begin(), lengths.histogram.end());
+  for (std::size_t b = 0; b < lengths.histogram.size(); ++b) {
+    const std::size_t count = lengths.histogram[b];
+    const std::string range = short_number(lengths.bin * static_cast<double>(b)) + " … " +
+                              short_number(lengths.bin * static_cast<double>(b + 1));
+    const std::string bar((count * kWidth + most - 1) / most, '#');
+    text += "             " + range + ": " + std::to_string(count) + (bar.empty() ? "" : " " + bar) + "\n";
+  }
+  return text;
+}
+
+std::string file_text(const InfoSummary& summary, const FileInfo& file) {
+  std::string text = summary.input->title() + ": " + file.format + "\n";
+  for (const BlockInfo& block : file.blocks) {
+    text += "  grid       " + (block.name.empty() ? "" : block.name + ": ") + block.grid;
+    if (block.points.x > 0) {
+      text += " " + std::to_string(block.points.x) + " x " + std::to_string(block.points.y) + " x " +
+              std::to_string(block.points.z);
+    }
+    text += ", " + counted(block.point_count, "point") + ", " + counted(block.cell_count, "cell") + "\n";
+    text += "             " + position_text(block.bounds.lower) + " to " + position_text(block.bounds.upper) +
+            "\n";
+  }
+  for (const std::string& orientation : summary.orientation) text += "  axes       " + orientation + "\n";
+  text += "  units      " + (file.units.empty() ? "not stated by the file" : file.units) + "\n";
+  for (const ArraySummary& array : summary.arrays) {
+    text += "  array      " + array.info.name + " (" +
+            (array.info.association == Association::kCell ? "cells" : "points") + ", " +
+            std::to_string(array.info.components) + " x " + name_of(array.info.type) +
+            (array.info.sparse_bytes > 0 ? ", sparse" : "") + "): " + range_text(array) + "\n";
+  }
+  if (summary.tracts) text += tracts_text(*summary.tracts);
+  if (file.times.size() > 1) {
+    text += "  times      " + std::to_string(file.times.size()) + ", " + short_number(file.times.front()) +
+            " … " + short_number(file.times.back()) + "\n";
+  }
+  return text;
+}
+
+std::string summary_text(const InfoSummary& summary) {
+  const Input& input = *summary.input;
+  const FieldKind kind = input.spec().kind;
+  std::string text =
+      input.file() ? file_text(summary, *input.file()) : input.title() + ": a formula, exact everywhere\n";
+  if (!input.file()) {
+    text += "  domain     " + position_text(summary.bounds.lower) + " to " +
+            position_text(summary.bounds.upper) + "\n";
+  }
+  if (!input.not_volume().empty()) {
+    text += kind == FieldKind::kScalar ? "  field      no volume cells: nothing to feel\n"
+                                       : "  field      no volume cells: nothing to trace\n";
+  } else if (summary.field.empty()) {
+    text += "  field      no " + std::string(name_of(kind)) + " field can be made from these arrays\n";
+  } else {
+    text += "  field      " + summary.field;
+    if (kind == FieldKind::kVector) text += ", speed up to " + short_number(summary.max_speed);
+    if (kind == FieldKind::kTensor) text += ", traces up to " + short_number(summary.largest_trace);
+    if (summary.field_range) {
+      text +=
+          ", " + short_number(summary.field_range->lower) + " … " + short_number(summary.field_range->upper);
+    }
+    std::string others;
+    for (const std::string& other : input.fields()) {
+      if (other != summary.field) others += (others.empty() ? "" : ", ") + other;
+    }
+    text += (others.empty() ? "" : "; others: " + others + " (--field)") + "\n";
+  }
+  if (!summary.no_layers.empty()) text += "  layers     none to feel: " + summary.no_layers + "\n";
+  text += "  memory     " + bytes_text(summary.memory_bytes) + " of arrays\n";
+  for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
+  return text;
+}
+
+template <typename Field>
+const TetMesh* tet_mesh_of(const Field& field) {
+  return field.tet_mesh();
+}
+const TetMesh* tet_mesh_of(const TensorField& field) { return field.grid()->tets.get(); }
+
+/// Adds what is to be said of the field.
+template <typename Field>
+void add_field(const Input& input, const Field& field, bool explain, InfoSummary& summary) {
+  summary.field = input.field_label();
+  summary.bounds = field.bounds();
+  summary.notes.insert(summary.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
+  if (explain) summary.measured = measured_costs(input, tet_mesh_of(field));
+}
+
+/// Fibres and layers of a heart. What the file holds is of use without layers, too: why there are none is a
+/// part of the answer. They are not solved for it.
+void add_heart(Input& input, const Options& options, Progress& progress, InfoSummary& summary) {
+  const Heart heart = input.load_heart(options.common.threads, &progress, {}, LayersNeeded::kSurfaces);
+  summary.field = input.field_label();
+  summary.bounds = heart.fibres->bounds();
+  summary.no_layers = heart.no_layers;
+  summary.notes.insert(summary.notes.end(), heart.notes.begin(), heart.notes.end());
+  if (options.common.explain) summary.measured = measured_costs(input, heart.fibres->grid()->tets.get());
+}
+
+ExitCode run_info(const Options& options, const VerbContext& context) {
+  if (list_examples(options, context)) return ExitCode::kDone;
+  Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
+  InfoSummary summary;
+  summary.input = &input;
+  const bool has_field = !input.file() || (!input.fields().empty() && input.not_volume().empty());
+  if (!options.input.field.empty() && input.not_volume().empty())
+    (void)input.field_label();  // an unknown --field is refused first
+  if (options.common.explain) {
+    const bool field = has_field;
+    const int threads = resolve_threads(options.common.threads);
+    summary.plans = {
+        {"info",
+         plan_scene(input, {.verb = "info", .field = field, .all_arrays = true, .threads = threads})}};
+    for (const Verb& verb : context.explorer.verbs) {
+      if (verb.name == "info" || !field) continue;
+      const bool drawing = verb.groups.view;
+      summary.plans.push_back({verb.name, plan_scene(input, {.verb = verb.name,
+                                                             .tracing = verb.groups.tracing,
+                                                             .threads = threads,
+                                                             .drawing = drawing,
+                                                             .window = verb.name == "open"})});
+    }
+    for (const auto& plan : summary.plans)
+      context.console.print(plan.verb + ", " + plan_text(plan.plan) + "\n");
+  }
+  if (const FileInfo* file = input.file()) {
+    summary.notes = input.notes();
+    for (const BlockInfo& block : file->blocks) {
+      summary.bounds.include(block.bounds.lower);
+      summary.bounds.include(block.bounds.upper);
+    }
+    read_all(input, options, context, summary);
+  }
+  if (has_field && context.explorer.kind == FieldKind::kScalar) {
+    const auto field = input.load_scalar(options.common.threads, &context.progress);
+    add_field(input, *field, options.common.explain, summary);
+    if (field->lowest() <= field->highest())
+      summary.field_range = ComponentRange{field->lowest(), field->highest()};
+  } else if (has_field && context.explorer.kind == FieldKind::kTensor) {
+    const auto field = input.load_tensor(options.common.threads, &context.progress);
+    add_field(input, *field, options.common.explain, summary);
+    summary.largest_trace = field->largest_trace();
+    summary.negative_tensors = field->negative_tensors();
+  } else if (has_field && context.explorer.kind == FieldKind::kFibre) {
+    add_heart(input, options, context.progress, summary);
+  } else if (has_field) {
+    const auto field = input.load_field(options.common.threads, &context.progress);
+    add_field(input, *field, options.common.explain, summary);
+    summary.max_speed = field->max_speed();
+  }
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  context.console.print(summary_text(summary));
+  if (!summary.measured.empty()) context.console.print(measured_text(summary.measured));
+  context.console.print_json(info_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb info_verb(std::vector<UsageExample> examples) {
+  return {.name = "info",
+          .summary = "say what a file holds: grids, fields, ranges, orientation, memory",
+          .groups = {},
+          .examples = std::move(examples),
+          .run = run_info};
+}
+
+}  // namespace palpate

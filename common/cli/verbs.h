@@ -1,0 +1,57 @@
+/// The verbs that all explorers share; each stands in a file of its own (verb_<name>.cpp).
+#pragma once
+
+#include <string>
+
+#include "common/cli/explorer.h"
+#include "common/hand/mode/haptic_mode.h"
+#include "common/scene/input.h"
+
+namespace palpate {
+
+[[nodiscard]] Verb info_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb trace_verb(std::vector<UsageExample> examples);
+/// Of tensor fields: tracts.
+[[nodiscard]] Verb trace_tracts_verb(std::vector<UsageExample> examples);
+/// @param modes the program's, the default one first.
+[[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
+/// The same of volumes.
+[[nodiscard]] Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
+/// A slice of a volume, as a picture or an image.
+[[nodiscard]] Verb slice_verb(std::vector<UsageExample> examples);
+/// Measures what is marked in a volume, and writes it as .csv or .vtp.
+[[nodiscard]] Verb annotate_verb(std::vector<UsageExample> examples);
+/// A part of a volume, cut by a box and planes, as a picture or an image.
+[[nodiscard]] Verb clip_verb(std::vector<UsageExample> examples);
+/// The same of diffusion tensors.
+[[nodiscard]] Verb tensor_render_verb(std::vector<UsageExample> examples);
+/// @param modes the program's, the default one first.
+[[nodiscard]] Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
+[[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);
+/// What noise, weighting and steps do to directions and tracts.
+[[nodiscard]] Verb tensor_report_verb(std::vector<UsageExample> examples);
+
+/// @name What the verbs share
+/// @{
+
+/// Handles `--example list`: prints the explorer's examples and returns true.
+[[nodiscard]] bool list_examples(const Options& options, const VerbContext& context);
+
+/// Opens the input and says on stderr which field and time step are taken.
+[[nodiscard]] Input open_input(const Options& options, const VerbContext& context);
+
+/// `<app>` alone where there is no display: a picture of the example that `options` name, under a name that
+/// is free.
+/// @param render the explorer's verb that draws. @param next another command to try, without the program's
+/// name.
+/// @throws as the verb.
+ExitCode headless_tour(const Verb& render, Options options, const VerbContext& context,
+                       const std::string& next);
+
+/// Where there is no display and an input is named.
+/// @throws Error (bad input) for a file that is missing or broken, the first thing to know; (work failed)
+/// else.
+[[noreturn]] void refuse_window(const Options& options, const VerbContext& context);
+/// @}
+
+}  // namespace palpate

@@ -1,0 +1,82 @@
+#include "common/compose/line_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/compose/domain_outline.h"
+#include "common/compose/trace_options.h"
+#include "common/compose/volume_scene.h"
+#include "common/scene/seeds.h"
+
+namespace palpate {
+
+TraceOptions view_trace_options(const Options& options, const VectorField& field) {
+  TraceOptions trace = trace_options(options, "both");
+  if (trace.max_length == 0.0) trace.max_length = kViewDiagonals * field.diagonal();
+  return trace;
+}
+
+CameraAngles camera_angles(const std::string& text) {
+  CameraAngles angles;
+  if (text.empty()) return angles;
+  const auto v =
+      parse_numbers(text, 4, "--camera takes azimuth,elevation,roll,zoom in degrees, such as 30,20,0,1");
+  angles = {.azimuth = v[0], .elevation = v[1], .roll = v[2], .zoom = v[3]};
+  if (!(angles.zoom > 0.0)) throw usage_error("--camera " + text + ": the zoom must be above zero");
+  return angles;
+}
+
+std::optional<Vec3> focal_point_of(const ViewOptions& options) {
+  if (options.focal.empty()) return std::nullopt;
+  const auto v = parse_numbers(options.focal, 3, "--focal takes a place x,y,z of the data, such as 10,20,0");
+  return Vec3{v[0], v[1], v[2]};
+}
+
+Camera camera_of(const ViewOptions& options, const Box& bounds, double aspect, Projection projection) {
+  Camera camera = make_camera(bounds, camera_angles(options.camera), aspect, projection);
+  camera.focal_point = focal_point_of(options).value_or(camera.focal_point);
+  return camera;
+}
+
+std::string camera_text(const Camera& camera, const Box& bounds, double aspect) {
+  const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
+  // The inverse of make_camera(): the axis towards the viewer gives azimuth and elevation, what is left is
+  // roll.
+  const Vec3 back = camera.axes[2];
+  CameraAngles angles;
+  angles.azimuth = degrees(std::atan2(back.x, -back.y));
+  angles.elevation = degrees(std::asin(std::clamp(back.z, -1.0, 1.0)));
+  const Camera level = make_camera(bounds, angles, aspect, camera.projection);
+  angles.roll =
+      -degrees(std::atan2(glm::dot(camera.axes[0], level.axes[1]), glm::dot(camera.axes[0], level.axes[0])));
+  angles.zoom = level.view_height / camera.view_height;
+  const auto rounded = [](double value) { return short_number(std::round(value * 1e3) / 1e3 + 0.0); };
+  return rounded(angles.azimuth) + "," + rounded(angles.elevation) + "," + rounded(angles.roll) + "," +
+         short_number(angles.zoom);
+}
+
+void style_lines(const ViewOptions& options, LineStyle& style) {
+  style.width = options.line_width;
+  style.opacity = options.line_opacity;
+}
+
+SceneView make_line_view(const Input& input, const VectorField& field,
+                         std::shared_ptr<const std::vector<Line>> lines, const Options& options,
+                         const LineStyle& style, double aspect) {
+  SceneView view;
+  view.bounds = field.bounds();
+  view.lines = std::move(lines);
+  view.outline = domain_outline(field);
+  view.style = style;
+  style_lines(options.view, view.style);
+  view.title = input.title();
+  view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  return view;
+}
+
+}  // namespace palpate

@@ -1,0 +1,229 @@
+#include "common/compose/resampled_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+#include "common/compose/line_color.h"
+#include "common/compose/volume_fields.h"
+#include "common/field/field_grid.h"
+#include "common/scene/volume_source.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kSpeed = "speed";
+
+/// What `--resample` says: points along the longest edge, or along each axis.
+struct Resample {
+  int longest = 0;
+  std::optional<Index3> points;
+};
+
+[[noreturn]] void refuse_resample(const std::string& text) {
+  throw usage_error(
+      "--resample " + text +
+      ": a whole number from 2 to 1024 is expected, or one for each axis, such as 128,64,64, of "
+      "2^27 points at most");
+}
+
+// 1 GB in double precision.
+void check_size(const Index3& points, const std::string& text) {
+  constexpr double kMost = 0x1p27;
+  if (static_cast<double>(points.x) * points.y * points.z > kMost) refuse_resample(text);
+}
+
+Resample parse_resample(const std::string& text) {
+  constexpr double kFewest = 2, kMost = 1024;
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 1 && parts.size() != 3) refuse_resample(text);
+  std::array<int, 3> numbers{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::optional<double> value = number(parts[i]);
+    if (!value || *value != std::floor(*value) || !(*value >= kFewest && *value <= kMost))
+      refuse_resample(text);
+    numbers[i] = static_cast<int>(*value);
+  }
+  if (parts.size() == 1) return {.longest = numbers[0], .points = {}};
+  const Index3 points{numbers[0], numbers[1], numbers[2]};
+  check_size(points, text);
+  return {.longest = 0, .points = points};
+}
+
+std::string file_of(const Input& input) {
+  return input.spec().files.empty() ? input.title() : input.spec().files.front().string();
+}
+
+std::optional<ScalarChoice> array_of(const Input& input, const std::string& name) {
+  for (const ScalarChoice& choice : scalar_choices(input.arrays())) {
+    const bool whole = choice.component == ScalarChoice::kMagnitude && name == choice.array;
+    if (whole || name == label_of(choice, input.arrays())) return choice;
+  }
+  return std::nullopt;
+}
+
+bool is_derived(const std::string& name) { return name == kSpeed || measure_of(name).has_value(); }
+
+/// The grid of an image, in the order of the field's own points; nothing for another grid.
+std::optional<UniformTopology> image_lattice(const VectorField& field) {
+  const BoxGrid* const grid = field.box_grid();
+  if (grid == nullptr || !grid->uniform()) return std::nullopt;
+  const LocalFrame& frame = field.frame();
+  const Box box = grid->bounds();
+  UniformTopology lattice;
+  lattice.points = grid->points();
+  lattice.origin = frame.data_from_local(box.lower);
+  const Vec3 step = box.size() / Vec3(lattice.points - 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 along{0.0};
+    along[axis] = step[axis];
+    lattice.axes[axis] = frame.data_from_local(along);
+  }
+  return lattice;
+}
+
+/// An array on an image, in the type of its file.
+std::shared_ptr<const VolumeImage> own_voxels(Input& input, const ScalarChoice& choice, Progress* progress) {
+  if (progress) progress->begin("reading " + choice.array, 0);
+  return make_volume_image(volume_source(input.read({choice.array}, progress), choice, file_of(input)),
+                           choice.array, file_of(input));
+}
+
+UniformTopology lattice_for(const VectorField& field, const std::string& name, const std::string& resample) {
+  const std::optional<UniformTopology> image = image_lattice(field);
+  if (!resample.empty()) {
+    const Resample asked = parse_resample(resample);
+    const Index3 points = asked.points ? *asked.points : cubic_points(field.bounds(), asked.longest);
+    check_size(points, resample);
+    return lattice_over(field.bounds(), points);
+  }
+  if (image) return *image;
+  throw usage_error("--volume " + name +
+                    ": the data lies on no image; --resample 128 draws it from a grid "
+                    "of 128 points along its longest edge, and says how far that is from it");
+}
+
+std::string percent(double share) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
+  return text.data();
+}
+
+}  // namespace
+
+std::vector<std::string> flow_scalars(const Input& input) {
+  std::vector<std::string> names{kSpeed};
+  for (const std::string& measure : measure_names()) names.push_back(measure);
+  for (const ScalarChoice& choice : scalar_choices(input.arrays())) {
+    const std::string label = label_of(choice, input.arrays());
+    if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
+  }
+  return names;
+}
+
+bool needs_resampling(const VectorField& field) { return !image_lattice(field); }
+
+std::vector<std::string> flow_volume_names(const Input& input, const VolumeOptions& options) {
+  std::vector<std::string> asked;
+  for (const std::string_view part : split(options.scalar, ',')) asked.emplace_back(part);
+  if (options.scalar.empty()) return {};
+  const std::vector<std::string> shown{asked.front()};
+  const auto check = [&input](const std::string& name) {
+    if (is_derived(name) || array_of(input, name)) return;
+    check_file_field(name, "--volume", flow_scalars(input), input.title());
+  };
+  check(asked.front());
+  std::vector<std::string> names = shown;
+  for (std::string& name : names_beside(shown, {asked.begin() + 1, asked.end()}, options, check))
+    names.push_back(std::move(name));
+  return names;
+}
+
+std::vector<std::string> flow_volume_arrays(const Input& input, const VolumeOptions& options) {
+  std::vector<std::string> arrays;
+  for (const std::string& name : flow_volume_names(input, options)) {
+    if (is_derived(name)) continue;
+    if (const auto choice = array_of(input, name)) arrays.push_back(choice->array);
+  }
+  return arrays;
+}
+
+void check_flow_volume(const VolumeOptions& options) {
+  check_volume_options(options);
+  if (!options.resample.empty()) (void)parse_resample(options.resample);
+  if (!options.scalar.empty()) return;
+  const char* const said = !options.lenses.empty()     ? "--lens"
+                           : !options.clips.empty()    ? "--clip"
+                           : !options.resample.empty() ? "--resample"
+                           : !options.transfer.empty() ? "--transfer-function"
+                                                       : nullptr;
+  if (said != nullptr)
+    throw usage_error(std::string(said) + ": there is no volume; --volume speed shows that of the flow");
+}
+
+std::string taken_text(const TakenScalar& taken) {
+  const Index3& n = taken.points;
+  std::string text = taken.name + " on " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
+                     std::to_string(n.z) + " points ";
+  if (taken.error.compared == 0) return text + "has no value: nothing of it is drawn";
+  text += "differs from the field by " + percent(taken.error.rms) + " of its range (root mean square), " +
+          percent(taken.error.worst) + " at worst, at " + std::to_string(taken.error.compared) +
+          " random places";
+  if (taken.error.outside > 0.0)
+    text += "; " + percent(taken.error.outside) + " of its box lies outside the data and shows nothing";
+  if (taken.error.hidden > 0.0)
+    text += "; so does " + percent(taken.error.hidden) + " of the data, at its border";
+  return text;
+}
+
+ScalarSampler flow_sampler(const std::string& name, Input& input,
+                           const std::shared_ptr<const VectorField>& field, int threads, Progress* progress) {
+  if (const std::optional<Measure> measure = measure_of(name)) {
+    return
+        [field, measure](const Vec3& x, CellHint& hint) { return sample_measure(*field, *measure, x, hint); };
+  }
+  std::shared_ptr<const ScalarField> scalar;
+  if (name == kSpeed) {
+    scalar = make_speed_field(field);
+  } else {
+    const ScalarChoice choice = *array_of(input, name);
+    if (progress) progress->begin("reading " + name, 0);
+    scalar = make_scalar_field(*field, input.read({choice.array}, progress), choice, file_of(input), threads);
+  }
+  return [scalar](const Vec3& x, CellHint& hint) { return scalar->sample(x, hint); };
+}
+
+FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorField>& field,
+                            const std::vector<std::string>& names, const std::string& resample, int threads,
+                            Progress* progress) {
+  FlowVolume volume;
+  for (const std::string& name : names) {
+    std::shared_ptr<const VolumeImage> image;
+    const std::optional<ScalarChoice> array = is_derived(name) ? std::nullopt : array_of(input, name);
+    if (!is_derived(name) && !array) {
+      image = load_file_field(name, progress);
+    } else if (array && resample.empty() && image_lattice(*field)) {
+      image = own_voxels(input, *array, progress);
+    } else {
+      const UniformTopology lattice = lattice_for(*field, name, resample);
+      const ScalarSampler sampler = flow_sampler(name, input, field, threads, progress);
+      const DataSet block = take_scalar(sampler, name, lattice, threads, progress);
+      volume.taken.push_back({name, lattice.points, lattice_error(sampler, block, threads, progress)});
+      image = make_volume_image(block, name, input.title());
+    }
+    if (name == names.front()) {
+      volume.voxels.image = std::move(image);
+    } else {
+      volume.voxels.beside.push_back({std::move(image), name});
+    }
+  }
+  return volume;
+}
+
+}  // namespace palpate

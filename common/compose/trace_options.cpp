@@ -1,0 +1,41 @@
+#include "common/compose/trace_options.h"
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+
+namespace palpate {
+namespace {
+
+StopRule stop_plane(const std::string& text) {
+  const auto v = parse_numbers(text, 4, "--stop-plane takes nx,ny,nz,d for the plane n.x = d");
+  const Vec3 n{v[0], v[1], v[2]};
+  const double length = glm::length(n);
+  if (!(length > 0.0)) throw usage_error("--stop-plane " + text + ": the normal is zero");
+  // A unit normal makes the level a distance, as StopRule wants it.
+  return {[unit = n / length, d = v[3] / length](const Vec3& x) { return glm::dot(unit, x) - d; }};
+}
+
+}  // namespace
+
+TraceOptions trace_options(const Options& options, const std::string& default_direction) {
+  const TracingOptions& tracing = options.tracing;
+  TraceOptions trace;
+  if (!tracing.integrator.empty()) trace.integrator = integrator_from_name(tracing.integrator);
+  const std::string direction = tracing.direction.empty() ? default_direction : tracing.direction;
+  trace.forward = direction != "backward";
+  trace.backward = direction != "forward";
+  trace.tolerance = tracing.tolerance;
+  trace.step = tracing.step;
+  trace.max_length = tracing.max_length;
+  trace.max_time = tracing.max_time;
+  trace.max_steps = tracing.max_steps;
+  for (const std::string& plane : tracing.stop_planes) trace.stop_rules.push_back(stop_plane(plane));
+  trace.threads = options.common.threads;
+  return trace;
+}
+
+std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept {
+  return seed_count(seeds) * (trace.forward && trace.backward ? 2 : 1);
+}
+
+}  // namespace palpate

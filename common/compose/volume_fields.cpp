@@ -1,0 +1,141 @@
+#include "common/compose/volume_fields.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/compose/lens_text.h"
+
+namespace palpate {
+namespace {
+
+bool is_file(const std::string& name) {
+  std::error_code ignored;
+  return std::filesystem::exists(name, ignored);
+}
+
+// A file, and which of its scalars; nothing where there is no such file.
+struct FileField {
+  std::string file, scalar;
+};
+std::optional<FileField> file_field(const std::string& name) {
+  if (is_file(name)) return FileField{name, ""};
+  const std::size_t colon = name.rfind(':');
+  if (colon == std::string::npos || !is_file(name.substr(0, colon))) return std::nullopt;
+  return FileField{name.substr(0, colon), name.substr(colon + 1)};
+}
+
+std::shared_ptr<const VolumeImage> load_named(Input& input, const std::string& name, Progress* progress) {
+  if (!input.names_field(name)) return load_file_field(name, progress);
+  const std::string shown = input.spec().field;
+  try {
+    input.set_field(name);
+    auto image = load_volume(input, progress);
+    input.set_field(shown);
+    return image;
+  } catch (...) {
+    input.set_field(shown);
+    throw;
+  }
+}
+
+}  // namespace
+
+void check_file_field(const std::string& name, const std::string& option,
+                      const std::vector<std::string>& known, const std::string& input) {
+  if (file_field(name)) return;
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  throw usage_error(option + " '" + name + "' is no scalar of " + input + " and no file; known: " + list);
+}
+
+std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress) {
+  const std::optional<FileField> from = file_field(name);
+  if (!from) throw input_error({name, "", "no such file", "a volume", ""});
+  Input input =
+      Input::open({.files = {from->file}, .field = from->scalar, .kind = FieldKind::kScalar}, progress);
+  return load_volume(input, progress);
+}
+
+std::vector<std::string> names_beside(const std::vector<std::string>& shown,
+                                      const std::vector<std::string>& beside, const VolumeOptions& options,
+                                      const std::function<void(const std::string&)>& check) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (name.empty() || std::find(shown.begin(), shown.end(), name) != shown.end()) return;
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    check(name);
+    names.push_back(name);
+  };
+  for (const std::string& name : beside) add(name);
+  for (const std::string& text : options.lenses) add(parse_lens(text).field);
+  if (names.size() >= kMostFields) {
+    throw usage_error(std::to_string(names.size() + 1) + " fields are named; at most " +
+                      std::to_string(kMostFields) + " are possible");
+  }
+  return names;
+}
+
+std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options) {
+  return names_beside({input.spec().field, input.field_label()}, input.spec().beside, options,
+                      [&input](const std::string& name) {
+                        if (!input.names_field(name))
+                          check_file_field(name, "field", input.fields(), input.title());
+                      });
+}
+
+std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options, Progress* progress) {
+  std::vector<VolumeField> fields;
+  for (const std::string& name : names_beside(input, options))
+    fields.push_back({load_named(input, name, progress), name});
+  return fields;
+}
+
+TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress) {
+  return {.image = load_volume(input, progress),
+          .field = nullptr,
+          .beside = load_beside(input, options, progress)};
+}
+
+std::vector<Lens> lens_looks(const VolumeView& volume, const std::string& focus, int threads) {
+  std::vector<Lens> looks;
+  for (std::size_t field = 0; field <= volume.fields.size(); ++field) {
+    Lens& look = looks.emplace_back();
+    look.field = field;
+    look.samples_per_voxel = volume.samples_per_voxel;
+    look.shading = volume.shading;
+    const VolumeImage& image = *image_of(volume, field);
+    take_transfer(field == 0 || !focus.empty() ? focus_transfer_of(focus, image, threads)
+                                               : volume_transfer_of("", image, threads),
+                  look);
+  }
+  return looks;
+}
+
+void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& looks,
+                int threads) {
+  VolumeParts parts = make_parts(options, looks.front());
+  volume.lenses = std::move(parts.lenses);
+  volume.cuts = std::move(parts.cuts);
+  for (std::size_t i = 0; i < volume.lenses.size(); ++i) {
+    Lens& lens = volume.lenses[i];
+    const auto found = std::find_if(volume.fields.begin(), volume.fields.end(),
+                                    [&](const VolumeField& field) { return field.name == parts.fields[i]; });
+    if (!lens.cut && found != volume.fields.end()) {
+      lens.field = static_cast<std::size_t>(found - volume.fields.begin()) + 1;
+      lens.transfer = looks[lens.field].transfer;
+      lens.regions = looks[lens.field].regions;
+    }
+    if (parts.transfers[i].empty()) continue;
+    take_transfer(volume_transfer_of(parts.transfers[i], *image_of(volume, lens.field), threads), lens);
+    lens.own_transfer = true;
+  }
+  if (transfers_of(volume).size() > kMostTransfers) {
+    throw usage_error("--lens: " + std::to_string(transfers_of(volume).size()) +
+                      " transfer functions; at most " + std::to_string(kMostTransfers) + " are possible");
+  }
+}
+
+}  // namespace palpate

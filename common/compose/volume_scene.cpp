@@ -1,0 +1,240 @@
+#include "common/compose/volume_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "common/base/check.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/compose/domain_outline.h"
+#include "common/compose/lens_text.h"
+#include "common/compose/line_view.h"
+#include "common/compose/plane_image_text.h"
+#include "common/compose/volume_fields.h"
+#include "common/field/color_transfer_file.h"
+#include "common/field/grid/sparse/sparse_statistics.h"
+#include "common/field/region_transfer_file.h"
+#include "common/field/value_histogram.h"
+#include "common/render/volume/value_gradient.h"
+#include "common/scene/volume_source.h"
+
+namespace palpate {
+namespace {
+
+/// What was read, and the image that is made of it.
+struct Voxels {
+  std::vector<DataSet> blocks;
+  ScalarChoice choice;
+  std::string file;
+  std::shared_ptr<const VolumeImage> image;
+};
+
+Voxels read_voxels(Input& input, Progress* progress) {
+  Voxels voxels{.choice = input.scalar_choice()};
+  voxels.file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
+  if (progress) progress->begin("reading " + input.title(), 0);
+  voxels.blocks = input.read_timed({voxels.choice.array}, progress);
+  voxels.image = make_volume_image(volume_source(voxels.blocks, voxels.choice, voxels.file),
+                                   voxels.choice.array, voxels.file);
+  return voxels;
+}
+
+ValueHistogram histogram_of(const VolumeImage& image, double lower, int threads) {
+  constexpr std::size_t kBins = 1024;
+  if (image.sparse) {
+    return count_values(
+        *image.sparse, [&image](double number) { return image.offset + image.scale * number; }, lower,
+        image.highest, kBins, threads);
+  }
+  return count_values(
+      image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, image.highest, kBins,
+      threads);
+}
+
+/// The preset for densities from `lower` to the value that only the brightest of those from `threshold` on
+/// pass.
+ColorTransfer density_from(const ValueHistogram& histogram, double lower, double threshold) {
+  constexpr double kBrightest = 0.995;
+  const double upper = std::max(lower, value_below_which(histogram, kBrightest, threshold));
+  return make_color_transfer(ColorPreset::kDensity, lower, upper);
+}
+
+// @throws Error (usage) for another word.
+ColorPreset preset_of(const std::string& name) {
+  for (int i = 0; i < kColorPresetCount; ++i) {
+    const auto preset = static_cast<ColorPreset>(i);
+    if (name == name_of(preset)) return preset;
+  }
+  throw usage_error("unknown transfer function '" + name + "'; known: density, mr, ct, " + kBoundariesPreset +
+                    ", or a file");
+}
+
+VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image, int threads) {
+  const DataRange range = [&] { return place_range(image, threads); };
+  if (auto transfer = transfer_from_words(name)) return {*transfer, {}};
+  if (auto regions = regions_from_words(name, range)) return {{}, std::move(regions)};
+  if (name == kBoundariesPreset) return {{}, spread(boundary_regions(), range())};
+  const bool values = image.lowest <= image.highest;
+  const double lower = values ? image.lowest : 0.0;
+  const double upper = values ? image.highest : 0.0;
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored)) {
+    if (is_region_file(name)) return {{}, read_regions(name, range)};
+    return {read_color_transfer(name, lower, upper), {}};
+  }
+  return {make_color_transfer(preset_of(name), lower, upper), {}};
+}
+
+void check_transfer(const std::string& name) {
+  std::error_code ignored;
+  const auto any_range = [] { return PlaceRange{{0.0, 0.0}, {1.0, 1.0}}; };
+  if (name.empty() || name == kBoundariesPreset || transfer_from_words(name) ||
+      regions_from_words(name, any_range) || std::filesystem::exists(name, ignored))
+    return;
+  // A word is a preset; what looks like a path was meant as one.
+  if (name.find_first_of("./") != std::string::npos)
+    throw input_error({name, "", "no such file", "a transfer function", ""});
+  (void)preset_of(name);
+}
+
+}  // namespace
+
+ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
+  if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
+  const ValueHistogram histogram = histogram_of(image, image.lowest, threads);
+  const double threshold = otsu_threshold(histogram);
+  // From halfway up to the threshold on, so that what lies just above it is not lost.
+  return density_from(histogram, 0.5 * mean_below(histogram, threshold) + 0.5 * threshold, threshold);
+}
+
+ColorTransfer default_focus_transfer(const VolumeImage& image, int threads) {
+  if (image.lowest > image.highest) return {};
+  const double threshold = otsu_threshold(histogram_of(image, image.lowest, threads));
+  const ValueHistogram dense = histogram_of(image, threshold, threads);
+  const double denser = otsu_threshold(dense);
+  return density_from(dense, denser, denser);
+}
+
+void take_transfer(VolumeTransfer transfer, Lens& lens) {
+  lens.regions = std::move(transfer.regions);
+  lens.transfer.reset();
+  if (!lens.regions) lens.transfer = std::move(transfer.colors);
+}
+
+VolumeTransfer volume_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  if (name.empty()) return {default_color_transfer(image, threads), {}};
+  return named_transfer(name, image, threads);
+}
+
+VolumeTransfer focus_transfer_of(const std::string& name, const VolumeImage& image, int threads) {
+  if (name.empty()) return {default_focus_transfer(image, threads), {}};
+  return named_transfer(name, image, threads);
+}
+
+void check_volume_options(const VolumeOptions& options) {
+  constexpr double kMostSamples = 64.0;
+  if (!(options.samples > 0.0 && options.samples <= kMostSamples))
+    throw usage_error("--samples: a number above 0 and at most 64 is expected");
+  constexpr double kSmallest = 0.05;
+  if (!(options.context_viewport >= kSmallest && options.context_viewport <= 1.0))
+    throw usage_error("--context-viewport: a number from 0.05 to 1 is expected");
+  if (options.context_level < 0 || options.context_level > kCoarsestLevel)
+    throw usage_error("--context-level: a whole number from 0 to " + std::to_string(kCoarsestLevel) +
+                      " is expected");
+  check_transfer(options.transfer);
+  check_transfer(options.focus);
+  for (const std::string& transfer : make_parts(options).transfers) check_transfer(transfer);
+  (void)plane_images_of(options);
+}
+
+std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
+  return read_voxels(input, progress).image;
+}
+
+DataSet load_volume_block(Input& input, Progress* progress) {
+  const Voxels voxels = read_voxels(input, progress);  // which refuses what is no volume
+  DataSet block = volume_source(voxels.blocks, voxels.choice, voxels.file);
+  if (block.visible.empty()) return block;
+  const DataArray& array = block.arrays.front();
+  std::vector<double> values(array.tuples);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = block.visible[i] != 0 ? array.at(i) : std::numeric_limits<double>::quiet_NaN();
+  }
+  block.arrays = {make_array(array.name, Association::kPoint, 1, values)};
+  block.visible.clear();
+  return block;
+}
+
+TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress) {
+  const Voxels voxels = read_voxels(input, progress);
+  TangibleVolume volume{.image = voxels.image};
+  const Index3& n = voxels.image->points;
+  if (std::min({n.x, n.y, n.z}) < 2) return volume;
+  if (progress) progress->begin("preparing the field", 0);
+  volume.field = make_scalar_field(voxels.blocks, voxels.choice, voxels.file, threads);
+  return volume;
+}
+
+ImageSpace space_of(const Input& input) {
+  const FileInfo* file = input.file();
+  return file != nullptr && file->anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
+}
+
+Projection projection_of(const VolumeOptions& options) {
+  return options.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
+}
+
+VolumeView make_volume_view(const TangibleVolume& shown, const Options& options) {
+  const std::shared_ptr<const VolumeImage>& image = shown.image;
+  VolumeView volume;
+  volume.image = image;
+  volume.fields = shown.beside;
+  VolumeTransfer transfer = volume_transfer_of(options.volume.transfer, *image, options.common.threads);
+  volume.transfer = std::move(transfer.colors);
+  volume.regions = std::move(transfer.regions);
+  volume.samples_per_voxel = options.volume.samples;
+  volume.far_sampling = options.volume.far_sampling;
+  volume.context.viewport = options.volume.context_viewport;
+  volume.context.level = options.volume.context_level;
+  const auto maker = std::ranges::find(kTableMakerNames, options.volume.tables);
+  PALPATE_CHECK(maker != kTableMakerNames.end());
+  volume.table_maker = static_cast<TableMaker>(maker - kTableMakerNames.begin());
+  volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
+  volume.shading = options.volume.shading;
+  if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
+    const std::vector<Lens> looks = lens_looks(volume, options.volume.focus, options.common.threads);
+    take_parts(volume, options.volume, looks, options.common.threads);
+  }
+  volume.planes = plane_images_of(options.volume);
+  const bool asked = volume.planes.shown || options.volume.window || options.volume.level;
+  if (asked && !volume.planes.window && image->lowest <= image->highest)
+    complete_window(volume.planes, options.volume,
+                    histogram_of(*image, image->lowest, options.common.threads));
+  return volume;
+}
+
+SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Options& options,
+                            double aspect) {
+  const std::shared_ptr<const VolumeImage>& image = shown.image;
+  SceneView view;
+  view.bounds = image->bounds();
+  view.outline = image_outline(image->origin, image->axes, image->lower(), image->upper());
+  view.title = input.title();
+  const FileInfo* file = input.file();
+  view.anatomical = file != nullptr && file->anatomical;
+  view.volume_label = input.field_label();
+  view.subtitle = view.volume_label + ", " + std::to_string(image->points.x) + " x " +
+                  std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  view.volume = make_volume_view(shown, options);
+  return view;
+}
+
+}  // namespace palpate

@@ -1,0 +1,81 @@
+/// What the render verb and the window show of a volume: its voxels, transfer function, domain and labels.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/load/write_image.h"
+#include "common/render/scene_view.h"
+#include "common/scene/input.h"
+#include "common/scene/options.h"
+
+namespace palpate {
+
+/// A transfer function to begin with, from the values themselves: the preset for densities over those that
+/// Otsu's threshold parts from the background, up to all but the brightest two hundredth of them.
+[[nodiscard]] ColorTransfer default_color_transfer(const VolumeImage& image, int threads);
+
+/// One for lenses to begin with: like default_color_transfer(), but of the denser half alone of what that
+/// one shows, as Otsu's threshold of those values parts it, so that a lens looks into things.
+[[nodiscard]] ColorTransfer default_focus_transfer(const VolumeImage& image, int threads);
+
+/// A transfer function of values, or of values and gradient magnitudes.
+struct VolumeTransfer {
+  ColorTransfer colors;
+  std::optional<RegionTransfer> regions;  ///< in place of `colors`
+};
+/// Has a lens show what it says.
+void take_transfer(VolumeTransfer transfer, Lens& lens);
+
+/// What `--transfer-function` names: a preset, a file of either kind, "points:" or "regions:" with the points
+/// or regions themselves (transfer_words(), region_words()), or nothing for default_color_transfer().
+/// @throws Error (usage) for a word that is none of these, (bad input) for a file.
+[[nodiscard]] VolumeTransfer volume_transfer_of(const std::string& name, const VolumeImage& image,
+                                                int threads);
+
+/// The same of `--focus-tf`, where nothing stands for default_focus_transfer().
+[[nodiscard]] VolumeTransfer focus_transfer_of(const std::string& name, const VolumeImage& image,
+                                               int threads);
+
+/// The preset of both measures, beside those of ColorPreset: boundary_regions().
+inline constexpr const char* kBoundariesPreset = "boundaries";
+
+/// Checks what can be checked of the options "Volume" before anything is read. @throws Error (usage).
+void check_volume_options(const VolumeOptions& options);
+
+/// Reads the voxels of the field that the input's spec names.
+/// @throws Error, Cancelled.
+[[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress);
+
+/// Reads the same as one uniform block with one point array of one number: where a voxel is blanked, NaN.
+/// @throws Error, Cancelled.
+[[nodiscard]] DataSet load_volume_block(Input& input, Progress* progress);
+
+/// What is known of the coordinates of `input`, for images that are made of it.
+[[nodiscard]] ImageSpace space_of(const Input& input);
+
+/// The same voxels to be drawn and to be felt, read once.
+struct TangibleVolume {
+  std::shared_ptr<const VolumeImage> image;
+  std::shared_ptr<const ScalarField> field;  ///< null where the image is flat: it has no inside
+  std::vector<VolumeField> beside;           ///< other scalars, to be drawn in lenses
+};
+/// @throws Error, Cancelled.
+[[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);
+
+/// `shown` as the options have it drawn: transfer functions, lenses, cuts, rays.
+/// @throws Error (usage), (bad input) as take_parts() and volume_transfer_of().
+[[nodiscard]] VolumeView make_volume_view(const TangibleVolume& shown, const Options& options);
+
+/// How the options project.
+[[nodiscard]] Projection projection_of(const VolumeOptions& options);
+
+/// A scene of `volume` seen by the camera that `options` name.
+/// @param aspect width / height of the picture.
+[[nodiscard]] SceneView make_volume_scene(const Input& input, const TangibleVolume& volume,
+                                          const Options& options, double aspect);
+
+}  // namespace palpate

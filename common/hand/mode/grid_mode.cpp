@@ -1,0 +1,225 @@
+#include "common/hand/mode/grid_mode.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/base/text.h"
+#include "common/hand/mode/grid_landmarks.h"
+#include "common/haptics/constraint/grid_axis.h"
+#include "common/haptics/widget/plane_widget_link.h"
+#include "common/haptics/widget/widget_text.h"
+#include "common/math/units.h"
+#include "common/math/vec_text.h"
+
+namespace palpate {
+namespace {
+
+/// A node, the axes and the spacings of a grid, workspace.
+struct Lattice {
+  Vec3 origin{0.0};
+  Mat3 axes{1.0};
+  Vec3 spacing{0.0};
+};
+
+Mat3 axes_of_data(const Workspace& workspace) {
+  return {workspace.turned({1.0, 0.0, 0.0}), workspace.turned({0.0, 1.0, 0.0}),
+          workspace.turned({0.0, 0.0, 1.0})};
+}
+
+/// The points of the data; of a formula or a mesh 64 nodes a diagonal from the lower corner on.
+Lattice lattice_of_data(const HapticScene& scene) {
+  const Workspace& workspace = scene.workspace;
+  Lattice lattice{.axes = axes_of_data(workspace)};
+  const BoxGrid* box = scene.scalar->box_grid();
+  if (box == nullptr) {
+    constexpr double kNodes = 64.0;
+    lattice.origin = workspace.workspace_from_data(scene.scalar->bounds().lower);
+    lattice.spacing = Vec3{workspace.scale() * scene.scalar->diagonal() / kNodes};
+    return lattice;
+  }
+  Vec3 first{0.0};
+  for (int a = 0; a < 3; ++a) {
+    const int last = box->points()[a] - 1;
+    first[a] = box->coordinate(a, 0);
+    lattice.spacing[a] = workspace.local_scale() * (box->coordinate(a, last) - first[a]) / last;
+  }
+  lattice.origin = workspace.workspace_from_local(first);
+  return lattice;
+}
+
+Lattice lattice_of(const HapticScene& scene) {
+  const GridAxisSettings& settings = scene.settings.grid_axis;
+  const Workspace& workspace = scene.workspace;
+  Lattice lattice = lattice_of_data(scene);
+  const Vec3 middle = workspace.workspace_from_data(scene.scalar->bounds().center());
+  const GridFrame& frame = settings.frame;
+  lattice.axes = grid_axes(frame, scene.scalar->frame());
+  if (frame.kind == GridFrame::Kind::kAxes) lattice.origin = middle;
+  if (frame.kind == GridFrame::Kind::kPlane) {
+    const Vec3& normal = lattice.axes[2];
+    const double offset = workspace.scale() * frame.offset / glm::length(frame.first);
+    lattice.origin = middle + (offset - glm::dot(normal, middle)) * normal;
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (settings.spacing[a] > 0.0) lattice.spacing[a] = workspace.scale() * settings.spacing[a];
+  }
+  return lattice;
+}
+
+std::vector<GridAxis::Landmark> landmarks_of(const HapticScene& scene, const Mat3& axes) {
+  const GridAxisSettings& settings = scene.settings.grid_axis;
+  const double scale = scene.workspace.scale();
+  std::vector<GridAxis::Landmark> landmarks;
+  for (int i = 0; i < settings.marks.count; ++i) {
+    const GridMark& mark = settings.marks.mark[static_cast<std::size_t>(i)];
+    const double size = mark.axis < 3 ? 1.0 : glm::length(mark.normal);
+    landmarks.push_back({mark.axis < 3 ? axes[mark.axis] : mark.normal / size, scale * mark.at / size});
+  }
+  for (int a = 0; a < 3 && settings.peaks > 0; ++a) {
+    for (const double at : value_peaks(*scene.scalar, axes, a, settings.peaks))
+      landmarks.push_back({axes[a], scale * at});
+  }
+  return landmarks;
+}
+
+HapticChain make_grid(const HapticScene& scene) {
+  const Lattice lattice = lattice_of(scene);
+  const std::vector<GridAxis::Landmark> landmarks = landmarks_of(scene, lattice.axes);
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<GridAxis>(lattice.origin, lattice.axes, lattice.spacing, landmarks));
+  HapticChain made;
+  made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
+  for (const GridAxis::Landmark& each : landmarks)
+    made.landmarks.emplace_back(each.normal, each.offset / scene.workspace.scale());
+  return made;
+}
+
+HapticChain make_plane_widget(const HapticScene& scene) {
+  const Mat3 axes = axes_of_data(scene.workspace);
+  const Box& bounds = scene.scalar->bounds();
+  ChainSettings settings = scene.settings;
+  PlanePoses& poses = settings.plane_widget.poses;
+  for (int i = 0; i < poses.count; ++i) {
+    PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    // A plane may be given by numbers that say nothing of its middle.
+    const bool inside = glm::clamp(pose.center, bounds.lower, bounds.upper) == pose.center;
+    if (inside) continue;
+    const Vec3 normal = axes_of(pose)[2];
+    pose.center = bounds.center() + glm::dot(pose.center - bounds.center(), normal) * normal;
+  }
+  HapticChain made;
+  made.planes = std::make_shared<WidgetNewsBuffer>();
+  const PlanePose otherwise = turned_to({.center = bounds.center()}, axes[2]);
+  const auto widget = std::make_shared<PlaneWidget>(scene.workspace.scale(), axes, otherwise, made.planes);
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.reserve(PlaneWidget::kLinks);
+  for (int place = 0; place < PlaneWidget::kLinks; ++place)
+    links.push_back(std::make_unique<PlaneWidgetLink>(widget, place));
+  made.chain = std::make_unique<ProxyChain>(std::move(links), settings);
+  return made;
+}
+
+double millimetres(double value, const char* option) {
+  if (std::isfinite(value) && value > 0.0) return kMetresPerMillimetre * value;
+  throw usage_error(std::string(option) + ": a distance above zero in mm is expected");
+}
+
+Vec3 spacing_of(const std::string& text) {
+  if (text.empty()) return Vec3{0.0};
+  Vec3 spacing{0.0};
+  const std::vector<std::string_view> words = split(text, ',');
+  const bool counted = words.size() == 1 || words.size() == 3;
+  for (int a = 0; a < 3 && counted; ++a) {
+    spacing[a] = number(words[static_cast<std::size_t>(a) % words.size()]).value_or(0.0);
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a])) {
+      throw usage_error(
+          "--grid-spacing: a distance above zero in data units is expected, or three with commas "
+          "between; found '" +
+          text + "'");
+    }
+  }
+  return spacing;
+}
+
+void check_read(const std::optional<std::string>& problem, const char* option) {
+  if (problem) throw usage_error(std::string(option) + ": " + *problem);
+}
+
+}  // namespace
+
+HapticMode grid_mode() {
+  return {kGridMode, "led along one axis of a grid at a time, until pulled over to another", make_grid};
+}
+
+HapticMode plane_widget_mode() {
+  return {kPlaneWidgetMode, "finds, moves and turns cutting planes (button: takes hold)", make_plane_widget};
+}
+
+GridAxisSettings grid_settings(const GridWords& words) {
+  GridAxisSettings settings;
+  check_read(read_text(words.frame, settings.frame), "--grid-frame");
+  check_read(read_text(words.marks, settings.marks), "--grid-marks");
+  settings.spacing = spacing_of(words.spacing);
+  bool known = false;
+  for (int i = 0; i < kGridSwitchCount && !known; ++i) {
+    settings.switch_at = static_cast<GridSwitch>(i);
+    known = words.switch_at == name_of(settings.switch_at);
+  }
+  if (!known) throw usage_error("--grid-switch: nodes or marks is expected, found '" + words.switch_at + "'");
+  settings.peaks = words.peaks;
+  if (words.peaks < 0 || words.peaks > GridAxisSettings::kMostPeaks) {
+    throw usage_error("--grid-peaks: a number from 0 to " + std::to_string(GridAxisSettings::kMostPeaks) +
+                      " is expected");
+  }
+  settings.threshold = millimetres(words.pull, "--grid-pull");
+  if (!std::isfinite(words.notch) || words.notch < 0.0)
+    throw usage_error("--grid-notch: a distance of zero or more in mm is expected");
+  settings.notch = kMetresPerMillimetre * words.notch;
+  settings.teeth = words.teeth;
+  if (!(words.teeth >= 0.0 && words.teeth <= 1.0))
+    throw usage_error("--grid-teeth: a number from 0 to 1 is expected");
+  return settings;
+}
+
+PlaneWidgetSettings plane_settings(const PlaneWords& words) {
+  PlaneWidgetSettings settings;
+  check_read(read_text(words.planes, settings.poses), "--planes");
+  constexpr double kMostDetent = 90.0;
+  if (!(words.detent >= 0.0 && words.detent <= kMostDetent))
+    throw usage_error("--detent: an angle from 0 to 90 degrees is expected");
+  settings.detent = words.detent;
+  settings.radius = millimetres(words.sphere, "--plane-sphere");
+  settings.reach = millimetres(words.reach, "--plane-reach");
+  return settings;
+}
+
+std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings) {
+  std::vector<std::pair<std::string, std::string>> options{
+      {"grid-frame", text_of(settings.frame)},
+      {"grid-switch", std::string(name_of(settings.switch_at))},
+      {"grid-peaks", std::to_string(settings.peaks)},
+      {"grid-pull", exact_number(settings.threshold / kMetresPerMillimetre)},
+      {"grid-notch", exact_number(settings.notch / kMetresPerMillimetre)},
+      {"grid-teeth", exact_number(settings.teeth)}};
+  const Vec3& h = settings.spacing;
+  if (h.x > 0.0 && h.y > 0.0 && h.z > 0.0) options.emplace_back("grid-spacing", exact_text(h));
+  if (settings.marks.count > 0) options.emplace_back("grid-marks", text_of(settings.marks));
+  return options;
+}
+
+std::vector<std::pair<std::string, std::string>> plane_options(const PlaneWidgetSettings& settings) {
+  std::vector<std::pair<std::string, std::string>> options{
+      {"detent", exact_number(settings.detent)},
+      {"plane-sphere", exact_number(settings.radius / kMetresPerMillimetre)},
+      {"plane-reach", exact_number(settings.reach / kMetresPerMillimetre)}};
+  if (settings.poses.count > 0) options.emplace_back("planes", text_of(settings.poses));
+  return options;
+}
+
+}  // namespace palpate

@@ -1,0 +1,31 @@
+/// The modes of placing things in a volume: `grid` leads the hand along the axes of a grid
+/// (haptics/constraint/grid_axis.h), `plane-widget` lets it move and turn cutting planes (haptics/widget/).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/hand/mode/haptic_mode.h"
+#include "common/haptics/constraint/grid_axis_settings.h"
+#include "common/haptics/constraint/plane_widget_settings.h"
+#include "common/scene/touch_words.h"
+
+namespace palpate {
+
+inline constexpr const char* kGridMode = "grid";
+inline constexpr const char* kPlaneWidgetMode = "plane-widget";
+
+[[nodiscard]] HapticMode grid_mode();
+[[nodiscard]] HapticMode plane_widget_mode();
+
+/// @throws Error (usage) that names the option, what it expects and what it found.
+[[nodiscard]] GridAxisSettings grid_settings(const GridWords& words);
+[[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneWords& words);
+
+/// The settings as options, names without dashes: the functions above read them back, lengths to rounding.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> plane_options(
+    const PlaneWidgetSettings& settings);
+
+}  // namespace palpate

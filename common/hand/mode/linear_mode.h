@@ -1,0 +1,25 @@
+/// The mode `linear`: a linear constraint (haptics/constraint/linear.h) in directions of the data, by a rule
+/// for each axis. flow and grid share it, and its options.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/hand/mode/haptic_mode.h"
+#include "common/haptics/constraint/linear_settings.h"
+#include "common/scene/touch_words.h"
+
+namespace palpate {
+
+inline constexpr const char* kLinearMode = "linear";
+
+[[nodiscard]] HapticMode linear_mode();
+
+/// @throws Error (usage) that names the option, what it expects and what it found.
+[[nodiscard]] LinearSettings linear_settings(const LinearWords& words);
+
+/// The settings as options, names without dashes: linear_settings() reads them back, thresholds to rounding.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings);
+
+}  // namespace palpate

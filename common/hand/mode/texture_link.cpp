@@ -1,0 +1,40 @@
+#include "common/hand/mode/texture_link.h"
+
+#include "common/base/error.h"
+#include "common/field/noise_field.h"
+#include "common/hand/mode/linear_mode.h"
+#include "common/haptics/constraint/noise_texture.h"
+#include "common/math/units.h"
+
+namespace palpate {
+
+bool has_texture(std::string_view mode) noexcept {
+  return mode == kIsosurfaceMode || mode == "density" || mode == kLinearMode;
+}
+
+std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Constraint>>& links,
+                                               const HapticScene& scene,
+                                               const IsosurfaceConstraint* surface) {
+  if (!scene.settings.texture.by_noise || !scene.scalar) return nullptr;
+  std::shared_ptr<const ScalarField> noise =
+      scene.noise ? scene.noise : make_noise_field(*scene.scalar, scene.threads);
+  if (noise) links.push_back(std::make_unique<NoiseTexture>(noise, scene.workspace, surface));
+  return noise;
+}
+
+TextureSettings texture_settings(const std::string& words) {
+  TextureSettings settings{.by_noise = words != "off"};
+  if (words == "off" || words == "on") return settings;
+  const auto problem = HapticTransferFunction::read(words, settings.grain, kMetresPerMillimetre);
+  if (problem)
+    throw usage_error("--noise-texture: off, on, or a curve NOISE:MM,NOISE:MM is expected: " + *problem);
+  if (!settings.valid()) throw usage_error("--noise-texture: grains of zero or more in mm are expected");
+  return settings;
+}
+
+std::string texture_words(const TextureSettings& settings) {
+  if (!settings.by_noise) return "off";
+  return settings.grain == TextureSettings{}.grain ? "on" : settings.grain.text(kMetresPerMillimetre);
+}
+
+}  // namespace palpate

@@ -1,0 +1,31 @@
+/// The texture that tells of noise, at the end of the chain of a mode.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/hand/mode/haptic_mode.h"
+#include "common/haptics/constraint/isosurface.h"
+#include "common/haptics/constraint/texture_settings.h"
+
+namespace palpate {
+
+/// Whether the mode of that name appends a texture where one is asked for.
+[[nodiscard]] bool has_texture(std::string_view mode) noexcept;
+
+/// Appends a texture by the noise of scene.scalar to `links` where scene.settings.texture asks for one.
+/// @param surface as of NoiseTexture.
+/// @return that noise; null where nothing was appended, as for scalars on other than box grids.
+[[nodiscard]] std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Constraint>>& links,
+                                                             const HapticScene& scene,
+                                                             const IsosurfaceConstraint* surface = nullptr);
+
+/// What `--noise-texture` says: "off", "on", or the curve of the grain [mm].
+/// @throws Error (usage) that says what is expected.
+[[nodiscard]] TextureSettings texture_settings(const std::string& words);
+/// The inverse of texture_settings().
+[[nodiscard]] std::string texture_words(const TextureSettings& settings);
+
+}  // namespace palpate

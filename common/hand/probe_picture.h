@@ -1,0 +1,32 @@
+/// What the picture shows of a hand that has followed a recorded path: the headless twin of the window.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/device/device.h"
+#include "common/device/probe_path.h"
+#include "common/hand/mode/haptic_mode.h"
+#include "common/haptics/proxy_chain.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// Time between stream balls [data units].
+[[nodiscard]] double ball_interval(const VectorField& field, const Workspace& workspace) noexcept;
+
+/// The proxies of all links [data units], in the order of the chain.
+[[nodiscard]] std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace);
+
+/// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
+/// line that is followed then, and where the first proxy has been.
+[[nodiscard]] ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
+                                    const DeviceLimits& limits, ColorBy color_by);
+
+/// The speed for which a velocity's arrow has its full length: that of the fastest lines, without outliers.
+[[nodiscard]] double reference_speed(const SceneView& view);
+
+/// Makes the scene's own lines step back, so that what the hand does stands out.
+void fade_lines(SceneView& view);
+
+}  // namespace palpate

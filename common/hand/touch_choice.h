@@ -1,0 +1,43 @@
+/// What the user can choose about touch, and how the command line says it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/hand/drawn/drawn_tract.h"
+#include "common/haptics/chain_settings.h"
+#include "common/render/probe_view.h"
+
+namespace palpate {
+
+/// What the user can choose about touch, as panels edit it.
+struct TouchChoice {
+  std::size_t mode = 0;  ///< index into the modes
+  ChainSettings settings;
+  bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
+  bool show_balls = true;
+  bool show_path = true;
+  bool show_surface = true;               ///< isosurfaces that are felt
+  StrokeUse stroke = StrokeUse::kAppend;  ///< of tracts that are drawn by hand
+  bool fade_rest = true;                  ///< the scene's own lines step back while a hand is on the probe
+  SeedShape local = SeedShape::kNone;
+
+  bool operator==(const TouchChoice&) const = default;
+};
+
+/// "append", as `--stroke` says it.
+[[nodiscard]] std::string_view name_of(StrokeUse use) noexcept;
+/// @throws Error (usage) that lists the known ones.
+[[nodiscard]] StrokeUse stroke_use_from_name(std::string_view name);
+
+/// The choice as options of the command line and their values.
+/// @param mode name of choice.mode.  @param tensors whether these are what is felt: their program takes no
+/// options of flows and scalars.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> touch_options_of(const TouchChoice& choice,
+                                                                                const std::string& mode,
+                                                                                bool tensors);
+
+}  // namespace palpate

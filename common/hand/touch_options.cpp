@@ -1,0 +1,226 @@
+#include "common/hand/touch_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "common/base/error.h"
+#include "common/base/number_text.h"
+#include "common/hand/mode/grid_mode.h"
+#include "common/hand/mode/haptic_mode.h"
+#include "common/hand/mode/linear_mode.h"
+#include "common/hand/mode/texture_link.h"
+#include "common/haptics/proxy_chain.h"
+#include "common/math/units.h"
+#include "common/scene/session.h"
+
+namespace palpate {
+namespace {
+
+/// From how many links on a chain is under the passivity controller.
+double links_to_control(const std::string& passivity) {
+  if (passivity == "auto") return PassivitySettings{}.from_links;
+  if (passivity == "on") return 1.0;
+  if (passivity == "off") return ChainStep::kMaxLinks + 1.0;
+  throw usage_error("--passivity: auto, on or off is expected, found '" + passivity + "'");
+}
+
+IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
+  IsosurfaceSettings settings{.depth = kMetresPerMillimetre * options.depth,
+                              .snap_distance = kMetresPerMillimetre * options.snap,
+                              .along_streamline = options.along_streamline};
+  if (!options.isovalues.empty()) {
+    for (const std::string_view word : split(options.isovalues, ',')) {
+      Isovalues& all = settings.isovalues;
+      if (all.count == Isovalues::kMax) throw usage_error("--isovalue: at most eight values are taken");
+      double& value = all.value[static_cast<std::size_t>(all.count++)];
+      const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
+        throw usage_error("--isovalue: numbers with commas between are expected, found '" +
+                          options.isovalues + "'");
+      }
+    }
+  }
+  bool known = false;
+  for (int i = 0; i < kIsosurfaceHoldCount && !known; ++i) {
+    settings.hold = static_cast<IsosurfaceHold>(i);
+    known = options.surface == name_of(settings.hold);
+  }
+  if (!known) {
+    throw usage_error("--surface: wall, below, above or layer is expected, found '" + options.surface + "'");
+  }
+  if (!(settings.depth > 0.0)) throw usage_error("--depth: a number above zero is expected");
+  if (!(settings.snap_distance <= settings.depth)) {
+    throw usage_error("--snap: a distance no larger than --depth is expected");
+  }
+  return settings;
+}
+
+}  // namespace
+
+Workspace touch_workspace(const TouchOptions& options, double diagonal, const LocalFrame& frame) {
+  const double scale =
+      options.workspace_scale > 0.0 ? options.workspace_scale : Workspace::default_scale(diagonal);
+  return {scale, frame};
+}
+
+ChainSettings touch_settings(const TouchOptions& options) {
+  ChainSettings settings;
+  settings.stiffness = options.stiffness;
+  settings.damping = options.damping;
+  settings.passivity.from_links = links_to_control(options.passivity);
+  settings.streamline = {.release_distance = kMetresPerMillimetre * options.release,
+                         .speed_force = options.speed_force};
+  settings.drag.threshold = kMetresPerMillimetre * options.drag;
+  settings.isosurface = isosurface_settings(options);
+  settings.fibre = {.spacing = kMetresPerMillimetre * options.fibre_spacing,
+                    .least_friction = kMetresPerMillimetre * options.least_friction,
+                    .most_friction = kMetresPerMillimetre * options.most_friction};
+  settings.ticks.stiffness = options.tick_stiffness;
+  settings.linear = linear_settings(options.linear);
+  settings.texture = texture_settings(options.noise_texture);
+  settings.grid_axis = grid_settings(options.grid);
+  settings.plane_widget = plane_settings(options.planes);
+  settings.force_field.strength = options.field_force;
+  settings.force_field.damping = options.field_damping;
+  if (!options.density_curve.empty()) {
+    const auto problem = HapticTransferFunction::read(options.density_curve, settings.force_field.density);
+    if (problem) throw usage_error("--density-curve: " + *problem);
+    if (!settings.force_field.valid()) throw usage_error("--density-curve: parts from 0 to 1 are expected");
+  }
+  if (!options.anisotropy_curve.empty()) {
+    const auto problem =
+        HapticTransferFunction::read(options.anisotropy_curve, settings.anisotropy.tau, kMetresPerMillimetre);
+    if (problem) throw usage_error("--anisotropy-curve: " + *problem);
+    if (!settings.anisotropy.valid()) {
+      throw usage_error(
+          "--anisotropy-curve: 0 mm at anisotropy 0, and never falling from there, is expected, "
+          "found '" +
+          options.anisotropy_curve + "'");
+    }
+  }
+  if (wants_ticks(options) && options.ticks != "auto") {
+    const char* const end = options.ticks.data() + options.ticks.size();
+    const auto parsed = std::from_chars(options.ticks.data(), end, settings.ticks.interval);
+    if (parsed.ec != std::errc() || parsed.ptr != end || !(settings.ticks.interval >= 0.0)) {
+      throw usage_error("--ticks: 'auto' or a time in data units is expected, found '" + options.ticks + "'");
+    }
+  }
+  if (!std::isfinite(settings.damping) || settings.damping < 0.0) {
+    throw usage_error("--damping: a number of zero or more is expected");
+  }
+  if (!(settings.fibre.spacing > 0.0)) throw usage_error("--fibre-spacing: a number above zero is expected");
+  if (!settings.fibre.valid())
+    throw usage_error("--most-friction: a distance no smaller than --least-friction is expected");
+  if (!(settings.streamline.release_distance > 0.0))
+    throw usage_error("--release: a number above zero is expected");
+  if (!std::isfinite(settings.ticks.interval)) throw usage_error("--ticks: a finite time is expected");
+  if (!(settings.ticks.stiffness >= 0.0 && settings.ticks.stiffness <= 1.0)) {
+    throw usage_error("--tick-stiffness: a number from 0 to 1 is expected");
+  }
+  if (!std::isfinite(settings.streamline.speed_force))
+    throw usage_error("--speed-force: a finite force is expected");
+  if (!std::isfinite(settings.force_field.strength)) {
+    throw usage_error("--field-force: a finite force is expected");
+  }
+  return settings;
+}
+
+ChainSettings touch_settings(const TouchOptions& options, const VectorField* field,
+                             const Workspace& workspace) {
+  ChainSettings settings = touch_settings(options);
+  if (field != nullptr && wants_ticks(options) && settings.ticks.interval == 0.0) {
+    settings.ticks.interval = default_tick_interval(*field, workspace);
+  }
+  return settings;
+}
+
+void check_replay_options(const Options& options) {
+  if (options.replay.empty()) return;
+  constexpr std::array<std::string_view, 43> kRecorded{"anisotropy-curve",
+                                                       "grid-frame",
+                                                       "grid-spacing",
+                                                       "grid-marks",
+                                                       "grid-switch",
+                                                       "grid-peaks",
+                                                       "grid-pull",
+                                                       "grid-notch",
+                                                       "grid-teeth",
+                                                       "planes",
+                                                       "detent",
+                                                       "plane-sphere",
+                                                       "plane-reach",
+                                                       "fibre-spacing",
+                                                       "least-friction",
+                                                       "most-friction",
+                                                       "mode",
+                                                       "workspace-scale",
+                                                       "stiffness",
+                                                       "release",
+                                                       "drag",
+                                                       "ticks",
+                                                       "tick-stiffness",
+                                                       "speed-force",
+                                                       "force-cap",
+                                                       "slew-cap",
+                                                       "isovalue",
+                                                       "surface",
+                                                       "depth",
+                                                       "snap",
+                                                       "along-streamline",
+                                                       "field-force",
+                                                       "field-damping",
+                                                       "density-curve",
+                                                       "damping",
+                                                       "passivity",
+                                                       "reference",
+                                                       "axes",
+                                                       "tau",
+                                                       "kappa",
+                                                       "measure",
+                                                       "friction",
+                                                       "noise-texture"};
+  for (const auto& [name, value] : options.given) {
+    if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
+      throw usage_error("--" + name + " is part of the recording; leave it out with --replay");
+    }
+  }
+  if (options.device != "mouse") throw usage_error("give either --replay or --device, not both");
+}
+
+std::vector<std::string> changed_since(const RecordingHeader& header, const Options& options,
+                                       Progress& progress) {
+  std::vector<SessionInput> open;
+  for (const auto& file : options.input.files) open.push_back(describe_input(file, false, &progress));
+  if (options.input.solution) open.push_back(describe_input(*options.input.solution, true, &progress));
+  std::vector<std::string> changed;
+  for (std::size_t i = 0; i < std::max(open.size(), header.inputs.size()); ++i) {
+    if (i >= open.size()) {
+      changed.push_back("it was recorded on " + header.inputs[i].file + ", which is not open");
+    } else if (i >= header.inputs.size()) {
+      changed.push_back(open[i].file.string() + " was not open when it was recorded");
+    } else if (open[i].bytes != header.inputs[i].bytes ||
+               (!header.inputs[i].sha256.empty() && open[i].sha256 != header.inputs[i].sha256)) {
+      changed.push_back(open[i].file.string() + " is not the file that was recorded as " +
+                        header.inputs[i].file);
+    }
+  }
+  for (const auto& [key, value] : header.values) {
+    if (key == "example" && value != options.input.example) {
+      changed.push_back("it was recorded on example " + value);
+    }
+  }
+  return changed;
+}
+
+DeviceLimits touch_limits(const TouchOptions& options) {
+  DeviceLimits limits;
+  limits.force_cap = options.force_cap;
+  limits.slew_cap = options.slew_cap;
+  if (!limits.valid()) throw usage_error("--force-cap and --slew-cap must be above zero");
+  return limits;
+}
+
+}  // namespace palpate

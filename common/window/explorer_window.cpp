@@ -1,0 +1,162 @@
+#include "common/window/explorer_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <GLFW/glfw3.h>
+
+#include "common/base/clock.h"
+#include "common/render/gl/gpu_objects.h"
+#include "common/render/gl/target.h"
+#include "common/render/png.h"
+#include "common/window/event_text.h"
+#include "common/window/keys.h"
+
+namespace palpate {
+namespace {
+
+// Rest between two looks at the world while something moves [s], and while only a job runs: without a
+// graphics card each picture of its progress takes processors from it.
+constexpr double kBusyRest = 1.0 / 60.0, kJobRest = 0.1;
+
+}  // namespace
+
+ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
+    : model_(model),
+      options_(options),
+      job_(start_model(model)),
+      files_(options.picture_folder, options.program),
+      glfw_(options),
+      view_(options.view),
+      region_control_(options.region),
+      focal_point_(options.focal_point) {
+  GLFWwindow* const window = glfw_.get();
+  glfwSwapInterval(scripted() ? 0 : 1);
+  float scale = 1.0F;
+  glfwGetWindowContentScale(window, &scale, nullptr);
+  constexpr float kTextHeight = 14.0F;
+  gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
+  live_ = std::make_unique<LivePicture>(options_.frame_budget);
+  touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
+  touch_control_ = std::make_unique<TouchControl>(*touch_);
+  if (options_.bench) {
+    bench_ = std::make_unique<BenchDisplay>(*options_.bench);
+    if (options_.bench->several) {
+      screens_ = std::make_unique<ScreenWindows>(glfw_, *options_.bench, view_.stereo, options_.hidden);
+      // The desktop is one more display, for one eye that rests.
+      view_.stereo.mode = StereoMode::kNone;
+    }
+  }
+  state_.touch = touch_.get();
+  state_.region = &region_control_;
+  state_.recent = options_.recent;
+  state_.plotted = options_.plotted;
+  state_.play_rate = options_.play_rate;
+}
+
+WindowResult ExplorerWindow::run() {
+  Stopwatch frame_clock;
+  while (!closes()) {
+    wait_for_events();
+    if (options_.stop_requested && options_.stop_requested()) break;
+    take_outcome();
+    const bool counted = scene_.has_value() && !job_->running();
+    if (counted) inject(frame_);
+    if (touch_->replaying()) inject_replayed();
+    const double seconds = frame_clock.seconds();
+    frame_clock.restart();
+    draw_frame(seconds);
+    if (counted && ++frame_ == options_.frames) {
+      if (!options_.screenshot.empty()) save_screenshot();
+      break;
+    }
+    glfwSwapBuffers(glfw_.get());
+    if (bench_) bench_->finished(BenchDisplay::now());
+  }
+  touch_->finish();
+  WindowResult result{.frames = frame_,
+                      .recent = state_.recent,
+                      .view = view_,
+                      .settings = state_.settings,
+                      .message = state_.message,
+                      .region = region_control_.box(),
+                      .probe = touch_->readout(),
+                      .tensor = state_.tensor,
+                      .replay = touch_->replay_verdict(),
+                      .series = plot_.curve()};
+  if (screens_) result.screens = screens_->read();
+  if (bench_) result.latency = bench_->latency();
+  std::tie(result.width, result.height) = glfw_.size();
+  result.median_frame_ms = live_->median_milliseconds();
+  result.quality = live_->figures().quality;
+  result.tables_by = live_->tables_by();
+  result.gpu = gpu_objects();
+  return result;
+}
+
+void ExplorerWindow::wait_for_events() {
+  if (scripted() && !job_->running()) {
+    glfwPollEvents();
+    return;
+  }
+  // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
+  if (live_->complete() && glfw_.events().empty()) {
+    glfwWaitEventsTimeout(lively() ? kBusyRest : job_->running() ? kJobRest : kIdleRest);
+  } else {
+    glfwPollEvents();  // there is work to do meanwhile: more tracts, or events that the last frame has left
+  }
+  lively_frames_ = glfw_.events().empty() ? std::max(0, lively_frames_ - 1) : 3;
+}
+
+bool ExplorerWindow::lively() const {
+  return lively_frames_ > 0 || state_.playing || touch_->lively() || (bench_ && bench_->lively());
+}
+
+bool ExplorerWindow::closes() {
+  if (screens_ && screens_->close_asked()) glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+  if (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) return false;
+  if (leave_ || !asked_about(std::nullopt)) return true;
+  glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
+  return false;
+}
+
+void ExplorerWindow::inject(int frame) {
+  for (const ScriptedEvent& scripted : options_.script) {
+    if (scripted.frame == frame) glfw_.events().push_back(scripted.event);
+  }
+}
+
+void ExplorerWindow::inject_replayed() {
+  for (const std::string& text : touch_->due_events()) {
+    const auto event = event_from_text(text);
+    if (!event) continue;
+    const auto command = command_of(*event);
+    if (command == Command::kQuit || command == Command::kFullScreen || command == Command::kSavePicture ||
+        command == Command::kSaveSession || command == Command::kSaveLines) {
+      continue;
+    }
+    glfw_.events().push_back(*event);
+  }
+  if (const std::string verdict = touch_->replay_verdict(); verdict != state_.replay_verdict) {
+    state_.replay_verdict = verdict;
+    say("replay " + verdict, false);
+  }
+}
+
+void ExplorerWindow::say(const std::string& message, bool is_error) {
+  state_.message = message;
+  state_.message_is_error = is_error;
+}
+
+void ExplorerWindow::save_screenshot() {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(glfw_.get(), &width, &height);
+  write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
+}
+
+}  // namespace palpate

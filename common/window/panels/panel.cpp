@@ -1,0 +1,195 @@
+#include "common/window/panels/panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <imgui.h>
+
+#include "common/window/panels/line_panel.h"
+#include "common/window/panels/panel_parts.h"
+#include "common/window/panels/picture_panels.h"
+#include "common/window/panels/tensor_panel.h"
+#include "common/window/panels/time_panel.h"
+#include "common/window/panels/volume_panel.h"
+
+namespace palpate {
+namespace {
+
+std::string name_of(const InputFiles& input) {
+  std::string name;
+  for (const auto& file : input.files) name += (name.empty() ? "" : " ") + file.filename().string();
+  return input.solution ? name + " " + input.solution->filename().string() : name;
+}
+
+// What was open before; the line above says what is open now.
+void draw_recent(const PanelState& state, PanelActions& actions) {
+  const InputFiles& now = state.scene->info->files;
+  const auto other = [&](const InputFiles& input) { return !(input == now); };
+  if (std::none_of(state.recent.begin(), state.recent.end(), other)) return;
+  if (!ImGui::BeginCombo("##recent", "open recent")) return;
+  for (const InputFiles& input : state.recent) {
+    if (!other(input)) continue;
+    ImGui::PushID(&input);
+    if (ImGui::Selectable(name_of(input).c_str())) actions.open = input;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.files.front().string().c_str());
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+}
+
+void draw_input(const SceneState& scene) {
+  section("INPUT");
+  ImGui::TextWrapped("%s", scene.info->name.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  for (const std::string& fact : scene.info->facts) ImGui::TextWrapped("%s", fact.c_str());
+  ImGui::PopStyleColor();
+}
+
+void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors,
+                  std::optional<TractView>& tracts) {
+  const bool field = tensors.image->field != nullptr;
+  section(field ? "TENSORS" : "SLICES");
+  if (field) {
+    choose_word("field", state.settings.field, scene.info->fields);
+    draw_time(state, scene.info->times);
+  }
+  draw_tensor_panel(tensors, scene.info->anatomical);
+  section("UNDERLAY");
+  if (draw_underlay_panel(tensors, state.settings.underlay)) state.settings.underlay.clear();
+  section("TRACTS");
+  if (field) {
+    draw_tract_panel(state.tract_seeds, state.settings, tensors, tracts);
+  } else if (tracts) {
+    draw_tract_look(*tracts);
+  }
+}
+
+void draw_line_look(LineStyle& style) {
+  constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
+  ImGui::SliderScalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
+                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderScalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
+                      ImGuiSliderFlags_AlwaysClamp);
+  ImGui::Checkbox("halos", &style.halo);
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  ImGui::Checkbox("fade with depth", &style.depth_cue);
+}
+
+void draw_look(SceneView& view, PanelActions& actions) {
+  section("LOOK");
+  const bool lines = view.lines && !view.lines->empty();
+  if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_look(view.style);
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
+  bool light = view.background == Background::kLight;
+  bool perspective = view.camera.projection == Projection::kPerspective;
+  ImGui::Checkbox("outline", &view.show_outline);
+  ImGui::SameLine(half);
+  ImGui::Checkbox("axes", &view.show_axes);
+  ImGui::Checkbox("colour bar", &view.show_color_bar);
+  ImGui::SameLine(half);
+  if (ImGui::Checkbox("light", &light)) view.background = light ? Background::kLight : Background::kDark;
+  if (ImGui::Checkbox("perspective", &perspective)) {
+    view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
+  }
+  ImGui::Spacing();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
+  constexpr std::array kLooks{std::pair{"x", Command::kLookAlongX}, std::pair{"y", Command::kLookAlongY},
+                              std::pair{"z", Command::kLookAlongZ}};
+  for (const auto& [axis, command] : kLooks) {
+    if (ImGui::Button(axis, ImVec2{(size.x - 2.0F * gap) / 3.0F, 0.0F})) actions.look = command;
+    ImGui::SameLine();
+  }
+  ImGui::TextUnformatted("look along");
+  actions.reset_camera |= ImGui::Button("Reset view", size);
+  ImGui::SameLine();
+  actions.save_picture |= ImGui::Button("Save picture", size);
+  actions.save_session |= ImGui::Button("Save session", size);
+}
+
+void draw_job(const Progress& job, PanelActions& actions) {
+  const double fraction = job.fraction();
+  const std::string stage = job.stage().empty() ? "working" : job.stage();
+  if (fraction < 0.0) {
+    // Unknown length: a bar that fills up with time and starts again.
+    const auto seconds = static_cast<float>(job.seconds_in_stage());
+    ImGui::ProgressBar(seconds - std::floor(seconds), {-FLT_MIN, 0.0F}, stage.c_str());
+  } else {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "%s %.0f %%", stage.c_str(), 100.0 * fraction);
+    ImGui::ProgressBar(static_cast<float>(fraction), {-FLT_MIN, 0.0F}, text.data());
+  }
+  actions.cancel |= ImGui::Button("Cancel", {-FLT_MIN, 0.0F});
+}
+
+}  // namespace
+
+WindowLayout layout(int width, int height, float text_height) {
+  WindowLayout result;
+  // A narrow window keeps at least half of its width for the picture.
+  result.panel_width = std::min(std::round(21.0 * text_height), std::floor(0.5 * width));
+  result.status_height = std::round(2.4 * text_height);
+  result.picture = {result.panel_width, 0.0, std::max(1.0, width - result.panel_width),
+                    std::max(1.0, height - result.status_height)};
+  return result;
+}
+
+PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout) {
+  PanelActions actions;
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize({static_cast<float>(layout.panel_width),
+                            static_cast<float>(layout.picture.height + layout.status_height)});
+  ImGui::Begin("panel", nullptr, kFixedPanel);
+  ImGui::PushItemWidth(0.62F * ImGui::GetContentRegionAvail().x);
+  if (state.job != nullptr) draw_job(*state.job, actions);
+  if (state.scene != nullptr) {
+    draw_input(*state.scene);
+    draw_recent(state, actions);
+    if (state.touch != nullptr && state.touch->available()) {
+      section("TOUCH");
+      actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
+    }
+    if (state.scene->tensors && view.tensors) {
+      draw_tensors(state, *state.scene, *view.tensors, view.tracts);
+      if (view.volume) draw_anisotropy(state, *state.scene, *view.volume, actions);
+    } else if (view.tracts) {
+      section("TRACTS");
+      draw_tract_look(*view.tracts);
+    } else if (state.scene->is_volume_alone() && view.volume) {
+      draw_volume(state, *state.scene, *view.volume, actions);
+    } else {
+      if (state.scene->info->layers) {
+        draw_layer(state, *state.scene, view.camera);
+      } else {
+        draw_lines(state, *state.scene);
+      }
+      draw_color(state, *state.scene, view);
+      if (!state.scene->info->volumes.empty()) draw_flow_volume(state, *state.scene, view.volume, actions);
+    }
+    draw_look(view, actions);
+    for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
+      for (const std::string& note : *notes) {
+        ImGui::Spacing();
+        ImGui::TextWrapped("%s", note.c_str());
+      }
+    }
+  }
+  ImGui::Spacing();
+  ImGui::TextDisabled("H  keys and mouse");
+  ImGui::PopItemWidth();
+  ImGui::End();
+  if (state.series && state.scene != nullptr) {
+    actions.time = draw_series_plot(*state.series, series_plot_area(layout.picture, ImGui::GetFontSize()),
+                                    state.scene->info->units);
+  }
+  draw_picture_panels(state, layout);
+  return actions;
+}
+
+}  // namespace palpate

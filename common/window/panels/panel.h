@@ -1,0 +1,81 @@
+/// The panel at the left of the window, and the layout of its parts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/compose/window_model.h"
+#include "common/render/scene_view.h"
+#include "common/render/tensor/tensor_pick.h"
+#include "common/window/controls/seed_choice.h"
+#include "common/window/controls/view_control.h"
+#include "common/window/live_picture.h"
+#include "common/window/panels/region_panel.h"
+#include "common/window/panels/series_panel.h"
+#include "common/window/panels/touch_panel.h"
+#include "common/window/panels/tract_panel.h"
+#include "common/window/panels/transfer_panel.h"
+
+namespace palpate {
+
+/// What panel and status line show and change.
+struct PanelState {
+  const SceneState* scene = nullptr;  ///< null until the first one is there
+  const Progress* job = nullptr;      ///< null while none runs
+  SceneSettings settings;             ///< edited
+  SeedChoice seeds;                   ///< edited; goes into the settings
+  PictureFigures picture;             ///< of the picture that was drawn
+  std::string message;
+  bool message_is_error = false;
+  bool show_help = false;
+  bool show_rates = false;
+  std::vector<std::pair<std::string, std::string>> head_rows;  ///< of a tracked head, told with the rates
+  bool playing = false;
+  double play_rate = 0.0;            ///< time steps a second
+  std::string plotted;               ///< edited; empty: nothing
+  bool keep_steps = false;           ///< edited: those that were read for the plot stay in memory
+  std::optional<SeriesPlot> series;  ///< none where nothing is plotted
+  RegionControl* region = nullptr;   ///< of a volume
+  ProbeSession* touch = nullptr;     ///< null or not available(): no such part
+  bool grabbed = false;
+  bool marking = false;                     ///< clicks mark places
+  TractSeedChoice tract_seeds;              ///< edited; goes into the settings when tracts are traced
+  std::optional<TensorPick> tensor;         ///< under the mouse
+  std::vector<InputFiles> recent;           ///< newest first
+  std::string replay_verdict;               ///< that was said
+  std::string lines_file = "followed.vtp";  ///< edited
+  std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
+  KeptHistogram histogram;                                               ///< of the volume
+};
+
+/// What the user asked for in this frame.
+struct PanelActions {
+  bool cancel = false;
+  bool reset_camera = false;
+  std::optional<Command> look;  ///< along an axis
+  bool save_picture = false;
+  bool save_session = false;
+  std::optional<InputFiles> open;  ///< one of the recent inputs
+  bool save_transfer = false;      ///< that of the context to PanelState::transfer_file
+  bool save_focus = false;         ///< that of new lenses to PanelState::focus_file
+  std::optional<double> time;      ///< of the step nearest to it
+  TouchActions touch;
+  RegionActions region;
+  std::optional<std::size_t> lens;  ///< that the mouse is to move
+};
+
+/// Parts of the window [pixels].
+struct WindowLayout {
+  double panel_width = 0.0;
+  double status_height = 0.0;
+  PictureArea picture;
+};
+
+[[nodiscard]] WindowLayout layout(int width, int height, float text_height);
+
+/// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
+[[nodiscard]] PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout);
+
+}  // namespace palpate

@@ -1,0 +1,218 @@
+#include "common/window/panels/picture_panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "common/base/text.h"
+#include "common/window/keys.h"
+#include "common/window/panels/readout_rows.h"
+#include "common/window/panels/tensor_panel.h"
+
+namespace palpate {
+namespace {
+
+ImVec2 place(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+/// "0.432 s"
+std::string seconds_text(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g s", seconds);
+  return text.data();
+}
+
+std::string status_text(const SceneState& scene) {
+  if (scene.is_volume_alone()) {
+    const VolumeImage& image = *scene.volume->image;
+    return size_text(scene) + ", values " + short_number(image.lowest) + " to " +
+           short_number(image.highest) + "   loaded in " + seconds_text(scene.seconds_load);
+  }
+  if (scene.tensors || scene.tracts) {
+    std::string text = size_text(scene) + "   loaded in " + seconds_text(scene.seconds_load);
+    if (scene.tracts && scene.tensors) {
+      text += "   " + counted(scene.tracts->bundle->order.size(), "tract");
+      if (scene.seeds > 0)
+        text += " from " + counted(scene.seeds, "seed") + " in " + seconds_text(scene.seconds_trace);
+    }
+    return text;
+  }
+  std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
+  if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
+  const char* separator = ": ";
+  for (int k = 0; k < kEndCount; ++k) {
+    const std::size_t count = scene.ends[static_cast<std::size_t>(k)];
+    if (count == 0) continue;
+    std::string name(name_of(static_cast<End>(k)));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += separator + std::to_string(count) + " " + name;
+    separator = ", ";
+  }
+  std::array<char, 32> error{};
+  std::snprintf(error.data(), error.size(), "%.1e", scene.error_max);
+  return text + "   error below " + error.data() + "   traced in " + seconds_text(scene.seconds_trace);
+}
+
+/// What is given up, first what is given up first, and the time.
+std::string frame_text(const PanelState& state) {
+  std::string text;
+  const FrameQuality& quality = state.picture.quality;
+  std::array<char, 128> part{};
+  const auto give_up = [&](double share, const char* what) {
+    if (share >= 1.0) return;
+    std::snprintf(part.data(), part.size(), "%.0f %% of the %s, ", 100.0 * share, what);
+    text += part.data();
+  };
+  give_up(quality.context, "samples");
+  give_up(quality.viewport, "resolution around lenses");
+  give_up(quality.resolution, "resolution");
+  give_up(quality.focus, "samples in lenses");
+  if (const auto& n = state.picture.coarser_voxels) {
+    std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n->x, n->y, n->z);
+    text += part.data();
+  }
+  if (const BrickShare& bricks = state.picture.bricks; bricks.all > 0) {
+    std::snprintf(part.data(), part.size(), "bricks: %zu of %zu, %zu in all, %llu in, %llu out, %.0f MB, ",
+                  bricks.held, bricks.wanted, bricks.all, static_cast<unsigned long long>(bricks.entered),
+                  static_cast<unsigned long long>(bricks.left),
+                  std::ldexp(static_cast<double>(bricks.bytes), -20));
+    text += part.data();
+  }
+  if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
+    text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
+  if (const auto& error = state.picture.error) {
+    std::snprintf(part.data(), part.size(), "error %.2g/255, worst %.0f, ", 255.0 * error->rms,
+                  255.0 * error->worst);
+    text += part.data();
+  }
+  if (const auto& error = state.picture.expected_error) {
+    std::snprintf(part.data(), part.size(), "error about %.2g/255, ", 255.0 * *error);
+    text += part.data();
+  }
+  std::snprintf(part.data(), part.size(), "%.1f ms", state.picture.milliseconds);
+  return text + part.data();
+}
+
+void draw_status(const PanelState& state, const WindowLayout& layout) {
+  ImGui::SetNextWindowPos(place(layout.picture.left, layout.picture.top + layout.picture.height));
+  ImGui::SetNextWindowSize(place(layout.picture.width, layout.status_height));
+  ImGui::Begin("status", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
+  const std::string frame = frame_text(state);
+  const float frame_width = ImGui::CalcTextSize(frame.c_str()).x;
+  const float right = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
+
+  // Cut where the time begins; all of it is in the tooltip.
+  const std::string words = !state.message.empty()   ? state.message
+                            : state.scene != nullptr ? status_text(*state.scene)
+                                                     : std::string();
+  const ImVec2 corner = ImGui::GetWindowPos();
+  ImGui::PushClipRect(
+      corner, {corner.x + right - frame_width - ImGui::GetFontSize(), corner.y + ImGui::GetWindowHeight()},
+      true);
+  if (state.message_is_error && !state.message.empty()) {
+    ImGui::TextColored({0.93F, 0.36F, 0.30F, 1.0F}, "%s", words.c_str());
+  } else {
+    ImGui::TextUnformatted(words.c_str());
+  }
+  ImGui::PopClipRect();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
+  ImGui::SameLine(right - frame_width);
+  ImGui::TextDisabled("%s", frame.c_str());
+  ImGui::End();
+}
+
+void draw_help(PanelState& state, const WindowLayout& layout) {
+  if (!state.show_help) return;
+  ImGui::SetNextWindowPos(place(layout.picture.left + 0.5 * layout.picture.width,
+                                layout.picture.top + 0.5 * layout.picture.height),
+                          ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowBgAlpha(0.94F);
+  ImGui::Begin(
+      "Keys and mouse", &state.show_help,
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    const auto row = [](const char* name, const char* what) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", name);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what);
+    };
+    row("left drag", "turn about the focal point");
+    row("middle drag", "pan");
+    row("right drag, wheel", "zoom");
+    row("drop files", "open them");
+    row("wheel", "while a lens follows the mouse: its size; with Ctrl along the view");
+    row("Ctrl and drag on a plane", "its image: right widens the window, up raises the level");
+    row("click", "put the crosshair of slices there; drag it with Ctrl");
+    row("wheel on a slice", "move it; Ctrl and the wheel zoom");
+    row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
+    if (state.touch != nullptr && state.touch->planes()) {
+      row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
+      row("drag a plane's ring", "move the plane; along an axis on that alone");
+    } else if (state.touch != nullptr && state.touch->takes_hold()) {
+      row("drag with the probe",
+          "on the grid: carry the view along it, or the face of a region that it is at");
+    }
+    if (state.touch != nullptr && state.touch->scalar() && !state.touch->has_flow())
+      row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");
+    for (const KeyBinding& binding : key_bindings()) {
+      if (*binding.name != '\0') row(binding.name, binding.what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+/// Read-outs over the picture, below its title: the colour bars are on the other side.
+void draw_readouts(const PanelState& state, const WindowLayout& layout) {
+  const float em = ImGui::GetFontSize();
+  const float left = static_cast<float>(layout.picture.left) + em;
+  constexpr float kTitle = 6.0F;  // heights of the text
+  float top = static_cast<float>(layout.picture.top) + kTitle * em;
+  if (state.touch != nullptr) {
+    const float height = draw_probe_readout(*state.touch, state.histogram.last(), left, top);
+    if (height > 0.0F) top += height + 0.5F * em;
+  }
+  if (state.tensor) top += draw_tensor_readout(*state.tensor, left, top) + 0.5F * em;
+  if (!state.show_rates) return;
+  ImGui::SetNextWindowPos({left, top});
+  ImGui::SetNextWindowBgAlpha(0.7F);
+  ImGui::Begin("rates", nullptr, kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ReadoutRows rows("rates");
+  rows.add("picture", "%.1f ms", state.picture.milliseconds);
+  rows.add("frames", "%.1f /s", state.picture.frames_per_second);
+  if (const auto& error = state.picture.error) {
+    rows.add("image error", "%.2g +- %.1g /255, worst %.0f", 255.0 * error->rms, 255.0 * error->spread,
+             255.0 * error->worst);
+    rows.add("looked at", "%.0f pixels in %.0f ms", static_cast<double>(error->pixels), error->milliseconds);
+  }
+  if (state.scene != nullptr) {
+    std::size_t points = 0;
+    for (const Line& line : *state.scene->lines) points += line.points.size();
+    rows.add("points", "%.0f", static_cast<double>(points));
+    rows.add("load", "%.3g s", state.scene->seconds_load);
+    rows.add("trace", "%.3g s", state.scene->seconds_trace);
+  }
+  for (const auto& [name, value] : state.head_rows) rows.add(name.c_str(), "%s", value.c_str());
+  if (state.touch != nullptr) add_servo_rates(*state.touch, rows);
+  rows.finish();
+  ImGui::End();
+}
+
+}  // namespace
+
+std::string size_text(const SceneState& scene) {
+  if (scene.tracts && !scene.tensors) return counted(scene.tracts->bundle->order.size(), "tract");
+  if (!scene.tensors && !scene.is_volume_alone()) return counted(scene.lines->size(), "line");
+  const Index3& n = scene.volume ? scene.volume->image->points : scene.tensors->image->points;
+  return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";
+}
+
+void draw_picture_panels(PanelState& state, const WindowLayout& layout) {
+  draw_status(state, layout);
+  draw_readouts(state, layout);
+  draw_help(state, layout);
+}
+
+}  // namespace palpate

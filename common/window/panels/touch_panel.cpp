@@ -1,0 +1,264 @@
+#include "common/window/panels/touch_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "common/base/text.h"
+#include "common/hand/servo_rows.h"
+#include "common/render/probe_view.h"
+#include "common/window/panels/curve_panel.h"
+#include "common/window/panels/isosurface_panel.h"
+#include "common/window/panels/panel_parts.h"
+#include "common/window/panels/plane_panel.h"
+#include "common/window/panels/readout_rows.h"
+#include "common/window/panels/tensor_panel.h"
+
+namespace palpate {
+namespace {
+
+void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
+  if (!ImGui::BeginCombo("mode", modes[choice.mode].name.c_str())) return;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (ImGui::Selectable(modes[i].name.c_str(), i == choice.mode)) choice.mode = i;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", modes[i].summary.c_str());
+  }
+  ImGui::EndCombo();
+}
+
+void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
+  constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0,
+                   kHeaviest = 20.0;
+  ChainSettings& settings = choice.settings;
+  slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
+  double release = kMillimetres * settings.streamline.release_distance,
+         drag = kMillimetres * settings.drag.threshold;
+  if (flow && slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
+    settings.streamline.release_distance = release / kMillimetres;
+  if (flow && slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
+  if (mode == "direct" || mode == "vortex") {
+    slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
+  }
+  if (mode == "transverse" || mode == "density") {
+    slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
+  }
+  if (!flow) return;
+  slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
+  ImGui::Checkbox("tick marks", &choice.ticks);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
+  if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
+}
+
+void choose_stroke(StrokeUse& use) {
+  constexpr std::array<std::pair<StrokeUse, const char*>, 2> kUses{
+      {{StrokeUse::kAppend, "goes on from an end"}, {StrokeUse::kReplace, "replaces the last"}}};
+  if (!ImGui::BeginCombo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second)) return;
+  for (const auto& [each, words] : kUses) {
+    if (ImGui::Selectable(words, each == use)) use = each;
+  }
+  ImGui::EndCombo();
+}
+
+/// The name of the file, and its ending for those who have only a mouse.
+void choose_file(std::string& file, float width) {
+  constexpr std::array<const char*, 4> kEndings{".tck", ".trk", ".vtp", ".csv"};
+  const float ending_width = 4.5F * ImGui::GetFontSize();
+  std::filesystem::path path(file);
+  const std::string ending = path.extension().string();
+  ImGui::SetNextItemWidth(width - ending_width - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::InputText("##file", &file);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ending_width);
+  if (ImGui::BeginCombo("##ending", ending.c_str())) {
+    for (const char* each : kEndings) {
+      if (ImGui::Selectable(each, ending == each)) file = path.replace_extension(each).string();
+    }
+    ImGui::EndCombo();
+  }
+}
+
+/// @param surfaces words for those that are felt; null: none are.
+void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfaces) {
+  if (surfaces != nullptr) ImGui::Checkbox(surfaces, &choice.show_surface);
+  if (!flow) {
+    ImGui::Checkbox("path", &choice.show_path);
+    return;
+  }
+  ImGui::Checkbox("stream balls", &choice.show_balls);
+  ImGui::SameLine(half);
+  ImGui::Checkbox("path", &choice.show_path);
+  ImGui::Checkbox("fade the other lines", &choice.fade_rest);
+  constexpr std::array<const char*, 3> kShapes{"none", "rake", "plane"};
+  int shape = static_cast<int>(choice.local);
+  if (ImGui::Combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {
+    choice.local = static_cast<SeedShape>(shape);
+  }
+}
+
+/// Rows of its own height, however many are kept: nothing below them moves.
+void list_kept(ProbeSession& session) {
+  constexpr float kRows = 3.0F;
+  const KeptLines& kept = session.kept();
+  ImGui::BeginChild("kept", {0.0F, kRows * ImGui::GetTextLineHeightWithSpacing()});
+  if (kept.entries().empty())
+    ImGui::TextDisabled(session.has_tensors() ? "no tract is kept" : "no line is kept");
+  std::optional<std::size_t> removed;
+  for (std::size_t i = 0; i < kept.entries().size(); ++i) {
+    const KeptLines::Entry& entry = kept.entries()[i];
+    const Rgb color = kept_color(entry.number);
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::TextColored({color.r, color.g, color.b, 1.0F}, "%d", entry.number);
+    ImGui::SameLine();
+    ImGui::Text("length %s, up to %.2f N", short_number(entry.line->points.back().arc).c_str(),
+                entry.largest_force);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("x")) removed = i;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("delete (Ctrl+Z takes it back)");
+    ImGui::PopID();
+  }
+  // The last stays in sight when one is added.
+  if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0F);
+  ImGui::EndChild();
+  if (removed) session.remove_kept(*removed);
+}
+
+}  // namespace
+
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, SceneView& view,
+                              bool marking) {
+  TouchActions actions;
+  if (!session.available()) return actions;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float half_width = 0.5F * (ImGui::GetContentRegionAvail().x - gap);
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
+  const ImVec2 size{half_width, 0.0F};
+
+  if (session.replaying()) {
+    const std::string verdict = session.replay_verdict();
+    ImGui::TextWrapped("%s", verdict.empty() ? "replaying" : verdict.c_str());
+  }
+  const bool tensors = session.has_tensors();
+  const char* grab = tensors ? "Draw tracts  (G)" : "Grab  (G)";
+  const char* let_go = tensors ? "Stop drawing  (G)" : "Let go  (G)";
+  actions.grab = ImGui::Button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), size);
+  ImGui::SameLine();
+  if (session.readout().servo.armed) {
+    if (ImGui::Button("Force off  (F12)", size)) session.force_off();
+  } else if (ImGui::Button("Force on again", size)) {
+    session.arm();
+  }
+  TouchChoice choice = session.choice();
+  choose_mode(choice, session.modes());
+  edit_settings(choice, session.modes()[choice.mode].name, session.has_flow());
+  edit_curves(choice, session.modes()[choice.mode].name, session);
+  const FeltLevels felt = session.felt_levels();
+  edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
+                   session.modes()[choice.mode].name, session.has_flow());
+  edit_texture(choice.settings.texture, session.modes()[choice.mode].name, session);
+  edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
+  if (tensors) choose_stroke(choice.stroke);
+  const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
+  const char* const surfaces = layers ? "show felt layers" : "show isosurface";
+  choose_looks(choice, half, session.has_flow(), felt.field ? surfaces : nullptr);
+  session.choose(choice);
+  edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
+  if (const std::string note = session.stiffness_note(); !note.empty())
+    ImGui::TextWrapped("%s", note.c_str());
+
+  if (session.has_flow() || tensors) {
+    actions.keep = ImGui::Button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
+    ImGui::SameLine();
+  }
+  if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
+  if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
+  if (session.scalar() && !session.has_flow() && view.volume)
+    edit_notes(session, *view.volume, marking, actions);
+  if (!session.has_flow() && !tensors) return actions;
+  ImGui::BeginDisabled(session.kept().entries().empty() && session.drawn().empty());
+  if (tensors) {
+    choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
+    ImGui::SameLine();
+    actions.save_lines = ImGui::Button("Save tracts", {-FLT_MIN, 0.0F});
+  } else {
+    ImGui::SetNextItemWidth(half_width);
+    ImGui::InputText("##file", &file);
+    ImGui::SameLine();
+    actions.save_lines = ImGui::Button("Save lines", size);
+  }
+  ImGui::EndDisabled();
+  list_kept(session);
+  return actions;
+}
+
+float draw_probe_readout(const ProbeSession& session, const ValueHistogram* histogram, float left,
+                         float top) {
+  const ProbeReadout& readout = session.readout();
+  if (!readout.held) return 0.0F;
+  ImGui::SetNextWindowPos({left, top});
+  ImGui::SetNextWindowBgAlpha(0.7F);
+  constexpr ImGuiWindowFlags kFlags =
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs;
+  ImGui::Begin("probe", nullptr, kFlags);
+  const auto words = [](std::string_view name) {
+    std::string text(name);
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+  };
+  std::string state = words(name_of(readout.state));
+  if (readout.cut != ForceCut::kNone) state += " (" + words(name_of(readout.cut)) + ")";
+  ReadoutRows rows("readout");
+  rows.add("probe", "%s", state.c_str());
+  rows.add("at", "%.5g  %.5g  %.5g", readout.proxy.x, readout.proxy.y, readout.proxy.z);
+  if (!readout.cell.empty()) rows.add("cell", "%s", readout.cell.c_str());
+  if (readout.sampled) {
+    rows.add("value", "%.4g  %.4g  %.4g", readout.velocity.x, readout.velocity.y, readout.velocity.z);
+    rows.add("speed", "%.4g", glm::length(readout.velocity));
+  } else if (session.has_flow()) {
+    rows.add("value", "none here");
+  }
+  if (readout.tensor && session.has_tensors()) {
+    add_tensor_rows(*readout.tensor, rows);
+  } else if (readout.tensor) {
+    add_fibre_rows(*readout.tensor, rows);
+  } else if (session.has_tensors()) {
+    rows.add("tensor", "none here");
+  }
+  if (readout.scalar) {
+    rows.add(readout.scalar_name.c_str(), "%.5g", *readout.scalar);
+    constexpr double kPercent = 100.0;
+    if (histogram != nullptr)
+      rows.add("values below", "%.1f %%", kPercent * part_below(*histogram, *readout.scalar));
+    if (readout.noise) rows.add("noise", "%.2f %% of the range", kPercent * *readout.noise);
+  } else if (!readout.scalar_name.empty()) {
+    rows.add(readout.scalar_name.c_str(), "none here");
+  }
+  rows.add("force", "%.2f N", readout.force);
+  rows.add("stretch", "%.2f mm", readout.stretch);
+  rows.add("residual", "%.1e", readout.residual);
+  rows.finish();
+  const float height = ImGui::GetWindowHeight();
+  ImGui::End();
+  return height;
+}
+
+void add_servo_rates(const ProbeSession& session, ReadoutRows& rows) {
+  if (!session.available()) return;
+  for (const ServoRow& row : servo_rows(session.readout().servo)) {
+    rows.add(row.name.c_str(), "%s", row.value.c_str());
+  }
+  if (const std::string limit = session.passive_limit(); !limit.empty()) {
+    rows.add("stiffness", "%s", limit.c_str());
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,66 @@
+#include "common/window/panels/unsaved_question.h"
+
+#include <array>
+
+#include <imgui.h>
+
+namespace palpate {
+namespace {
+
+constexpr int kEscapeKey = 256;  // GLFW's number
+constexpr const char* kId = "###unsaved";
+
+struct Choice {
+  const char* words;
+  int key;
+  UnsavedQuestion::Answer answer;
+};
+constexpr std::array<Choice, 3> kChoices{{{"Save  (S)", 'S', UnsavedQuestion::Answer::kSave},
+                                          {"Discard  (D)", 'D', UnsavedQuestion::Answer::kDiscard},
+                                          {"Cancel  (Esc)", kEscapeKey, UnsavedQuestion::Answer::kCancel}}};
+
+}  // namespace
+
+void UnsavedQuestion::ask(std::string words, std::optional<InputFiles> opens) {
+  words_ = std::move(words);
+  opens_ = std::move(opens);
+  key_ = Answer::kNone;
+}
+
+bool UnsavedQuestion::handle(const InputEvent& event) {
+  if (!asking()) return false;
+  if (event.kind == InputKind::kKeyDown) {
+    for (const Choice& choice : kChoices) {
+      if (event.key == choice.key) key_ = choice.answer;
+    }
+    return true;
+  }
+  return event.kind == InputKind::kPress || event.kind == InputKind::kWheel || event.kind == InputKind::kDrop;
+}
+
+UnsavedQuestion::Answer UnsavedQuestion::draw() {
+  if (!asking()) return Answer::kNone;
+  if (!ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+  Answer answer = key_;
+  if (ImGui::BeginPopupModal(kId, nullptr, kFlags)) {
+    constexpr float kTextWidth = 26.0F, kButtonWidth = 8.0F;  // heights of the text
+    ImGui::PushTextWrapPos(kTextWidth * ImGui::GetFontSize());
+    ImGui::TextUnformatted(words_.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Spacing();
+    for (const Choice& choice : kChoices) {
+      if (ImGui::Button(choice.words, {kButtonWidth * ImGui::GetFontSize(), 0.0F})) answer = choice.answer;
+      ImGui::SameLine();
+    }
+    if (answer != Answer::kNone) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+  }
+  if (answer != Answer::kNone) words_.clear();
+  return answer;
+}
+
+}  // namespace palpate

@@ -1,0 +1,61 @@
+/// Files that a window writes on request, and their names.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/geometry/annotation.h"
+#include "common/hand/drawn/kept_lines.h"
+#include "common/load/write_image.h"
+#include "common/render/lens/lens.h"
+#include "common/render/png.h"
+#include "common/render/scene_view.h"
+#include "common/render/volume/volume_image.h"
+
+namespace palpate {
+
+/// Writes into one folder, never over a file that this window has not written itself.
+/// Every function returns the absolute path that it wrote, and throws Error where it cannot.
+class SavedFiles {
+ public:
+  /// @param program  the stem of pictures' names
+  SavedFiles(const std::filesystem::path& folder, std::string program);
+
+  /// Saves kept lines or tracts under `name`, numbered where a file of others is in the way; `name` becomes
+  /// what was taken, so that the next time writes the same file again: as long as all that is in it is still
+  /// kept, else the next number is taken.
+  std::filesystem::path save_lines(const KeptLines& lines, std::string& name);
+  /// How many of `lines` are in no file that this window has written.
+  [[nodiscard]] std::size_t unsaved(const KeptLines& lines) const;
+  /// Saves a lens's transfer function under `name`: as a table, or its regions.
+  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& look) const;
+  /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
+  [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
+                                                       const std::string& ending) const;
+  /// Saves the voxels of `image` in `region` as `crop` and `ending`, .nii.gz, .nrrd or .vti, under the first
+  /// number that is free: in single precision, the lowest value where there is none, as `grid clip` does.
+  /// @pre some are in it.
+  [[nodiscard]] std::filesystem::path save_region(const VolumeImage& image, const Box& region,
+                                                  const std::string& ending, ImageSpace space) const;
+  /// Saves a picture under the first number that is free.
+  [[nodiscard]] std::filesystem::path save_picture(const Image& image,
+                                                   const std::vector<PngText>& texts) const;
+
+ private:
+  /// `stem` and `ending` in the folder, numbered where that is taken.
+  [[nodiscard]] std::filesystem::path free_name(const std::string& stem, const std::string& ending) const;
+
+  std::filesystem::path folder_;
+  std::string program_;
+  using Lines = std::set<std::shared_ptr<const Line>>;
+  std::filesystem::path own_lines_;    // the file of lines that this window has written: it may do so again
+  std::filesystem::path asked_lines_;  // the name of that file as it was asked for, without a number
+  Lines in_own_file_, saved_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,136 @@
+#include "common/window/shown_scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/base/text.h"
+#include "common/window/controls/color_lens_control.h"
+#include "common/window/panels/picture_panels.h"
+
+namespace palpate {
+namespace {
+
+void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<VolumeView> before = std::exchange(view.volume, scene.volume);
+  view.anatomical = scene.info->anatomical;
+  view.volume_label = scene.volume_label;
+  if (!view.volume || !before || new_input) return;
+  view.volume->shading = before->shading;
+  view.volume->samples_per_voxel = before->samples_per_voxel;
+  view.volume->far_sampling = before->far_sampling;
+  view.volume->shown = before->shown;
+  view.volume->lenses = before->lenses;
+  view.volume->cuts = before->cuts;
+  view.volume->planes = before->planes;
+  if (scene.tensors) {  // edited in the view alone
+    view.volume->transfer = before->transfer;
+    view.volume->regions = before->regions;
+    view.volume->colored = before->colored;
+    return;
+  }
+  // Lenses go on with their field by its name; one that is gone gives way to that of the context.
+  const std::vector<VolumeField>& fields = view.volume->fields;
+  for (Lens& lens : view.volume->lenses) {
+    if (lens.cut) continue;
+    const std::size_t field_before = lens.field;
+    if (lens.field > 0) {
+      const auto now = std::find_if(fields.begin(), fields.end(), [&](const VolumeField& field) {
+        return field.name == before->fields[lens.field - 1].name;
+      });
+      lens.field = now == fields.end() ? 0 : static_cast<std::size_t>(now - fields.begin()) + 1;
+    }
+    const bool gone = field_before > 0 && lens.field == 0;
+    if (lens.own_transfer && !gone) continue;
+    const Lens look = scene.look(lens.field);
+    lens.transfer = look.transfer;
+    lens.regions = look.regions;
+    lens.own_transfer = false;
+  }
+}
+
+void show_tracts(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<TractView> before = std::exchange(view.tracts, scene.tracts);
+  if (!view.tracts || !before || new_input) return;
+  const auto bundle = view.tracts->bundle;
+  view.tracts = before;
+  view.tracts->bundle = bundle;
+}
+
+// Another time step of an image keeps its slices.
+void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<TensorView> before = std::exchange(view.tensors, scene.tensors);
+  if (!view.tensors) return;
+  if (!before || new_input) {
+    view.style.color_by = ColorBy::kDirection;
+    return;
+  }
+  const TensorVoxels& voxels = *view.tensors->image;
+  TensorView kept = *before;
+  kept.image = view.tensors->image;
+  kept.underlay = view.tensors->underlay;
+  if (kept.underlay && before->underlay) {
+    kept.underlay->blend = before->underlay->blend;
+    if (kept.underlay->image == before->underlay->image) kept.underlay->window = before->underlay->window;
+  }
+  if (!voxels.contains(voxels.grid_coordinates(kept.position))) kept.position = view.tensors->position;
+  view.tensors = std::move(kept);
+}
+
+// A lens stays where it is, whatever it shows.
+void show_lens(const SceneState& scene, bool new_input, SceneView& view) {
+  const std::optional<ColorLens> before = std::exchange(view.color_lens, scene.color_lens);
+  if (!view.color_lens) return;
+  if (before && !new_input) {
+    view.color_lens->center = before->center;
+    view.color_lens->radius = before->radius;
+  } else if (!(view.color_lens->radius > 0.0)) {
+    place_lens(view, *view.color_lens);
+  }
+}
+
+// Colours by `array`, or where there is none by a quantity of the lines.
+void color_lines(const SceneState& scene, LineStyle& style) {
+  const std::shared_ptr<const LineArray>& array = scene.color_array;
+  const bool by_array = style.color_by == ColorBy::kArray;
+  const bool same = by_array && array && style.array && style.array->name == array->name;
+  if (!same && (array || by_array)) {
+    style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
+    style.range.reset();
+    style.logarithmic.reset();
+    if (scene.style) style.color_map = scene.style->color_map;
+  }
+  style.array = array;
+}
+
+}  // namespace
+
+void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
+  view.lines = scene.lines;
+  view.surfaces = scene.surfaces;
+  show_lens(scene, new_input, view);
+  color_lines(scene, view.style);
+  view.bounds = scene.info->bounds;
+  view.outline = scene.info->outline;
+  view.units = scene.info->units;
+  view.title = scene.info->name;
+  const std::string& field = scene.settings.field;
+  view.subtitle = (field.empty() ? "" : field + ", ") + size_text(scene);
+  const std::vector<double>& times = scene.info->times;
+  if (times.size() > 1 && scene.settings.time_step < times.size()) {
+    view.subtitle += ", time " + short_number(times[scene.settings.time_step]);
+  }
+  show_volume(scene, new_input, view);
+  show_tensors(scene, new_input, view);
+  show_tracts(scene, new_input, view);
+  if (!new_input) return;
+  if (scene.style) {
+    view.style = *scene.style;
+  } else {
+    view.style.range.reset();
+  }
+}
+
+}  // namespace palpate

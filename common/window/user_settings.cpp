@@ -1,0 +1,168 @@
+#include "common/window/user_settings.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <toml++/toml.h>
+
+#include "common/base/error.h"
+#include "common/base/output_file.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kSmallest = 200, kLargest = 20'000;  // [screen coordinates] of a window's edge
+
+/// The folder of an XDG variable, which has to be absolute to count.
+std::optional<std::filesystem::path> folder_of(const char* variable, const char* below_home) {
+  const char* const given = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): read only
+  if (given != nullptr && std::filesystem::path(given).is_absolute()) return std::filesystem::path(given);
+  const char* const home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe): read only
+  if (home == nullptr || !std::filesystem::path(home).is_absolute()) return std::nullopt;
+  return std::filesystem::path(home) / below_home;
+}
+
+toml::table read_table(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  std::ifstream in(path);
+  if (!in || std::filesystem::is_directory(path)) return {};
+  std::ostringstream text;
+  text << in.rdbuf();
+  try {
+    return toml::parse(text.str(), path.string());
+  } catch (const toml::parse_error& error) {
+    notes.push_back(path.string() + ": line " + std::to_string(error.source().begin.line) + ": " +
+                    std::string(error.description()) + "; the defaults are used");
+    return {};
+  }
+}
+
+void read_edge(const toml::node_view<const toml::node>& node, int& edge) {
+  const auto value = node.value<std::int64_t>();
+  if (value && *value >= kSmallest && *value <= kLargest) edge = static_cast<int>(*value);
+}
+
+void read_switch(const toml::node_view<const toml::node>& node, bool& on) { on = node.value_or(on); }
+
+std::optional<InputFiles> read_input(const toml::node& node) {
+  const toml::table* const table = node.as_table();
+  const toml::array* const files = table != nullptr ? (*table)["files"].as_array() : nullptr;
+  if (files == nullptr) return std::nullopt;
+  InputFiles input;
+  for (const toml::node& file : *files) {
+    if (const auto name = file.value<std::string>()) input.files.emplace_back(*name);
+  }
+  if (const auto name = (*table)["solution"].value<std::string>()) input.solution = *name;
+  return input.files.empty() ? std::nullopt : std::optional(input);
+}
+
+void write_table(const std::filesystem::path& path, const toml::table& table) {
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error) throw work_error(path.parent_path().string() + ": cannot be made: " + error.message());
+  std::ostringstream text;
+  text << table << '\n';
+  OutputFile file(path, true);
+  file.write(text.str());
+  file.finish();
+}
+
+toml::table settings_table(const UserSettings& settings) {
+  const Look& look = settings.look;
+  return toml::table{
+      {"window", toml::table{{"width", settings.width}, {"height", settings.height}}},
+      {"look", toml::table{{"background", look.background == Background::kLight ? "light" : "dark"},
+                           {"perspective", look.projection == Projection::kPerspective},
+                           {"outline", look.outline},
+                           {"axes", look.axes},
+                           {"color_bar", look.color_bar},
+                           {"halo", look.halo},
+                           {"depth_cue", look.depth_cue}}}};
+}
+
+toml::table recent_table(const UserSettings& settings) {
+  toml::array inputs;
+  for (const InputFiles& input : settings.recent) {
+    toml::array files;
+    for (const auto& file : input.files) files.push_back(file.string());
+    toml::table table{{"files", std::move(files)}};
+    if (input.solution) table.insert("solution", input.solution->string());
+    inputs.push_back(std::move(table));
+  }
+  return toml::table{{"input", std::move(inputs)}};
+}
+
+}  // namespace
+
+Look look_of(const SceneView& view) noexcept {
+  return {.background = view.background,
+          .projection = view.camera.projection,
+          .outline = view.show_outline,
+          .axes = view.show_axes,
+          .color_bar = view.show_color_bar,
+          .halo = view.style.halo,
+          .depth_cue = view.style.depth_cue};
+}
+
+void apply_look(const Look& look, SceneView& view) noexcept {
+  view.background = look.background;
+  view.camera.projection = look.projection;
+  view.show_outline = look.outline;
+  view.show_axes = look.axes;
+  view.show_color_bar = look.color_bar;
+  view.style.halo = look.halo;
+  view.style.depth_cue = look.depth_cue;
+}
+
+void remember(std::vector<InputFiles>& recent, const InputFiles& input) {
+  if (input.files.empty()) return;
+  std::vector<InputFiles> now{input};
+  for (InputFiles& old : recent) {
+    if (now.size() < UserSettings::kMostRecent && !(old == input)) now.push_back(std::move(old));
+  }
+  recent = std::move(now);
+}
+
+std::optional<UserFiles> user_files(const std::string& program) {
+  const auto config = folder_of("XDG_CONFIG_HOME", ".config");
+  const auto state = folder_of("XDG_STATE_HOME", ".local/state");
+  if (!config || !state) return std::nullopt;
+  return UserFiles{*config / "palpate" / (program + ".toml"),
+                   *state / "palpate" / (program + "-recent.toml")};
+}
+
+UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>& notes) {
+  UserSettings settings;
+  const toml::table table = read_table(files.settings, notes);
+  const auto window = table["window"], look = table["look"];
+  read_edge(window["width"], settings.width);
+  read_edge(window["height"], settings.height);
+  if (look["background"].value_or(std::string_view()) == "light") {
+    settings.look.background = Background::kLight;
+  }
+  if (!look["perspective"].value_or(true)) settings.look.projection = Projection::kOrthographic;
+  read_switch(look["outline"], settings.look.outline);
+  read_switch(look["axes"], settings.look.axes);
+  read_switch(look["color_bar"], settings.look.color_bar);
+  read_switch(look["halo"], settings.look.halo);
+  read_switch(look["depth_cue"], settings.look.depth_cue);
+
+  const toml::table recent = read_table(files.recent, notes);
+  if (const toml::array* inputs = recent["input"].as_array()) {
+    for (std::size_t i = inputs->size(); i-- > 0;) {
+      if (const auto input = read_input((*inputs)[i])) remember(settings.recent, *input);
+    }
+  }
+  return settings;
+}
+
+void save_user_settings(const UserFiles& files, const UserSettings& settings, const UserSettings& before) {
+  const bool same_settings =
+      settings.width == before.width && settings.height == before.height && settings.look == before.look;
+  if (!same_settings) write_table(files.settings, settings_table(settings));
+  if (settings.recent != before.recent) write_table(files.recent, recent_table(settings));
+}
+
+}  // namespace palpate

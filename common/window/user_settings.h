@@ -1,0 +1,62 @@
+/// What a user finds again the next time: how the window looks, and what was open lately.
+///
+///   $XDG_CONFIG_HOME/palpate/flow.toml         size of the window and look; made to be edited
+///   $XDG_STATE_HOME/palpate/flow-recent.toml   inputs, the newest first
+///
+/// where an unset variable means ~/.config and ~/.local/state (XDG Base Directory Specification 0.8). What
+/// the command line says wins.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/compose/window_model.h"
+#include "common/render/scene_view.h"
+
+namespace palpate {
+
+/// The part of a view that belongs to the user and not to the data.
+struct Look {
+  Background background = Background::kDark;
+  Projection projection = Projection::kPerspective;
+  bool outline = true, axes = true, color_bar = true;
+  bool halo = true, depth_cue = true;
+
+  bool operator==(const Look&) const = default;
+};
+[[nodiscard]] Look look_of(const SceneView& view) noexcept;
+void apply_look(const Look& look, SceneView& view) noexcept;
+
+struct UserSettings {
+  static constexpr std::size_t kMostRecent = 10;
+
+  int width = 1440, height = 900;  ///< [screen coordinates]
+  Look look;
+  std::vector<InputFiles> recent;  ///< newest first, each once
+
+  bool operator==(const UserSettings&) const = default;
+};
+
+/// Puts `input` first; the oldest ones beyond UserSettings::kMostRecent are forgotten. Examples are not kept.
+void remember(std::vector<InputFiles>& recent, const InputFiles& input);
+
+/// Where a program keeps them.
+struct UserFiles {
+  std::filesystem::path settings;
+  std::filesystem::path recent;
+};
+/// None where neither the variables nor HOME name an absolute folder.
+[[nodiscard]] std::optional<UserFiles> user_files(const std::string& program);
+
+/// What the files say, and the defaults for what they do not: a missing file, a wrong type or a size that no
+/// window has is no error. A file that is no TOML is named in `notes`.
+[[nodiscard]] UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>& notes);
+
+/// Writes the file whose part differs from `before`, making its folder where there is none.
+/// @throws Error (work failed).
+void save_user_settings(const UserFiles& files, const UserSettings& settings, const UserSettings& before);
+
+}  // namespace palpate

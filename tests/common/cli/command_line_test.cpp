@@ -1,0 +1,133 @@
+#include "common/cli/command_line.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+Explorer sample_explorer() {
+  Explorer explorer{.name = "flow", .summary = "to test"};
+  const auto nothing = [](const Options&, const VerbContext&) { return ExitCode::kDone; };
+  explorer.verbs.push_back({.name = "info", .summary = "s", .groups = {}, .examples = {}, .run = nothing});
+  explorer.verbs.push_back({.name = "trace",
+                            .summary = "s",
+                            .groups = {.tracing = true, .out = true},
+                            .examples = {},
+                            .run = nothing});
+  explorer.verbs.push_back({.name = "open",
+                            .summary = "s",
+                            .groups = {.tracing = true, .view = true},
+                            .examples = {},
+                            .run = nothing});
+  return explorer;
+}
+
+const Explorer& explorer() {
+  static const Explorer kExplorer = sample_explorer();
+  return kExplorer;
+}
+
+ParsedCommand parse(const std::vector<std::string>& arguments) {
+  return parse_command_line(explorer(), arguments);
+}
+
+std::string refusal(const std::vector<std::string>& arguments) {
+  try {
+    (void)parse(arguments);
+  } catch (const Error& error) {
+    return std::to_string(static_cast<int>(error.code())) + " " + error.what();
+  }
+  return "accepted";
+}
+
+TEST(CommandLine, OpensAFileWhereNoVerbIsNamed) {
+  const ParsedCommand parsed = parse({"a.vtk", "b.vtk"});
+  EXPECT_EQ(parsed.verb->name, "open");
+  EXPECT_EQ(parsed.options.input.files, (std::vector<std::filesystem::path>{"a.vtk", "b.vtk"}));
+  EXPECT_EQ(parse({}).verb->name, "open");
+  EXPECT_EQ(parse({"--example", "abc"}).verb->name, "open");
+}
+
+TEST(CommandLine, TakesOptionsBeforeTheVerb) {
+  const ParsedCommand parsed = parse({"--json", "--threads", "3", "--field", "info", "trace", "a.vtk"});
+  EXPECT_EQ(parsed.verb->name, "trace");
+  EXPECT_TRUE(parsed.options.common.json);
+  EXPECT_EQ(parsed.options.common.threads, 3);
+  EXPECT_EQ(parsed.options.input.field, "info");  // the value of an option is no verb
+}
+
+TEST(CommandLine, ReadsValuesThatBeginWithAMinus) {
+  const ParsedCommand parsed = parse(
+      {"open", "a.vtk", "--camera", "-30,-20,0,1", "--stop-plane", "-1,0,0,5", "--stop-plane", "0,0,1,2"});
+  EXPECT_EQ(parsed.options.view.camera, "-30,-20,0,1");
+  EXPECT_EQ(parsed.options.tracing.stop_planes, (std::vector<std::string>{"-1,0,0,5", "0,0,1,2"}));
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(refusal({"info", "--nonsense"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--tolerance", "-1"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--tolerance", "0"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--tolerance", "nan"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--max-length", "inf"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--max-steps", "0"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--threads", "-1"}).front(), '2');
+  EXPECT_EQ(refusal({"trace", "a.vtk", "--direction", "up"}).front(), '2');
+  EXPECT_EQ(refusal({"info", "a.vtk", "--seeds", "grid:1,1,1"}).front(), '2');  // info makes no lines
+  EXPECT_NE(refusal({"info", "--nonsense"}).find("flow info --help"), std::string::npos);
+}
+
+TEST(CommandLine, AnswersHelpAndVersionWithoutAVerb) {
+  EXPECT_EQ(parse({"--help"}).verb, nullptr);
+  EXPECT_NE(parse({"--version"}).text.find("flow"), std::string::npos);
+  EXPECT_NE(parse({"trace", "--help"}).text.find("--seeds"), std::string::npos);
+  EXPECT_EQ(parse({"info", "--help"}).text.find("--seeds"), std::string::npos);
+}
+
+class SessionOnTheCommandLine : public ::testing::Test {
+ protected:
+  std::string session(const std::string& scene) {
+    return folder_
+        .write("s.toml", "format = 1\nprogram = \"flow\"\n[[input]]\nfile = \"a b.vtk\"\n[scene]\n" + scene)
+        .string();
+  }
+  TempFolder folder_;
+};
+
+TEST_F(SessionOnTheCommandLine, GivesFilesAndOptions) {
+  const auto file = session(
+      "seeds = \"grid:2,2,2\"\nfield = \"v w\"\ncamera = \"-1,2,3,4\"\nseed = \"9\"\nstop-plane = "
+      "\"1,0,0,1;0,1,0,2\"\n");
+  const ParsedCommand parsed = parse({"open", "--session", file});
+  EXPECT_EQ(parsed.options.input.files, std::vector<std::filesystem::path>{folder_.path("a b.vtk")});
+  EXPECT_EQ(parsed.options.tracing.seeds, "grid:2,2,2");
+  EXPECT_EQ(parsed.options.input.field, "v w");
+  EXPECT_EQ(parsed.options.view.camera, "-1,2,3,4");
+  EXPECT_EQ(parsed.options.common.seed, 9U);
+  EXPECT_EQ(parsed.options.tracing.stop_planes.size(), 2U);
+}
+
+TEST_F(SessionOnTheCommandLine, GivesWayToWhatIsTyped) {
+  const auto file = session("seeds = \"grid:2,2,2\"\nfield = \"v\"\n");
+  const ParsedCommand parsed = parse({"open", "other.vtk", "--field", "w", "--session", file});
+  EXPECT_EQ(parsed.options.input.files, std::vector<std::filesystem::path>{"other.vtk"});
+  EXPECT_EQ(parsed.options.input.field, "w");
+  EXPECT_EQ(parsed.options.tracing.seeds, "grid:2,2,2");
+}
+
+TEST_F(SessionOnTheCommandLine, LeavesOutWhatTheVerbHasNoUseFor) {
+  const auto file = session("seeds = \"grid:2,2,2\"\ncamera = \"1,2,3,4\"\n");
+  EXPECT_EQ(parse({"info", "--session", file}).options.input.files.size(), 1U);
+  EXPECT_EQ(parse({"trace", "--session", file}).options.tracing.seeds, "grid:2,2,2");
+}
+
+TEST_F(SessionOnTheCommandLine, NamesAnOptionThatIsNone) {
+  EXPECT_EQ(refusal({"open", "--session", session("colour = \"red\"\n")}).front(), '3');
+  EXPECT_EQ(refusal({"open", "--session", session("tolerance = \"tight\"\n")}).front(), '2');
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,200 @@
+// A window that shows a volume in place of lines.
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/field/analytic/volume_examples.h"
+#include "common/field/color_transfer_file.h"
+#include "common/window/controls/region_control.h"
+#include "common/window/panels/panel.h"
+#include "common/window/panels/picture_panels.h"
+#include "common/window/window.h"
+
+namespace palpate {
+namespace {
+
+/// A built-in volume with two fields, in preset colours.
+class VolumeModel : public WindowModel {
+ public:
+  SceneState start(Progress&) override {
+    SceneSettings settings;
+    settings.field = "scalars";
+    return make(settings);
+  }
+  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
+  SceneState update(const SceneSettings& settings, Progress&) override {
+    ++updated;
+    return make(settings);
+  }
+  std::string save_session(const SceneSettings&, const SceneView& view,
+                           const std::vector<std::pair<std::string, std::string>>& set) override {
+    set_saved = set;
+    samples_saved = view.volume ? view.volume->samples_per_voxel : 0.0;
+    return "voxel.toml";
+  }
+
+  std::atomic<int> updated{0};
+  std::atomic<double> samples_saved{0.0};
+  std::vector<std::pair<std::string, std::string>> set_saved;
+
+  static Box bounds() { return image()->bounds(); }
+
+ private:
+  static std::shared_ptr<const VolumeImage> image() {
+    static const auto voxel = make_volume_image(volume_example("voxel"), kVolumeArray, "voxel");
+    return voxel;
+  }
+  static SceneState make(const SceneSettings& settings) {
+    auto info = std::make_shared<SceneInfo>();
+    info->name = "voxel";
+    info->fields = {"scalars", "others"};
+    info->bounds = bounds();
+    info->anatomical = true;
+    SceneState scene;
+    scene.info = info;
+    scene.settings = settings;
+    scene.lines = std::make_shared<const std::vector<Line>>();
+    scene.volume =
+        VolumeView{.image = image(),
+                   .transfer = make_color_transfer(ColorPreset::kDensity, image()->lowest, image()->highest)};
+    scene.volume_label = settings.field;
+    return scene;
+  }
+};
+
+class VolumeWindow : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+    options_.width = 640;
+    options_.height = 480;
+    options_.frames = 8;
+    options_.program = "grid";
+    options_.view.camera.projection = Projection::kOrthographic;
+    if (const char* folder = std::getenv("PALPATE_PICTURES")) {
+      options_.screenshot =
+          std::filesystem::path(folder) /
+          (std::string("volume_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".png");
+    }
+  }
+
+  VolumeModel model_;
+  WindowOptions options_;
+};
+
+TEST_F(VolumeWindow, ShowsTheVolumeItsSizeAndWhereThePatientLies) {
+  const WindowResult result = run_window(model_, options_);
+  ASSERT_TRUE(result.view.volume);
+  EXPECT_EQ(result.view.volume->image->points, Index3(33));
+  EXPECT_EQ(result.view.subtitle, "scalars, 33 x 33 x 33 voxels");
+  EXPECT_EQ(result.view.volume_label, "scalars");
+  EXPECT_TRUE(result.view.anatomical);
+  EXPECT_EQ(result.view.camera.projection, Projection::kOrthographic);
+  // As --explain lists it: what this volume takes, and no shader of lenses.
+  const auto has = [&](GpuObject::Kind kind, const std::string& what) {
+    return std::ranges::any_of(result.gpu, [&](const GpuObject& object) {
+      return object.kind == kind && object.what.starts_with(what) &&
+             (kind == GpuObject::Kind::kProgram || object.bytes > 0);
+    });
+  };
+  EXPECT_TRUE(has(GpuObject::Kind::kProgram, "volume/shaded.frag"));
+  EXPECT_FALSE(has(GpuObject::Kind::kProgram, "volume/lenses.frag"));
+  EXPECT_TRUE(has(GpuObject::Kind::kTexture, "voxels"));
+}
+
+TEST_F(VolumeWindow, SavesTheViewOfTheVolume) {
+  options_.script.push_back({2, {.kind = InputKind::kKeyDown, .key = 'S', .modifiers = kModifierControl}});
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_EQ(result.message, "saved voxel.toml");
+  EXPECT_EQ(model_.samples_saved, VolumeView{}.samples_per_voxel);
+}
+
+TEST_F(VolumeWindow, PutsALensUnderTheMouseThatTheWheelMakesLarger) {
+  options_.frames = 16;
+  options_.script = {{2, {.kind = InputKind::kMove, .x = 460.0, .y = 200.0}},
+                     {3, {.kind = InputKind::kKeyDown, .key = 'L'}},
+                     {4, {.kind = InputKind::kMove, .x = 480.0, .y = 210.0}},
+                     {5, {.kind = InputKind::kWheel, .y = 1.0}},
+                     {6, {.kind = InputKind::kPress}},
+                     {7, {.kind = InputKind::kRelease}},
+                     {8, {.kind = InputKind::kMove, .x = 500.0, .y = 300.0}}};
+  const WindowResult result = run_window(model_, options_);
+  ASSERT_EQ(result.view.volume->lenses.size(), 1U);
+  const ConvexShape& shape = result.view.volume->lenses[0].shape;
+  const Vec3 center = center_of(shape, Vec3(0.0));
+  // The picture begins right of the panel: project() counts from there.
+  const WindowLayout parts = layout(640, 480, 14.0F);
+  const Vec3 shown = project(result.view.camera, center, static_cast<int>(parts.picture.width),
+                             static_cast<int>(parts.picture.height));
+  EXPECT_NEAR(shown.x + parts.picture.left, 480.0, 1.5);
+  EXPECT_NEAR(shown.y, 210.0, 1.5);
+  EXPECT_GT(clip_line(shape, center, Vec3(1.0, 0.0, 0.0)).last, 1.05 * result.view.bounds.size().x / 6.0);
+}
+
+// The dot on the upper face along x, dragged by the mouse; then Ctrl+S, and in another window Ctrl+Z.
+TEST_F(VolumeWindow, DragsAFaceOfTheRegionSavesItAndTakesItBack) {
+  const Box bounds = model_.bounds(), box = new_region(bounds);
+  options_.region = box;
+  options_.frames = 20;
+  const WindowLayout parts = layout(640, 480, 14.0F);
+  const auto width = static_cast<int>(parts.picture.width), height = static_cast<int>(parts.picture.height);
+  const Camera camera = make_camera(bounds, options_.angles, parts.picture.width / parts.picture.height,
+                                    Projection::kOrthographic);
+  const auto shown = [&](double x) {
+    Vec3 at = box.center();
+    at.x = x;
+    return project(camera, at, width, height) + Vec3(parts.picture.left, parts.picture.top, 0.0);
+  };
+  const double wanted = box.upper.x + 0.125 * bounds.size().x;
+  const Vec3 from = shown(box.upper.x), to = shown(wanted);
+  options_.script = {{2, {.kind = InputKind::kMove, .x = from.x, .y = from.y}},
+                     {4, {.kind = InputKind::kPress}},
+                     {6, {.kind = InputKind::kMove, .x = to.x, .y = to.y}},
+                     {8, {.kind = InputKind::kRelease}},
+                     {10, {.kind = InputKind::kKeyDown, .key = 'S', .modifiers = kModifierControl}}};
+  const WindowResult dragged = run_window(model_, options_);
+  ASSERT_TRUE(dragged.region);
+  EXPECT_NEAR(dragged.region->upper.x, wanted, 1e-9 * bounds.diagonal());
+  EXPECT_EQ(dragged.region->lower, box.lower);
+  EXPECT_EQ(dragged.view.camera.axes, camera.axes);  // it has not turned the view
+  const std::pair<std::string, std::string> saved{"box", box_text(*dragged.region)};
+  EXPECT_NE(std::ranges::find(model_.set_saved, saved), model_.set_saved.end());
+  options_.script.push_back({12, {.kind = InputKind::kKeyDown, .key = 'Z', .modifiers = kModifierControl}});
+  const WindowResult undone = run_window(model_, options_);
+  ASSERT_TRUE(undone.region);
+  EXPECT_EQ(undone.region->upper, box.upper);
+}
+
+// The fourth of the preset's points, dragged up in the editor: an own function, which the model is asked for.
+TEST_F(VolumeWindow, EditsTheTransferFunctionOverTheHistogram) {
+  options_.frames = 20;
+  options_.script = {{3, {.kind = InputKind::kMove, .x = 166.0, .y = 242.0}},
+                     {5, {.kind = InputKind::kPress}},
+                     {6, {.kind = InputKind::kMove, .x = 168.0, .y = 220.0}},
+                     {7, {.kind = InputKind::kMove, .x = 170.0, .y = 190.0}},
+                     {9, {.kind = InputKind::kRelease}}};
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_TRUE(result.settings.transfer.starts_with("points:")) << result.settings.transfer;
+  EXPECT_GT(model_.updated, 0);
+  const auto edited = transfer_from_words(result.settings.transfer);
+  ASSERT_TRUE(edited);
+  const ColorTransfer preset = make_color_transfer(ColorPreset::kDensity, 0.0, 255.0);
+  ASSERT_EQ(edited->points().size(), preset.points().size());
+  EXPECT_GT(edited->points()[3].opacity, preset.points()[3].opacity + 0.3);
+  EXPECT_EQ(edited->points()[2], preset.points()[2]);
+}
+
+TEST(SizeText, CountsLinesOrVoxels) {
+  SceneState scene;
+  scene.lines = std::make_shared<const std::vector<Line>>(3);
+  EXPECT_EQ(size_text(scene), "3 lines");
+  scene.volume.emplace();
+  scene.volume->image = make_volume_image(volume_example("marschner-lobb"), kVolumeArray, "");
+  EXPECT_EQ(size_text(scene), "41 x 41 x 41 voxels");
+}
+
+}  // namespace
+}  // namespace palpate
