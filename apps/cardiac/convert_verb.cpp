@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"

@@ -1,7 +1,6 @@
 /// cardiac: layers and fibres of a heart's wall, seen and felt.
 #include "apps/cardiac/cardiac_modes.h"
-#include "apps/cardiac/heart_verbs.h"
-#include "apps/cardiac/open_verb.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/remesh.h"
 #include "common/cli/verbs.h"
 

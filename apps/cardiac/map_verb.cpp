@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/contour_output.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/heart_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/mesh_picture.h"
 #include "apps/cardiac/remesh.h"
 #include "common/base/clock.h"

@@ -1,13 +1,12 @@
-#include "apps/cardiac/open_verb.h"
-
 #include <utility>
 
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cardiac_modes.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/heart_verbs.h"
 #include "common/cli/verb_open.h"
+#include "common/window/open_window.h"
 
 namespace palpate {
 
@@ -23,6 +22,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
                   .touch = true,
                   .record = true,
                   .replay = true},
+       .window = user_window(),
        .modes = cardiac_modes(),
        .render = render_layers_verb({}),
        .next = "trace FILE --layer 0.5 --seeds random:200 --out fibres.vtp",

@@ -1,9 +1,9 @@
 #include <utility>
 
 #include "apps/cardiac/cardiac_modes.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/heart_verbs.h"
 #include "apps/cardiac/usual_look.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -1,8 +1,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/heart_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

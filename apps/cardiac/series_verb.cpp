@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "apps/cardiac/heart_verbs.h"
+#include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/csv_reader.h"
 #include "common/base/output_file.h"

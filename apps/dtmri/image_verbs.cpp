@@ -1,10 +1,9 @@
-#include "apps/dtmri/image_verbs.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "apps/dtmri/dtmri_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"

@@ -1,8 +1,6 @@
 /// dtmri: images of diffusion tensors, seen and felt.
 #include "apps/dtmri/dtmri_modes.h"
-#include "apps/dtmri/image_verbs.h"
-#include "apps/dtmri/open_verb.h"
-#include "apps/dtmri/tracts_verb.h"
+#include "apps/dtmri/dtmri_verbs.h"
 #include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {

@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/view_tracts.h"
 #include "common/base/parallel.h"

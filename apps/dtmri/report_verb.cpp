@@ -1,6 +1,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/dtmri/dtmri_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -1,6 +1,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tract_request.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"

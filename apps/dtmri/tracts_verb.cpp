@@ -1,9 +1,8 @@
-#include "apps/dtmri/tracts_verb.h"
-
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "apps/dtmri/dtmri_verbs.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"

@@ -1,6 +1,6 @@
 /// flow: streamlines of CFD data, seen and followed.
 #include "apps/flow/flow_modes.h"
-#include "apps/flow/open_verb.h"
+#include "apps/flow/flow_verbs.h"
 #include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {

@@ -1,7 +1,6 @@
-#include "apps/flow/open_verb.h"
-
 #include "apps/flow/flow_model.h"
 #include "apps/flow/flow_modes.h"
+#include "apps/flow/flow_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
 #include "common/compose/line_color.h"
@@ -9,6 +8,7 @@
 #include "common/compose/resampled_volume.h"
 #include "common/compose/trace_options.h"
 #include "common/scene/seeds.h"
+#include "common/window/open_window.h"
 
 namespace palpate {
 namespace {
@@ -40,6 +40,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at lines in a window (the verb that FILE alone stands for)",
        .groups = {.tracing = true, .view = true, .touch = true, .record = true, .replay = true},
+       .window = user_window(),
        .modes = flow_modes(),
        .render = render_verb(flow_modes(), {}),
        .next = "trace FILE --seeds grid:8,8,8 --out lines.vtp",

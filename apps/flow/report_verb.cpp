@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/flow/flow_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "apps/flow/flow_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "apps/grid/grid_verbs.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"

@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "apps/grid/grid_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"

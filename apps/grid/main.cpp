@@ -1,7 +1,6 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_modes.h"
-#include "apps/grid/open_verb.h"
-#include "apps/grid/report_verb.h"
+#include "apps/grid/grid_verbs.h"
 #include "common/cli/verbs.h"
 
 int main(int argc, char** argv) {

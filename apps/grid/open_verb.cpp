@@ -1,12 +1,12 @@
-#include "apps/grid/open_verb.h"
-
 #include <utility>
 
 #include "apps/grid/grid_model.h"
 #include "apps/grid/grid_modes.h"
+#include "apps/grid/grid_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
 #include "common/compose/volume_scene.h"
+#include "common/window/open_window.h"
 
 namespace palpate {
 
@@ -14,6 +14,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
        .groups = {.view = true, .touch = true, .record = true, .replay = true, .notes = true, .part = true},
+       .window = user_window(),
        .modes = grid_modes(),
        .render = volume_render_verb(grid_modes(), {}),
        .next = "probe FILE --path path.csv --out log.csv",

@@ -1,6 +1,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/grid/grid_verbs.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -1,8 +1,7 @@
-#include "apps/grid/report_verb.h"
-
 #include <string>
 #include <vector>
 
+#include "apps/grid/grid_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -137,12 +137,6 @@ struct ProbeSummary {
   std::vector<MeasuredCost> measured;
 };
 
-struct OpenSummary {
-  ServoState servo;    ///< as the window was closed
-  std::string fault;   ///< where the seconds before a fault were saved; empty: there was none
-  std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
-};
-
 /// What was marked and measured.
 struct AnnotationSummary {
   std::string input;

@@ -9,6 +9,7 @@
 #include "common/cli/explorer.h"
 #include "common/compose/window_model.h"
 #include "common/hand/mode/haptic_mode.h"
+#include "common/hand/window_request.h"
 #include "common/render/scene_view.h"
 #include "common/scene/plan.h"
 
@@ -18,6 +19,7 @@ namespace palpate {
 struct WindowVerb {
   std::string summary;  ///< "look at lines in a window (…)"
   VerbGroups groups;
+  WindowMaker window;
   std::vector<HapticMode> modes;  ///< the default one first; none: the window knows no touch
   Verb render;                    ///< draws in place of the window where there is no display
   std::string next;               ///< another command to try then, without the program's name

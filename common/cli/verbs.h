@@ -10,26 +10,8 @@
 namespace palpate {
 
 [[nodiscard]] Verb info_verb(std::vector<UsageExample> examples);
-[[nodiscard]] Verb trace_verb(std::vector<UsageExample> examples);
-/// Of tensor fields: tracts.
-[[nodiscard]] Verb trace_tracts_verb(std::vector<UsageExample> examples);
-/// @param modes the program's, the default one first.
-[[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
-/// The same of volumes.
-[[nodiscard]] Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
-/// A slice of a volume, as a picture or an image.
-[[nodiscard]] Verb slice_verb(std::vector<UsageExample> examples);
-/// Measures what is marked in a volume, and writes it as .csv or .vtp.
-[[nodiscard]] Verb annotate_verb(std::vector<UsageExample> examples);
-/// A part of a volume, cut by a box and planes, as a picture or an image.
-[[nodiscard]] Verb clip_verb(std::vector<UsageExample> examples);
-/// The same of diffusion tensors.
-[[nodiscard]] Verb tensor_render_verb(std::vector<UsageExample> examples);
 /// @param modes the program's, the default one first.
 [[nodiscard]] Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
-[[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);
-/// What noise, weighting and steps do to directions and tracts.
-[[nodiscard]] Verb tensor_report_verb(std::vector<UsageExample> examples);
 
 /// @name What the verbs share
 /// @{

@@ -8,7 +8,6 @@
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/simulated_option.h"
-#include "common/cli/summaries.h"
 #include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
 #include "common/hand/drawn/annotation_list.h"
@@ -137,13 +136,13 @@ void take_workbench(const Options& options, const VerbContext& context, ProbeSes
 }
 
 /// What is said when the window is closed: how the servo did, in a row a line.
-std::string servo_text(const OpenSummary& summary) {
+std::string servo_text(const WindowOutcome& outcome) {
   std::string text;
-  for (const ServoRow& row : servo_rows(summary.servo)) {
+  for (const ServoRow& row : servo_rows(outcome.servo)) {
     constexpr std::size_t kColumn = 13;
     text += row.name + std::string(kColumn - std::min(kColumn, row.name.size()), ' ') + row.value + '\n';
   }
-  if (!summary.fault.empty()) text += summary.fault + '\n';
+  if (!outcome.fault.empty()) text += outcome.fault + '\n';
   return text;
 }
 
@@ -208,10 +207,9 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
   return touch;
 }
 
-void tell_of_touch(const WindowResult& result, const VerbContext& context) {
-  const OpenSummary summary{result.probe.servo, result.probe.fault, result.replay};
-  context.console.print(servo_text(summary));
-  context.console.print_json(open_json(summary));
+void tell_of_touch(const WindowOutcome& outcome, const VerbContext& context) {
+  context.console.print(servo_text(outcome));
+  context.console.print_json(open_json(outcome));
 }
 
 }  // namespace palpate

@@ -5,8 +5,8 @@
 
 #include "common/cli/explorer.h"
 #include "common/hand/probe_session.h"
+#include "common/hand/window_request.h"
 #include "common/scene/options.h"
-#include "common/window/window.h"
 
 namespace palpate {
 
@@ -18,6 +18,6 @@ namespace palpate {
                                                const VerbContext& context);
 
 /// When the window is closed: how the servo did, in a row a line, or as JSON.
-void tell_of_touch(const WindowResult& result, const VerbContext& context);
+void tell_of_touch(const WindowOutcome& outcome, const VerbContext& context);
 
 }  // namespace palpate

@@ -12,7 +12,7 @@
 
 #include "apps/grid/grid_model.h"
 #include "apps/grid/grid_modes.h"
-#include "apps/grid/open_verb.h"
+#include "apps/grid/grid_verbs.h"
 #include "common/cli/command_line.h"
 #include "common/cli/window_touch.h"
 #include "common/compose/line_view.h"

@@ -6,6 +6,7 @@
 
 #include "common/cli/summaries.h"
 #include "common/field/analytic/examples.h"
+#include "common/hand/window_request.h"
 
 namespace palpate {
 
@@ -24,7 +25,7 @@ namespace palpate {
 [[nodiscard]] std::string mesh_json(const MeshSummary& summary);
 [[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
-[[nodiscard]] std::string open_json(const OpenSummary& summary);
+[[nodiscard]] std::string open_json(const WindowOutcome& outcome);
 [[nodiscard]] std::string report_summary_json(const std::string& folder, std::size_t rows,
                                               std::size_t failed_cases, double seconds);
 

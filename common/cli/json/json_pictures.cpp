@@ -71,8 +71,8 @@ std::string render_json(const RenderSummary& summary) {
   return json_text(json);
 }
 
-std::string open_json(const OpenSummary& summary) {
-  const ServoStatistics& statistics = summary.servo.statistics;
+std::string open_json(const WindowOutcome& outcome) {
+  const ServoStatistics& statistics = outcome.servo.statistics;
   const auto spread = [](const TimeHistogram& times) {
     constexpr double kMicroseconds = 1e-3;
     const auto us = [&](std::uint64_t ns) { return kMicroseconds * static_cast<double>(ns); };
@@ -82,9 +82,9 @@ std::string open_json(const OpenSummary& summary) {
                 {"us_max", us(times.max_ns())}};
   };
   Json json{{"servo",
-             {{"rate_hz", summary.servo.rate},
-              {"real_time_priority", summary.servo.real_time.real_time_priority},
-              {"memory_locked", summary.servo.real_time.memory_locked},
+             {{"rate_hz", outcome.servo.rate},
+              {"real_time_priority", outcome.servo.real_time.real_time_priority},
+              {"memory_locked", outcome.servo.real_time.memory_locked},
               {"ticks", statistics.ticks},
               {"late", statistics.late},
               {"overruns", statistics.overruns},
@@ -93,8 +93,8 @@ std::string open_json(const OpenSummary& summary) {
               {"faults", statistics.faults},
               {"lateness", spread(statistics.lateness)},
               {"update", spread(statistics.update)}}},
-            {"fault", summary.fault},
-            {"replay", summary.replay}};
+            {"fault", outcome.fault},
+            {"replay", outcome.replay}};
   return json_text(json);
 }
 

@@ -1,0 +1,43 @@
+/// What a verb opens a window with, and what is left of it when it is closed. Command line and window do not
+/// know each other: a program hands the one to the other.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "common/compose/window_model.h"
+#include "common/hand/bench/bench_display.h"
+#include "common/hand/probe_session.h"
+#include "common/render/scene_view.h"
+#include "common/scene/options.h"
+
+namespace palpate {
+
+struct WindowRequest {
+  std::string program;                       ///< in the title bar
+  std::string command_line;                  ///< for the text of saved pictures
+  SceneView view;                            ///< what is shown at the start, but for lines, bounds and camera
+  std::optional<BenchDisplayOptions> bench;  ///< the screens of a workbench; none: a desktop
+  ProbeSessionOptions touch;                 ///< without modes: the window knows no touch
+  std::function<bool()> stop_requested;      ///< asked a few times a second; true closes the window
+  std::function<void(const std::string&)> note;  ///< told what of the user's files cannot be read or written
+};
+
+struct WindowOutcome {
+  ServoState servo;      ///< as the window was closed
+  std::string fault;     ///< where the seconds before a fault were saved; empty: there was none
+  std::string replay;    ///< verdict on a replayed recording; empty: it was none, or did not end
+  std::string measured;  ///< for `--explain`: what the window had on the graphics processor, a row a line
+};
+
+/// A kind of window.
+struct WindowMaker {
+  /// Whether one can be opened at all (a display is there).
+  bool (*available)() = nullptr;
+  /// Shows it until it is closed. @param options say what is looked at, and how.
+  /// @throws Error (work failed) where none can be opened, and whatever WindowModel::start() throws.
+  WindowOutcome (*open)(WindowModel& model, const Options& options, WindowRequest request) = nullptr;
+};
+
+}  // namespace palpate

@@ -1,0 +1,43 @@
+#include "common/window/open_window.h"
+
+#include <utility>
+
+#include "common/base/version.h"
+#include "common/compose/line_view.h"
+#include "common/compose/slice_plane.h"
+#include "common/render/gl/gpu_objects.h"
+#include "common/window/window.h"
+
+namespace palpate {
+namespace {
+
+WindowOutcome open_window(WindowModel& model, const Options& options, WindowRequest request) {
+  const WindowResult result = run_user_window(
+      model,
+      {.program = request.program,
+       .view = std::move(request.view),
+       .frame_budget = options.view.frame_budget > 0.0 ? options.view.frame_budget : kFrameBudget,
+       .angles = camera_angles(options.view.camera),
+       .focal_point = focal_point_of(options.view),
+       .command_line = std::move(request.command_line),
+       .version = version_text(request.program),
+       .bench = std::move(request.bench),
+       .touch = std::move(request.touch),
+       .region =
+           options.slice.box.empty() ? std::nullopt : std::optional(parse_box(options.slice.box, "--box")),
+       .plotted = options.series.plot,
+       .play_rate = options.view.play_rate,
+       .threads = options.common.threads,
+       .stop_requested = std::move(request.stop_requested)},
+      request.note);
+  return {.servo = result.probe.servo,
+          .fault = result.probe.fault,
+          .replay = result.replay,
+          .measured = gpu_text(result.gpu) + tables_text(result.tables_by)};
+}
+
+}  // namespace
+
+WindowMaker user_window() { return {.available = window_available, .open = open_window}; }
+
+}  // namespace palpate
