@@ -40,16 +40,21 @@ function(palpate_helper name)
   install(TARGETS ${name} RUNTIME DESTINATION lib/palpate)
 endfunction()
 
-# palpate_app(name SOURCES main.cpp … USES … HELPERS …): an explorer; building it builds its helpers too. All
-# but main.cpp is the library palpate_parts_<name>, for its tests.
+# palpate_app(name SOURCES main.cpp … USES … READS vectors … HELPERS …): an explorer; building it builds its
+# helpers too: HELPERS, and those of the formats that hold one of the kinds READS (common/load/formats.def). All but
+# main.cpp is the library palpate_parts_<name>, for its tests.
 function(palpate_app name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES;HELPERS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;READS;HELPERS" ${ARGN})
   list(REMOVE_ITEM arg_SOURCES main.cpp)
   add_library(palpate_parts_${name} STATIC ${arg_SOURCES})
   target_link_libraries(palpate_parts_${name} PUBLIC palpate_options ${arg_USES})
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE palpate_parts_${name})
-  foreach(helper ${arg_HELPERS})
+  set(loaders)
+  if(arg_READS)
+    palpate_format_helpers(loaders ${arg_READS})
+  endif()
+  foreach(helper ${loaders} ${arg_HELPERS})
     if(TARGET ${helper})
       add_dependencies(${name} ${helper})
     endif()

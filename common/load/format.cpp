@@ -1,57 +1,308 @@
 #include "common/load/format.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+
+#include "common/base/number_text.h"
+#include "common/load/gzip_head.h"
+#include "common/load/plot3d_layout.h"
 
 namespace palpate {
+namespace {
 
-std::string_view name_of(Format format) noexcept {
-  static constexpr std::array<std::string_view, kFormatCount> kNames{"legacy VTK",      "VTK XML",
-                                                                     "VTK multi-block", "VTK XML in pieces",
-                                                                     "VTK time series", "PLOT3D",
-                                                                     "EnSight",         "Exodus II",
-                                                                     "OpenFOAM",        "NRRD",
-                                                                     "NIfTI",           "MetaImage",
-                                                                     "MRtrix image",    "EX",
-                                                                     "openCARP",        "TetGen",
-                                                                     "MRtrix tracks",   "TrackVis tracks",
-                                                                     "TRX tracks",      "DICOM",
-                                                                     "OpenVDB",         "raw voxels"};
-  return kNames[static_cast<std::size_t>(format)];
+/// @name What recognisers look at.
+/// @{
+
+/// The bytes as text, without the byte order mark of UTF-8.
+std::string_view text_of(const FileHead& head) {
+  std::string_view text(reinterpret_cast<const char*>(head.bytes.data()), head.bytes.size());
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
 }
 
-std::string_view helper_of(Format format) noexcept {
-  switch (format) {
-    case Format::kLegacyVtk:
-    case Format::kVtkXml:
-    case Format::kVtkMultiBlock:
-    case Format::kVtkParallel:
-    case Format::kParaviewSeries:
-      return "palpate-load-vtk";
-    case Format::kNrrd:
-      return "palpate-load-nrrd";
-    case Format::kNifti:
-      return "palpate-load-nifti";
-    case Format::kMetaImage:
-      return "palpate-load-meta";
-    case Format::kMrtrixImage:
-      return "palpate-load-mif";
-    case Format::kEx:
-    case Format::kCarp:
-    case Format::kTetgen:
-      return "palpate-load-cardiac";
-    case Format::kTck:
-    case Format::kTrk:
-    case Format::kTrx:
-      return "palpate-load-tract";
-    case Format::kDicom:
-      return "palpate-load-dicom";
-    case Format::kVdb:
-      return "palpate-load-vdb";
-    case Format::kRaw:
-      return "palpate-load-raw";
-    default:
-      return "palpate-load-solver";
+/// The same from its first character that is no blank.
+std::string_view text_after_blanks(const FileHead& head) {
+  const std::string_view text = text_of(head);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view() : text.substr(first);
+}
+
+bool has(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
+
+/// Whether one of the lines begins with `word`.
+bool line_starts(std::string_view text, std::string_view word) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    if (at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r') return true;
   }
+  return false;
+}
+
+bool has_ending(const FileHead& head, const FormatRow& row) { return names_ending(row, head.ending); }
+
+/// The value of an attribute of the first start tag `element`, or empty.
+std::string_view attribute(std::string_view text, std::string_view element, std::string_view name) {
+  const std::size_t start = text.find(element);
+  if (start == std::string_view::npos) return {};
+  const std::string_view tag = text.substr(start, text.find('>', start) - start);
+  const std::string key = " " + std::string(name) + "=";
+  const std::size_t at = tag.find(key);
+  if (at == std::string_view::npos || at + key.size() >= tag.size()) return {};
+  const char quote = tag[at + key.size()];
+  if (quote != '"' && quote != '\'') return {};
+  const std::size_t first = at + key.size() + 1;
+  const std::size_t last = tag.find(quote, first);
+  return last == std::string_view::npos ? std::string_view() : tag.substr(first, last - first);
+}
+
+bool is_xml(const FileHead& head) { return text_after_blanks(head).starts_with('<'); }
+bool is_vtk_xml(const FileHead& head) { return is_xml(head) && has(text_of(head), "<VTKFile"); }
+std::string_view vtk_xml_type(const FileHead& head) {
+  return is_vtk_xml(head) ? attribute(text_of(head), "<VTKFile", "type") : std::string_view();
+}
+
+bool is_grid_type(std::string_view type) {
+  static constexpr std::array<std::string_view, 5> kTypes{"ImageData", "RectilinearGrid", "StructuredGrid",
+                                                          "UnstructuredGrid", "PolyData"};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+bool is_netcdf(std::string_view text) {
+  return text.size() >= 4 && text.starts_with("CDF") && (text[3] == 1 || text[3] == 2 || text[3] == 5);
+}
+bool is_hdf5(std::string_view text) { return text.starts_with("\x89HDF\r\n\x1a\n"); }
+bool is_zip(std::string_view text) { return text.starts_with("PK\3\4"); }
+/// @}
+
+/// @name Recognisers of single formats, in the order of their rows.
+/// @{
+
+bool is_vtk_xml_grid(const FileHead& head, const FormatRow&) { return is_grid_type(vtk_xml_type(head)); }
+bool is_vtk_multi_block(const FileHead& head, const FormatRow&) {
+  const std::string_view type = vtk_xml_type(head);
+  return type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet";
+}
+bool is_vtk_parallel(const FileHead& head, const FormatRow&) {
+  const std::string_view type = vtk_xml_type(head);
+  return type.starts_with('P') && is_grid_type(type.substr(1));
+}
+bool is_paraview_series(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_after_blanks(head);
+  return vtk_xml_type(head) == "Collection" ||
+         (text.starts_with('{') && has(text, "\"file-series-version\""));
+}
+
+/// A netCDF-4 file is HDF5: whether it is Exodus II only its reader can tell, so the ending decides.
+bool is_exodus(const FileHead& head, const FormatRow& row) {
+  const std::string_view text = text_of(head);
+  return (is_netcdf(text) && has(text, "num_nodes")) || (is_hdf5(text) && has_ending(head, row));
+}
+
+/// The case file is text with section keywords; FORMAT comes first and GEOMETRY must be there.
+bool looks_like_ensight(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  return line_starts(text, "FORMAT") && line_starts(text, "GEOMETRY") && has(text, "type:") &&
+         has(text, "ensight");
+}
+
+bool looks_like_openfoam(const FileHead& head, const FormatRow&) {
+  return has(text_of(head), "FoamFile") && has(text_of(head), "controlDict");
+}
+bool is_openfoam_case(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / "system/controlDict", ignored) &&
+         std::filesystem::is_directory(folder / "constant", ignored);
+}
+
+/// A zip file one of whose first members is one that every TRX file has.
+bool is_trx(const FileHead& head, const FormatRow& row) {
+  const std::string_view text = text_of(head);
+  return is_zip(text) &&
+         (has_ending(head, row) || has(text, "header.json") || has(text, "positions.3.float"));
+}
+bool is_trx_folder(const std::filesystem::path& folder) {
+  static constexpr std::array kPositions{"positions.3.float16", "positions.3.float32", "positions.3.float64"};
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / "header.json", ignored)) return false;
+  return std::any_of(kPositions.begin(), kPositions.end(),
+                     [&](const char* name) { return std::filesystem::exists(folder / name, ignored); });
+}
+
+constexpr std::size_t kDicomPreamble = 128;  ///< bytes of anything, before the mark
+constexpr std::string_view kDicomMark = "DICM";
+bool is_dicom(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  return text.size() > kDicomPreamble && text.substr(kDicomPreamble, kDicomMark.size()) == kDicomMark;
+}
+/// Whether one of the first files of the folder is DICOM.
+bool is_dicom_folder(const std::filesystem::path& folder) {
+  constexpr int kMostFiles = 64;
+  std::error_code error;
+  int files = 0;
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator() && files < kMostFiles; it.increment(error)) {
+    std::error_code ignored;
+    if (!it->is_regular_file(ignored)) continue;
+    ++files;
+    std::ifstream file(it->path(), std::ios::binary);
+    std::array<char, kDicomPreamble + kDicomMark.size()> head{};
+    if (file.read(head.data(), head.size()) &&
+        std::string_view(head.data(), head.size()).substr(kDicomPreamble) == kDicomMark)
+      return true;
+  }
+  return false;
+}
+
+/// The mark stands at the end of the header's 348 bytes, in version 2 behind the size of the header.
+bool is_nifti(const FileHead& head, const FormatRow&) {
+  constexpr std::size_t kMark1 = 344, kMark2 = 4, kMarkBytes = 4;
+  const std::string_view text = text_of(head);
+  const auto mark_at = [text](std::size_t at, char version) {
+    if (text.size() < at + kMarkBytes) return false;
+    const std::string_view mark = text.substr(at, kMarkBytes);
+    return mark[0] == 'n' && (mark[1] == '+' || mark[1] == 'i') && mark[2] == version && mark[3] == '\0';
+  };
+  return mark_at(kMark1, '1') || mark_at(kMark2, '2');
+}
+
+/// The header is lines of "key = value", these three among them.
+bool is_meta_image(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  return line_starts(text, "NDims") && line_starts(text, "DimSize") && line_starts(text, "ElementType");
+}
+
+/// Lines of keywords, some of them indented.
+bool looks_like_ex(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  if (!has(text, "#Fields=") && !has(text, "Shape.") && !has(text, "EX Version")) return false;
+  return has(text, "Group name:") || has(text, "Region:") || has(text, "EX Version");
+}
+
+/// A mesh whose files are bare numbers: the ending says which, the first character that it is text.
+bool is_bare_mesh(const FileHead& head, const FormatRow& row) {
+  const std::string_view text = text_after_blanks(head);
+  if (text.empty() || !has_ending(head, row)) return false;
+  return text.front() == '#' || std::isdigit(static_cast<unsigned char>(text.front())) != 0;
+}
+
+/// Results of openCARP: .igb begins with words as "x:2502 t:101 type:float", .dat holds a number a line.
+bool is_carp_result(const FileHead& head) {
+  std::string_view text = text_after_blanks(head);
+  if (head.ending == ".igb") return has(text, "x:") && has(text, "type:");
+  if (head.ending != ".dat") return false;
+  constexpr int kLines = 4;  // grids of PLOT3D in text have several numbers on one of them
+  for (int line = 0; line < kLines && !text.empty(); ++line) {
+    const std::string_view here = trimmed(text.substr(0, text.find('\n')));
+    const bool none = here == "nan" || here == "NaN";
+    if (!none && !number(here)) return false;
+    const std::size_t end = text.find('\n');
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return true;
+}
+bool looks_like_carp(const FileHead& head, const FormatRow& row) {
+  return is_bare_mesh(head, row) || is_carp_result(head);
+}
+
+bool is_plot3d(const FileHead& head, Plot3dFile kind) {
+  // Its layout is found from the size of the file: the byte order mark, if there is one, counts.
+  const Plot3dBytes bytes{head.bytes, head.tail, head.file_size};
+  return find_plot3d_layout(bytes, kind).has_value() || may_be_plot3d_text(bytes, kind);
+}
+bool looks_like_plot3d(const FileHead& head, const FormatRow&) { return is_plot3d(head, Plot3dFile::kGrid); }
+/// @}
+
+std::string printable(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes.substr(0, 16)) {
+    const auto b = static_cast<unsigned char>(c);
+    if (b >= 0x20 && b < 0x7f) {
+      text += c;
+    } else {
+      std::array<char, 5> hex{};
+      std::snprintf(hex.data(), hex.size(), "\\x%02x", b);
+      text += hex.data();
+    }
+  }
+  return text;
+}
+
+/// The ancestor of NIfTI has the same size of header and no mark.
+bool is_analyze(const FileHead& head) {
+  const std::string_view text = text_of(head);
+  return head.file_size == 348 && (text.starts_with(std::string_view("\x5c\x01\0\0", 4)) ||
+                                   text.starts_with(std::string_view("\0\0\x01\x5c", 4)));
+}
+
+/// Known kinds of file that are of none of the formats; nothing where the file is of no such kind.
+std::optional<Sniffed> known_other(const FileHead& head) {
+  const std::string_view text = text_of(head);
+  if (is_zip(text)) return Sniffed{{}, "a zip file without tracts", "unpack it first"};
+  if (is_analyze(head))
+    return Sniffed{{}, "an Analyze header, which does not say how its axes lie", "convert it to NIfTI"};
+  if (is_vtk_xml(head)) {
+    const std::string type(vtk_xml_type(head).substr(0, 40));
+    if (type.empty())
+      return Sniffed{{}, "a VTK XML file whose type is missing or cut off", "it may be truncated"};
+    return Sniffed{
+        {}, "a VTK XML file of type " + type, "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
+  }
+  if (is_xml(head)) return Sniffed{{}, "an XML file that is not VTK's", ""};
+  if (is_netcdf(text)) return Sniffed{{}, "a netCDF file that is not Exodus II (it has no num_nodes)", ""};
+  if (is_hdf5(text)) return Sniffed{{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
+  if (head.ending == ".toml" && has(text, "format = ") && has(text, "program = "))
+    return Sniffed{{}, "a session", "open it with --session THIS"};
+  if (is_gzip(text)) return Sniffed{{}, "a gzip file", "unpack it first"};
+  return {};
+}
+
+std::optional<Format> find(const FileHead& head, Evidence evidence) {
+  for (const FormatRow& row : format_rows()) {
+    if (row.evidence == evidence && recognises(row, head)) return row.format;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const FormatRow> format_rows() noexcept {
+#define PALPATE_FORMAT(id, ...) FormatRow{.format = Format::id, __VA_ARGS__},
+  static constexpr std::array kRows{
+#include "common/load/formats.def"
+  };
+#undef PALPATE_FORMAT
+  return kRows;
+}
+
+const FormatRow& row_of(Format format) noexcept { return format_rows()[static_cast<std::size_t>(format)]; }
+
+bool names_ending(const FormatRow& row, std::string_view ending) {
+  if (ending.empty()) return false;
+  std::string_view rest = row.endings;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == ending) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+bool recognises(const FormatRow& row, const FileHead& head) {
+  if (row.recognise != nullptr) return row.recognise(head, row);
+  return !row.starts.empty() && text_of(head).starts_with(row.starts);
+}
+
+Sniffed sniff(const FileHead& head) {
+  if (const auto format = find(head, Evidence::kMark)) return {format, "", ""};
+  if (auto other = known_other(head)) return *std::move(other);
+  if (const auto format = find(head, Evidence::kWords)) return {format, "", ""};
+  if (is_plot3d(head, Plot3dFile::kSolution))
+    return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
+  return {{},
+          "not recognised (it starts with \"" + printable(text_of(head)) + "\")",
+          "voxels without a header are opened with --raw-size and --raw-type"};
 }
 
 }  // namespace palpate

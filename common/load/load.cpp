@@ -7,10 +7,10 @@
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
 #include "common/base/machine_memory.h"
+#include "common/load/find_format.h"
 #include "common/load/format.h"
 #include "common/load/helper_process.h"
 #include "common/load/protocol.h"
-#include "common/load/sniff.h"
 
 namespace palpate {
 namespace {
@@ -43,21 +43,15 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 
 /// Bytes of a file, or of what lies beside an index file: an index is small and says nothing of what it
 /// leads to.
-std::uint64_t input_bytes(const LoadRequest& request, Format format) {
+std::uint64_t input_bytes(const LoadRequest& request, const FormatRow& row) {
   std::uint64_t bytes = request.solution ? size_of(*request.solution) : 0;
   for (const auto& file : request.files) bytes += size_of(file);
-  const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
-                     format == Format::kParaviewSeries || format == Format::kEnsight ||
-                     format == Format::kOpenFoam || format == Format::kNrrd || format == Format::kNifti ||
-                     format == Format::kMetaImage || format == Format::kMrtrixImage ||
-                     format == Format::kDicom || format == Format::kEx || format == Format::kCarp ||
-                     format == Format::kTetgen ||
-                     (format == Format::kTrx && std::filesystem::is_directory(request.files.front()));
-  if (!index) return bytes;
   std::filesystem::path folder = request.files.front();
   std::error_code error;
-  if (!std::filesystem::is_directory(folder, error))
+  if (!std::filesystem::is_directory(folder, error)) {
+    if (!row.beside) return bytes;
     folder = folder.has_parent_path() ? folder.parent_path() : ".";
+  }
   constexpr int kMaxEntries = 100'000;
   int entries = 0;
   for (auto it = std::filesystem::recursive_directory_iterator(
@@ -77,23 +71,22 @@ double samples_of(std::uint64_t bytes, int refine) {
   return static_cast<double>(bytes) / kBytesPerElement * side * side * side;
 }
 
-LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, Format format, int refine) {
-  const double samples = format == Format::kEx ? samples_of(bytes, refine) : 0.0;
+LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, const FormatRow& row, int refine) {
+  const double samples = row.curved ? samples_of(bytes, refine) : 0.0;
   if (limits.memory_bytes == 0) {
     const std::uint64_t most = usable_memory();
     // A sparse grid takes as much as its box, whatever its file does; its reader looks first.
-    const double wanted = format == Format::kVdb
-                              ? static_cast<double>(most)
-                              : static_cast<double>(kBaseMemory) +
-                                    static_cast<double>(kMemoryFactor) * static_cast<double>(bytes) +
-                                    kMemoryPerSample * samples;
+    const double wanted = row.sparse ? static_cast<double>(most)
+                                     : static_cast<double>(kBaseMemory) +
+                                           static_cast<double>(kMemoryFactor) * static_cast<double>(bytes) +
+                                           kMemoryPerSample * samples;
     limits.memory_bytes =
         wanted < static_cast<double>(most) ? static_cast<std::uint64_t>(wanted) : std::max(kBaseMemory, most);
   }
   if (limits.seconds <= 0.0) {
     limits.seconds =
         kBaseSeconds + kSecondsPerByte * static_cast<double>(bytes) + kSecondsPerSample * samples;
-    if (format == Format::kVdb) limits.seconds += kSecondsToFill;
+    if (row.sparse) limits.seconds += kSecondsToFill;
   }
   return limits;
 }
@@ -157,26 +150,26 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
   for (const auto& file : request.files) {
     const Format other = format_of(file);
     if (other != format) {
-      throw input_error({file.string(), "", "is " + std::string(name_of(other)),
-                         std::string(name_of(format)) + " like " + state->file,
+      throw input_error({file.string(), "", "is " + std::string(row_of(other).name),
+                         std::string(row_of(format).name) + " like " + state->file,
                          "open files of one format together"});
     }
   }
   if (request.solution) {
     if (format != Format::kPlot3d) {
       throw usage_error("--solution goes with a PLOT3D grid; " + state->file + " is " +
-                        std::string(name_of(format)));
+                        std::string(row_of(format).name));
     }
     (void)read_head(*request.solution, 1);
   }
 
-  state->helper = helper_of(format);
+  state->helper = row_of(format).helper;
   const std::filesystem::path program = find_helper(state->helper);
   if (program.empty()) {
     throw usage_error(state->file + ": its reader " + state->helper +
                       " is not installed; build that target or install palpate again");
   }
-  state->limits = resolve(limits, input_bytes(request, format), format, request.refine);
+  state->limits = resolve(limits, input_bytes(request, row_of(format)), row_of(format), request.refine);
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });

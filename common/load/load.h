@@ -56,8 +56,8 @@ struct BlockInfo {
 };
 
 struct FileInfo {
-  std::string format;              ///< "legacy VTK", "PLOT3D", "Exodus II", …
-  std::string loader;              ///< helper program that read it
+  std::string format;              ///< FormatRow::name, set by serve_loader(); empty: made on the fly
+  std::string loader;              ///< helper program that read it, likewise
   std::vector<BlockInfo> blocks;   ///< volumes; where the file has none, what else it holds
   std::vector<double> times;       ///< empty for a single state
   std::string units;               ///< as the file states them ("coordinates in mm"), or empty

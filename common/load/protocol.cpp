@@ -101,7 +101,7 @@ RequestMessage decode_request(std::string_view text) {
   if (request == "open") {
     OpenMessage open;
     const std::uint64_t format = count_at(message, "format");
-    if (format >= kFormatCount) malformed("unknown format");
+    if (format >= format_rows().size()) malformed("unknown format");
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("series")) open.request.series = string_at(message, "series");

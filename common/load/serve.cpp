@@ -97,7 +97,8 @@ int serve_loader(Loader& loader) {
     if (const auto* open = std::get_if<OpenMessage>(&request)) {
       if (!open->request.files.empty()) service.subject = open->request.files.front().string();
       FileInfo info = loader.open(open->request, open->format);
-      info.loader = helper_of(open->format);
+      info.format = row_of(open->format).name;
+      info.loader = row_of(open->format).helper;
       return encode_info(info);
     }
     const auto& read = std::get<ReadMessage>(request);

@@ -22,7 +22,7 @@ class Loader {
   Loader(const Loader&) = delete;
   Loader& operator=(const Loader&) = delete;
 
-  /// Finds out what the files hold. `request` was checked: the files exist and are of `format`.
+  /// Finds out what the files hold: all of FileInfo but its first two members. `request` was checked: the files exist and are of `format`.
   /// @throws Error (bad input) with a line that names the file.
   virtual FileInfo open(const LoadRequest& request, Format format) = 0;
 

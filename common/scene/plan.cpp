@@ -104,7 +104,7 @@ void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Ne
     plan.push_back(used(kHelper + file.loader, "reads " + file.format, 0, 1e3 * input.seconds_open()));
   }
   std::set<std::string> others;
-  for (int f = 0; f < kFormatCount; ++f) others.emplace(helper_of(static_cast<Format>(f)));
+  for (const FormatRow& row : format_rows()) others.emplace(row.helper);
   others.erase(file.loader);
   for (const std::string& helper : others) plan.push_back(left_out(kHelper + helper, "not for this format"));
 

@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 
 namespace palpate {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "common/base/csv_reader.h"
 #include "common/base/error.h"
+#include "common/load/find_format.h"
 #include "common/load/load.h"
 #include "common/load/plot3d_layout.h"
-#include "common/load/sniff.h"
 
 namespace palpate {
 namespace {

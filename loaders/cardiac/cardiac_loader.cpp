@@ -52,9 +52,9 @@ class CardiacLoader : public Loader {
     std::vector<std::string> named;
     for (const auto& file : request.files) named.push_back(file.string());
     FileInfo info;
-    info.format = name_of(format);
     if (!request.surface_markers.empty() && (format == Format::kEx || format == Format::kCarp))
-      throw usage_error("--surface-markers " + request.surface_markers + ": " + info.format +
+      throw usage_error("--surface-markers " + request.surface_markers + ": " +
+                        std::string(row_of(format).name) +
                         " has no .face file; markers are those of TetGen's");
     switch (format) {
       case Format::kEx:

@@ -101,7 +101,6 @@ class DicomLoader : public Loader {
     series_ = sort_dicom_series(std::move(frames));
 
     FileInfo info;
-    info.format = name_of(Format::kDicom);
     info.anatomical = true;
     info.units = "coordinates in mm";
     info.notes.push_back("series " + title + ", " + counted(files.size(), "file") + "; LPS turned into RAS+");

@@ -11,9 +11,9 @@
 #include "common/base/error.h"
 #include "common/base/number_text.h"
 #include "common/base/text.h"
+#include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/mrtrix_header.h"
-#include "common/load/sniff.h"
 
 namespace palpate {
 namespace {

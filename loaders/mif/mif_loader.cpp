@@ -19,7 +19,6 @@ class MifLoader : public Loader {
       throw input_error({request.files[1].string(), "", "is a second MRtrix image", "one file", ""});
     header_ = read_mif_header(request.files.front().string());
     FileInfo info;
-    info.format = name_of(Format::kMrtrixImage);
     info.anatomical = true;
     info.units = "coordinates in mm";
     info.notes = header_.notes;

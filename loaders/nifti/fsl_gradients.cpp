@@ -10,7 +10,7 @@
 #include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/field/tensor/image_axes.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 #include "loaders/nifti/fsl_names.h"
 
 namespace palpate {

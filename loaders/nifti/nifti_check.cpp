@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
-#include "common/load/sniff.h"
 
 namespace palpate {
 namespace {

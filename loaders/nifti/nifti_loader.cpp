@@ -26,7 +26,6 @@ class NiftiLoader : public Loader {
     const NiftiFile& first = files_.front();
 
     FileInfo info;
-    info.format = name_of(Format::kNifti);
     info.anatomical = first.anatomical();
     info.units = "coordinates in mm";
     info.notes = first.notes();

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
-#include "common/load/sniff.h"
 #include "loaders/nrrd/gzip_rest.h"
 
 namespace palpate {

@@ -155,7 +155,6 @@ class NrrdLoader : public Loader {
     axes_ = sort_axes(*nrrd, file_);
 
     FileInfo info;
-    info.format = name_of(Format::kNrrd);
     info.units = units_of(*nrrd, axes_);
     if (!rest.empty()) info.notes.push_back(rest);
     place(*nrrd, info.notes);

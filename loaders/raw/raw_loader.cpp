@@ -9,8 +9,8 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/find_format.h"
 #include "common/load/raw_layout.h"
-#include "common/load/sniff.h"
 #include "common/load/volume_block.h"
 
 namespace palpate {
@@ -46,7 +46,6 @@ class RawLoader : public Loader {
       topology_.axes[axis][axis] = layout_.spacing[axis];
     }
     FileInfo info;
-    info.format = name_of(Format::kRaw);
     info.notes.emplace_back("no orientation known: coordinates are spacings times indices");
     if (behind > 0) info.notes.push_back(counted(behind, "byte") + " behind the voxels left unread");
     info.blocks.push_back(describe_image(topology_, array_));

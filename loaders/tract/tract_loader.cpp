@@ -35,7 +35,6 @@ class TractLoader : public Loader {
     if (request.files.size() > 1)
       throw input_error({request.files[1].string(), "", "is a second tractogram", "one file"});
     FileInfo info;
-    info.format = name_of(format);
     lines_ = read_file(request.files.front().string(), format, info.notes);
     make_unique(lines_.of_points);
     make_unique(lines_.of_lines);

@@ -19,7 +19,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/grid/sparse/sparse_builder.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 #include "common/load/volume_block.h"
 
 namespace palpate {
@@ -80,7 +80,6 @@ class VdbLoader : public Loader {
       throw input_error({request.files[1].string(), "", "is a second OpenVDB file", "one file"});
     openvdb::initialize();
     FileInfo info;
-    info.format = name_of(Format::kVdb);
     try {
       check_ends();
       openvdb::io::File file(file_);

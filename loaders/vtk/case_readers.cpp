@@ -58,7 +58,7 @@ class CaseReader : public Loader {
   FileInfo open(const LoadRequest& request, Format) override {
     if (request.files.size() > 1) {
       throw input_error({request.files[1].string(), "", "is a second case",
-                         "one " + std::string(name_of(format_)) + " case"});
+                         "one " + std::string(row_of(format_).name) + " case"});
     }
     file_ = request.files.front().string();
     reader_ = vtkSmartPointer<Reader>::New();
@@ -68,7 +68,6 @@ class CaseReader : public Loader {
     choose_parts(*reader_);
 
     FileInfo info;
-    info.format = name_of(format_);
     vtkInformation* about = reader_->GetOutputInformation(0);
     auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
     if (about->Has(steps) != 0) times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));

@@ -76,7 +76,6 @@ class ExodusReader : public Loader {
     select({});
 
     FileInfo info;
-    info.format = name_of(Format::kExodus);
     vtkInformation* about = reader_->GetOutputInformation(0);
     auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
     if (about->Has(steps) != 0) times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));

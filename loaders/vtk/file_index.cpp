@@ -13,7 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/xml_scan.h"
 

@@ -13,9 +13,9 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
-#include "common/load/sniff.h"
 
 namespace palpate {
 namespace {

@@ -60,7 +60,6 @@ class MetaLoader : public Loader {
 
     big_endian_ = image.BinaryDataByteOrderMSB();
     FileInfo info;
-    info.format = name_of(Format::kMetaImage);
     place(image, info);
     array_.name = "scalars";
     array_.association = Association::kPoint;

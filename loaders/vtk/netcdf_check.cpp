@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 
 namespace palpate {
 namespace {

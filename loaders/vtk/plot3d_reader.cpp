@@ -8,8 +8,8 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
-#include "common/load/sniff.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -48,7 +48,6 @@ class Plot3dReader : public Loader {
     grid_file_ = request.files.front().string();
     grid_ = layout_of(grid_file_, Plot3dFile::kGrid);
     FileInfo info;
-    info.format = name_of(Format::kPlot3d);
     info.notes.push_back("grid: " + describe(grid_, Plot3dFile::kGrid));
     if (request.solution) {
       solution_file_ = request.solution->string();

@@ -22,8 +22,8 @@ class SolverLoader : public Loader {
         reader_ = make_openfoam_reader();
         break;
       default:
-        throw input_error(
-            {request.files.front().string(), "", "is " + std::string(name_of(format)), "a solver format"});
+        throw input_error({request.files.front().string(), "", "is " + std::string(row_of(format).name),
+                           "a solver format"});
     }
     reader_->on_progress = on_progress;
     return reader_->open(request, format);

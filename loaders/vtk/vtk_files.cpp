@@ -12,7 +12,7 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 #include "loaders/vtk/file_index.h"
 #include "loaders/vtk/legacy_file.h"
 #include "loaders/vtk/vtk_convert.h"
@@ -62,7 +62,6 @@ class VtkFiles : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format format) override {
     FileInfo info;
-    info.format = name_of(format);
     arrange(request, format, info.notes);
     tensors_ = request.diffusion.has_value();
     if (steps_.size() > 1) {
@@ -149,7 +148,7 @@ class VtkFiles : public Loader {
           p += parts.size() - 1;
         } else if (inner != Format::kVtkXml && inner != Format::kLegacyVtk) {
           throw input_error(
-              {step.pieces[p].file.string(), "", "is " + std::string(palpate::name_of(inner)), "a VTK file"});
+              {step.pieces[p].file.string(), "", "is " + std::string(row_of(inner).name), "a VTK file"});
         }
       }
     }

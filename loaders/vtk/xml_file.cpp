@@ -15,7 +15,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
-#include "common/load/sniff.h"
+#include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"
 
 namespace palpate {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
-#include "common/load/sniff.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/legacy_check.h"

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "common/base/error.h"
+#include "common/load/find_format.h"
 #include "common/load/serve.h"
-#include "common/load/sniff.h"
 #include "tests/fuzz/memory_path.h"
 
 namespace palpate::test {

@@ -1,37 +1,14 @@
-/// Finding a file's format by what is in it; its ending only breaks ties.
+/// Finding the format of a file or folder on disk, and reading the start of a file.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "common/load/format.h"
 
 namespace palpate {
-
-/// How many bytes from the start of a file sniff() looks at.
-inline constexpr std::size_t kSniffBytes = std::size_t{64} << 10;
-
-/// What is known of a file before any loader sees it.
-struct FileHead {
-  std::span<const std::byte> bytes;  ///< the first kSniffBytes, or all
-  std::span<const std::byte> tail;   ///< the last kPlot3dTailBytes, or all
-  std::uint64_t file_size = 0;
-  std::string_view ending;  ///< lower case with its dot: ".vtk", ".gz"
-};
-
-struct Sniffed {
-  std::optional<Format> format;
-  std::string found;   ///< where there is no format: what the file looks like ("a gzip file")
-  std::string remedy;  ///< and what could be done
-};
-
-/// Pure: looks at nothing but its argument.
-[[nodiscard]] Sniffed sniff(const FileHead& head);
 
 /// The format of a file or folder on disk. Opens regular files only: a pipe or device is refused unread.
 /// @throws Error (bad input) naming the path: missing, unreadable, empty, not a regular file, unknown.
