@@ -21,7 +21,7 @@ void main() {
   float pixels = (0.5 * kTilePixels + float(border)) * sqrt(2.0), slack = pixels * frame.size.z;
   if (frame.eye.w > 0.5) slack *= farthest / frame.size.w;
   kind = 0u;
-  for (int i = 0; i < volume.counts.x; ++i) {
+  for (int i = 0; i < volume.lens_count; ++i) {
     vec2 inside = lens_interval(i, ray, slack, pixels);
     if (inside.x < inside.y && (inside.y > 0.0 || frame.eye.w < 0.5)) kind = 1u;
   }

@@ -7,8 +7,8 @@
 
 // @param most that a table allows
 float far_stride(float n, float d, float most) {
-  float u = clamp((n * d - volume.far.x) * volume.far.y, 0.0, 1.0);
-  int stride = 1 << int(min(floor(u * volume.far.z), floor(log2(max(most, 1.0)))));
+  float u = clamp((n * d - volume.far_first) * volume.far_rate, 0.0, 1.0);
+  int stride = 1 << int(min(floor(u * volume.far_doublings), floor(log2(max(most, 1.0)))));
   int place = int(n);
   int aligned = place & -place;  // the largest power of two that divides it
   return float(place == 0 ? stride : min(stride, aligned));

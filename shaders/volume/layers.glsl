@@ -33,5 +33,5 @@ void pass_layer(Ray ray, inout vec4 gathered) {
 
 // Those up to t, as far as light comes from there.
 void pass_layers(Ray ray, float t, inout vec4 gathered) {
-  while (layer > 0u && layer_at <= t && gathered.a <= volume.lengths.z) pass_layer(ray, gathered);
+  while (layer > 0u && layer_at <= t && gathered.a <= volume.opaque) pass_layer(ray, gathered);
 }

@@ -56,7 +56,7 @@ vec2 lens_interval(int i, Ray ray, float slack, float pixels) {
 // none.
 vec2 lens_span(Ray ray, out vec2 inside[kLensRoom]) {
   vec2 span = vec2(1e30, -1e30);
-  for (int i = 0; i < volume.counts.x; ++i) {
+  for (int i = 0; i < volume.lens_count; ++i) {
     inside[i] = lens_interval(i, ray, 0.0, 0.0);
     vec2 seen = vec2(max(inside[i].x, ray.from), min(inside[i].y, ray.to));
     if (seen.x < seen.y) span = vec2(min(span.x, seen.x), max(span.y, seen.y));

@@ -13,14 +13,14 @@ float value_at(vec3 g) {
 #ifdef BLENDED
   number = blended_number(number, g);
 #endif
-  return (number - field.lower.w) * field.upper.w + field.points.w;
+  return (number - field.first_number) * field.entries_a_number + field.first_entry;
 }
 
 // Where the ray leaves the empty bricks around its point at t; no more than t where none is empty.
 // @param map where that of the transfer function begins, along z
 float end_of_empty(Ray ray, float t, float map) {
   const float kBrickCells = 8.0;
-  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), field.bricks.xyz - 1.0);
+  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), field.bricks - 1.0);
   float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map)), 0).x);
   // The nearest brick that is not empty begins `far` bricks away: up to there all are empty.
   vec3 wall = kBrickCells * (brick + mix(vec3(1.0 - far), vec3(far), greaterThan(ray.speed, vec3(0.0))));
@@ -31,33 +31,33 @@ float end_of_empty(Ray ray, float t, float map) {
 // What a stretch of any length shows, from the two layers of the table about its length.
 vec4 short_stretch(float front, float back, float first_layer, float stretch) {
   if (isnan(front + back)) return vec4(0.0);
-  float place = clamp(stretch / volume.lengths.x, 0.0, volume.lengths.y - 1.0);
-  float below = min(floor(place), volume.lengths.y - 2.0);
+  float place = clamp(stretch / volume.layer_length, 0.0, volume.layer_count - 1.0);
+  float below = min(floor(place), volume.layer_count - 2.0);
   return mix(texture(tables, vec3(front, back, first_layer + below)),
              texture(tables, vec3(front, back, first_layer + below + 1.0)), place - below);
 }
 
 // The colour of a stretch about g: where the part has those of the voxels, opacities stay those of the table.
-vec3 painted(vec4 seen, vec4 part, vec3 g) {
+vec3 painted(vec4 seen, Part part, vec3 g) {
 #ifdef COLORED
-  if (part.w > 1.5) return seen.a * texture(colors, (g + 0.5) / field.points.xyz).rgb;
+  if (part.content == kVoxelColors) return seen.a * texture(colors, (g + 0.5) / field.points).rgb;
 #endif
   return seen.rgb;
 }
 
 // @param g middle of the stretch, `direction` of the ray in N
-void gather(vec4 seen, vec3 direction, vec4 part, vec3 g, inout vec4 gathered) {
+void gather(vec4 seen, vec3 direction, Part part, vec3 g, inout vec4 gathered) {
   seen.rgb = painted(seen, part, g);
 #ifdef SHADED
-  if (part.z > 0.5) seen.rgb = shaded(seen, direction, g);
+  if (part.shaded == 1) seen.rgb = shaded(seen, direction, g);
 #endif
   gathered += (1.0 - gathered.a) * seen;
 }
 
 // The layer of the longest length that still takes `samples` a voxel; some room for rounding.
 float layer_for(float samples, Ray ray) {
-  float layer = floor(1.0 / (samples * length(ray.speed) * volume.lengths.x) + 1e-3);
-  return clamp(layer, 1.0, volume.lengths.y - 1.0);
+  float layer = floor(1.0 / (samples * length(ray.speed) * volume.layer_length) + 1e-3);
+  return clamp(layer, 1.0, volume.layer_count - 1.0);
 }
 
 #ifdef FAR
@@ -86,7 +86,7 @@ float last_empty(Walk walk, Ray ray, float map) { return floor(end_of_empty(ray,
 // Goes to the next sample, over samples up to `inside` in one step; at the last one it stays.
 vec4 walk_on(inout Walk walk, Ray ray, float inside) {
 #ifdef FAR
-  float stride = far_stride(walk.n, walk.d, (volume.lengths.y - 1.0) / walk.step);
+  float stride = far_stride(walk.n, walk.d, (volume.layer_count - 1.0) / walk.step);
   float next = min(max(walk.n + stride, inside), walk.last);
   walk.stretch = next - walk.n;
   walk.layer = walk.tables + walk.step * min(walk.stretch, stride);
@@ -102,12 +102,12 @@ vec4 walk_on(inout Walk walk, Ray ray, float inside) {
 }
 
 // Adds what lies between `from` and `to`, from preintegrated tables.
-void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  ivec4 transfer = volume.transfers[int(part.x)];
-  float first_layer = float(transfer.z), map = float(transfer.w);
-  float layer = layer_for(part.y, ray);
+void march_tables(Ray ray, Part part, float from, float to, inout vec4 gathered) {
+  Transfer transfer = volume.transfers[part.transfer];
+  float first_layer = float(transfer.first_layer), map = float(transfer.first_brick);
+  float layer = layer_for(part.samples, ray);
   Walk walk;
-  walk.d = layer * volume.lengths.x;
+  walk.d = layer * volume.layer_length;
   walk.layer = first_layer + layer;
   walk.n = floor(from / walk.d) + 1.0;
   walk.last = ceil(to / walk.d) - 1.0;
@@ -116,7 +116,7 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   walk.step = layer;
   walk.stretch = 1.0;
 #endif
-  bool leaps = part.y >= field.bricks.w;
+  bool leaps = part.samples >= field.samples_to_leap;
 #ifdef BLENDED
   leaps = leaps && blended < 0;  // coarser voxels reach into bricks that are empty
 #endif
@@ -127,7 +127,7 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
          ray.direction, part, point_at(ray, 0.5 * (from + t)), gathered);
 
 #ifdef SHADED
-  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
+  while (walk.n < walk.last && gathered.a <= volume.opaque) {
     vec4 seen;
     for (int i = 0; i < 8 && walk.n < walk.last; ++i) {  // light costs most: on to the next stretch that is seen
       seen = walk_on(walk, ray, leaps ? last_empty(walk, ray, map) : walk.n);
@@ -142,18 +142,18 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
   }
 #else
   // Two loops, as only one that no ray enters takes no time.
-  while (leaps && walk.n < walk.last && gathered.a <= volume.lengths.z) {
+  while (leaps && walk.n < walk.last && gathered.a <= volume.opaque) {
     float inside = last_empty(walk, ray, map);
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
     gather(walk_on(walk, ray, inside), ray.direction, part, vec3(0.0), gathered);
   }
-  while (walk.n < walk.last && gathered.a <= volume.lengths.z) {
+  while (walk.n < walk.last && gathered.a <= volume.opaque) {
     gather(walk_on(walk, ray, walk.n), ray.direction, part, vec3(0.0), gathered);
     gather(walk_on(walk, ray, walk.n), ray.direction, part, vec3(0.0), gathered);
   }
 #endif
 
-  if (walk.n == walk.last && gathered.a <= volume.lengths.z) {
+  if (walk.n == walk.last && gathered.a <= volume.opaque) {
     t = walk.n * walk.d;
     gather(short_stretch(walk.front, value_at(point_at(ray, to)), first_layer, to - t),
            ray.direction, part, point_at(ray, 0.5 * (t + to)), gathered);
@@ -166,7 +166,7 @@ void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered)
 #endif
 
 // Adds what lies between `from` and `to` in the way of a part.
-void march(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
+void march(Ray ray, Part part, float from, float to, inout vec4 gathered) {
 #ifdef REGIONS
   if (by_regions(part)) {
     march_regions(ray, part, from, to, gathered);

@@ -38,7 +38,7 @@ bool inside_lens(int i, vec3 x) {
 }
 
 // Table coordinate of the value at g; NaN where there is none.
-float value_at(vec3 g) { return (number_at(g) - field.lower.w) * field.upper.w + field.points.w; }
+float value_at(vec3 g) { return (number_at(g) - field.first_number) * field.entries_a_number + field.first_entry; }
 
 #ifdef REGIONS
 #include "volume/slope.glsl"
@@ -46,40 +46,40 @@ layout(binding = 15) uniform sampler2DArray region_tables;  // colour times dept
 #endif
 
 // The colour at x in N, not associated, and its opacity along the whole length.
-vec4 lens_color(vec4 part, vec3 x) {
-  ivec4 transfer = volume.transfers[int(part.x)];
+vec4 lens_color(Part part, vec3 x) {
+  Transfer transfer = volume.transfers[part.transfer];
 #if FIELDS > 1
-  present = transfer.x;
+  present = transfer.of_field;
 #endif
   vec3 g = (field.grid_from_scene * vec4(x, 1.0)).xyz;
-  if (any(lessThan(g, field.lower.xyz)) || any(greaterThan(g, field.upper.xyz))) return vec4(0.0);
+  if (any(lessThan(g, field.lower)) || any(greaterThan(g, field.upper))) return vec4(0.0);
   float entry = value_at(g);
   if (isnan(entry)) return vec4(0.0);
 #ifdef REGIONS
-  if (transfer.y == 1) {
-    float row = length(slope_in_scene(slope_at(g))) * field.slopes.x + field.slopes.y;
-    vec4 matter = isnan(row) ? vec4(0.0) : texture(region_tables, vec3(entry, row, transfer.z));
+  if (transfer.by_regions == 1) {
+    float row = length(slope_in_scene(slope_at(g))) * field.rows_a_slope + field.first_row;
+    vec4 matter = isnan(row) ? vec4(0.0) : texture(region_tables, vec3(entry, row, transfer.first_layer));
     return matter.a > 0.0 ? vec4(matter.rgb / matter.a, 1.0 - exp(-matter.a)) : vec4(0.0);
   }
 #endif
-  vec4 seen = texture(tables, vec3(entry, entry, float(transfer.z) + volume.lengths.y - 1.0));
+  vec4 seen = texture(tables, vec3(entry, entry, float(transfer.first_layer) + volume.layer_count - 1.0));
   return seen.a > 0.0 ? vec4(seen.rgb / seen.a, 1.0 - pow(1.0 - min(seen.a, 1.0), longest_parts)) : vec4(0.0);
 }
 
 void main() {
   int lens = 0;
-  while (lens < volume.counts.x && !inside_lens(lens, place)) ++lens;
-  bool in_lens = lens < volume.counts.x;
-  vec4 part = in_lens ? shapes.parts[lens + 1] : shapes.parts[0];
+  while (lens < volume.lens_count && !inside_lens(lens, place)) ++lens;
+  bool in_lens = lens < volume.lens_count;
+  Part part = in_lens ? shapes.parts[lens + 1] : shapes.parts[0];
   vec3 x = in_lens && magnifies(lens) ? place_seen(lens, place) : place;
   vec3 g = (field.grid_from_scene * vec4(x, 1.0)).xyz;
   float number = number_at(g);
   float slope = length(vec2(dFdx(number), dFdy(number)));
-  bool cut_away = in_lens && part.w > 0.5 && part.w < 1.5;
+  bool cut_away = in_lens && part.content == kCutAway;
   if (cut_away || isnan(number)) discard;
 
   color = vec4(vec3(clamp((number - grey.x) * grey.y, 0.0, 1.0)), 1.0);  // (1)
-  if (in_lens && part.x > 0.5) {
+  if (in_lens && part.transfer > 0) {
     vec4 matter = lens_color(part, x);
     color.rgb = mix(color.rgb, matter.rgb, matter.a);
   }

@@ -59,7 +59,7 @@ void find_volume(inout Ray ray) {
   ray.speed = mat3(field.grid_from_scene) * ray.direction;
 
   ray.pace = 1.0 / mix(ray.speed, vec3(1e-30), lessThan(abs(ray.speed), vec3(1e-30)));
-  vec3 a = (field.lower.xyz - ray.start) * ray.pace, b = (field.upper.xyz - ray.start) * ray.pace;
+  vec3 a = (field.lower - ray.start) * ray.pace, b = (field.upper - ray.start) * ray.pace;
   vec3 near = min(a, b), far = max(a, b);
   ray.first = max(near.x, max(near.y, near.z));
   ray.last = min(far.x, min(far.y, far.z));
@@ -67,8 +67,8 @@ void find_volume(inout Ray ray) {
 
 #if FIELDS > 1
 // The same ray through the field of a transfer function, which is looked up from now on.
-Ray enter_field(Ray ray, float transfer) {
-  present = volume.transfers[int(transfer)].x;
+Ray enter_field(Ray ray, int transfer) {
+  present = volume.transfers[transfer].of_field;
   find_volume(ray);
   ray.first = max(ray.first, ray.from);
   ray.last = min(ray.last, ray.to);
@@ -88,14 +88,14 @@ Ray pixel_ray() {
   ray.from = perspective ? 0.0 : -1e30;
   ray.to = 1e30;
   if (has_opaque_depth) ray.to = opaque_distance(ray, texelFetch(opaque_depth, opaque_pixel(), 0).x, ray.to);
-  for (int i = 0; i < volume.counts.y; ++i) {
+  for (int i = 0; i < volume.cut_count; ++i) {
     float speed = dot(shapes.cuts[i].xyz, ray.direction), room = shapes.cuts[i].w - dot(shapes.cuts[i].xyz, ray.origin);
     if (speed > 0.0) ray.to = min(ray.to, room / speed);
     if (speed < 0.0) ray.from = max(ray.from, room / speed);
     if (speed == 0.0 && room < 0.0) ray.to = -1e30;
   }
   ray.first = max(ray.first, ray.from);
-  if (volume.lengths.w > 0.5) {
+  if (volume.asks_tiles > 0.5) {
     vec2 span = texelFetch(tiles, ivec2(gl_FragCoord.xy) / int(kTilePixels), 0).xy;
     // Tiles know the shell of what is seen; a ray that begins in the volume may begin within the shell.
     if (!perspective || ray.first > 0.0) ray.first = max(ray.first, -span.x);

@@ -14,10 +14,10 @@ struct Sample {
 
 Sample sample_at(vec3 g) {
   vec3 slope = slope_at(g);
-  return Sample(vec2(value_at(g), length(slope_in_scene(slope)) * field.slopes.x + field.slopes.y), slope);
+  return Sample(vec2(value_at(g), length(slope_in_scene(slope)) * field.rows_a_slope + field.first_row), slope);
 }
 
-bool by_regions(vec4 part) { return volume.transfers[int(part.x)].y == 1; }
+bool by_regions(Part part) { return volume.transfers[part.transfer].by_regions == 1; }
 
 // What a stretch shows, from end to end. @param table number of the table
 vec4 stretch_by_regions(vec2 front, vec2 back, float table, float stretch) {
@@ -25,7 +25,7 @@ vec4 stretch_by_regions(vec2 front, vec2 back, float table, float stretch) {
   if (isnan(front.x + front.y + back.x + back.y)) return vec4(0.0);
   vec2 passed = abs(back - front) * vec2(textureSize(region_tables, 0).xy);
   float places = clamp(ceil(max(passed.x, passed.y) / kEntriesAPlace), 1.0, kMostPlaces);
-  float depth_scale = stretch / places * field.slopes.z;
+  float depth_scale = stretch / places * field.reference_lengths;
   vec4 seen = vec4(0.0);
   for (float i = 0.5; i < places; ++i) {
     vec4 matter = texture(region_tables, vec3(mix(front, back, i / places), table));
@@ -36,20 +36,20 @@ vec4 stretch_by_regions(vec2 front, vec2 back, float table, float stretch) {
 }
 
 // Adds what lies between `from` and `to`, on samples at t = n d.
-void march_regions(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  ivec4 transfer = volume.transfers[int(part.x)];
+void march_regions(Ray ray, Part part, float from, float to, inout vec4 gathered) {
+  Transfer transfer = volume.transfers[part.transfer];
   const float kDenser = 2.0;  // than from preintegrated tables
-  float d = layer_for(kDenser * part.y, ray) * volume.lengths.x;
-  bool leaps = part.y >= field.bricks.w;
+  float d = layer_for(kDenser * part.samples, ray) * volume.layer_length;
+  bool leaps = part.samples >= field.samples_to_leap;
 #ifdef BLENDED
   leaps = leaps && blended < 0;
 #endif
   float t = from;
   Sample front = sample_at(point_at(ray, t));
-  while (t < to && gathered.a <= volume.lengths.z) {
+  while (t < to && gathered.a <= volume.opaque) {
     float n = floor(t / d + 1e-3);
     // The last sample that is still in empty bricks.
-    float inside = leaps ? floor(end_of_empty(ray, t, float(transfer.w)) / d) : n;
+    float inside = leaps ? floor(end_of_empty(ray, t, float(transfer.first_brick)) / d) : n;
 #ifdef FAR
     float next = min(max(n + far_stride(n, d, 64.0), inside) * d, to);
 #else
@@ -57,10 +57,10 @@ void march_regions(Ray ray, vec4 part, float from, float to, inout vec4 gathered
 #endif
     Sample back = sample_at(point_at(ray, next));
     vec4 seen = vec4(0.0);
-    if (!(inside > n)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.z), next - t);
+    if (!(inside > n)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.first_layer), next - t);
     seen.rgb = painted(seen, part, point_at(ray, 0.5 * (t + next)));
 #ifdef SHADED
-    if (part.z > 0.5) seen.rgb = lit(seen, ray.direction, 0.5 * (front.slope + back.slope));
+    if (part.shaded == 1) seen.rgb = lit(seen, ray.direction, 0.5 * (front.slope + back.slope));
 #endif
     gathered += (1.0 - gathered.a) * seen;
     t = next;

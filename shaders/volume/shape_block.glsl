@@ -8,14 +8,21 @@ const int kLensRoom = 8 * ROOM;
 const int kFaceRoom = 256 * ROOM;
 const int kCutRoom = 128 * ROOM;
 
-// A part of the volume with a way of its own to be drawn: x number of its transfer function, y samples a
-// voxel, z 1 shaded, w 1 cut away, 2 in the colours of the voxels.
+const int kTransferColors = 0, kCutAway = 1, kVoxelColors = 2;  // contents of a part
+// A part of the volume with a way of its own to be drawn.
+struct Part {
+  int transfer;  // number of its transfer function
+  float samples;  // a voxel
+  int shaded;  // 1 or 0
+  int content;
+};
+
 #if ROOM > 2
 layout(std430, binding = 2) readonly buffer Shapes {
 #else
 layout(std140, binding = 2) uniform Shapes {
 #endif
-  vec4 parts[1 + kLensRoom];        // the context, then the lenses
+  Part parts[1 + kLensRoom];        // the context, then the lenses
   vec4 cuts[kCutRoom];              // outward unit normal, offset, N: what lies beyond is cut away
   mat4 unit_from_scene[kLensRoom];  // quadric: |x| <= 1; its last element is 1 where there is one, else 0
   vec4 centers[kLensRoom];          // xyz: middle; w: magnification

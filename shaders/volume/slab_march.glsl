@@ -1,14 +1,14 @@
 // As march_tables() of volume/march.glsl, for the few steps in a slab: one loop for whole stretches and for those that a
 // border cuts short, so that rays that see nothing in the slab cost one step and no more.
 // Needs volume/slab.glsl and what march_tables() needs.
-void march_tables(Ray ray, vec4 part, float from, float to, inout vec4 gathered) {
-  ivec4 transfer = volume.transfers[int(part.x)];
-  float first_layer = float(transfer.z), map = float(transfer.w);
-  float d = layer_for(part.y, ray) * volume.lengths.x;
+void march_tables(Ray ray, Part part, float from, float to, inout vec4 gathered) {
+  Transfer transfer = volume.transfers[part.transfer];
+  float first_layer = float(transfer.first_layer), map = float(transfer.first_brick);
+  float d = layer_for(part.samples, ray) * volume.layer_length;
   stay_in_slab(d, from, to);
-  bool leaps = part.y >= field.bricks.w;
+  bool leaps = part.samples >= field.samples_to_leap;
   float t = from, front = value_at(point_at(ray, t));
-  while (t < to && gathered.a <= volume.lengths.z) {
+  while (t < to && gathered.a <= volume.opaque) {
     vec4 seen = vec4(0.0);
     float middle = t;
     for (int i = 0; i < 8; ++i) {  // light costs most: on to the next stretch that is seen

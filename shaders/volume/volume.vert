@@ -8,7 +8,7 @@
 void main() {
   vec2 at = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);  // one triangle
 #ifndef LAYERS  // lines are seen anywhere
-  if (volume.lengths.w > 0.5) {
+  if (volume.asks_tiles > 0.5) {
     ivec2 count = textureSize(tiles, 0), place = ivec2(gl_VertexID % count.x, gl_VertexID / count.x);
     vec2 span = texelFetch(tiles, place, 0).xy;
     at = -span.x > span.y ? vec2(2.0) : 2.0 * (vec2(place) + 0.5) / vec2(count) - 1.0;

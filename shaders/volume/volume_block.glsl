@@ -8,17 +8,35 @@ const int kTransferRoom = 9;
 
 struct Field {
   mat4 grid_from_scene;
-  vec4 lower;   // xyz: corner of the volume, g; w: number at the first entry of a table
-  vec4 upper;   // xyz: opposite corner; w: table coordinate a number
-  vec4 points;  // xyz: voxels an axis; w: table coordinate of the first entry
-  vec4 bricks;  // xyz: bricks an axis; w: samples a voxel from which on empty ones are left out
-  vec4 slopes;  // x: row coordinate of region tables a table coordinate of values per N; y: that of the first row; z: reference lengths a unit of N
+  vec3 lower;  // corner of the volume, g
+  float first_number;  // at the first entry of a table
+  vec3 upper;  // opposite corner
+  float entries_a_number;  // table coordinate a number
+  vec3 points;  // voxels an axis
+  float first_entry;  // its table coordinate
+  vec3 bricks;  // an axis
+  float samples_to_leap;  // a voxel, from which on empty bricks are left out
+  float rows_a_slope;  // row coordinate of region tables a table coordinate of values per N
+  float first_row;  // its row coordinate
+  float reference_lengths;  // a unit of N
+};
+struct Transfer {
+  int of_field;
+  int by_regions;  // 1: of value and gradient magnitude
+  int first_layer;  // of its tables
+  int first_brick;  // z of its map of empty bricks
 };
 layout(std140, binding = 1) uniform Volume {
-  vec4 lengths;   // x: length of layer 1 of a table in N; y: layers a table; z: opacity at which rays end; w: 1 ask tiles
-  ivec4 counts;   // x: lenses, y: cuts
-  vec4 far;       // x: nearest t of the volume of the context; y: 1 / depth of it in t; z: log2 of how many times as long steps are at its far end
-  ivec4 transfers[kTransferRoom];  // x: field, y: 1 by regions, z: first layer of its tables, w: z of its map of empty bricks
+  float layer_length;  // of layer 1 of a table, N
+  float layer_count;  // of a table
+  float opaque;  // opacity at which rays end
+  float asks_tiles;  // 1 or 0
+  int lens_count;
+  int cut_count;
+  float far_first;  // nearest t of the volume of the context
+  float far_rate;  // 1 / depth of it in t
+  float far_doublings;  // log2 of how many times as long steps are at its far end
+  Transfer transfers[kTransferRoom];
   Field fields[FIELDS];
 } volume;
 #if FIELDS > 1

@@ -13,7 +13,7 @@ layout(binding = 11) uniform sampler3D brick_index;  // xyz: voxel of the pool a
 float first_number_at(vec3 g) {
   const float kCells = float(BRICKED), kLower = 1.0 / 1024.0, kUpper = 1.0 / 480.0, kCoarse = 8.0;
   vec3 brick = clamp(floor(g / kCells), vec3(0.0), vec3(textureSize(brick_index, 0) - 1));
-  vec3 cells = min(vec3(kCells), max(field.points.xyz - 1.0, vec3(1.0)));
+  vec3 cells = min(vec3(kCells), max(field.points - 1.0, vec3(1.0)));
   vec4 place = texelFetch(brick_index, ivec3(brick), 0);
   float scale = place.w < -3.4e38 ? 1.0 / kCoarse : 1.0;  // a coarse brick stands in
   vec3 inside = clamp((g - kCells * brick) * scale, vec3(kLower), ceil(cells * scale) - kUpper);
@@ -22,7 +22,7 @@ float first_number_at(vec3 g) {
 }
 #else
 // Number at g, trilinear; beyond the points that of the nearest place.
-float first_number_at(vec3 g) { return texture(voxels, (g + 0.5) / field.points.xyz).x; }
+float first_number_at(vec3 g) { return texture(voxels, (g + 0.5) / field.points).x; }
 #endif
 
 #if FIELDS > 1
@@ -37,7 +37,7 @@ layout(binding = 14) uniform sampler3D field_voxels_3;
 
 float number_at(vec3 g) {
   if (present == 0) return first_number_at(g);
-  vec3 place = (g + 0.5) / field.points.xyz;
+  vec3 place = (g + 0.5) / field.points;
 #if FIELDS > 3
   if (present == 3) return texture(field_voxels_3, place).x;
 #endif

@@ -123,7 +123,7 @@ std::string gpu_text(const std::vector<GpuObject>& objects) {
   }
   const auto is_compiled = [&](std::string_view path) {
     return std::any_of(objects.begin(), objects.end(), [&](const GpuObject& object) {
-      return object.kind == Kind::kProgram && object.what == path;
+      return object.kind == Kind::kProgram && object.what.substr(0, object.what.find_first_of(" ,")) == path;
     });
   };
   const auto files = shader_files();

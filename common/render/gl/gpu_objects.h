@@ -14,8 +14,9 @@ namespace palpate {
 struct GpuObject {
   enum class Kind : std::uint8_t { kProgram, kTexture, kRenderbuffer };
   Kind kind = Kind::kProgram;
-  std::string
-      what;  ///< its label; of a program its fragment or compute shader, below shaders/; empty: it has none
+  /// Its label; empty: it has none. Of a program its fragment or compute shader below shaders/, and how that
+  /// was compiled (ShaderVariant).
+  std::string what;
   std::uint64_t bytes = 0;  ///< texels, all levels and samples; 0 of a program
 
   bool operator==(const GpuObject&) const = default;

@@ -125,6 +125,21 @@ GlProgram compile_program(std::string_view vertex, std::string_view fragment,
       "shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link: ", fragment);
 }
 
+std::string ShaderVariant::label() const {
+  std::string label(fragment);
+  for (const std::string& define : defines) label += " " + define;
+  return label;
+}
+
+GlProgram compile_program(std::string_view vertex, const ShaderVariant& variant,
+                          std::span<const std::string> defines) {
+  std::vector<std::string> all = variant.defines;
+  all.insert(all.end(), defines.begin(), defines.end());
+  GlProgram program = compile_program(vertex, variant.fragment, shader_files(), all);
+  label_object(GpuObject::Kind::kProgram, program.name(), variant.label());
+  return program;
+}
+
 GlProgram compile_compute(std::string_view path, std::span<const ShaderFile> files,
                           std::span<const std::string> defines) {
   const GlShader shader = compile(GL_COMPUTE_SHADER, path, files, defines);

@@ -46,7 +46,22 @@ struct ShaderSource {
                                         std::span<const ShaderFile> files = shader_files(),
                                         std::span<const std::string> defines = {});
 
-/// The same of a compute shader.
+/// One of the ways in which a fragment shader is compiled.
+struct ShaderVariant {
+  std::string_view fragment;         ///< path below shaders/
+  std::vector<std::string> defines;  ///< of this way
+
+  /// "volume/lenses.frag CONTEXT MAGNIFIED": how the program is labelled (gpu_objects.h).
+  [[nodiscard]] std::string label() const;
+};
+
+/// Compiles and links the embedded `vertex` and `variant`, both with the defines of the variant and `defines`.
+/// @throws Error as above.
+[[nodiscard]] GlProgram compile_program(std::string_view vertex, const ShaderVariant& variant,
+                                        std::span<const std::string> defines);
+
+/// Compiles and links a compute shader.
+/// @throws Error as above.
 [[nodiscard]] GlProgram compile_compute(std::string_view path,
                                         std::span<const ShaderFile> files = shader_files(),
                                         std::span<const std::string> defines = {});

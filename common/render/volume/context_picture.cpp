@@ -109,8 +109,10 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
   GlProgram& program = view_.shading ? shaded_ : unlit_;
   if (!program)
     program = compile_program("volume/volume.vert",
-                              view_.shading ? "volume/context_shaded.frag" : "volume/context.frag",
-                              shader_files(), defines_);
+                              ShaderVariant{.fragment = "volume/context.frag",
+                                            .defines = view_.shading ? std::vector<std::string>{"SHADED"}
+                                                                     : std::vector<std::string>{}},
+                              defines_);
   glUseProgram(program.name());
   glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
   glUniform3f(volume_shader::kDepthPixel, 1.0F / scale_, -left_ / scale_, -bottom_ / scale_);

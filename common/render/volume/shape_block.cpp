@@ -17,10 +17,22 @@
 namespace palpate {
 namespace {
 
-enum class Content : std::uint8_t { kTransfer, kCut, kColored };
+/// The constants of shaders/volume/shape_block.glsl.
+enum class Content : std::int32_t { kTransferColors, kCutAway, kVoxelColors };
 
-glm::vec4 part_of(std::size_t transfer, double samples, bool shaded, Content content) {
-  return {transfer, samples, shaded ? 1.0F : 0.0F, static_cast<float>(content)};
+/// Laid out as the struct Part of shaders/volume/shape_block.glsl.
+struct PartBlock {
+  std::int32_t transfer = 0;
+  float samples = 0.0F;
+  std::int32_t shaded = 0;
+  Content content = Content::kTransferColors;
+};
+
+PartBlock part_of(std::size_t transfer, double samples, bool shaded, Content content) {
+  return {.transfer = static_cast<std::int32_t>(transfer),
+          .samples = static_cast<float>(samples),
+          .shaded = shaded ? 1 : 0,
+          .content = content};
 }
 
 glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& frame) {
@@ -28,12 +40,12 @@ glm::vec4 plane_in_scene(const ConvexShape::HalfSpace& h, const SceneFrame& fram
   return {Vec3f(h.outward), std::clamp(offset, -1e30, 1e30)};
 }
 
-Content content_of(bool colored) { return colored ? Content::kColored : Content::kTransfer; }
+Content content_of(bool colored) { return colored ? Content::kVoxelColors : Content::kTransferColors; }
 
-std::vector<glm::vec4> parts_of(const VolumeView& view) {
+std::vector<PartBlock> parts_of(const VolumeView& view) {
   const std::vector<FieldTransfer> transfers = transfers_of(view);
   PALPATE_CHECK(transfers.size() <= kMostTransfers);
-  std::vector<glm::vec4> parts{part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored))};
+  std::vector<PartBlock> parts{part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored))};
   for (const Lens& lens : view.lenses) {
     std::size_t place = 0;
     if (!lens.cut && (lens.field > 0 || lens.transfer || lens.regions)) {
@@ -41,7 +53,7 @@ std::vector<glm::vec4> parts_of(const VolumeView& view) {
       place = static_cast<std::size_t>(found - transfers.begin());
     }
     parts.push_back(part_of(place, lens.samples_per_voxel, lens.shading,
-                            lens.cut ? Content::kCut : content_of(lens.colored && lens.field == 0)));
+                            lens.cut ? Content::kCutAway : content_of(lens.colored && lens.field == 0)));
   }
   return parts;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
@@ -9,6 +11,10 @@
 
 namespace palpate {
 namespace {
+
+// std140 starts an array of structs at the next 16 bytes.
+static_assert(offsetof(VolumeBlock, transfers) == 48 && sizeof(TransferBlock) == 16 &&
+              sizeof(FieldBlock) == 144);
 
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
@@ -46,18 +52,23 @@ FieldBlock make_field_block(const VolumeView& view, std::size_t field, const Sce
   const NumberRange range = table_range(view, field);
   const double entries = view.table_entries;
   const double unit = largest_number(image.type);
-  block.lower = {Vec3f(image.lower()), range.lower / unit};
-  block.upper = {Vec3f(image.upper()), (entries - 1.0) / entries * unit / (range.upper - range.lower)};
-  block.points = {Vec3f(image.points), 0.5 / entries};
+  block.lower = Vec3f(image.lower());
+  block.first_number = static_cast<float>(range.lower / unit);
+  block.upper = Vec3f(image.upper());
+  block.entries_a_number = static_cast<float>((entries - 1.0) / entries * unit / (range.upper - range.lower));
+  block.points = Vec3f(image.points);
+  block.first_entry = static_cast<float>(0.5 / entries);
   constexpr float kNoSampling = 1e30F;
-  block.bricks = {Vec3f(bricks), view.skip_empty ? 0.0F : kNoSampling};
+  block.bricks = Vec3f(bricks);
+  block.samples_to_leap = view.skip_empty ? 0.0F : kNoSampling;
 
   // m = scale (upper - lower) E / (E - 1) |grad_N p| / 2^e for the table coordinate p of values.
   const double rows = kGradientEntries;
   const double last_row = (rows - 1.0) / rows, last_column = (entries - 1.0) / entries;
   const double values = std::abs(image.scale) * (range.upper - range.lower) / last_column;
-  block.slopes = {last_row * (values / highest_row(view, field) * to_scene), 0.5 / rows,
-                  1.0 / (opacity_length_of(view) * to_scene), 0.0};
+  block.rows_a_slope = static_cast<float>(last_row * (values / highest_row(view, field) * to_scene));
+  block.first_row = static_cast<float>(0.5 / rows);
+  block.reference_lengths = static_cast<float>(1.0 / (opacity_length_of(view) * to_scene));
   return block;
 }
 
@@ -139,15 +150,18 @@ PlaceRange table_places(const VolumeView& view, std::size_t field) {
           {image.offset + image.scale * numbers.upper, highest_row(view, field)}};
 }
 
-std::vector<TransferPlace> transfer_places(const VolumeView& view, const std::vector<Index3>& bricks) {
-  std::vector<TransferPlace> places;
+std::vector<TransferBlock> transfer_blocks(const VolumeView& view, const std::vector<Index3>& bricks) {
+  std::vector<TransferBlock> blocks;
   int tables = 0, regions = 0, z = 0;
   for (const FieldTransfer& transfer : transfers_of(view)) {
     const bool by_regions = transfer.regions.has_value();
-    places.push_back({transfer.field, by_regions, by_regions ? regions++ : view.table_lengths * tables++, z});
+    blocks.push_back({.field = static_cast<std::int32_t>(transfer.field),
+                      .by_regions = by_regions ? 1 : 0,
+                      .first_layer = by_regions ? regions++ : view.table_lengths * tables++,
+                      .first_brick = z});
     z += bricks[transfer.field].z;
   }
-  return places;
+  return blocks;
 }
 
 VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
@@ -160,21 +174,20 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
   }
   const StepLengths steps = step_lengths(view);
   const double to_scene = power_of_two(-frame.exponent);
-  block.lengths = {steps.longest * to_scene / (steps.layers - 1), steps.layers,
-                   view.stop_where_opaque ? kOpaque : 2.0F, asks_tiles(view) ? 1.0F : 0.0F};
-  block.counts.x = static_cast<int>(view.lenses.size());
-  block.counts.y = static_cast<int>(
+  block.layer_length = static_cast<float>(steps.longest * to_scene / (steps.layers - 1));
+  block.layer_count = static_cast<float>(steps.layers);
+  block.opaque = view.stop_where_opaque ? kOpaque : 2.0F;
+  block.asks_tiles = asks_tiles(view) ? 1.0F : 0.0F;
+  block.lens_count = static_cast<int>(view.lenses.size());
+  block.cut_count = static_cast<int>(
       std::count_if(view.cuts.begin(), view.cuts.end(), [](const CuttingPlane& cut) { return cut.on; }));
-  const std::vector<TransferPlace> places = transfer_places(view, bricks);
-  PALPATE_CHECK(places.size() <= kMostTransfers);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    block.transfers[i] = {static_cast<int>(places[i].field), places[i].regions ? 1 : 0, places[i].first_layer,
-                          places[i].first_brick_z};
-  }
+  const std::vector<TransferBlock> transfers = transfer_blocks(view, bricks);
+  PALPATE_CHECK(transfers.size() <= kMostTransfers);
+  std::copy(transfers.begin(), transfers.end(), block.transfers.begin());
   return block;
 }
 
-glm::vec4 far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture) {
+FarRange far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture) {
   const Vec3 eye(Vec3f(picture.eye)), back(Vec3f(picture.back));
   const bool perspective = picture.eye.w > 0.5F;
   double nearest = HUGE_VAL, farthest = -HUGE_VAL;
@@ -183,7 +196,9 @@ glm::vec4 far_range(const VolumeView& view, const SceneFrame& frame, const Frame
     nearest = std::min(nearest, t);
     farthest = std::max(farthest, t);
   }
-  return {nearest, 1.0 / (farthest - nearest), std::log2(view.far_sampling), 0.0};
+  return {.first = static_cast<float>(nearest),
+          .rate = static_cast<float>(1.0 / (farthest - nearest)),
+          .doublings = static_cast<float>(std::log2(view.far_sampling))};
 }
 
 }  // namespace palpate

@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
 
 #include "common/render/camera.h"
 #include "common/render/frame_block.h"
@@ -45,29 +45,54 @@ struct NumberRange {
 /// The places between which the region tables of a field spread their entries.
 [[nodiscard]] PlaceRange table_places(const VolumeView& view, std::size_t field);
 
-/// What the number of a transfer function stands for.
-struct TransferPlace {
-  std::size_t field = 0;
-  bool regions = false;   ///< by value and gradient magnitude
-  int first_layer = 0;    ///< of its own tables: preintegrated, or of regions
-  int first_brick_z = 0;  ///< of its map of empty bricks
+/// What the number of a transfer function stands for; laid out as the struct Transfer of
+/// shaders/volume/volume_block.glsl.
+struct TransferBlock {
+  std::int32_t field = 0;
+  std::int32_t by_regions = 0;   ///< 1: by value and gradient magnitude
+  std::int32_t first_layer = 0;  ///< of its own tables: preintegrated, or of regions
+  std::int32_t first_brick = 0;  ///< z of its map of empty bricks
 };
 /// Those of transfers_of(view). @param bricks an axis, of each field.
-[[nodiscard]] std::vector<TransferPlace> transfer_places(const VolumeView& view,
+[[nodiscard]] std::vector<TransferBlock> transfer_blocks(const VolumeView& view,
                                                          const std::vector<Index3>& bricks);
 
 /// Laid out as the struct Field of shaders/volume/volume_block.glsl.
 struct FieldBlock {
   glm::mat4 grid_from_scene{1.0F};
-  glm::vec4 lower{0.0F}, upper{0.0F}, points{1.0F}, bricks{1.0F}, slopes{1.0F};
+  Vec3f lower{0.0F};  ///< corner of the volume, g
+  float first_number = 0.0F;
+  Vec3f upper{0.0F};
+  float entries_a_number = 0.0F;
+  Vec3f points{1.0F};
+  float first_entry = 0.0F;
+  Vec3f bricks{1.0F};
+  float samples_to_leap = 0.0F;  ///< a voxel
+  float rows_a_slope = 0.0F;
+  float first_row = 0.0F;
+  float reference_lengths = 0.0F;  ///< a unit of N
+  float unused = 0.0F;
 };
 
-/// Laid out as a std140 uniform block, bound to 1.
+/// Between which t on its rays a picture sees the volume of the context, and how far samples may be apart
+/// there.
+struct FarRange {
+  float first = 0.0F;
+  float rate = 0.0F;       ///< 1 / depth of the volume in t
+  float doublings = 0.0F;  ///< log2 of how many times as long steps are at its far end
+};
+
+/// Laid out as the std140 uniform block of shaders/volume/volume_block.glsl, bound to 1.
 struct VolumeBlock {
-  glm::vec4 lengths{0.0F};
-  glm::ivec4 counts{0};  ///< lenses, planes that cut
-  glm::vec4 far{0.0F};   ///< far_range()
-  std::array<glm::ivec4, kMostTransfers> transfers{};
+  float layer_length = 0.0F;  ///< of layer 1 of a table, N
+  float layer_count = 0.0F;
+  float opaque = 0.0F;      ///< opacity at which rays end
+  float asks_tiles = 0.0F;  ///< 1 or 0
+  std::int32_t lens_count = 0;
+  std::int32_t cut_count = 0;
+  FarRange far;
+  std::array<float, 3> unused{};
+  std::array<TransferBlock, kMostTransfers> transfers{};
   std::array<FieldBlock, kMostFields> fields{};
 };
 
@@ -75,8 +100,6 @@ struct VolumeBlock {
 [[nodiscard]] VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
                                             const std::vector<Index3>& bricks);
 
-/// Between which t on its rays a picture sees the volume of the context, and how far samples may be apart
-/// there (shaders/volume/volume_block.glsl).
-[[nodiscard]] glm::vec4 far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture);
+[[nodiscard]] FarRange far_range(const VolumeView& view, const SceneFrame& frame, const FrameBlock& picture);
 
 }  // namespace palpate

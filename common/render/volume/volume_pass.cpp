@@ -35,29 +35,39 @@ namespace palpate {
 namespace {
 
 enum class Variant : std::uint8_t { kPlain, kShaded, kLenses, kColored, kMagnified, kMagnifiedColored };
+constexpr std::size_t kVariants = 6;
 
 /// What is cast of a ray: all of it; a slab, over what is kept; or lenses, over a picture of the context,
 /// into whose values theirs may go over.
 enum class Reach : std::uint8_t { kAll, kSlab, kLenses, kBlendedLenses };
-
-/// For each reach and variant; null: that is cast in one go.
-constexpr std::array<std::array<const char*, 6>, 4> kFragments{
-    {{"volume/volume.frag", "volume/shaded.frag", "volume/lenses.frag", "volume/colored.frag",
-      "volume/magnified.frag", "volume/magnified_colored.frag"},
-     {"volume/slab_volume.frag", "volume/slab_shaded.frag", "volume/slab_lenses.frag", nullptr,
-      "volume/slab_magnified.frag", nullptr},
-     {nullptr, nullptr, "volume/focus.frag", "volume/focus_colored.frag", "volume/focus_magnified.frag",
-      "volume/focus_magnified_colored.frag"},
-     {nullptr, nullptr, "volume/focus_blended.frag", "volume/focus_blended_colored.frag",
-      "volume/focus_blended_magnified.frag", "volume/focus_blended_magnified_colored.frag"}}};
+constexpr std::size_t kReaches = 4;
 
 constexpr const char* kLayersDefine = "LAYERS";
 
-const char* fragment_of(Reach reach, Variant variant) {
-  return kFragments[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
+bool over_context(Reach reach) { return reach == Reach::kLenses || reach == Reach::kBlendedLenses; }
+
+bool is_magnified(Variant variant) {
+  return variant == Variant::kMagnified || variant == Variant::kMagnifiedColored;
 }
 
-bool over_context(Reach reach) { return reach == Reach::kLenses || reach == Reach::kBlendedLenses; }
+bool is_colored(Variant variant) {
+  return variant == Variant::kColored || variant == Variant::kMagnifiedColored;
+}
+
+ShaderVariant shader_of(Reach reach, Variant variant) {
+  const bool parts = variant != Variant::kPlain && variant != Variant::kShaded;
+  ShaderVariant shader{.fragment = parts ? "volume/lenses.frag" : "volume/volume.frag", .defines = {}};
+  const auto define = [&](bool on, const char* name) {
+    if (on) shader.defines.emplace_back(name);
+  };
+  define(reach == Reach::kSlab, "SLABS");
+  define(over_context(reach), "CONTEXT");
+  define(reach == Reach::kBlendedLenses, "BLENDED");
+  define(variant == Variant::kShaded, "SHADED");
+  define(is_magnified(variant), "MAGNIFIED");
+  define(is_colored(variant), "COLORED");
+  return shader;
+}
 
 Variant variant_of(const VolumeView& view) {
   if (has_magnified_parts(view))
@@ -77,7 +87,7 @@ VoxelStorage storage_of_whole(const VolumeView& view) {
 }  // namespace
 
 struct VolumePass::State {
-  std::array<std::array<GlProgram, kFragments[0].size()>, kFragments.size()> programs;
+  std::array<std::array<GlProgram, kVariants>, kReaches> programs;
   GlVertexArray no_vertices = make_vertex_array();
   VolumeTextures textures;
   GlBuffer volume_block, shape_block;
@@ -109,19 +119,15 @@ struct VolumePass::State {
     GlProgram& program = programs[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
     if (!program) {
       program = compile_program(over_context(reach) ? "volume/context_tiles.vert" : "volume/volume.vert",
-                                fragment_of(reach, variant), shader_files(), defines);
+                                shader_of(reach, variant), defines);
       ++cost.programs;
     }
     return program;
   }
 
-  [[nodiscard]] bool colored() const {
-    return variant == Variant::kColored || variant == Variant::kMagnifiedColored;
-  }
-
   [[nodiscard]] bool keeps_slabs() const {
     return shown.keep_slabs && layers == nullptr && !has_regions(shown) && !samples_less_far(shown) &&
-           fragment_of(Reach::kSlab, variant) != nullptr;
+           !is_colored(variant);
   }
 
   // Whether this picture can use what is kept, or begins to keep it.
@@ -140,7 +146,7 @@ struct VolumePass::State {
   [[nodiscard]] VolumeBlock make_volume(const VolumeView& view) const {
     VolumeBlock block = make_volume_block(view, frame, textures.field_bricks());
     // Beside light it costs little to ask.
-    float& fewest = block.fields[0].bricks.w;
+    float& fewest = block.fields[0].samples_to_leap;
     if (variant == Variant::kPlain)
       fewest = std::max(fewest, static_cast<float>(textures.fewest_samples_to_leap()));
     return block;
@@ -154,7 +160,7 @@ struct VolumePass::State {
   void bind_volume(const GlBuffer& volume, const GlBuffer& shapes) {
     glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, volume.name());
     bind_shape_block(shapes, room);
-    textures.bind(colored());
+    textures.bind(is_colored(variant));
   }
 
   void bind(const GlProgram& program, const GlBuffer& volume, const GlBuffer& shapes,
@@ -181,9 +187,9 @@ struct VolumePass::State {
     if (layers != nullptr) told.emplace_back(kLayersDefine);
     if (told == defines) return program_of(Reach::kAll);
     if (!again->program) {
-      const char* fragment = fragment_of(Reach::kAll, variant);
-      again->program = compile_program("volume/volume.vert", fragment, shader_files(), told);
-      label_object(GpuObject::Kind::kProgram, again->program.name(), std::string(fragment) + ", again");
+      const ShaderVariant shader = shader_of(Reach::kAll, variant);
+      again->program = compile_program("volume/volume.vert", shader, told);
+      label_object(GpuObject::Kind::kProgram, again->program.name(), shader.label() + ", again");
       ++cost.programs;
     }
     return again->program;
@@ -195,7 +201,7 @@ struct VolumePass::State {
     again->update(as, frame, textures);
     glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, again->volume_block.name());
     bind_shape_block(again->shape_block, again->room);
-    again->textures.bind(colored());
+    again->textures.bind(is_colored(variant));
     use(program_again(), opaque_depth, step);
     glUniform1i(volume_shader::kHasKept, seen != nullptr ? 1 : 0);
     if (seen != nullptr) glBindTextureUnit(volume_shader::kStillDepth, seen->depth());

@@ -327,18 +327,18 @@ void VolumeTextures::update_tables(const VolumeView& view) {
     optical_.clear();
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const std::vector<TransferPlace> places = transfer_places(view, field_bricks_);
+  const std::vector<TransferBlock> places = transfer_blocks(view, field_bricks_);
   distances_.resize(places.size());
   optical_.resize(places.size());
   cost_.tables_made = 0;
   cost_.segments_made = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (stay && before.transfers[i] == key_.transfers[i]) continue;
-    const TransferPlace& place = places[i];
-    distances_[i] = place.regions ? update_regions(view, key_.transfers[i], place)
-                                  : update_preintegrated(view, key_.transfers[i], place, optical_[i]);
+    const TransferBlock& place = places[i];
+    distances_[i] = place.by_regions == 1 ? update_regions(view, key_.transfers[i], place)
+                                          : update_preintegrated(view, key_.transfers[i], place, optical_[i]);
     const Index3 b = field_bricks_[place.field];
-    glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, place.first_brick_z, b.x, b.y, b.z, GL_RED_INTEGER,
+    glTextureSubImage3D(empty_bricks_.name(), 0, 0, 0, place.first_brick, b.x, b.y, b.z, GL_RED_INTEGER,
                         GL_UNSIGNED_BYTE, distances_[i].data());
     ++cost_.tables_made;
   }
@@ -362,10 +362,10 @@ void VolumeTextures::allocate_tables(const VolumeView& view) {
   cost_.table_bytes = 0;
   Index3 maps(0);
   int tables = 0, regions = 0;
-  for (const TransferPlace& place : transfer_places(view, field_bricks_)) {
+  for (const TransferBlock& place : transfer_blocks(view, field_bricks_)) {
     const Index3 b = field_bricks_[place.field];
     maps = {std::max(maps.x, b.x), std::max(maps.y, b.y), maps.z + b.z};
-    (place.regions ? regions : tables) += 1;
+    (place.by_regions == 1 ? regions : tables) += 1;
   }
   const auto entries = static_cast<std::uint64_t>(view.table_entries);
   if (tables > 0) {
@@ -445,7 +445,7 @@ void VolumeTextures::fill_table(const VolumeView& view, const std::vector<Optica
 // @return distances between empty bricks
 std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView& view,
                                                                const FieldTransfer& transfer,
-                                                               const TransferPlace& place,
+                                                               const TransferBlock& place,
                                                                std::vector<OpticalEntry>& before) {
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange values = table_places(view, place.field);
@@ -466,7 +466,7 @@ std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView&
 // there of its values with any gradient counts.
 std::vector<std::uint8_t> VolumeTextures::update_regions(const VolumeView& view,
                                                          const FieldTransfer& transfer,
-                                                         const TransferPlace& place) {
+                                                         const TransferBlock& place) {
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange places = table_places(view, place.field);
   const RegionTable table =

@@ -123,10 +123,10 @@ class VolumeTextures {
                   int first_layer);
   void upload_table(std::size_t lengths, const EntryRange& changed, std::size_t entries, int first_layer);
   std::vector<std::uint8_t> update_preintegrated(const VolumeView& view, const FieldTransfer& transfer,
-                                                 const TransferPlace& place,
+                                                 const TransferBlock& place,
                                                  std::vector<OpticalEntry>& before);
   std::vector<std::uint8_t> update_regions(const VolumeView& view, const FieldTransfer& transfer,
-                                           const TransferPlace& place);
+                                           const TransferBlock& place);
 
   std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
   std::shared_ptr<VoxelBricks> bricks_;

@@ -18,7 +18,7 @@ void VolumeVariant::update(const VolumeView& view, const SceneFrame& frame, cons
     defines = std::move(wanted);
   }
   VolumeBlock told = make_volume_block(view, frame, textures.field_bricks());
-  told.lengths.w = 0.0F;  // rays of all pixels: the tiles are those of another picture
+  told.asks_tiles = 0.0F;  // rays of all pixels: the tiles are those of another picture
   volume_block = volume_shader::make_block_buffer(told);
   shape_block = make_buffer(make_shape_block(view, frame, room));
 }

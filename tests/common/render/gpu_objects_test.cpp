@@ -116,7 +116,7 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
     return made;
   };
   view.shading = true;
-  (void)expect("light", with(tiles, {"volume/shaded.frag"}), {});
+  (void)expect("light", with(tiles, {"volume/volume.frag SHADED"}), {});
 
   view.lenses = {lenses()[0].lens};
   Made made = expect("a lens", with(tiles, {"volume/lenses.frag"}), {});
@@ -138,8 +138,8 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
   const Names context{"context before lenses", "context behind lenses", "kinds of context pixels",
                       "kinds of tiles"};
   made = expect("a coarser context",
-                with(tiles, {"volume/focus.frag", "volume/context_shaded.frag", "volume/context_tiles.frag",
-                             "volume/enlarged.frag"}),
+                with(tiles, {"volume/lenses.frag CONTEXT", "volume/context.frag SHADED",
+                             "volume/context_tiles.frag", "volume/enlarged.frag"}),
                 context);
   EXPECT_EQ(made.textures["voxels"], 29U * 29U * 29U + 15U * 15U * 15U);
   EXPECT_EQ(made.textures["context before lenses"], 8U * kWidth * kHeight);
@@ -147,8 +147,8 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
   view.lenses[0].transition = 0.5;
   (void)expect(
       "values that go over at its border",
-      with(kAnyScene, {"volume/tiles.frag", "volume/focus_blended.frag", "volume/context_shaded.frag",
-                       "volume/context_tiles.frag", "volume/enlarged.frag"}),
+      with(kAnyScene, {"volume/tiles.frag", "volume/lenses.frag CONTEXT BLENDED",
+                       "volume/context.frag SHADED", "volume/context_tiles.frag", "volume/enlarged.frag"}),
       context);
 
   view.lenses[0].magnification = 2.0;
@@ -156,12 +156,12 @@ TEST(GpuObjects, GrowWithWhatASceneAsksFor) {
   image->colors = std::make_shared<const std::vector<std::array<std::uint8_t, 4>>>(image->point_count());
   view.image = image;
   (void)expect("voxels with colours, which no part shows",
-               with(tiles, {"volume/focus_magnified.frag", "volume/context_shaded.frag",
+               with(tiles, {"volume/lenses.frag CONTEXT MAGNIFIED", "volume/context.frag SHADED",
                             "volume/context_tiles.frag", "volume/enlarged.frag"}),
                context);
   view.lenses[0].colored = true;
   made = expect("a lens that enlarges and shows them",
-                with(tiles, {"volume/focus_magnified_colored.frag", "volume/context_shaded.frag",
+                with(tiles, {"volume/lenses.frag CONTEXT MAGNIFIED COLORED", "volume/context.frag SHADED",
                              "volume/context_tiles.frag", "volume/enlarged.frag"}),
                 with(context, {"colours of voxels"}));
   EXPECT_EQ(made.textures["colours of voxels"], 4U * 29U * 29U * 29U);
@@ -243,10 +243,10 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   expect("a plane", sorted(gpu_objects()), {}, {});
   view.cuts[0].kept.offset = 0.31;
   renderer.draw(scene_of(view), kWidth, kHeight);
-  expect("that moves", sorted(gpu_objects()), {"volume/slab_volume.frag"},
+  expect("that moves", sorted(gpu_objects()), {"volume/volume.frag SLABS"},
          {"kept slab", "depths of kept slabs"});
   renderer.forget_slabs();
-  expect("and rests", sorted(gpu_objects()), {"volume/slab_volume.frag"}, {});
+  expect("and rests", sorted(gpu_objects()), {"volume/volume.frag SLABS"}, {});
 }
 
 // Of a sparse volume only bricks that show something stand on the GPU; a long list of cuts takes a buffer, no

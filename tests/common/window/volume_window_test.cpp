@@ -100,7 +100,7 @@ TEST_F(VolumeWindow, ShowsTheVolumeItsSizeAndWhereThePatientLies) {
              (kind == GpuObject::Kind::kProgram || object.bytes > 0);
     });
   };
-  EXPECT_TRUE(has(GpuObject::Kind::kProgram, "volume/shaded.frag"));
+  EXPECT_TRUE(has(GpuObject::Kind::kProgram, "volume/volume.frag SHADED"));
   EXPECT_FALSE(has(GpuObject::Kind::kProgram, "volume/lenses.frag"));
   EXPECT_TRUE(has(GpuObject::Kind::kTexture, "voxels"));
 }
