@@ -7,7 +7,7 @@ packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev li
 packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
   libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The loaders' helper programs.
-packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libopenvdb-dev zlib1g-dev"
+packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libopenvdb-dev zlib1g-dev libzip-dev"
 # The drivers of devices: modules that only --device opens.
 packages_drivers="libusb-1.0-0-dev libboost-dev"
 # The mesher of cardiac.

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+#include <zip.h>
 
 #include "common/base/error.h"
 #include "common/base/file_numbers.h"
 #include "common/base/mapped_file.h"
 #include "common/base/text.h"
-#include "loaders/tract/zip_archive.h"
+#include "common/load/gzip_head.h"
 
 namespace palpate {
 namespace {
@@ -104,16 +104,35 @@ std::optional<ArrayName> parse_name(std::string_view path) {
 /// The members of a folder or zip file, read on demand.
 class Members {
  public:
+  /// @throws Error (bad input): no zip file, or a damaged one.
   explicit Members(const std::filesystem::path& path) : path_(path.string()) {
     std::error_code error;
-    if (!std::filesystem::is_directory(path, error)) {
-      mapped_ = std::make_unique<MappedFile>(path_);
-      archive_.emplace(path_, mapped_->text());
-      for (const auto& [name, member] : archive_->members()) names_.push_back(name);
-      return;
+    if (std::filesystem::is_directory(path, error)) {
+      list_folder(path);
+    } else {
+      open_archive();
     }
+    std::sort(names_.begin(), names_.end());
+  }
+
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
+
+  /// @throws Error (bad input): damaged, encrypted, packed in a way that libzip does not know, or of another
+  /// size than claimed.
+  [[nodiscard]] std::string read(const std::string& name) const {
+    if (archive_) return unpack(name);
+    return std::string(MappedFile((std::filesystem::path(path_) / name).string()).text());
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& place, const std::string& found) const {
+    throw input_error({path_, place, found, "", "the file may be damaged or cut off"});
+  }
+
+  void list_folder(const std::filesystem::path& path) {
     // What TRX describes lies at most three folders deep (dpg/group/name).
     constexpr int kDeepest = 3, kMostEntries = 100'000;
+    std::error_code error;
     int entries = 0;
     for (auto it = std::filesystem::recursive_directory_iterator(path, error);
          !error && it != std::filesystem::recursive_directory_iterator() && entries < kMostEntries;
@@ -123,20 +142,64 @@ class Members {
       if (it->is_regular_file(ignored))
         names_.push_back(it->path().lexically_relative(path).generic_string());
     }
-    std::sort(names_.begin(), names_.end());
   }
 
-  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
-
-  [[nodiscard]] std::string read(const std::string& name) const {
-    if (archive_) return archive_->read(name, archive_->members().at(name));
-    return std::string(MappedFile((std::filesystem::path(path_) / name).string()).text());
+  void open_archive() {
+    mapped_ = std::make_unique<MappedFile>(path_);
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* const source =
+        zip_source_buffer_create(mapped_->text().data(), mapped_->text().size(), 0, &error);
+    if (source != nullptr) archive_.reset(zip_open_from_source(source, ZIP_RDONLY, &error));
+    if (!archive_) {
+      const std::string found = std::string("cannot be read as a zip file: ") + zip_error_strerror(&error);
+      zip_error_fini(&error);
+      zip_source_free(source);
+      refuse("", found);
+    }
+    const zip_int64_t entries = zip_get_num_entries(archive_.get(), 0);
+    for (zip_int64_t i = 0; i < entries; ++i) {
+      const std::string_view name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
+      if (!name.ends_with('/')) names_.emplace_back(name);
+    }
   }
 
- private:
+  // Nothing is allocated that the bytes of the file could not hold.
+  [[nodiscard]] std::string unpack(const std::string& name) const {
+    zip_stat_t claimed;
+    zip_stat_init(&claimed);
+    constexpr zip_uint64_t kNeeded = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD;
+    if (zip_stat(archive_.get(), name.c_str(), 0, &claimed) != 0 || (claimed.valid & kNeeded) != kNeeded)
+      refuse(name, "has no size");
+    const bool possible =
+        claimed.comp_size <= mapped_->text().size() &&
+        (claimed.comp_method == ZIP_CM_STORE ? claimed.size == claimed.comp_size
+                                             : claimed.size / kGzipRatio <= claimed.comp_size);
+    if (!possible) {
+      refuse(name, "claims " + std::to_string(claimed.size) + " bytes, packed in " +
+                       std::to_string(claimed.comp_size));
+    }
+    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> member(zip_fopen(archive_.get(), name.c_str(), 0),
+                                                                   zip_fclose);
+    if (!member) refuse(name, std::string("cannot be unpacked: ") + zip_strerror(archive_.get()));
+    std::string bytes(claimed.size, '\0');
+    std::size_t filled = 0;
+    zip_int64_t got = 1;
+    while (filled < bytes.size() && got > 0) {
+      got = zip_fread(member.get(), bytes.data() + filled, bytes.size() - filled);
+      filled += static_cast<std::size_t>(std::max<zip_int64_t>(got, 0));
+    }
+    // Only reading on at the end compares checksum and size.
+    char beyond = 0;
+    if (got >= 0) got = zip_fread(member.get(), &beyond, 1);
+    if (got < 0) refuse(name, std::string("cannot be unpacked: ") + zip_file_strerror(member.get()));
+    if (got > 0 || filled != bytes.size()) refuse(name, "has another size than it claims");
+    return bytes;
+  }
+
   std::string path_;
   std::unique_ptr<MappedFile> mapped_;
-  std::optional<ZipArchive> archive_;
+  std::unique_ptr<zip_t, void (*)(zip_t*)> archive_{nullptr, zip_discard};
   std::vector<std::string> names_;
 };
 

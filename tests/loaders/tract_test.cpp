@@ -221,6 +221,8 @@ std::vector<Damaged> damaged() {
   bomb[bomb.find("PK\1\2") + 27] = '\x7f';  // some 2 GB unpacked
   std::string flipped = zip(members, false);
   flipped[flipped.find("positions.3.float32") + 40] ^= 1;
+  std::string crowd = zip(members, false);
+  crowd.replace(crowd.size() - 14, 4, "\xff\xef\xff\xef");  // 61439 members
 
   return {
       {"end.tck", "mrtrix tracks\ndatatype: Float32LE\n", "has no END"},
@@ -252,9 +254,10 @@ std::vector<Damaged> damaged() {
       {"text.trx", trx(0, "no json"), "is no JSON object"},
       {"back.trx", trx(2, backwards), "entry 3 is 5"},
       {"group.trx", trx(5, std::string(4, '\xff')), "names line 4.29497e+09"},
-      {"cut.trx", zip(members, false).substr(0, 300), "no list of its members"},
+      {"cut.trx", zip(members, false).substr(0, 300), "Not a zip archive"},
       {"bomb.trx", bomb, "header.json: "},
-      {"flipped.trx", flipped, "checksum"},
+      {"crowd.trx", crowd, "cannot be read as a zip file"},
+      {"flipped.trx", flipped, "CRC error"},
       {"other.zip", zip({{"a.txt", "a"}}, false), "a zip file without tracts"},
   };
 }
