@@ -34,12 +34,6 @@ void FaultRecorder::Situation::take(const Change& change) noexcept {
       case HandSwitch::kArm:
         off = false;
         break;
-      case HandSwitch::kPause:
-        paused = true;
-        break;
-      case HandSwitch::kResume:
-        paused = false;
-        break;
       case HandSwitch::kRestart:
         break;
     }
@@ -210,7 +204,7 @@ std::string FaultRecorder::text_of(const Memory& memory) {
   std::size_t first = 0;
   for (; first < memory.count(); ++first) {
     const auto* step = std::get_if<StepEntry>(&memory.at(first));
-    if (step != nullptr && !step->input.present && !before.paused) break;
+    if (step != nullptr && !step->input.present) break;
     memory.take(memory.at(first), before, header_.limits);
   }
   const bool exact = first < memory.count() && !(header_.limits.continuous_cap < header_.limits.force_cap);
@@ -231,7 +225,6 @@ std::string FaultRecorder::text_of(const Memory& memory) {
   if (before.chain) text.chain(begin, descriptions_[*before.chain]);
   if (before.settings) text.settings(begin, *before.settings);
   if (before.off) text.change(begin, HandSwitch::kForceOff);
-  if (before.paused) text.change(begin, HandSwitch::kPause);
   for (std::size_t i = first; i < memory.count(); ++i) {
     if (const auto* step = std::get_if<StepEntry>(&memory.at(i))) {
       text.step(step->input, step->step);

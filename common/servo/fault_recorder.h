@@ -79,7 +79,7 @@ class FaultRecorder {
   struct Situation {
     std::optional<std::uint32_t> chain;
     std::optional<ChainSettings> settings;
-    bool off = false, paused = false;
+    bool off = false;
 
     void take(const Change& change) noexcept;
     void take(const HandStep& step, const DeviceLimits& limits) noexcept;

@@ -36,13 +36,6 @@ void HandStepper::apply(HandSwitch change) noexcept {
       safety_.arm();
       starting_ = true;
       break;
-    case HandSwitch::kPause:
-      paused_ = true;
-      break;
-    case HandSwitch::kResume:
-      paused_ = false;
-      starting_ = true;
-      break;
     case HandSwitch::kRestart:
       starting_ = true;
       break;
@@ -100,7 +93,6 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
 }
 
 ForceCut HandStepper::judge(const HandInput& input, double dt) const noexcept {
-  if (paused_) return ForceCut::kPaused;
   if (!input.present) return ForceCut::kNoHand;
   const DeviceSample& sample = input.sample;
   if (!std::isfinite(input.time) || !std::isfinite(sample.time) || !is_finite(sample.position)) {

@@ -46,8 +46,6 @@ struct HandStep {
 enum class HandSwitch : std::uint8_t {
   kForceOff,  ///< no force until kArm
   kArm,       ///< force again, from zero
-  kPause,     ///< no force, and the proxies stay where they are
-  kResume,    ///< goes on, from zero force
   kRestart    ///< the next step has no force, as after a stall
 };
 
@@ -69,7 +67,6 @@ class HandStepper {
   [[nodiscard]] std::uint64_t next_number() const noexcept { return next_; }
   [[nodiscard]] const DeviceLimits& limits() const noexcept { return safety_.limits(); }
   [[nodiscard]] bool armed() const noexcept { return safety_.armed(); }
-  [[nodiscard]] bool paused() const noexcept { return paused_; }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
@@ -95,7 +92,6 @@ class HandStepper {
   double last_time_ = kNever;  ///< [s] the last finite time of a step
   std::uint64_t next_ = 0;
   bool starting_ = true;  ///< the next step starts from zero force
-  bool paused_ = false;
 };
 
 }  // namespace palpate

@@ -15,7 +15,7 @@ namespace palpate {
 namespace {
 
 // In the order of HandSwitch.
-constexpr std::array<std::string_view, 5> kSwitchNames{"force_off", "arm", "pause", "resume", "restart"};
+constexpr std::array<std::string_view, 3> kSwitchNames{"force_off", "arm", "restart"};
 
 constexpr const char* kWhat = "a recording made with --record";
 
@@ -191,8 +191,7 @@ class BodyReader {
       const std::string_view name = words.word("the name of a switch");
       const auto place = std::find(kSwitchNames.begin(), kSwitchNames.end(), name);
       if (place == kSwitchNames.end()) {
-        words.refuse("'" + std::string(name.substr(0, 40)) + "' is no switch",
-                     "force_off, arm, pause, resume or restart");
+        words.refuse("'" + std::string(name.substr(0, 40)) + "' is no switch", "force_off, arm or restart");
       }
       change.change = static_cast<HandSwitch>(place - kSwitchNames.begin());
     }

@@ -10,8 +10,8 @@ namespace palpate {
 
 std::string_view name_of(ForceCut cut) noexcept {
   constexpr std::array<std::string_view, kForceCutCount> kNames{
-      "none",     "no_hand",  "paused", "start", "jump",       "switched_off", "out_of_reach",
-      "released", "too_fast", "stale",  "time",  "not_finite", "chain"};
+      "none",     "no_hand",  "start", "jump", "switched_off", "out_of_reach",
+      "released", "too_fast", "stale", "time", "not_finite",   "chain"};
   return kNames[static_cast<std::size_t>(cut)];
 }
 

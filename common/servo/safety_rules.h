@@ -16,7 +16,6 @@ namespace palpate {
 enum class ForceCut : std::uint8_t {
   kNone,         ///< it is not cut
   kNoHand,       ///< no hand on the device
-  kPaused,       ///< the servo was told to hold still
   kStart,        ///< first step, a new chain or hand, or after a stall: the force grows from here
   kJump,         ///< a proxy changed to another feature: the force grows from here
   kSwitchedOff,  ///< latched until arm()
@@ -28,7 +27,7 @@ enum class ForceCut : std::uint8_t {
   kNotFinite,    ///< fault: the sample or the force is no finite number
   kChain         ///< fault: the chain could make no sense of its input
 };
-inline constexpr int kForceCutCount = 13;
+inline constexpr int kForceCutCount = 12;
 [[nodiscard]] std::string_view name_of(ForceCut cut) noexcept;  ///< "switched_off"
 /// Whether it says that something is wrong, rather than wanted.
 [[nodiscard]] constexpr bool is_fault(ForceCut cut) noexcept { return cut >= ForceCut::kTooFast; }

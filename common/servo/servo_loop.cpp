@@ -143,7 +143,6 @@ void ServoLoop::tick(double now) noexcept {
   if (recorder_ != nullptr) recorder_->step(input, step);
   if (faults_ != nullptr) faults_->step(input, step);
   now_.armed = stepper_.armed();
-  now_.paused = stepper_.paused();
   publish(step);
 }
 
@@ -174,9 +173,6 @@ void ServoLoop::take_changes() noexcept {
   if (ChainSettings settings; settings_.read(settings)) {
     stepper_.apply(settings);
     record(settings);
-  }
-  if (const bool paused = paused_.load(std::memory_order_acquire); paused != stepper_.paused()) {
-    apply(paused ? HandSwitch::kPause : HandSwitch::kResume);
   }
   if (const auto arm = arm_requests_.load(std::memory_order_acquire); arm != arm_seen_) {
     arm_seen_ = arm;

@@ -59,7 +59,6 @@ struct ServoState {
   HandStep hand;
   bool late = false;  ///< this tick
   bool armed = true;
-  bool paused = false;
   bool replay_done = false;
   double rate = 0.0;  ///< [Hz] that is asked for
   ServoStatistics statistics;
@@ -94,7 +93,6 @@ class ServoLoop {
   void swap_chain(std::unique_ptr<ProxyChain> chain, const std::string& description);
   /// Deletes chains that the servo is done with; call it now and then (once a frame).
   void collect_retired() noexcept;
-  void set_paused(bool paused) noexcept { paused_.store(paused, std::memory_order_release); }
 
   // In, from any thread, signal handlers included.
 
@@ -143,7 +141,6 @@ class ServoLoop {
   std::atomic<std::uint64_t> next_step_{0};
   std::atomic<std::uint32_t> off_requests_{0};
   std::atomic<std::uint32_t> arm_requests_{0};
-  std::atomic<bool> paused_{false};
 
   Device* device_ = nullptr;
   ReplaySource* replay_ = nullptr;

@@ -110,9 +110,8 @@ HandInput HostileHand::input() {
 }
 
 void HostileHand::disturb(HandStepper& stepper) {
-  if (once_in(150)) stepper.apply(static_cast<HandSwitch>(random_() % 5));
+  if (once_in(150)) stepper.apply(static_cast<HandSwitch>(random_() % 3));
   if (once_in(50)) stepper.apply(HandSwitch::kArm);
-  if (once_in(50)) stepper.apply(HandSwitch::kResume);
   if (once_in(200)) stepper.apply(settings());
 }
 

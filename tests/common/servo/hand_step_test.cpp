@@ -139,10 +139,6 @@ TEST(HandStepper, StartsWithASmallForceEachTime) {
   (void)stepper.step(at(t += 0.001, deep));
   stepper.apply(HandSwitch::kArm);
   start("armed");
-  stepper.apply(HandSwitch::kPause);
-  (void)stepper.step(at(t += 0.001, deep));
-  stepper.apply(HandSwitch::kResume);
-  start("resumed");
   stepper.apply(HandSwitch::kRestart);
   start("after a stall");
   (void)stepper.step({.time = t += 0.001});
@@ -199,7 +195,7 @@ TEST(HandStepper, StartsFromZeroWithAnotherChainAndKeepsTheForceOnAnEditedStiffn
   EXPECT_NEAR(stepper.step(at(t + 0.004, kNear)).force.z, 0.2, 1e-12);
 }
 
-TEST(HandStepper, SwitchesForceOffAndHoldsStill) {
+TEST(HandStepper, SwitchesForceOff) {
   double t = 0.0;
   HandStepper stepper = held(t);
   stepper.apply(HandSwitch::kForceOff);
@@ -210,13 +206,6 @@ TEST(HandStepper, SwitchesForceOffAndHoldsStill) {
   stepper.apply(HandSwitch::kArm);
   EXPECT_EQ(stepper.step(at(t + 0.002, kNear)).cut, ForceCut::kStart);
   EXPECT_GT(glm::length(stepper.step(at(t + 0.003, kNear)).force), 0.0);
-  stepper.apply(HandSwitch::kPause);
-  const HandStep still = stepper.step(at(t + 0.004, {0, 0.051, 0}));
-  EXPECT_EQ(still.cut, ForceCut::kPaused);
-  EXPECT_NEAR(still.chain.proxies[0].z, kRadius, 1e-15);
-  stepper.apply(HandSwitch::kResume);
-  EXPECT_EQ(stepper.step(at(t + 0.005, kNear)).force, Vec3(0.0));
-  EXPECT_GT(glm::length(stepper.step(at(t + 0.006, kNear)).force), 0.0);
 }
 
 TEST(HandStepper, LatchesWhenTheHandPassesTheVelocityGate) {

@@ -75,8 +75,7 @@ std::vector<HandStep> record_run(const std::string& file, int steps, std::size_t
     if (i == 400) change(ChainSettings{.stiffness = 123.456789, .ticks = {.stiffness = 1.0 / 3.0}});
     if (i == 500) change(HandSwitch::kForceOff);
     if (i == 510) change(HandSwitch::kArm);
-    if (i == 520) change(HandSwitch::kPause);
-    if (i == 530) change(HandSwitch::kResume);
+    if (i == 520) change(HandSwitch::kRestart);
     if (i % 250 == 249) recorder.event(stepper.next_number(), static_cast<std::uint64_t>(i), "key G\ndown");
     HandInput input{.time = t, .present = i % 400 < 380, .sample = {t - 1e-4, x, i % 2 == 0 ? 1U : 0U}};
     if (i % 97 == 96) input.sample.position.y = kNan;

@@ -128,11 +128,6 @@ TEST(ServoLoop, TakesSettingsAndSwitches) {
   }));
   servo.arm();
   EXPECT_TRUE(wait_for([&] { return near(device.shown, 0.5 * kPull); }));
-  servo.set_paused(true);
-  EXPECT_TRUE(
-      wait_for(servo, [](const ServoState& s) { return s.paused && s.hand.cut == ForceCut::kPaused; }));
-  servo.set_paused(false);
-  EXPECT_TRUE(wait_for([&] { return near(device.shown, 0.5 * kPull); }));
   servo.force_off();
   servo.arm();
   servo.force_off();
@@ -256,7 +251,6 @@ TEST(ServoLoop, AllocatesNothingInATick) {
   for (int i = 0; i < 50; ++i) {
     servo.swap_chain(sphere_chain(kRadius), "another");
     servo.set_settings({.stiffness = 100.0 + i});
-    servo.set_paused(i % 4 == 0);
     servo.force_off();
     servo.arm();
     const int until = device.reads + 3;
@@ -348,8 +342,6 @@ TEST(ServoLoop, RecordsARunThatRepeatsBitForBit) {
         if (frame == 15) servo.swap_chain(sphere_chain(0.047), "0.047");
         if (frame == 20) servo.force_off();
         if (frame == 22) servo.arm();
-        if (frame == 25) servo.set_paused(true);
-        if (frame == 27) servo.set_paused(false);
         recorder.event(servo.next_step(), static_cast<std::uint64_t>(frame), "frame");
         const std::uint64_t until = servo.next_step() + 12;
         ASSERT_TRUE(wait_for([&] { return servo.next_step() >= until; }));
