@@ -41,12 +41,14 @@ function(palpate_no_loader helper why)
   set_property(GLOBAL APPEND PROPERTY PALPATE_NO_LOADER ${helper})
 endfunction()
 
-# palpate_check_loaders(): every helper program of the table was built or given up by a folder of loaders/.
+# palpate_check_loaders(): every helper program of the table that a program reads with was built or given up by a
+# folder of loaders/.
 function(palpate_check_loaders)
   palpate_format_helpers(helpers)
   get_property(missing GLOBAL PROPERTY PALPATE_NO_LOADER)
   foreach(helper ${helpers})
-    if(NOT TARGET ${helper} AND NOT helper IN_LIST missing)
+    get_property(users GLOBAL PROPERTY PALPATE_USERS_OF_${helper})
+    if(users AND NOT TARGET ${helper} AND NOT helper IN_LIST missing)
       message(FATAL_ERROR "${PALPATE_FORMATS_DEF} names ${helper}, which no folder of loaders/ builds")
     endif()
   endforeach()

@@ -40,9 +40,10 @@ function(palpate_helper name)
   install(TARGETS ${name} RUNTIME DESTINATION lib/palpate)
 endfunction()
 
-# palpate_app(name SOURCES main.cpp … USES … READS vectors … HELPERS …): an explorer; building it builds its
-# helpers too: HELPERS, and those of the formats that hold one of the kinds READS (common/load/formats.def). All but
-# main.cpp is the library palpate_parts_<name>, for its tests.
+# palpate_app(name SOURCES main.cpp … USES … READS vectors … HELPERS …): an explorer. Building it builds what it starts
+# and opens, too: HELPERS, the drivers of devices, and the helper programs of the formats that hold one of the kinds
+# READS (common/load/formats.def), which loaders/ adds after the programs. All but main.cpp is the library
+# palpate_parts_<name>, for its tests.
 function(palpate_app name)
   cmake_parse_arguments(arg "" "" "SOURCES;USES;READS;HELPERS" ${ARGN})
   list(REMOVE_ITEM arg_SOURCES main.cpp)
@@ -50,15 +51,18 @@ function(palpate_app name)
   target_link_libraries(palpate_parts_${name} PUBLIC palpate_options ${arg_USES})
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE palpate_parts_${name})
-  set(loaders)
-  if(arg_READS)
-    palpate_format_helpers(loaders ${arg_READS})
-  endif()
-  foreach(helper ${loaders} ${arg_HELPERS})
-    if(TARGET ${helper})
-      add_dependencies(${name} ${helper})
+  get_property(drivers GLOBAL PROPERTY PALPATE_DRIVERS)
+  foreach(part ${arg_HELPERS} ${drivers})
+    if(TARGET ${part})
+      add_dependencies(${name} ${part})
     endif()
   endforeach()
+  if(arg_READS)
+    palpate_format_helpers(loaders ${arg_READS})
+    foreach(loader ${loaders})
+      set_property(GLOBAL APPEND PROPERTY PALPATE_USERS_OF_${loader} ${name})
+    endforeach()
+  endif()
   # Installed as palpate-<name>: `flow` alone is too common a word for /usr/bin.
   install(PROGRAMS $<TARGET_FILE:${name}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME palpate-${name})
 endfunction()
