@@ -55,7 +55,7 @@ TEST(SnapDrag, MovesNothingASecondTimeAtWholeTeeth) {
 }
 
 // Figure 6.3 (a), hand computed: tau = 2, the probe goes out and back.
-TEST(ForceProfile, UnilateralDrag) {
+TEST(MotionRule, UnilateralDrag) {
   const double probe[] = {1, 0, -1, -2, -3, -4, -3, -2, -1, 0};
   const double proxy[] = {1, 1, 1, 0, -1, -2, -2, -2, -1, 0};
   double p = 1.0;
@@ -66,7 +66,7 @@ TEST(ForceProfile, UnilateralDrag) {
 }
 
 // Figure 6.3 (b), tau = 2.
-TEST(ForceProfile, SnapDrag) {
+TEST(MotionRule, SnapDrag) {
   const double probe[] = {0, 1, 2, 2.5, 3, 4, 4.5, 3, 2, 1.5};
   const double proxy[] = {0, 0, 0, 2, 2, 2, 4, 4, 4, 2};
   double p = 0.0;
