@@ -29,6 +29,9 @@ if(PALPATE_CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${PALPATE_CCACHE})
 endif()
 
+# In the presets of developers and of continuous integration. A user's compiler may know warnings that ours does not.
+option(PALPATE_WARNINGS_AS_ERRORS "Stop at a compiler's warning" ON)
+
 add_library(palpate_options INTERFACE)
 target_compile_features(palpate_options INTERFACE cxx_std_20)
 target_include_directories(palpate_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -36,7 +39,7 @@ target_include_directories(palpate_options INTERFACE ${PROJECT_SOURCE_DIR})
 # power-of-two scaling would not be bit-identical between builds.
 target_compile_options(palpate_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference
-  -Wno-missing-field-initializers -Werror -ffp-contract=off
+  -Wno-missing-field-initializers $<$<BOOL:${PALPATE_WARNINGS_AS_ERRORS}>:-Werror> -ffp-contract=off
   # GCC 12 sees overlapping copies in `"text" + std::string` where there are none (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Clang takes a captured structured binding, legal in C++20, for an extension.

@@ -1,20 +1,22 @@
-# Debian packages by purpose, and installing those that are missing. Sourced by ./run and ./test.
+# Debian packages by purpose, installing those that are missing, and configuring. Sourced by ./run and ./test.
 
-# What every build needs.
+# What every build needs: compiler, mathematics, command line, session files, window, drawing.
 packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev
-  libnanovdb-dev"
-# The explorers: command line, session files, window, drawing.
-packages_explorer="libcli11-dev libtomlplusplus-dev libceres-dev libepoxy-dev libegl-dev libegl1 libgl-dev libgl1-mesa-dri
-  libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
-# The loaders' helper programs.
-packages_loaders="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libopenvdb-dev zlib1g-dev libzip-dev"
+  libnanovdb-dev zlib1g-dev libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libegl1 libgl-dev
+  libgl1-mesa-dri libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
 # The drivers of devices: modules that only --device opens.
 packages_drivers="libusb-1.0-0-dev libboost-dev"
-# The mesher of cardiac.
-packages_mesher="libcgal-dev libtet1.5-dev"
+# What one program needs besides: the libraries of its helper programs. loaders/ has a folder for each.
+packages_flow="libvtk9-dev libteem-dev libopenvdb-dev"
+packages_grid="libvtk9-dev libteem-dev libopenvdb-dev libnifti2-dev libgdcm-dev"
+packages_dtmri="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libzip-dev"
+packages_cardiac="libvtk9-dev libcgal-dev libtet1.5-dev"
+packages_workbench="libceres-dev"
 # The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.
 packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev
   libumockdev-dev umockdev"
+
+apps="cardiac dtmri flow grid workbench"
 
 say() { printf '==> %s\n' "$*" >&2; }
 fail() { printf '==> %s\n' "$*" >&2; exit 1; }
@@ -47,14 +49,31 @@ ensure_packages() {
   rm -f "$log"
 }
 
-# configure PRESET: runs cmake unless the build folder is already configured for this source folder.
-# Ninja runs it again by itself when a CMake file changes; newly installed packages ask for a fresh one.
+# configure PRESET APP…: runs cmake, unless the build folder is already configured for this source folder and these
+# programs. Programs that it was configured for before stay. Ninja runs cmake again by itself when a CMake file
+# changes; newly installed packages ask for a fresh run.
 configure() {
-  stamp="build/$1/.configured"
-  if [ ! -f "$stamp" ] || [ -n "${missing:-}" ]; then
-    say "Configuring build/$1"
-    cmake --preset "$1" >"build-$1.log" 2>&1 || { tail -n 30 "build-$1.log" >&2; fail "cmake failed; see build-$1.log"; }
-    mv "build-$1.log" "build/$1/configure.log"
+  preset=$1
+  shift
+  stamp="build/$preset/.configured"
+  known=""
+  [ -f "build/$preset/CMakeCache.txt" ] &&
+    known=$(sed -n 's/^PALPATE_APPS:[A-Z]*=//p' "build/$preset/CMakeCache.txt" | tr ';' ' ')
+  wanted=$known
+  for name in "$@"; do
+    case " $wanted " in
+      *" $name "*) ;;
+      *) wanted="$wanted $name" ;;
+    esac
+  done
+  if [ ! -f "$stamp" ] || [ "$wanted" != "$known" ] || [ -n "${missing:-}" ]; then
+    say "Configuring build/$preset"
+    list=$(printf '%s' "$wanted" | tr -s ' ' ';' | sed 's/^;//')
+    cmake --preset "$preset" -DPALPATE_APPS="$list" >"build-$preset.log" 2>&1 || {
+      tail -n 30 "build-$preset.log" >&2
+      fail "cmake failed; see build-$preset.log"
+    }
+    mv "build-$preset.log" "build/$preset/configure.log"
     touch "$stamp"
   fi
 }
