@@ -1,8 +1,8 @@
 /// cardiac: layers and fibres of a heart's wall, seen and felt.
-#include "apps/cardiac/cardiac_modes.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/remesh.h"
 #include "common/cli/verbs.h"
+#include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
                     "through the wall, as the fibres go; 10 data units each way"},
                    {"cardiac trace --example ventricle --layer 0.9 --seeds grid:8,8,8 --json --out outer.vtp",
                     "a built-in heart; the counts as JSON"}}),
-              probe_verb(cardiac_modes(),
+              probe_verb(modes_of(FieldKind::kFibre),
                          {{"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
                            "held to layers, and on them to fibres as in grooves"},
                           {"cardiac probe --example ventricle --path path.csv --mode friction --json",

@@ -1,11 +1,11 @@
 #include <utility>
 
 #include "apps/cardiac/cardiac_model.h"
-#include "apps/cardiac/cardiac_modes.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
 #include "common/cli/verb_open.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/window/open_window.h"
 
 namespace palpate {
@@ -23,7 +23,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
                   .record = true,
                   .replay = true},
        .window = user_window(),
-       .modes = cardiac_modes(),
+       .modes = modes_of(FieldKind::kFibre),
        .render = render_layers_verb({}),
        .next = "trace FILE --layer 0.5 --seeds random:200 --out fibres.vtp",
        .check =

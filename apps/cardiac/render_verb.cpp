@@ -1,6 +1,5 @@
 #include <utility>
 
-#include "apps/cardiac/cardiac_modes.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
@@ -11,6 +10,7 @@
 #include "common/cli/verbs.h"
 #include "common/device/probe_path.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/hand/probe_picture.h"
 #include "common/hand/touch_options.h"
 #include "common/scene/seeds.h"
@@ -29,7 +29,7 @@ void check(const Options& options) {
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
   if (!options.path.empty()) (void)read_probe_path(options.path.string());
-  (void)mode_of(cardiac_modes(), options);
+  (void)mode_of(modes_of(FieldKind::kFibre), options);
   (void)touch_settings(options.touch);
 }
 
@@ -57,7 +57,7 @@ DrawnScene make_scene(Input& input, const Options& given, const VerbContext& con
                             options.common.threads,
                             heart->heart().layer,
                             heart->heart().fibres};
-    const std::vector<HapticMode> modes = cardiac_modes();
+    const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
     drawn.view.probe =
         probe_after(read_probe_path(options.path.string()), mode_of(modes, options).make(scene), scene,
                     touch_limits(options.touch), drawn.view.style.color_by);

@@ -1,7 +1,7 @@
 /// dtmri: images of diffusion tensors, seen and felt.
-#include "apps/dtmri/dtmri_modes.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "common/cli/verbs.h"
+#include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
                     "one tract with fixed steps, for ParaView"},
                    {"dtmri trace --example helix --seeds fa:0.6 --json --out helix.csv",
                     "a built-in image; the counts as JSON"}}),
-              probe_verb(dtmri_modes(),
+              probe_verb(modes_of(FieldKind::kTensor),
                          {{"dtmri probe tensor.nii.gz --path path.csv --tract tract.vtp",
                            "feel along a recorded path and keep the way of the proxy"},
                           {"dtmri probe --example helix --path path.csv --mode anisotropy-point "

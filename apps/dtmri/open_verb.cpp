@@ -1,12 +1,12 @@
 #include <utility>
 
 #include "apps/dtmri/dtmri_model.h"
-#include "apps/dtmri/dtmri_modes.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/view_tracts.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/window/open_window.h"
 
 namespace palpate {
@@ -17,7 +17,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
            "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",
        .groups = {.tracts = true, .view = true, .touch = true, .record = true, .replay = true},
        .window = user_window(),
-       .modes = dtmri_modes(),
+       .modes = modes_of(FieldKind::kTensor),
        .render = tensor_render_verb({}),
        .next = "info FILE",
        .check =

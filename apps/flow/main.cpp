@@ -1,7 +1,7 @@
 /// flow: streamlines of CFD data, seen and followed.
-#include "apps/flow/flow_modes.h"
 #include "apps/flow/flow_verbs.h"
 #include "common/cli/verbs.h"
+#include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
                        "a built-in field; the counts as JSON"},
                       {"flow trace carotid.vtk --seeds seeds.csv --stop-plane 0,0,1,20 --out lines.vtp",
                        "seeds from a table; lines end on the plane z = 20"}}),
-          probe_verb(flow_modes(),
+          probe_verb(modes_of(FieldKind::kVector),
                      {{"flow probe carotid.vtk --path path.csv --out log.csv",
                        "feel along a recorded path: proxies, forces and residuals, a row a step"},
                       {"flow probe --example abc --path path.csv --mode isotropic --json",
@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
                       {"flow probe carotid.vtk --path path.csv --ticks auto --stiffness 400 --out log.csv",
                        "with tick marks at equal times, and a stiffer spring"}}),
           render_verb(
-              flow_modes(),
+              modes_of(FieldKind::kVector),
               {{"flow render carotid.vtk --out carotid.png --size 1920x1080",
                 "a picture, with or without a display"},
                {"flow render --example tornado --camera 60,30,0,1.2 --color time --out tornado.png",

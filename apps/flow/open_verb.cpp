@@ -1,5 +1,4 @@
 #include "apps/flow/flow_model.h"
-#include "apps/flow/flow_modes.h"
 #include "apps/flow/flow_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
@@ -7,6 +6,7 @@
 #include "common/compose/line_view.h"
 #include "common/compose/resampled_volume.h"
 #include "common/compose/trace_options.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/scene/seeds.h"
 #include "common/window/open_window.h"
 
@@ -41,8 +41,8 @@ Verb open_verb(std::vector<UsageExample> examples) {
       {.summary = "look at lines in a window (the verb that FILE alone stands for)",
        .groups = {.tracing = true, .view = true, .touch = true, .record = true, .replay = true},
        .window = user_window(),
-       .modes = flow_modes(),
-       .render = render_verb(flow_modes(), {}),
+       .modes = modes_of(FieldKind::kVector),
+       .render = render_verb(modes_of(FieldKind::kVector), {}),
        .next = "trace FILE --seeds grid:8,8,8 --out lines.vtp",
        .check =
            [](const Options& options) {

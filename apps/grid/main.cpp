@@ -1,7 +1,7 @@
 /// grid: volumes of scalars, seen and felt.
-#include "apps/grid/grid_modes.h"
 #include "apps/grid/grid_verbs.h"
 #include "common/cli/verbs.h"
+#include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
                       {"grid info ct.raw --raw-size 512x512x300 --raw-type int16 --raw-spacing 0.5,0.5,1",
                        "voxels without a header"},
                       {"grid info head.nii.gz --explain", "and what each verb would load"}}),
-           probe_verb(grid_modes(),
+           probe_verb(modes_of(FieldKind::kScalar),
                       {{"grid probe tooth.nhdr --path path.csv --out log.csv --grid-peaks 2",
                         "along one axis of the voxels at a time, with notches where values pile up"},
                        {"grid probe tooth.nhdr --path path.csv --mode grid --box 20,20,40,80,70,120 --json",
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
                        {"grid probe --example blob --path path.csv --mode density --json",
                         "another mode; the summary as JSON"}}),
            volume_render_verb(
-               grid_modes(),
+               modes_of(FieldKind::kScalar),
                {{"grid render tooth.nhdr --out tooth.png --size 1920x1080",
                  "colours and opacities from the histogram"},
                 {"grid render ct.nii.gz --transfer-function ct --camera 0,0,0,1 --out ct.png",

@@ -1,11 +1,11 @@
 #include <utility>
 
 #include "apps/grid/grid_model.h"
-#include "apps/grid/grid_modes.h"
 #include "apps/grid/grid_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
 #include "common/compose/volume_scene.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/window/open_window.h"
 
 namespace palpate {
@@ -15,8 +15,8 @@ Verb open_verb(std::vector<UsageExample> examples) {
       {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
        .groups = {.view = true, .touch = true, .record = true, .replay = true, .notes = true, .part = true},
        .window = user_window(),
-       .modes = grid_modes(),
-       .render = volume_render_verb(grid_modes(), {}),
+       .modes = modes_of(FieldKind::kScalar),
+       .render = volume_render_verb(modes_of(FieldKind::kScalar), {}),
        .next = "probe FILE --path path.csv --out log.csv",
        .check = [](const Options& options) { check_volume_options(options.volume); },
        .use = [](const Input&, const Options&) { return SceneUse{}; },

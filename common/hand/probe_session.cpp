@@ -55,7 +55,7 @@ ChainSettings ProbeSession::chain_settings() const {
 
 bool ProbeSession::wants_texture() const {
   return choice_.settings.texture.by_noise && open_.scalar && !has_flow() &&
-         has_texture(options_.modes[choice_.mode].name);
+         options_.modes[choice_.mode].texture;
 }
 
 bool ProbeSession::measures_noise() const {

@@ -26,10 +26,10 @@
 #include <unistd.h>
 
 #include "apps/cardiac/cardiac_model.h"
-#include "apps/cardiac/cardiac_modes.h"
 #include "common/base/error.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/field/grid/cell_split.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/load/write_carp.h"
 #include "common/load/write_mesh.h"
 #include "common/window/window.h"
@@ -87,7 +87,7 @@ void open_once(const char* file, std::chrono::steady_clock::time_point began) {
     options.input.files = {file};
     CardiacModel model(options, "cardiac");
     WindowOptions window{.program = "cardiac"};
-    window.touch.modes = cardiac_modes();
+    window.touch.modes = modes_of(FieldKind::kFibre);
     window.frames = 1;
     (void)run_window(model, window);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

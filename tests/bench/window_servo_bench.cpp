@@ -27,10 +27,10 @@
 #include <sched.h>
 
 #include "apps/flow/flow_model.h"
-#include "apps/flow/flow_modes.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
 #include "common/cli/simulated_option.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/window/window.h"
 
 namespace palpate::bench {
@@ -109,7 +109,7 @@ LateCounts run(const Setup& setup) {
   options.input.example = setup.example;
   FlowModel model(options, "flow");
   WindowOptions window{.program = "flow"};
-  window.touch.modes = flow_modes();
+  window.touch.modes = modes_of(FieldKind::kVector);
   window.frames = static_cast<int>(seconds * kFrameRate);
   window.touch.simulated = simulated_option(setup.device);
   if (!setup.still) window.script = circling(window.frames, 860.0, 400.0);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/cardiac/cardiac_model.h"
-#include "apps/cardiac/cardiac_modes.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/scene/session.h"
 #include "common/window/panels/panel.h"
 #include "common/window/shown_scene.h"
@@ -40,7 +40,7 @@ class CardiacWindow : public ExplorerTest {
     window_.width = kWidth;
     window_.height = kHeight;
     window_.picture_folder = folder_.path();
-    window_.touch.modes = cardiac_modes();
+    window_.touch.modes = modes_of(FieldKind::kFibre);
     window_.touch.threads = 1;
     window_.touch.record = folder_.path("run.txt");
     window_.touch.recorded.program = "cardiac";

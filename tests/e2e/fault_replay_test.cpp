@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "apps/flow/flow_modes.h"
 #include "common/field/analytic/examples.h"
 #include "common/hand/mode/chain_description.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/servo/fault_recorder.h"
 #include "tests/e2e/explorer_test.h"
 
@@ -24,7 +24,7 @@ class FaultReplay : public ExplorerTest {
 TEST_F(FaultReplay, PlaysWhatLedToAFault) {
   const auto field = make_vector_field(example("tornado"));
   const NamedField open{field, field_key("example tornado velocity", 0)};
-  const auto modes = flow_modes();
+  const auto modes = modes_of(FieldKind::kVector);
   const double scale = Workspace::default_scale(field->diagonal());
   for (const std::string mode : {"streamline", "transverse"}) {
     const std::string description = describe_chain(mode, scale, {}, open.name);

@@ -11,11 +11,11 @@
 #include <stb_image.h>
 
 #include "apps/grid/grid_model.h"
-#include "apps/grid/grid_modes.h"
 #include "apps/grid/grid_verbs.h"
 #include "common/cli/command_line.h"
 #include "common/cli/window_touch.h"
 #include "common/compose/line_view.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/render/render_image.h"
 #include "common/window/panels/panel.h"
 #include "common/window/window.h"
@@ -51,7 +51,7 @@ class GridWindow : public ExplorerTest {
                          .angles = camera_angles(parsed.options.view.camera),
                          .focal_point = focal_point_of(parsed.options.view),
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(grid_modes(), parsed.options, context),
+                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
                          // Frames of some length: between two events the servo has time to answer.
                          .stop_requested =
                              [] {

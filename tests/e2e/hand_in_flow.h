@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "apps/flow/flow_modes.h"
 #include "common/device/driver_link.h"
 #include "common/device/simulated_device.h"
 #include "common/field/analytic/examples.h"
@@ -124,7 +123,10 @@ class HandInFlow : public ExplorerTest {
     ChainSettings settings;
     settings.stiffness = 150.0;
     settings.streamline.release_distance = 1.0;
-    return flow_modes().front().make({field_, workspace_, settings, 1, nullptr, nullptr}).chain;
+    return modes_of(FieldKind::kVector)
+        .front()
+        .make({field_, workspace_, settings, 1, nullptr, nullptr})
+        .chain;
   }
 
   /// The moment of `moments` at `time` or the one before.

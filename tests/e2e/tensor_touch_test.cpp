@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "apps/dtmri/dtmri_modes.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/hand/mode/chain_description.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/hand/probe_session.h"
 #include "common/servo/fault_recorder.h"
 #include "tests/e2e/explorer_test.h"
@@ -123,7 +123,7 @@ TEST_F(TensorTouch, RefusesCurvesAndModesThatMakeNoSense) {
 }
 
 TEST_F(TensorTouch, PlaysRecordingsBackToTheBit) {
-  const auto modes = dtmri_modes();
+  const auto modes = modes_of(FieldKind::kTensor);
   const auto field = make_tensor_field(tensor_example("eigenvalue-crossing"), {.array = "tensor"}, "");
   const NamedField open{.name = field_key("example eigenvalue-crossing tensor", 0), .tensor = field};
   const double scale = Workspace::default_scale(field->bounds().diagonal());
@@ -159,7 +159,7 @@ TEST_F(TensorTouch, ATractDrawnByHandIsRepeatedToTheBit) {
   const Vec3 start = field->bounds().center();
   {
     ProbeSessionOptions options;
-    options.modes = dtmri_modes();
+    options.modes = modes_of(FieldKind::kTensor);
     options.record = folder_.path("run.txt");
     options.recorded.program = "dtmri";
     ProbeSession session(options, [] {});

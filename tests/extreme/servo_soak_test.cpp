@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/flow/flow_modes.h"
 #include "common/field/analytic/examples.h"
 #include "common/field/analytic/sampled.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 #include "tests/extreme/hostile_hand.h"
 
@@ -115,7 +115,7 @@ TEST_P(ServoSoak, EveryModeOfFlow) {
                                             std::sin(3.0 * kTurn * s)});
   };
   std::uint64_t seed = 1;
-  for (const HapticMode& mode : flow_modes()) {
+  for (const HapticMode& mode : modes_of(FieldKind::kVector)) {
     const auto make_chain = [&] {
       ChainSettings settings;
       settings.ticks.interval = seed % 2 == 0 ? 0.0 : default_tick_interval(*field, workspace);

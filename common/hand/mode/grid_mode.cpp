@@ -86,6 +86,36 @@ std::vector<GridAxis::Landmark> landmarks_of(const HapticScene& scene, const Mat
   return landmarks;
 }
 
+double millimetres(double value, const char* option) {
+  if (std::isfinite(value) && value > 0.0) return kMetresPerMillimetre * value;
+  throw usage_error(std::string(option) + ": a distance above zero in mm is expected");
+}
+
+Vec3 spacing_of(const std::string& text) {
+  if (text.empty()) return Vec3{0.0};
+  Vec3 spacing{0.0};
+  const std::vector<std::string_view> words = split(text, ',');
+  const bool counted = words.size() == 1 || words.size() == 3;
+  for (int a = 0; a < 3 && counted; ++a) {
+    spacing[a] = number(words[static_cast<std::size_t>(a) % words.size()]).value_or(0.0);
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a])) {
+      throw usage_error(
+          "--grid-spacing: a distance above zero in data units is expected, or three with commas "
+          "between; found '" +
+          text + "'");
+    }
+  }
+  return spacing;
+}
+
+void check_read(const std::optional<std::string>& problem, const char* option) {
+  if (problem) throw usage_error(std::string(option) + ": " + *problem);
+}
+
+}  // namespace
+
 HapticChain make_grid(const HapticScene& scene) {
   const Lattice lattice = lattice_of(scene);
   const std::vector<GridAxis::Landmark> landmarks = landmarks_of(scene, lattice.axes);
@@ -121,44 +151,6 @@ HapticChain make_plane_widget(const HapticScene& scene) {
     links.push_back(std::make_unique<PlaneWidgetLink>(widget, place));
   made.chain = std::make_unique<ProxyChain>(std::move(links), settings);
   return made;
-}
-
-double millimetres(double value, const char* option) {
-  if (std::isfinite(value) && value > 0.0) return kMetresPerMillimetre * value;
-  throw usage_error(std::string(option) + ": a distance above zero in mm is expected");
-}
-
-Vec3 spacing_of(const std::string& text) {
-  if (text.empty()) return Vec3{0.0};
-  Vec3 spacing{0.0};
-  const std::vector<std::string_view> words = split(text, ',');
-  const bool counted = words.size() == 1 || words.size() == 3;
-  for (int a = 0; a < 3 && counted; ++a) {
-    spacing[a] = number(words[static_cast<std::size_t>(a) % words.size()]).value_or(0.0);
-  }
-  for (int a = 0; a < 3; ++a) {
-    if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a])) {
-      throw usage_error(
-          "--grid-spacing: a distance above zero in data units is expected, or three with commas "
-          "between; found '" +
-          text + "'");
-    }
-  }
-  return spacing;
-}
-
-void check_read(const std::optional<std::string>& problem, const char* option) {
-  if (problem) throw usage_error(std::string(option) + ": " + *problem);
-}
-
-}  // namespace
-
-HapticMode grid_mode() {
-  return {kGridMode, "led along one axis of a grid at a time, until pulled over to another", make_grid};
-}
-
-HapticMode plane_widget_mode() {
-  return {kPlaneWidgetMode, "finds, moves and turns cutting planes (button: takes hold)", make_plane_widget};
 }
 
 GridAxisSettings grid_settings(const GridWords& words) {

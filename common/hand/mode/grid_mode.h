@@ -1,5 +1,6 @@
 /// The modes of placing things in a volume: `grid` leads the hand along the axes of a grid
-/// (haptics/constraint/grid_axis.h), `plane-widget` lets it move and turn cutting planes (haptics/widget/).
+/// (haptics/constraint/grid_axis.h), `plane-widget` lets it move and turn cutting planes (haptics/widget/). Their
+/// settings as options.
 #pragma once
 
 #include <string>
@@ -12,12 +13,6 @@
 #include "common/scene/touch_words.h"
 
 namespace palpate {
-
-inline constexpr const char* kGridMode = "grid";
-inline constexpr const char* kPlaneWidgetMode = "plane-widget";
-
-[[nodiscard]] HapticMode grid_mode();
-[[nodiscard]] HapticMode plane_widget_mode();
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
 [[nodiscard]] GridAxisSettings grid_settings(const GridWords& words);

@@ -13,6 +13,7 @@
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/workspace.h"
+#include "common/scene/input.h"
 #include "common/trace/live_line.h"
 
 namespace palpate {
@@ -49,15 +50,32 @@ struct HapticScene {
   return field != nullptr ? field->frame() : scalar->frame();
 }
 
-/// The mode that feels settings.isosurface, in every program that has it.
+/// @name Modes that settings, panels and summaries name.
+/// @{
+inline constexpr const char* kDensityMode = "density";
+inline constexpr const char* kGridMode = "grid";
 inline constexpr const char* kIsosurfaceMode = "isosurface";
+inline constexpr const char* kLinearMode = "linear";
+inline constexpr const char* kPlaneWidgetMode = "plane-widget";
+/// @}
 
+/// A row of modes.def.
 struct HapticMode {
   std::string name;     ///< "streamline"
   std::string summary;  ///< what the hand feels, for help and panels
   /// Builds the chain; allocates all that the servo will need.
   std::function<HapticChain(const HapticScene&)> make;
+  std::vector<FieldKind> fields = {};  ///< kinds of field that can be felt so
+  bool texture = false;                ///< appends a texture by noise where one is asked for
 };
+
+/// The modes by which fields of a kind are felt, the default one first.
+[[nodiscard]] std::vector<HapticMode> modes_of(FieldKind kind);
+
+/// A chain of one link with the settings of `scene`.
+[[nodiscard]] HapticChain chain_of(std::unique_ptr<Constraint> link, const HapticScene& scene);
+/// scene.scalar, or the speed of the flow where no scalar was chosen. @pre There is one of them.
+[[nodiscard]] std::shared_ptr<const ScalarField> scalar_or_speed(const HapticScene& scene);
 
 /// @throws Error (usage) that lists the known modes.
 [[nodiscard]] const HapticMode& find_mode(std::span<const HapticMode> modes, const std::string& name);

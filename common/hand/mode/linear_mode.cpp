@@ -68,19 +68,6 @@ std::shared_ptr<SampledMeasure> make_measure(const HapticScene& scene) {
   return std::make_shared<ValueMeasure>(scene.scalar, scene.workspace);
 }
 
-HapticChain make_linear(const HapticScene& scene) {
-  // Constants take no measure, but an edit may make a curve of them while the hand holds on.
-  const auto measure = make_measure(scene);
-  const AxisMeasures measures{.kappa = measure, .tau = measure};
-  std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(
-      std::make_unique<LinearConstraint>(make_frame(scene), std::array{measures, measures, measures}));
-  HapticChain made;
-  made.noise = add_texture(links, scene);
-  made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
-  return made;
-}
-
 /// The value of an enumeration that is called `word`.
 template <typename Enum>
 Enum named(const std::string& word, int count, const std::string& option) {
@@ -127,8 +114,12 @@ std::string text_of_curves(const LinearSettings& settings, const Text& text) {
 
 }  // namespace
 
-HapticMode linear_mode() {
-  return {kLinearMode, "led along directions of the data, by a rule for each axis", make_linear};
+HapticChain make_linear(const HapticScene& scene) {
+  // Constants take no measure, but an edit may make a curve of them while the hand holds on.
+  const auto measure = make_measure(scene);
+  const AxisMeasures measures{.kappa = measure, .tau = measure};
+  return textured_chain(
+      std::make_unique<LinearConstraint>(make_frame(scene), std::array{measures, measures, measures}), scene);
 }
 
 LinearSettings linear_settings(const LinearWords& words) {

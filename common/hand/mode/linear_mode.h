@@ -1,5 +1,5 @@
 /// The mode `linear`: a linear constraint (haptics/constraint/linear.h) in directions of the data, by a rule
-/// for each axis. flow and grid share it, and its options.
+/// for each axis: its settings as options.
 #pragma once
 
 #include <string>
@@ -11,10 +11,6 @@
 #include "common/scene/touch_words.h"
 
 namespace palpate {
-
-inline constexpr const char* kLinearMode = "linear";
-
-[[nodiscard]] HapticMode linear_mode();
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
 [[nodiscard]] LinearSettings linear_settings(const LinearWords& words);

@@ -1,16 +1,13 @@
 #include "common/hand/mode/texture_link.h"
 
+#include <utility>
+
 #include "common/base/error.h"
 #include "common/field/noise_field.h"
-#include "common/hand/mode/linear_mode.h"
 #include "common/haptics/constraint/noise_texture.h"
 #include "common/math/units.h"
 
 namespace palpate {
-
-bool has_texture(std::string_view mode) noexcept {
-  return mode == kIsosurfaceMode || mode == "density" || mode == kLinearMode;
-}
 
 std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Constraint>>& links,
                                                const HapticScene& scene,
@@ -20,6 +17,16 @@ std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Const
       scene.noise ? scene.noise : make_noise_field(*scene.scalar, scene.threads);
   if (noise) links.push_back(std::make_unique<NoiseTexture>(noise, scene.workspace, surface));
   return noise;
+}
+
+HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene,
+                           const IsosurfaceConstraint* surface) {
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::move(link));
+  HapticChain made;
+  made.noise = add_texture(links, scene, surface);
+  made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
+  return made;
 }
 
 TextureSettings texture_settings(const std::string& words) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/hand/mode/haptic_mode.h"
@@ -12,15 +11,16 @@
 
 namespace palpate {
 
-/// Whether the mode of that name appends a texture where one is asked for.
-[[nodiscard]] bool has_texture(std::string_view mode) noexcept;
-
 /// Appends a texture by the noise of scene.scalar to `links` where scene.settings.texture asks for one.
 /// @param surface as of NoiseTexture.
 /// @return that noise; null where nothing was appended, as for scalars on other than box grids.
 [[nodiscard]] std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Constraint>>& links,
                                                              const HapticScene& scene,
                                                              const IsosurfaceConstraint* surface = nullptr);
+
+/// A chain of `link` alone, or with a texture. @param surface the same link, where only that has the texture.
+[[nodiscard]] HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene,
+                                         const IsosurfaceConstraint* surface = nullptr);
 
 /// What `--noise-texture` says: "off", "on", or the curve of the grain [mm].
 /// @throws Error (usage) that says what is expected.

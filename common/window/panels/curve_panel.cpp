@@ -6,8 +6,7 @@
 
 #include <imgui.h>
 
-#include "common/hand/mode/linear_mode.h"
-#include "common/hand/mode/texture_link.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/window/panels/curve_editor.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -100,10 +99,10 @@ void edit_anisotropy(AnisotropySettings& settings) {
 
 }  // namespace
 
-void edit_texture(TextureSettings& settings, std::string_view mode, const ProbeSession& session) {
+void edit_texture(TextureSettings& settings, const HapticMode& mode, const ProbeSession& session) {
   // Noise of an image hardly exceeds a tenth of the range of its values.
   constexpr double kMostNoise = 0.1, kCoarsest = 0.005;
-  if (!has_texture(mode) || !session.scalar() || session.has_flow()) return;
+  if (!mode.texture || !session.scalar() || session.has_flow()) return;
   ImGui::Checkbox("noise as a texture", &settings.by_noise);
   if (session.measures_noise()) {
     ImGui::SameLine();
@@ -117,7 +116,7 @@ void edit_texture(TextureSettings& settings, std::string_view mode, const ProbeS
 void edit_curves(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
   if (mode == kLinearMode) edit_linear(choice.settings.linear, session);
   if (session.has_tensors()) edit_anisotropy(choice.settings.anisotropy);
-  if (mode == "density") {
+  if (mode == kDensityMode) {
     draw_curve_editor({.name = "density", .measure = "value"}, {}, choice.settings.force_field.density);
   }
 }

@@ -13,6 +13,6 @@ namespace palpate {
 void edit_curves(TouchChoice& choice, std::string_view mode, const ProbeSession& session);
 
 /// Edits `settings` in modes that have a texture by noise; draws nothing for other modes.
-void edit_texture(TextureSettings& settings, std::string_view mode, const ProbeSession& session);
+void edit_texture(TextureSettings& settings, const HapticMode& mode, const ProbeSession& session);
 
 }  // namespace palpate

@@ -48,7 +48,7 @@ void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
   if (mode == "direct" || mode == "vortex") {
     slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
   }
-  if (mode == "transverse" || mode == "density") {
+  if (mode == "transverse" || mode == kDensityMode) {
     slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
   }
   if (!flow) return;
@@ -163,7 +163,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const FeltLevels felt = session.felt_levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
                    session.modes()[choice.mode].name, session.has_flow());
-  edit_texture(choice.settings.texture, session.modes()[choice.mode].name, session);
+  edit_texture(choice.settings.texture, session.modes()[choice.mode], session);
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;

@@ -69,7 +69,7 @@ class TwoHandsSession : public ::testing::Test {
  private:
   static ProbeSessionOptions options() {
     ProbeSessionOptions options;
-    options.modes = {plane_widget_mode()};
+    options.modes = {find_mode(modes_of(FieldKind::kScalar), kPlaneWidgetMode)};
     options.workbench.interaction = {.immersive = true, .middle = {0.1, 0.2, 0.3}, .gain = 2.0};
     options.hands = recording();
     return options;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "apps/dtmri/dtmri_modes.h"
 #include "common/field/tensor/diffusion_measures.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/math/symmetric3.h"
 #include "common/window/saved_files.h"
 #include "tests/common/render/tensor/sample_tensors.h"
@@ -54,7 +54,7 @@ class TouchTensor : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
-    options_.touch.modes = dtmri_modes();
+    options_.touch.modes = modes_of(FieldKind::kTensor);
     options_.angles = {.azimuth = 0.0, .elevation = 90.0};
   }
   WindowResult run() { return run_model(model_); }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "apps/grid/grid_modes.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/scalar_threshold.h"
 #include "common/hand/mode/grid_mode.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/scene/seeds.h"
 #include "tests/common/window/touch_window.h"
 
@@ -58,11 +58,11 @@ class TouchVolume : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
-    options_.touch.modes = grid_modes();
+    options_.touch.modes = modes_of(FieldKind::kScalar);
     options_.touch.choice.mode = mode_of("isosurface");
   }
   static std::size_t mode_of(const std::string& name) {
-    const std::vector<HapticMode> modes = grid_modes();
+    const std::vector<HapticMode> modes = modes_of(FieldKind::kScalar);
     return static_cast<std::size_t>(&find_mode(modes, name) - modes.data());
   }
   static int key_of(const std::string& name) { return '1' + static_cast<int>(mode_of(name)); }

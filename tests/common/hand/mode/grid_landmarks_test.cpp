@@ -29,7 +29,7 @@ TEST(GridLandmarks, AtAPlaceGoThroughIt) {
     GridMarks& marks = scene.settings.grid_axis.marks;
     for (const GridMark& mark : marks_at(frame, field->frame(), x))
       marks.mark[static_cast<std::size_t>(marks.count++)] = mark;
-    const HapticChain made = grid_mode().make(scene);
+    const HapticChain made = find_mode(modes_of(FieldKind::kScalar), kGridMode).make(scene);
     ASSERT_EQ(made.landmarks.size(), 3U);
     for (int a = 0; a < 3; ++a) {
       const Vec4& plane = made.landmarks[static_cast<std::size_t>(a)];

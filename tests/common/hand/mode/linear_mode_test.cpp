@@ -126,7 +126,7 @@ HapticScene helix_scene(const LinearWords& words) {
 }
 
 TEST(LinearMode, LeadsAlongTheFlowByDefault) {
-  const HapticChain made = linear_mode().make(helix_scene({}));
+  const HapticChain made = find_mode(modes_of(FieldKind::kVector), kLinearMode).make(helix_scene({}));
   double longest = 0.0;
   for (int n = 0; n < 1500; ++n) {
     const Vec3 probe = path_at(n);
@@ -141,8 +141,10 @@ TEST(LinearMode, LeadsAlongTheFlowByDefault) {
 
 TEST(LinearMode, TheThresholdFollowsTheMeasure) {
   // The speed of the helix: straight from 1 mm at 0.5 to 5 mm at 1.5, and constant beyond.
-  const HapticChain made = linear_mode().make(
-      helix_scene({.reference = "axes", .axes = "drag,drag,drag", .tau = "0.5:1,1.5:5", .measure = "speed"}));
+  const HapticChain made =
+      find_mode(modes_of(FieldKind::kVector), kLinearMode)
+          .make(helix_scene(
+              {.reference = "axes", .axes = "drag,drag,drag", .tau = "0.5:1,1.5:5", .measure = "speed"}));
   int dragged = 0;
   Vec3 before = path_at(0);
   for (int n = 0; n < 1500; ++n) {
@@ -171,7 +173,7 @@ std::array<LinearWords, 5> all_kinds() {
 }
 
 TEST(LinearMode, RecordingsReplayToTheBit) {
-  const std::vector<HapticMode> modes{linear_mode()};
+  const std::vector<HapticMode> modes{find_mode(modes_of(FieldKind::kVector), kLinearMode)};
   const NamedField open{helix_flow(kRise), field_key("helix", 0)};
   const TempFolder folder;
   for (const LinearWords& words : all_kinds()) {
@@ -215,11 +217,11 @@ TEST(LinearMode, AFlowThatIsNotThereIsNoCrash) {
   HapticScene scene = helix_scene({.reference = "flow"});
   scene.scalar = make_speed_field(scene.field);
   scene.field = nullptr;
-  EXPECT_THROW((void)linear_mode().make(scene), Error);
+  EXPECT_THROW((void)find_mode(modes_of(FieldKind::kVector), kLinearMode).make(scene), Error);
   scene.settings.linear = linear_settings({.measure = "speed"});
-  EXPECT_THROW((void)linear_mode().make(scene), Error);
+  EXPECT_THROW((void)find_mode(modes_of(FieldKind::kVector), kLinearMode).make(scene), Error);
   scene.settings.linear = linear_settings({});
-  EXPECT_TRUE(linear_mode().make(scene).chain);
+  EXPECT_TRUE(find_mode(modes_of(FieldKind::kVector), kLinearMode).make(scene).chain);
 }
 
 }  // namespace

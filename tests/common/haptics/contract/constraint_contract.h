@@ -4,7 +4,7 @@
 ///
 ///   INSTANTIATE_TEST_SUITE_P(Sphere, ConstraintContract, ::testing::Values(sphere()), subject_name);
 ///
-/// and name it in CMakeLists.txt. The promises stand in constraint_contract_test.cpp, a test each.
+/// Its name ends in _subjects.cpp, and so it is built. tests/layout fails where a constraint has no subject. The promises stand in constraint_contract_test.cpp, a test each.
 #pragma once
 
 #include <cmath>

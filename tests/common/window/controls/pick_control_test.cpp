@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/volume_examples.h"
-#include "common/hand/mode/grid_mode.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/window/immersive/hand_in_space.h"
 #include "tests/common/hand/sample_modes.h"
@@ -128,7 +128,8 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
     hands.stylus = TrackerPose{{0.0, 0.0, i < 60 ? 0.2 : 0.22}, identity_rotation()};
     options.hands.push_back(hands);
   }
-  open({plane_widget_mode()}, {.name = "blob", .scalar = field}, std::move(options));
+  open({find_mode(modes_of(FieldKind::kScalar), kPlaneWidgetMode)}, {.name = "blob", .scalar = field},
+       std::move(options));
   MenuControl menu;
   HandInSpace hands;
   ProbeView probe;

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "common/hand/mode/haptic_mode.h"
 #include "common/hand/mode/linear_mode.h"
 #include "tests/common/window/touch_window.h"
 
@@ -20,7 +21,7 @@ class CurvePanelTest : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
-    options_.touch.modes = {linear_mode()};
+    options_.touch.modes = {find_mode(modes_of(FieldKind::kScalar), kLinearMode)};
     options_.touch.choice.settings.linear =
         linear_settings({.reference = "axes", .axes = "drag,drag,drag", .tau = "4", .measure = "speed"});
     options_.touch.record = folder_.path("run.rec");

@@ -1,8 +1,8 @@
-#include "apps/cardiac/cardiac_modes.h"
-
-#include <memory>
+// The modes of the wall of a heart: a layer of it, and on that the fibres. Their scenes have the depth as scalar and
+// the fibres as tensor.
 #include <utility>
 
+#include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/constraint/fibre_friction.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
@@ -13,7 +13,7 @@ namespace {
 /// How many proxies: on the layer, in the groove, dragged along it.
 enum class Links : unsigned char { kLayer = 1, kGroove = 2, kFriction = 3 };
 
-HapticChain make_chain(const HapticScene& scene, Links links) {
+HapticChain make_wall(const HapticScene& scene, Links links) {
   HapticChain made;
   made.surfaces_of = scene.scalar;
   made.isovalues = default_layers(*scene.scalar);
@@ -35,13 +35,8 @@ HapticChain make_chain(const HapticScene& scene, Links links) {
 
 }  // namespace
 
-std::vector<HapticMode> cardiac_modes() {
-  return {{"fiber", "held to a layer of the wall, and on it to a fibre as in a groove; gives to the next one",
-           [](const HapticScene& scene) { return make_chain(scene, Links::kGroove); }},
-          {"layer", "held to a layer of the wall, which gives to the next one when pushed",
-           [](const HapticScene& scene) { return make_chain(scene, Links::kLayer); }},
-          {"friction", "as fiber, and dragged along the fibre: the harder, the more that leaves the layer",
-           [](const HapticScene& scene) { return make_chain(scene, Links::kFriction); }}};
-}
+HapticChain make_fiber(const HapticScene& scene) { return make_wall(scene, Links::kGroove); }
+HapticChain make_layer(const HapticScene& scene) { return make_wall(scene, Links::kLayer); }
+HapticChain make_friction(const HapticScene& scene) { return make_wall(scene, Links::kFriction); }
 
 }  // namespace palpate
