@@ -30,7 +30,7 @@ if(PALPATE_CCACHE)
 endif()
 
 # In the presets of developers and of continuous integration. A user's compiler may know warnings that ours does not.
-option(PALPATE_WARNINGS_AS_ERRORS "Stop at a compiler's warning" ON)
+option(PALPATE_WARNINGS_AS_ERRORS "Stop at a compiler's warning" OFF)
 
 add_library(palpate_options INTERFACE)
 target_compile_features(palpate_options INTERFACE cxx_std_20)

@@ -8,14 +8,15 @@
 #include <variant>
 #include <vector>
 
-#include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/usual_look.h"
 #include "common/base/text.h"
+#include "common/compose/lens_text.h"
+#include "common/compose/view_keep.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/field/scalar_choice.h"
-#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -43,14 +44,9 @@ std::uint64_t fingerprint(Input& input, Progress& progress) {
 }
 
 /// Whether both mean the same lines and triangles of one heart.
-bool same_layer(const SceneSettings& a, const SceneSettings& b) {
-  return a.layer == b.layer && a.seeds == b.seeds && a.max_length == b.max_length && a.step == b.step &&
-         a.random_seed == b.random_seed && a.cut == b.cut;
-}
-
-/// As --cut takes it; empty: none.
-std::string cut_text(const std::optional<ConvexShape::HalfSpace>& cut) {
-  return cut ? exact_text(cut->outward) + "," + exact_number(cut->offset) : std::string();
+bool same_layer(const Document& a, const Document& b) {
+  return a.heart.layer == b.heart.layer && a.heart.cut == b.heart.cut && a.tracing == b.tracing &&
+         a.common.seed == b.common.seed;
 }
 
 /// By their labels, the likeliest one first.
@@ -79,61 +75,41 @@ std::vector<std::string> colors_of(const Input& input, bool sheets) {
 
 }  // namespace
 
-CardiacModel::CardiacModel(Options options, std::string program)
-    : InputModel(std::move(options), std::move(program), FieldKind::kFibre) {}
+CardiacModel::CardiacModel(Document document, std::string program)
+    : InputModel(std::move(document), std::move(program), FieldKind::kFibre) {}
 
-CardiacContent CardiacModel::read(Input& input, const Options& options, Progress& progress) const {
+CardiacContent CardiacModel::read(Input& input, const Document& document, Progress& progress) const {
   // Most hearts beat in their potentials alone: fibres and layers are made once, however many steps there
   // are.
   const Scene* open = scene();
   const bool other_step = open != nullptr && &open->input == &input && input.times().size() > 1 &&
-                          open->shown.settings.field == input.field_label();
+                          open->shown.document.input.field == input.field_label();
   CardiacContent content;
   if (other_step) {
     content.print = fingerprint(input, progress);
     if (content.print == open->content.print) return open->content;
   }
-  content.heart = load_layered_heart(input, HeartOptions(), options.common.threads, &progress);
+  content.heart = load_layered_heart(input, HeartOptions(), document.common.threads, &progress);
   return content;
 }
 
-void CardiacModel::complete(Options& options, Input& input, Progress& progress) const {
-  (void)choose_usual_look(input, options, &progress);
+void CardiacModel::complete(Document& document, Input& input, Progress& progress) const {
+  (void)choose_usual_look(input, document, &progress);
+  if (document.tracing.seeds.empty()) document.tracing.seeds = kViewFibres;
+  if (document.heart.layer.empty()) document.heart.layer = exact_number(kViewLayer);
 }
 
-void CardiacModel::begin(SceneSettings& settings, const Input& /*input*/, const Options& options) const {
-  settings.layer = layer_of(options.heart).value_or(kViewLayer);
-  settings.seeds = options.tracing.seeds.empty() ? kViewFibres : options.tracing.seeds;
-  settings.max_length = options.tracing.max_length;
-  settings.step = options.tracing.step;
-  settings.random_seed = options.common.seed;
-  settings.color_array = options.heart.angle;
-  settings.contours = options.heart.contours;
-  if (const auto plane = parse_cut(options.heart.cut)) settings.cut = {plane->normal, plane->distance};
-  if (!options.heart.lens.empty()) settings.lens_array = options.heart.lens_angle;
-}
-
-SceneState CardiacModel::present(Input& input, const CardiacContent& content, const Options& options,
-                                 const SceneSettings& settings, const SceneState* before,
-                                 Progress& progress) const {
+SceneState CardiacModel::present(Input& input, const CardiacContent& content, const Document& document,
+                                 const SceneState* before, Progress& progress) const {
   const auto& heart = content.heart;
   const ScalarField& depth = *heart->heart().layer;
-  const int threads = options.common.threads;
-  Options with = options;
-  with.heart.layer = exact_number(settings.layer);
-  with.heart.cut = cut_text(settings.cut);
-  with.heart.angle = settings.color_array.empty() ? options.heart.angle : settings.color_array;
-  with.tracing.seeds = settings.seeds;
-  with.tracing.max_length = settings.max_length;
-  with.tracing.step = settings.step;
-  with.common.seed = settings.random_seed;
-
-  SceneState state = begin_state(input, settings);
+  const int threads = document.common.threads;
+  SceneState state = begin_state(input, document);
   state.felt_scalar = heart->heart().layer;
   state.felt_tensor = heart->heart().fibres;
   LayerGeometry layer;
   if (before != nullptr && before->felt_tensor == state.felt_tensor &&
-      same_layer(before->settings, settings)) {
+      same_layer(before->document, document)) {
     layer.lines = before->lines;
     layer.mesh = before->surfaces.front().mesh;
     state.ends = before->ends;
@@ -142,7 +118,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.error_max = before->error_max;
     state.seconds_trace = before->seconds_trace;
   } else {
-    layer = make_layer_geometry(*heart, with, &progress);
+    layer = make_layer_geometry(*heart, document, &progress);
     state.ends = layer.fibres.ends;
     state.seeds = layer.lines->size();
     state.outside_seeds = layer.fibres.outside_seeds.size();
@@ -150,21 +126,22 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.seconds_trace = layer.fibres.seconds;
   }
   const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;
-  LayerColors colors = color_layer(input, heart, layer, with.heart, threads, colored);
+  LayerColors colors = color_layer(input, heart, layer, document.heart, threads, colored);
   state.lines = layer.lines;
-  state.surfaces = {surface_of(layer, colors, settings.contours)};
-  if (!settings.lens_array.empty()) {
-    with.heart.angle = settings.lens_array;
+  state.surfaces = {surface_of(layer, colors, document.heart.contours)};
+  if (auto lens = lens_of(document.heart)) {
+    HeartOptions inside = document.heart;
+    inside.angle = document.heart.lens_angle;
     const LineArray* const seen =
         before != nullptr && before->color_lens ? before->color_lens->style.array.get() : nullptr;
-    const LayerColors inside = color_layer(input, heart, layer, with.heart, threads, seen);
-    state.surfaces.front().lens_values = inside.values;
-    state.color_lens = lens_of(options.heart).value_or(ColorLens());
-    state.color_lens->style = inside.style;
+    const LayerColors of_lens = color_layer(input, heart, layer, inside, threads, seen);
+    state.surfaces.front().lens_values = of_lens.values;
+    state.color_lens = std::move(lens);
+    state.color_lens->style = of_lens.style;
   }
   state.color_array = colors.style.array;
   state.style = std::move(colors.style);
-  state.style->range = range_of(options.heart);
+  state.style->range = range_of(document.heart);
 
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
@@ -182,38 +159,12 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   return state;
 }
 
-void CardiacModel::describe_session(Session& session, const InputSpec& /*spec*/, const Options& options,
-                                    const SceneSettings& settings, const SceneView& view) const {
-  const InputOptions &input = options.input, usual;
-  if (input.refine > 0) add_option(session, "refine", std::to_string(input.refine));
-  if (input.cell_directions != usual.cell_directions)
-    add_option(session, "cell-directions", input.cell_directions);
-  add_option(session, "mesher", input.mesher);
-  if (input.largest_volume > 0.0) add_option(session, "largest-volume", exact_number(input.largest_volume));
-  if (input.cache != usual.cache) add_option(session, "cache", input.cache);
-  add_option(session, "surface-markers", input.surface_markers);
-  add_option(session, "layer", exact_number(settings.layer));
-  add_option(session, "seeds", settings.seeds);
-  add_option(session, "seed", std::to_string(settings.random_seed));
-  if (settings.max_length > 0.0) add_option(session, "max-length", exact_number(settings.max_length));
-  if (settings.step > 0.0) add_option(session, "step", exact_number(settings.step));
-  if (options.heart.least_gap != HeartOptions().least_gap)
-    add_option(session, "least-gap", exact_number(options.heart.least_gap));
-  add_option(session, "angle", settings.color_array);
-  add_option(session, "convention", options.heart.convention);
-  add_option(session, "axis", options.heart.axis);
-  add_option(session, "cut", cut_text(settings.cut));
-  if (settings.contours > 0.0) add_option(session, "contour-spacing", exact_number(settings.contours));
-  if (view.style.range)
-    add_option(session, "range",
-               exact_number(view.style.range->lower) + "," + exact_number(view.style.range->upper));
-  if (view.color_lens) {
-    const Vec3& x = view.color_lens->center;
-    add_option(session, "lens", "sphere:" + exact_text(x) + "," + exact_number(view.color_lens->radius));
-    add_option(session, "lens-angle", settings.lens_array);
-  }
-  describe_projection(session, view);
-  describe_camera(session, view);
+void CardiacModel::keep(const SceneView& view, Document& document) const {
+  keep_camera(view, document);
+  const auto& range = view.style.range;
+  document.heart.range =
+      range ? exact_number(range->lower) + "," + exact_number(range->upper) : std::string();
+  if (view.color_lens) document.heart.lens = sphere_text(view.color_lens->center, view.color_lens->radius);
 }
 
 }  // namespace palpate

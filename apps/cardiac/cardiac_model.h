@@ -20,17 +20,16 @@ struct CardiacContent {
 
 class CardiacModel final : public InputModel<CardiacContent> {
  public:
-  CardiacModel(Options options, std::string program);
+  CardiacModel(Document document, std::string program);
+
+  void keep(const SceneView& view, Document& document) const override;
 
  private:
-  [[nodiscard]] CardiacContent read(Input& input, const Options& options, Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Options& options,
-                                   const SceneSettings& settings, const SceneState* before,
-                                   Progress& progress) const override;
-  void complete(Options& options, Input& input, Progress& progress) const override;
-  void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
-  void describe_session(Session& session, const InputSpec& spec, const Options& options,
-                        const SceneSettings& settings, const SceneView& view) const override;
+  [[nodiscard]] CardiacContent read(Input& input, const Document& document,
+                                    Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Document& document,
+                                   const SceneState* before, Progress& progress) const override;
+  void complete(Document& document, Input& input, Progress& progress) const override;
 };
 
 }  // namespace palpate

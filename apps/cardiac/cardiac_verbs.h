@@ -13,7 +13,6 @@ namespace palpate {
 [[nodiscard]] Verb convert_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb mesh_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
-[[nodiscard]] Verb heart_report_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);
 /// The window.
 [[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);

@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/compose/plane_image_text.h"
-#include "common/trace/surface_contours.h"
+#include "common/trace/isosurface/surface_contours.h"
 
 namespace palpate {
 namespace {
@@ -47,7 +47,7 @@ bool wants_contours(const HeartOptions& options) {
   return listed || options.contours > 0.0;
 }
 
-LayerContours make_layer_contours(const LayeredHeart& heart, const AngleProbe& probe, const Options& options,
+LayerContours make_layer_contours(const LayeredHeart& heart, const AngleProbe& probe, const Document& options,
                                   Progress* progress) {
   LayerContours out;
   out.depth = layer_of(options.heart).value_or(kViewLayer);

@@ -5,7 +5,7 @@
 
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/progress.h"
-#include "common/load/write_lines.h"
+#include "common/load/write/write_lines.h"
 
 namespace palpate {
 
@@ -26,6 +26,6 @@ struct LayerContours {
 /// @throws Error (usage) for a layer that is not there and for more than a thousand values; (work failed)
 /// where no line has any of the values, naming those that there are; Cancelled.
 [[nodiscard]] LayerContours make_layer_contours(const LayeredHeart& heart, const AngleProbe& probe,
-                                                const Options& options, Progress* progress);
+                                                const Document& options, Progress* progress);
 
 }  // namespace palpate

@@ -15,8 +15,8 @@
 #include "common/cli/verbs.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/heart/heart.h"
-#include "common/load/write_carp.h"
-#include "common/load/write_mesh.h"
+#include "common/load/write/write_carp.h"
+#include "common/load/write/write_mesh.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -140,10 +140,10 @@ std::vector<bool> changing(const Task& task, const Tetrahedra& cells, const Data
   return changes;
 }
 
-std::vector<std::filesystem::path> write_carp(const Task& task, const Options& options,
+std::vector<std::filesystem::path> write_carp(const Task& task, const Document& options,
                                               const VerbContext& context) {
   const IgbTimes times = igb_times(task.times, task.input.title());
-  CarpOutput out(options.out, options.common.force);
+  CarpOutput out(options.output.file, options.common.force);
   const DataSet first = task.read(0, task.names());
   const Tetrahedra cells(first, task.input.title());
   std::vector<int> regions;
@@ -188,16 +188,16 @@ std::filesystem::path step_file(const std::filesystem::path& pvd, std::size_t st
                               std::string(kDigits - std::min(kDigits, digits.size()), '0') + digits + ".vtu");
 }
 
-std::vector<std::filesystem::path> write_pvd(const Task& task, const Options& options,
+std::vector<std::filesystem::path> write_pvd(const Task& task, const Document& options,
                                              const VerbContext& context) {
   if (task.heart && task.heart->fibre.association == Association::kCell)
-    throw usage_error(options.out.string() + ": fibres of cells are not written as .pvd: try .pts");
+    throw usage_error(options.output.file.string() + ": fibres of cells are not written as .pvd: try .pts");
   const std::size_t steps = std::max<std::size_t>(1, task.times.size());
   for (std::size_t step = 0; step < steps; ++step)
-    check_mesh_output(step_file(options.out, step), options.common.force);
-  OutputFile collection(options.out, options.common.force);
+    check_mesh_output(step_file(options.output.file, step), options.common.force);
+  OutputFile collection(options.output.file, options.common.force);
   collection.write("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
-  std::vector<std::filesystem::path> files{options.out};
+  std::vector<std::filesystem::path> files{options.output.file};
   for (std::size_t step = 0; step < steps; ++step) {
     context.progress.check();
     const DataSet data = task.read(step, task.names());
@@ -206,7 +206,7 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Options& op
     for (const DataArray& array : data.arrays)
       if (array.association == Association::kPoint)
         columns.push_back({array.name, cells.values(array), static_cast<std::size_t>(array.components)});
-    files.push_back(step_file(options.out, step));
+    files.push_back(step_file(options.output.file, step));
     write_mesh(files.back(), cells.mesh().points, cells.mesh().tets, columns, options.common.force,
                task.input.file()->long_axis);
     collection.write("<DataSet timestep=\"" + exact_number(task.times.empty() ? 0.0 : task.times[step]) +
@@ -217,19 +217,20 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Options& op
   return files;
 }
 
-ExitCode run_convert(const Options& options, const VerbContext& context) {
+ExitCode run_convert(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  const std::string ending = options.out.extension().string();
+  const std::string ending = options.output.file.extension().string();
   if (ending != ".pts" && ending != ".pvd")
-    throw usage_error(options.out.empty()
+    throw usage_error(options.output.file.empty()
                           ? "convert needs an output: try --out heart.pts or --out heart.pvd"
-                          : options.out.string() + ": a heart is written as .pts (openCARP) or .pvd (VTK)");
+                          : options.output.file.string() +
+                                ": a heart is written as .pts (openCARP) or .pvd (VTK)");
   Input input = open_input(options, context);
   if (!input.not_volume().empty())
     throw input_error({input.title(), "", input.not_volume(), "a mesh of the wall"});
   const Stopwatch watch;
   const Task task = task_of(input);
-  context.progress.begin("writing " + options.out.string(), 0);
+  context.progress.begin("writing " + options.output.file.string(), 0);
   ConvertSummary summary{.input = input.title(), .times = task.times.size()};
   for (const auto& file :
        ending == ".pts" ? write_carp(task, options, context) : write_pvd(task, options, context)) {
@@ -244,7 +245,7 @@ ExitCode run_convert(const Options& options, const VerbContext& context) {
   for (const std::string& file : summary.files)
     if (ending == ".pts" && !file.ends_with(".elem") && !file.ends_with(".lon")) open += " " + file;
   context.console.print(text + "  open it    " + context.explorer.name +
-                        (open.empty() ? " " + options.out.string() : open) + "\n");
+                        (open.empty() ? " " + options.output.file.string() : open) + "\n");
   context.console.print_json(convert_json(summary));
   return ExitCode::kDone;
 }
@@ -254,7 +255,7 @@ ExitCode run_convert(const Options& options, const VerbContext& context) {
 Verb convert_verb(std::vector<UsageExample> examples) {
   return {.name = "convert",
           .summary = "write mesh, fibres and results for openCARP or as a time series of VTK",
-          .groups = {.out = true},
+          .groups = {Group::kInput, Group::kOut},
           .examples = std::move(examples),
           .run = run_convert};
 }

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/math/normal_length.h"
-#include "common/scene/seeds.h"
 
 namespace palpate {
 

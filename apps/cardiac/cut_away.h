@@ -7,7 +7,7 @@
 
 #include "common/geometry/line.h"
 #include "common/math/vec.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
 

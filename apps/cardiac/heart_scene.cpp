@@ -20,7 +20,7 @@
 #include "common/field/tensor/eigenframe.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/seeds.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
 namespace {
@@ -51,11 +51,6 @@ std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, const Heart
                                                        Progress* progress) {
   const std::string value = is_own_word(angle_of(options)) ? std::string() : options.angle;
   return std::make_shared<const LayeredHeart>(input.load_heart(threads, progress, value));
-}
-
-std::optional<double> layer_of(const HeartOptions& options) {
-  if (options.layer.empty()) return std::nullopt;
-  return parse_numbers(options.layer, 1, "--layer takes a depth from 0 (inner) to 1 (outer)").front();
 }
 
 Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
@@ -165,7 +160,7 @@ IsosurfaceMesh layer_mesh(const LayeredHeart& heart, double depth, Progress* pro
   return make_isosurface_mesh(depths, depth, kMostTriangles, progress);
 }
 
-LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& options, Progress* progress) {
+LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Document& options, Progress* progress) {
   const ScalarField& depths = *heart.heart().layer;
   const double diagonal = depths.diagonal();
   LayerGeometry layer;
@@ -243,7 +238,7 @@ std::optional<ColorLens> lens_of(const HeartOptions& options) {
 }
 
 LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
-                            const Options& options, double aspect, Progress* progress) {
+                            const Document& options, double aspect, Progress* progress) {
   const ScalarField& depths = *heart->heart().layer;
   LayerScene scene{.view = {}, .layer = make_layer_geometry(*heart, options, progress)};
   SceneView& view = scene.view;

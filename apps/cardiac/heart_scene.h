@@ -11,16 +11,15 @@
 #include "common/field/heart/fibre_angles.h"
 #include "common/geometry/line.h"
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
+#include "common/scene/heart_layer.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 #include "common/trace/fibre_lines.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 #include "common/trace/layer_fibre.h"
 
 namespace palpate {
 
-/// The layer that is drawn where none is named.
-inline constexpr double kViewLayer = 0.5;
 /// Seeds and length [diagonals] of the fibres that are drawn on it: short ones, close together.
 inline constexpr const char* kViewFibres = "random:2500";
 inline constexpr double kViewFibreLength = 0.12;
@@ -33,10 +32,6 @@ inline constexpr double kViewFibreStep = 4e-3;
 [[nodiscard]] std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input,
                                                                      const HeartOptions& options, int threads,
                                                                      Progress* progress);
-
-/// `--layer`; none where it is not given.
-/// @throws Error (usage).
-[[nodiscard]] std::optional<double> layer_of(const HeartOptions& options);
 
 /// `--axis`, or the axis of the file's coordinates, or as the wall opens.
 /// @throws Error (usage) where it is no direction, or is not given for a closed wall.
@@ -94,7 +89,7 @@ struct LayerGeometry {
 
 /// @param settings of tracing; zeros and empty words stand for the view's own defaults.
 /// @throws Error, Cancelled.
-[[nodiscard]] LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Options& options,
+[[nodiscard]] LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Document& options,
                                                 Progress* progress);
 
 /// What colours a layer: numbers of its lines and of its triangles' corners, and how they are shown.
@@ -130,6 +125,6 @@ struct LayerScene {
 
 /// @throws Error, Cancelled.
 [[nodiscard]] LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
-                                          const Options& options, double aspect, Progress* progress);
+                                          const Document& options, double aspect, Progress* progress);
 
 }  // namespace palpate

@@ -1,8 +1,9 @@
 /// cardiac: layers and fibres of a heart's wall, seen and felt.
 #include "apps/cardiac/cardiac_verbs.h"
-#include "apps/cardiac/remesh.h"
+#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
+#include "common/scene/wall/remesh.h"
 
 int main(int argc, char** argv) {
   using namespace palpate;
@@ -66,16 +67,18 @@ int main(int argc, char** argv) {
                     "cut open"},
                    {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out felt.png",
                     "with what a hand on that path has felt"}}),
-              heart_report_verb({{"cardiac report heart.exelem.gz --out report",
-                                  "errors of volume, layers, angles, fibres and friction beside run time"},
-                                 {"cardiac report --example ventricle --quick --out report",
-                                  "the built-in ventricle, in a few seconds"}}),
+              report_verb("measure what mesh and step cost in volume, layers, angles, fibres and touch",
+                          {Group::kInput, Group::kLayer},
+                          {{"cardiac report heart.exelem.gz --out report",
+                            "errors of volume, layers, angles, fibres and friction beside run time"},
+                           {"cardiac report --example ventricle --quick --out report",
+                            "the built-in ventricle, in a few seconds"}}),
               open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
                          {"cardiac --example ventricle", "a built-in heart"},
                          {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",
                           "on the tetrahedra of 'mesh', which are kept for the next opening"},
                          {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
           },
-      .complete = [](Options& options) { options.input.remesher = remesher_of(options); }};
+      .complete = [](Document& options) { options.input.remesher = remesher_of(options); }};
   return run_explorer(cardiac, argc, argv);
 }

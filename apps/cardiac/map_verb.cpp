@@ -14,7 +14,7 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/load/write_mesh.h"
+#include "common/load/write/write_mesh.h"
 
 namespace palpate {
 namespace {
@@ -96,19 +96,20 @@ std::string summary_text(const MapSummary& summary) {
   return text;
 }
 
-ExitCode run_map(const Options& options, const VerbContext& context) {
+ExitCode run_map(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.out.empty() && !options.common.json)
+  if (options.output.file.empty() && !options.common.json)
     throw usage_error("map needs an output: try --out helix.vtu (or --json to get the means alone)");
   const bool as_lines = wants_contours(options.heart);
-  if (as_lines && options.out.empty()) throw usage_error("--contours are written: try --out contours.vtp");
+  if (as_lines && options.output.file.empty())
+    throw usage_error("--contours are written: try --out contours.vtp");
   if (!as_lines && !options.heart.layer.empty())
     throw usage_error("--layer: the map is of the whole wall; --contours V,V,... writes lines of one layer");
   if (as_lines) {
-    check_line_output(options.out, options.common.force);
-  } else if (!options.out.empty()) {
-    check_mesh_output(options.out, options.common.force);
+    check_line_output(options.output.file, options.common.force);
+  } else if (!options.output.file.empty()) {
+    check_mesh_output(options.output.file, options.common.force);
   }
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
@@ -125,7 +126,7 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
   MapSummary summary;
   summary.input = input.title();
   summary.field = input.field_label();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.angle = probe.name();
   if (probe.is_angle()) summary.convention = options.heart.convention;
   summary.axis = probe.axis();
@@ -138,17 +139,17 @@ ExitCode run_map(const Options& options, const VerbContext& context) {
     const LayerContours contours = make_layer_contours(*heart, probe, options, &context.progress);
     summary.lines = contours.lines.size();
     summary.layer = contours.depth;
-    write_lines(options.out, contours.lines, options.common.force, std::span(&contours.values, 1));
-    context.interrupt.keep(options.out);
-  } else if (!options.out.empty()) {
+    write_lines(options.output.file, contours.lines, options.common.force, std::span(&contours.values, 1));
+    context.interrupt.keep(options.output.file);
+  } else if (!options.output.file.empty()) {
     const TetMesh& mesh = *layer.tet_mesh();
     std::vector<Vec3> points;
     points.reserve(values.size());
     for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
     std::vector<MeshColumn> columns{{probe.name(), values}};
     if (probe.name() != "depth") columns.push_back({"depth", depths});
-    write_mesh(options.out, points, mesh.cells(), columns, options.common.force, heart->heart().axis);
-    context.interrupt.keep(options.out);
+    write_mesh(options.output.file, points, mesh.cells(), columns, options.common.force, heart->heart().axis);
+    context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary));
   console.print_json(map_json(summary));
@@ -163,7 +164,7 @@ Verb map_angles_verb(std::vector<UsageExample> examples) {
               "write angles of fibres and sheets as a mesh, or lines of equal value on a layer, and say how "
               "they turn "
               "through the wall",
-          .groups = {.layer = true, .angle = true, .contours = true, .out = true},
+          .groups = {Group::kInput, Group::kLayer, Group::kAngle, Group::kContours, Group::kOut},
           .examples = std::move(examples),
           .run = run_map};
 }

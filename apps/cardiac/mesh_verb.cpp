@@ -8,7 +8,6 @@
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/mesh_picture.h"
-#include "apps/cardiac/remesh.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
@@ -22,6 +21,7 @@
 #include "common/field/heart/wall_frame.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
+#include "common/scene/wall/remesh.h"
 
 namespace palpate {
 namespace {
@@ -94,18 +94,18 @@ std::vector<ArrayInfo> infos_of(const DataSet& data) {
   return infos;
 }
 
-ExitCode run_mesh(const Options& given, const VerbContext& context) {
+ExitCode run_mesh(const Document& given, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(given, context)) return ExitCode::kDone;
   const std::filesystem::path& picture = given.heart.mesh_picture;
-  if (given.out.empty() && picture.empty() && !given.common.json)
+  if (given.output.file.empty() && picture.empty() && !given.common.json)
     throw usage_error("mesh needs an output: try --out heart.vtu (or --json to get the report alone)");
-  if (!given.out.empty()) check_mesh_output(given.out, given.common.force);
+  if (!given.output.file.empty()) check_mesh_output(given.output.file, given.common.force);
   if (!picture.empty()) {
     if (picture.extension() != ".png") throw usage_error(picture.string() + ": pictures are written as .png");
     check_output(picture, given.common.force);
   }
-  Options options = given;
+  Document options = given;
   if (options.input.refine == 0) options.input.refine = kMeshRefine;
   options.input.remesher = nullptr;  // it is made here, with its counts
   Input input = open_input(options, context);
@@ -126,7 +126,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
   carry_arrays(block, mesh);
   MeshSummary summary;
   summary.input = input.title();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.mesher = mesh.kept ? "none: the file's own tetrahedra are kept" : name_of(with.mesher);
   summary.cells_volume = mesh.cells_volume;
   summary.exact_volume = input.file()->exact_volume;
@@ -161,10 +161,10 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
     summary.notes.emplace_back("no fibres, so nothing is said of layers");
   }
   summary.seconds_report = watch.seconds();
-  if (!options.out.empty()) {
-    write_mesh(options.out, mesh.points, mesh.tets, mesh.columns, options.common.force,
+  if (!options.output.file.empty()) {
+    write_mesh(options.output.file, mesh.points, mesh.tets, mesh.columns, options.common.force,
                input.file()->long_axis);
-    context.interrupt.keep(options.out);
+    context.interrupt.keep(options.output.file);
   }
   if (!picture.empty()) {
     context.progress.begin("drawing", 0);
@@ -185,7 +185,7 @@ ExitCode run_mesh(const Options& given, const VerbContext& context) {
 Verb mesh_verb(std::vector<UsageExample> examples) {
   return {.name = "mesh",
           .summary = "fill the wall with tetrahedra, and say how good they are",
-          .groups = {.mesh_picture = true, .out = true},
+          .groups = {Group::kInput, Group::kMeshPicture, Group::kOut},
           .examples = std::move(examples),
           .run = run_mesh};
 }

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "apps/cardiac/cardiac_model.h"
+#include "apps/cardiac/cardiac_panels.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
@@ -14,26 +15,20 @@ Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at layers and fibres in a window, and feel them (the verb that FILE alone stands for)",
-       .groups = {.fibres = true,
-                  .layer = true,
-                  .angle = true,
-                  .plot = true,
-                  .view = true,
-                  .touch = true,
-                  .record = true,
-                  .replay = true},
-       .window = user_window(),
+       .groups = {Group::kInput, Group::kLines, Group::kLayer, Group::kAngle, Group::kPlot, Group::kView,
+                  Group::kTouch, Group::kRecord, Group::kReplay, Group::kNotes},
+       .window = user_window(cardiac_panels()),
        .modes = modes_of(FieldKind::kFibre),
        .render = render_layers_verb({}),
        .next = "trace FILE --layer 0.5 --seeds random:200 --out fibres.vtp",
        .check =
-           [](const Options& options) {
+           [](const Document& options) {
              (void)layer_of(options.heart);
              (void)parse_cut(options.heart.cut);
              (void)range_of(options.heart);
            },
-       .use = [](const Input&, const Options&) { return SceneUse{.tracing = true}; },
-       .model = [](const Options& options,
+       .use = [](const Input&, const Document&) { return SceneUse{.tracing = true}; },
+       .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<CardiacModel>(options, program); },
        .style = style_projection},
       std::move(examples));

@@ -18,23 +18,23 @@
 namespace palpate {
 namespace {
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
   return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
 }
 
-void check(const Options& options) {
+void check(const Document& options) {
   (void)layer_of(options.heart);
   (void)parse_cut(options.heart.cut);
   (void)range_of(options.heart);
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
-  if (!options.path.empty()) (void)read_probe_path(options.path.string());
+  if (!options.hand.path.empty()) (void)read_probe_path(options.hand.path.string());
   (void)mode_of(modes_of(FieldKind::kFibre), options);
   (void)touch_settings(options.touch);
 }
 
-DrawnScene make_scene(Input& input, const Options& given, const VerbContext& context, double aspect) {
-  Options options = given;
+DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
+  Document options = given;
   const std::string chosen = choose_usual_look(input, options, &context.progress);
   if (!chosen.empty()) context.console.note(chosen);
   const auto heart = load_layered_heart(input, HeartOptions(), options.common.threads, &context.progress);
@@ -48,7 +48,7 @@ DrawnScene make_scene(Input& input, const Options& given, const VerbContext& con
   drawn.measured = measured_costs(input, heart->heart().layer->tet_mesh());
   drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});
   drawn.view = std::move(layer.view);
-  if (!options.path.empty()) {
+  if (!options.hand.path.empty()) {
     const ScalarField& depth = *heart->heart().layer;
     const Workspace workspace = touch_workspace(options.touch, depth.diagonal(), depth.frame());
     const HapticScene scene{nullptr,
@@ -59,7 +59,7 @@ DrawnScene make_scene(Input& input, const Options& given, const VerbContext& con
                             heart->heart().fibres};
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
     drawn.view.probe =
-        probe_after(read_probe_path(options.path.string()), mode_of(modes, options).make(scene), scene,
+        probe_after(read_probe_path(options.hand.path.string()), mode_of(modes, options).make(scene), scene,
                     touch_limits(options.touch), drawn.view.style.color_by);
   }
   return drawn;
@@ -70,20 +70,14 @@ DrawnScene make_scene(Input& input, const Options& given, const VerbContext& con
 Verb render_layers_verb(std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a layer of the wall with its fibres, with or without a display",
-          .groups = {.fibres = true,
-                     .layer = true,
-                     .angle = true,
-                     .view = true,
-                     .touch = true,
-                     .path = true,
-                     .out = true,
-                     .picture = true},
+          .groups = {Group::kInput, Group::kLines, Group::kLayer, Group::kAngle, Group::kView, Group::kTouch,
+                     Group::kPath, Group::kOut, Group::kPicture, Group::kNotes},
           .examples = std::move(examples),
-          .run = [](const Options& options, const VerbContext& context) {
+          .run = [](const Document& options, const VerbContext& context) {
             const PictureMaker maker{
                 .check = check,
                 .use =
-                    [](const Options& given, const Input& input) {
+                    [](const Document& given, const Input& input) {
                       (void)input.heart_choice();  // an unknown --field is refused before anything is read
                       return SceneUse{.verb = "render",
                                       .tracing = true,

@@ -14,7 +14,6 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/math/vec_text.h"
-#include "common/scene/seeds.h"
 #include "common/scene/time_series.h"
 
 namespace palpate {
@@ -34,7 +33,7 @@ std::vector<Vec3> places_along(const std::string& file) {
   return places;
 }
 
-std::vector<Vec3> places_of(const Options& options) {
+std::vector<Vec3> places_of(const Document& options) {
   std::vector<Vec3> places;
   for (const std::string& text : options.series.places) {
     const auto v = parse_numbers(text, 3, "--at takes a place: x,y,z");
@@ -88,20 +87,20 @@ std::string summary_text(const SeriesSummary& summary) {
   return text;
 }
 
-ExitCode run_series(const Options& options, const VerbContext& context) {
+ExitCode run_series(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.out.empty() && !options.common.json)
+  if (options.output.file.empty() && !options.common.json)
     throw usage_error("series needs an output: try --out series.csv (or --json to get the values alone)");
-  if (!options.out.empty() && options.out.extension() != ".csv")
-    throw usage_error(options.out.string() + ": a time series is written as .csv");
+  if (!options.output.file.empty() && options.output.file.extension() != ".csv")
+    throw usage_error(options.output.file.string() + ": a time series is written as .csv");
   SeriesSummary summary;
   summary.places = places_of(options);
-  if (!options.out.empty()) check_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_output(options.output.file, options.common.force);
   Input input = open_input(options, context);
   const Stopwatch watch;
   TimeSeries series(std::move(input), options.series.value, options.common.threads);
   summary.input = series.input().title();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.value = series.name();
   summary.times = series.times();
   summary.unordered = series.unordered();
@@ -119,9 +118,9 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
   summary.seconds = watch.seconds();
   if (std::none_of(summary.values.begin(), summary.values.end(), [](double v) { return std::isfinite(v); }))
     throw work_error("no value: every place lies outside, or has no data");
-  if (!options.out.empty()) {
-    write_csv(options.out, summary, options.common.force);
-    context.interrupt.keep(options.out);
+  if (!options.output.file.empty()) {
+    write_csv(options.output.file, summary, options.common.force);
+    context.interrupt.keep(options.output.file);
   }
   context.console.print(summary_text(summary));
   context.console.print_json(series_json(summary));
@@ -133,7 +132,7 @@ ExitCode run_series(const Options& options, const VerbContext& context) {
 Verb series_verb(std::vector<UsageExample> examples) {
   return {.name = "series",
           .summary = "write a scalar at places over all time steps",
-          .groups = {.series = true, .out = true},
+          .groups = {Group::kInput, Group::kSeries, Group::kOut},
           .examples = std::move(examples),
           .run = run_series};
 }

@@ -12,7 +12,7 @@
 #include "common/cli/trace_text.h"
 #include "common/cli/verbs.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/load/write_lines.h"
+#include "common/load/write/write_lines.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
@@ -52,22 +52,22 @@ std::vector<PointColumn> columns_of(const std::shared_ptr<const LayeredHeart>& h
   return columns;
 }
 
-ExitCode run_trace(const Options& options, const VerbContext& context) {
+ExitCode run_trace(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.tracing.seeds.empty())
     throw usage_error("trace needs seeds: try --seeds random:100 or --seeds grid:8,8,8");
-  if (options.out.empty() && !options.common.json && !options.common.explain)
+  if (options.output.file.empty() && !options.common.json && !options.common.explain)
     throw usage_error("trace needs an output: try --out fibres.vtp (or --json to get the counts alone)");
   const SeedSpec spec = parse_seeds(options.tracing.seeds);
   const auto layer = layer_of(options.heart);
-  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
   TraceSummary summary;
   summary.input = input.title();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.threads = resolve_threads(options.common.threads);
   if (options.common.explain) {
     summary.plan = plan_scene(
@@ -110,13 +110,13 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
     console.print_json(trace_json(summary));
     throw work_error(summary.failure);
   }
-  if (!options.out.empty()) {
-    context.progress.begin("writing " + options.out.string(), 0);
+  if (!options.output.file.empty()) {
+    context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
-    write_lines(options.out, summary.result.lines, options.common.force,
+    write_lines(options.output.file, summary.result.lines, options.common.force,
                 columns_of(heart, options.heart, summary.result.lines, options.common.threads));
     summary.seconds_write = watch.seconds();
-    context.interrupt.keep(options.out);
+    context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary, traced.step));
   if (options.common.explain) {
@@ -133,7 +133,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
 Verb trace_fibres_verb(std::vector<UsageExample> examples) {
   return {.name = "trace",
           .summary = "trace fibres, on a layer or through the wall, and write them to a file",
-          .groups = {.fibres = true, .layer = true, .out = true},
+          .groups = {Group::kInput, Group::kLines, Group::kLayer, Group::kOut},
           .examples = std::move(examples),
           .run = run_trace};
 }

@@ -59,7 +59,7 @@ std::string angle_of(const HeartOptions& options) {
   return options.angle.empty() ? std::string("helix") : options.angle;
 }
 
-std::string choose_usual_look(Input& input, Options& options, Progress* progress) {
+std::string choose_usual_look(Input& input, Document& options, Progress* progress) {
   if (!options.heart.angle.empty()) return {};
   options.heart.angle = angle_of(options.heart);
   if (input.times().size() < 2) return {};

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "common/base/progress.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 
@@ -18,6 +18,6 @@ namespace palpate {
 /// very beginning of a wave all is at rest.
 /// @return a sentence that says what was chosen; empty where nothing was.
 /// @throws Error, Cancelled.
-std::string choose_usual_look(Input& input, Options& options, Progress* progress);
+std::string choose_usual_look(Input& input, Document& options, Progress* progress);
 
 }  // namespace palpate

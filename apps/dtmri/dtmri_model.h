@@ -16,19 +16,17 @@ using DtmriContent = std::shared_ptr<const SceneState>;
 
 class DtmriModel final : public InputModel<DtmriContent> {
  public:
-  DtmriModel(Options options, std::string program);
+  DtmriModel(Document document, std::string program);
+
+  void keep(const SceneView& view, Document& document) const override;
 
  private:
-  [[nodiscard]] DtmriContent read(Input& input, const Options& options, Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const DtmriContent& content, const Options& options,
-                                   const SceneSettings& settings, const SceneState* before,
-                                   Progress& progress) const override;
+  [[nodiscard]] DtmriContent read(Input& input, const Document& document, Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const DtmriContent& content, const Document& document,
+                                   const SceneState* before, Progress& progress) const override;
   /// Tracts, and an image of one number a voxel, come beside what is open.
-  [[nodiscard]] std::optional<SceneSettings> join(const InputFiles& files, const SceneSettings& now,
-                                                  Progress& progress) const override;
-  void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
-  void describe_session(Session& session, const InputSpec& spec, const Options& options,
-                        const SceneSettings& settings, const SceneView& view) const override;
+  [[nodiscard]] std::optional<Document> join(const InputFiles& files, const Document& now,
+                                             Progress& progress) const override;
 };
 
 }  // namespace palpate

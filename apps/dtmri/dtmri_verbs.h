@@ -18,8 +18,6 @@ namespace palpate {
 /// Compares tracts of any program with an image, turns them on request and writes them:
 /// `tracts IMAGE --tracts tracts.trk --turn=-x,-y,z --out turned.tck`.
 [[nodiscard]] Verb tracts_verb(std::vector<UsageExample> examples);
-/// What noise, weighting and steps do to directions and tracts.
-[[nodiscard]] Verb tensor_report_verb(std::vector<UsageExample> examples);
 /// The window.
 [[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
 

@@ -10,22 +10,22 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/field/tensor/tensor_measure.h"
-#include "common/load/write_image.h"
+#include "common/load/write/write_image.h"
 
 namespace palpate {
 namespace {
 
-ImageConvention convention_of(const Options& options) {
-  if (options.convention == "mrtrix") return ImageConvention::kMrtrix;
-  if (options.convention == "fsl") return ImageConvention::kFsl;
-  throw usage_error("--convention " + options.convention + ": mrtrix, fsl are known");
+ImageConvention convention_of(const Document& options) {
+  if (options.output.convention == "mrtrix") return ImageConvention::kMrtrix;
+  if (options.output.convention == "fsl") return ImageConvention::kFsl;
+  throw usage_error("--convention " + options.output.convention + ": mrtrix, fsl are known");
 }
 
 /// What can be refused before any work is done.
-void check_request(const Options& options, const std::string& verb, const std::string& example) {
-  if (options.out.empty()) throw usage_error(verb + " needs an output: try --out " + example);
+void check_request(const Document& options, const std::string& verb, const std::string& example) {
+  if (options.output.file.empty()) throw usage_error(verb + " needs an output: try --out " + example);
   (void)convention_of(options);
-  check_image_output(options.out, options.common.force);
+  check_image_output(options.output.file, options.common.force);
 }
 
 /// The grid of the image, which has to be one.
@@ -39,18 +39,18 @@ const UniformTopology& grid_of(const TensorImage& made, const Input& input) {
 }
 
 /// Writes `values`, says what was done, and returns.
-ExitCode finish(const Options& options, const VerbContext& context, const Input& input,
+ExitCode finish(const Document& options, const VerbContext& context, const Input& input,
                 const TensorImage& made, ImageContent content, const std::vector<float>& values,
                 ImageSummary summary) {
-  context.progress.begin("writing " + options.out.filename().string(), 0);
+  context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
   const Stopwatch watch;
-  write_image(options.out, grid_of(made, input), content, values, convention_of(options),
+  write_image(options.output.file, grid_of(made, input), content, values, convention_of(options),
               options.common.force);
   summary.seconds_write = watch.seconds();
   summary.input = input.title();
   summary.field = input.field_label();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.voxels = values.size() / static_cast<std::size_t>(component_count(content));
   const auto components = static_cast<std::size_t>(component_count(content));
   for (std::size_t v = 0; v < values.size(); v += components)
@@ -79,7 +79,7 @@ std::vector<float> rows_of(const TensorImage& made) {
   return values;
 }
 
-ExitCode run_fit(const Options& options, const VerbContext& context) {
+ExitCode run_fit(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   check_request(options, "fit", "tensor.nii.gz");
   Input input = open_input(options, context);
@@ -96,10 +96,10 @@ ExitCode run_fit(const Options& options, const VerbContext& context) {
   return finish(options, context, input, made, ImageContent::kTensor, rows_of(made), std::move(summary));
 }
 
-ExitCode run_measure(const Options& options, const VerbContext& context) {
+ExitCode run_measure(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  const TensorMeasure measure = measure_from_name(options.measure);
-  check_request(options, "measure", options.measure + ".nii.gz");
+  const TensorMeasure measure = measure_from_name(options.output.measure);
+  check_request(options, "measure", options.output.measure + ".nii.gz");
   Input input = open_input(options, context);
   const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
   const Stopwatch watch;
@@ -119,7 +119,7 @@ ExitCode run_measure(const Options& options, const VerbContext& context) {
 Verb fit_verb(std::vector<UsageExample> examples) {
   return {.name = "fit",
           .summary = "fit tensors to diffusion-weighted volumes and write them as an image",
-          .groups = {.out = true, .image = true},
+          .groups = {Group::kInput, Group::kOut, Group::kImage},
           .examples = std::move(examples),
           .run = run_fit};
 }
@@ -127,7 +127,7 @@ Verb fit_verb(std::vector<UsageExample> examples) {
 Verb measure_verb(std::vector<UsageExample> examples) {
   return {.name = "measure",
           .summary = "write what tensors measure as an image: anisotropies, diffusivity, directions",
-          .groups = {.out = true, .image = true, .measure = true},
+          .groups = {Group::kInput, Group::kOut, Group::kImage, Group::kMeasure},
           .examples = std::move(examples),
           .run = run_measure};
 }

@@ -1,5 +1,6 @@
 /// dtmri: images of diffusion tensors, seen and felt.
 #include "apps/dtmri/dtmri_verbs.h"
+#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 
@@ -63,7 +64,8 @@ int main(int argc, char** argv) {
               measure_verb({{"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "from tensors"},
                             {"dtmri measure dwi.nii.gz --measure color --out color.nii.gz",
                              "fitted first; main directions as colours"}}),
-              tensor_report_verb(
+              report_verb(
+                  "measure what noise, weighting, step and time do to directions and tracts", {Group::kInput},
                   {{"dtmri report dwi.nii.gz --out report",
                     "a page: directions against b-value and noise at these gradients, tracts against time"},
                    {"dtmri report --example helix --quick --out report",

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "apps/dtmri/dtmri_model.h"
+#include "apps/dtmri/dtmri_panels.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/view_tracts.h"
@@ -15,18 +16,19 @@ Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",
-       .groups = {.tracts = true, .view = true, .touch = true, .record = true, .replay = true},
-       .window = user_window(),
+       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kTouch, Group::kRecord, Group::kReplay,
+                  Group::kNotes},
+       .window = user_window(dtmri_panels()),
        .modes = modes_of(FieldKind::kTensor),
        .render = tensor_render_verb({}),
        .next = "info FILE",
        .check =
-           [](const Options& options) {
+           [](const Document& options) {
              check_tensor_options(options);
              check_view_tracts(options.tracts, options.tract_look);
            },
-       .use = [](const Input& input, const Options&) { return SceneUse{.field = !input.fields().empty()}; },
-       .model = [](const Options& options,
+       .use = [](const Input& input, const Document&) { return SceneUse{.field = !input.fields().empty()}; },
+       .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); },
        .style = style_projection},
       std::move(examples));

@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-SceneUse use_of(const Options& options, const Input& input) {
+SceneUse use_of(const Document& options, const Input& input) {
   (void)with_input_role(options, input);  // what cannot be shown is refused before anything is read
   return {.verb = "render",
           .field = role_of(input) == FileRole::kTensors,
@@ -20,7 +20,7 @@ SceneUse use_of(const Options& options, const Input& input) {
           .drawing = true};
 }
 
-ViewTracts tracts_of(const Options& options, const VerbContext& context,
+ViewTracts tracts_of(const Document& options, const VerbContext& context,
                      const std::optional<TensorView>& tensors) {
   if (!options.tract_look.file.empty()) return read_view_tracts(options.tract_look, &context.progress);
   ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
@@ -28,8 +28,8 @@ ViewTracts tracts_of(const Options& options, const VerbContext& context,
   return tracts;
 }
 
-DrawnScene make_scene(Input& input, const Options& given, const VerbContext& context, double aspect) {
-  const Options options = with_input_role(given, input);
+DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
+  const Document options = with_input_role(given, input);
   DrawnScene drawn;
   TensorSceneParts parts;
   if (role_of(input) == FileRole::kTensors) {
@@ -67,11 +67,11 @@ DrawnScene make_scene(Input& input, const Options& given, const VerbContext& con
 Verb tensor_render_verb(std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the tensors, with or without a display",
-          .groups = {.tracts = true, .view = true, .out = true, .picture = true},
+          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kOut, Group::kPicture, Group::kNotes},
           .examples = std::move(examples),
-          .run = [](const Options& options, const VerbContext& context) {
+          .run = [](const Document& options, const VerbContext& context) {
             const PictureMaker maker{.check =
-                                         [](const Options& given) {
+                                         [](const Document& given) {
                                            check_tensor_options(given);
                                            check_view_tracts(given.tracts, given.tract_look);
                                          },

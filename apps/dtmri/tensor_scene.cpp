@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/compose/domain_outline.h"
 #include "common/compose/lens_text.h"
@@ -57,7 +56,7 @@ std::string slices_text(const TensorView& view) {
   return text;
 }
 
-void check_tensor_options(const Options& options) {
+void check_tensor_options(const Document& options) {
   (void)parse_slices(options.tensors.slices);
   (void)tensor_color_from_name(options.tensors.color);
   (void)glyph_shape_from_name(options.tensors.glyphs);
@@ -78,10 +77,10 @@ Lens direction_lens(const VolumeOptions& options, const VolumeImage& image) {
   return lens;
 }
 
-VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels, const Options& options) {
+VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy, const Document& options) {
   const VolumeOptions& with = options.volume;
   VolumeView volume;
-  volume.image = make_anisotropy_volume(std::move(voxels));
+  volume.image = std::move(anisotropy);
   volume.colored = options.tensors.volume == "direction";
   volume.transfer = volume.colored ? anisotropy_body() : anisotropy_veil();
   if (!with.transfer.empty()) {
@@ -133,7 +132,7 @@ TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const Te
   return view;
 }
 
-SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Options& options,
+SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Document& options,
                             double aspect) {
   SceneView view;
   view.title = input.title();
@@ -149,7 +148,7 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Op
                     std::to_string(voxels.points.z) + " voxels";
     if (voxels.field) {
       view.subtitle.insert(0, input.field_label() + ", ");
-      view.volume = make_tensor_volume(parts.tensors->image, options);
+      view.volume = make_tensor_volume(make_anisotropy_volume(parts.tensors->image), options);
       view.volume_label = "FA";
     }
   } else if (parts.tracts) {
@@ -168,7 +167,7 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Op
   return view;
 }
 
-std::vector<std::string> show_underlay(const Underlay& underlay, const Options& options,
+std::vector<std::string> show_underlay(const Underlay& underlay, const Document& options,
                                        std::optional<TensorView>& tensors) {
   std::vector<std::string> notes = underlay.notes;
   if (!tensors) tensors = make_tensor_view(make_slice_lattice(*underlay.image), options.tensors);

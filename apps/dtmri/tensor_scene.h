@@ -10,8 +10,8 @@
 #include "apps/dtmri/underlay.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_volume.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 
@@ -30,15 +30,15 @@ struct SliceChoice {
 
 /// Checks what can be checked before anything is read. @throws Error (usage), (bad input) for a transfer
 /// function.
-void check_tensor_options(const Options& options);
+void check_tensor_options(const Document& options);
 
 /// How a lens shows the directions in it: solid, or as `--focus-tf` says. @throws Error (bad input).
 [[nodiscard]] Lens direction_lens(const VolumeOptions& options, const VolumeImage& image);
 
 /// Anisotropy as a volume with the lenses of the options, shown if they ask for it.
 /// @throws Error (bad input) for a transfer function.
-[[nodiscard]] VolumeView make_tensor_volume(std::shared_ptr<const TensorVoxels> voxels,
-                                            const Options& options);
+[[nodiscard]] VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy,
+                                            const Document& options);
 
 /// What the options say about `voxels`: slices through its middle where nothing else is said.
 /// @throws Error (usage).
@@ -47,7 +47,7 @@ void check_tensor_options(const Options& options);
 
 /// Puts `underlay` below the slices of `tensors`, or where there are none makes slices through it.
 /// @pre underlay.image is not null. @return what the user should know. @throws Error (usage) for --slices.
-std::vector<std::string> show_underlay(const Underlay& underlay, const Options& options,
+std::vector<std::string> show_underlay(const Underlay& underlay, const Document& options,
                                        std::optional<TensorView>& tensors);
 
 /// What a scene consists of; tensors, tracts or both.
@@ -57,7 +57,7 @@ struct TensorSceneParts {
 };
 /// The scene seen by the camera that `options` name. The anisotropy of tensors is there as a volume.
 /// @param aspect width / height of the picture.
-[[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Options& options,
+[[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Document& options,
                                           double aspect);
 
 }  // namespace palpate

@@ -9,8 +9,8 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
-#include "common/load/write_lines.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_lines.h"
+#include "common/load/write/write_tractogram.h"
 #include "common/scene/plan.h"
 
 namespace palpate {
@@ -95,7 +95,7 @@ void add_line_columns(TractResult& result) {
   result.lines.of_lines = {std::move(seed), std::move(first), std::move(last)};
 }
 
-ExitCode run_trace(const Options& options, const VerbContext& context) {
+ExitCode run_trace(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
 
@@ -103,10 +103,10 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   if (options.tracts.seeds.empty()) {
     throw usage_error("trace needs seeds: try --seeds fa:0.4, or --seeds point:x,y,z");
   }
-  if (options.out.empty() && !options.common.json && !options.common.explain) {
+  if (options.output.file.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("trace needs an output: try --out tracts.tck (or --json to get the counts alone)");
   }
-  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
   const int threads = options.common.threads;
   TractSummary summary;
   Stopwatch regions;
@@ -116,7 +116,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
   summary.input = input.title();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.threads = resolve_threads(threads);
   if (options.common.explain) {
     summary.plan = plan_scene(input, {.verb = "trace", .tracing = true, .threads = summary.threads});
@@ -143,16 +143,16 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
     console.print_json(tract_json(summary));
     throw work_error(summary.failure);
   }
-  if (!options.out.empty()) {
-    context.progress.begin("writing " + options.out.string(), 0);
+  if (!options.output.file.empty()) {
+    context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
     add_line_columns(summary.result);
     if (const auto* const voxels = std::get_if<UniformTopology>(&image.image.topology)) {
       summary.result.lines.image = {.voxels = voxels->points, .axes = voxels->axes, .origin = voxels->origin};
     }
-    write_tractogram(options.out, summary.result.lines, options.common.force);
+    write_tractogram(options.output.file, summary.result.lines, options.common.force);
     summary.seconds_write = watch.seconds();
-    context.interrupt.keep(options.out);
+    context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary));
   if (options.common.explain) {
@@ -169,7 +169,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
 Verb trace_tracts_verb(std::vector<UsageExample> examples) {
   return {.name = "trace",
           .summary = "trace tracts from seeds and write them to a file",
-          .groups = {.tracts = true, .out = true},
+          .groups = {Group::kInput, Group::kLines, Group::kOut},
           .examples = std::move(examples),
           .run = run_trace};
 }

@@ -12,7 +12,7 @@
 #include "common/base/progress.h"
 #include "common/field/data_set.h"
 #include "common/field/tensor/tensor_field.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 #include "common/trace/tract/trace_tracts.h"
 
 namespace palpate {

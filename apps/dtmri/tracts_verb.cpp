@@ -8,29 +8,30 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/load/read_tractogram.h"
-#include "common/load/write_lines.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_lines.h"
+#include "common/load/write/write_tractogram.h"
 
 namespace palpate {
 namespace {
 
-ExitCode run_tracts(const Options& options, const VerbContext& context) {
+ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.tract_file.empty()) throw usage_error("tracts needs a file of lines: try --tracts tracts.tck");
+  if (options.output.tracts.empty())
+    throw usage_error("tracts needs a file of lines: try --tracts tracts.tck");
   std::optional<TractTurn> turn;
-  if (!options.tract_turn.empty()) turn = parse_tract_turn(options.tract_turn);
-  if (turn && options.out.empty())
+  if (!options.output.turn.empty()) turn = parse_tract_turn(options.output.turn);
+  if (turn && options.output.file.empty())
     throw usage_error("--turn needs a file that the turned tracts are written to: try --out turned.tck");
-  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
 
-  TractogramFile file = read_tractogram(options.tract_file, &context.progress);
+  TractogramFile file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
   const auto field = input.load_tensor(options.common.threads, &context.progress);
   context.progress.begin("comparing", 0);
 
   TractFitSummary summary;
   summary.input = input.title();
-  summary.tracts = options.tract_file.string();
+  summary.tracts = options.output.tracts.string();
   summary.fit = fit_of_tracts(*field, file.lines, options.common.threads);
   summary.notes = file.info.notes;
   summary.notes.push_back(fit_sentence(summary.fit, "--turn"));
@@ -42,13 +43,13 @@ ExitCode run_tracts(const Options& options, const VerbContext& context) {
         fit_sentence(fit_of_tracts(*field, file.lines, options.common.threads), "--turn"));
   }
   summary.lines = {file.lines.line_count(), file.lines.points.size(), lengths_of(file.lines)};
-  if (!options.out.empty()) {
+  if (!options.output.file.empty()) {
     // Positions in a .trk file are those of an image: this one.
     const UniformTopology& voxels = *field->voxels();
     file.lines.image = TractogramImage{voxels.points, voxels.axes, voxels.origin};
-    context.progress.begin("writing " + options.out.filename().string(), 0);
-    write_tractogram(options.out, file.lines, options.common.force);
-    summary.output = options.out.string();
+    context.progress.begin("writing " + options.output.file.filename().string(), 0);
+    write_tractogram(options.output.file, file.lines, options.common.force);
+    summary.output = options.output.file.string();
   }
   for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
   context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
@@ -63,7 +64,7 @@ ExitCode run_tracts(const Options& options, const VerbContext& context) {
 Verb tracts_verb(std::vector<UsageExample> examples) {
   return {.name = "tracts",
           .summary = "hold tracts against an image, turn them on request, and write them in another format",
-          .groups = {.out = true, .turn = true},
+          .groups = {Group::kInput, Group::kOut, Group::kTurn},
           .examples = std::move(examples),
           .run = run_tracts};
 }

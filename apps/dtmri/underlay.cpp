@@ -18,7 +18,7 @@ FileRole role_of(const Input& input) {
   return volume && scalar ? FileRole::kScalar : FileRole::kTensors;
 }
 
-Options with_input_role(Options options, const Input& input) {
+Document with_input_role(Document options, const Input& input) {
   const auto refuse = [&input](const std::string& option) {
     throw usage_error(option + ": " + input.title() + " takes this place already; leave one of them out");
   };
@@ -42,7 +42,7 @@ Options with_input_role(Options options, const Input& input) {
 }
 
 Underlay load_underlay(const std::filesystem::path& file, Progress* progress) {
-  InputSpec spec{.files = {file}};
+  InputOptions spec{.files = {file}};
   spec.kind = FieldKind::kScalar;
   Input input = Input::open(spec, progress);
   Underlay underlay{load_volume(input, progress), input.notes()};

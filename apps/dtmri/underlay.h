@@ -8,8 +8,8 @@
 
 #include "common/base/progress.h"
 #include "common/render/tensor/tensor_view.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 
@@ -25,7 +25,7 @@ enum class FileRole : std::uint8_t {
 /// `options` with the input in its role: a tractogram as `--tracts`, a scalar image beside `--tracts` as
 /// `--underlay`. @throws Error (usage) where options take that role, too, or seeds have nothing to be traced
 /// through; (bad input) where nothing of the input can be shown.
-[[nodiscard]] Options with_input_role(Options options, const Input& input);
+[[nodiscard]] Document with_input_role(Document options, const Input& input);
 
 struct Underlay {
   std::shared_ptr<const VolumeImage> image;  ///< null: none

@@ -7,7 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/read_tractogram.h"
-#include "common/render/tract/tract_room.h"
+#include "common/render/tract/tract_bundle.h"
 
 namespace palpate {
 

@@ -8,7 +8,7 @@
 #include "common/base/progress.h"
 #include "common/render/tensor/tensor_voxels.h"
 #include "common/render/tract/tract_bundle.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 

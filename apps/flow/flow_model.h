@@ -17,18 +17,16 @@ struct FlowContent {
 
 class FlowModel final : public InputModel<FlowContent> {
  public:
-  FlowModel(Options options, std::string program);
+  FlowModel(Document document, std::string program);
 
+  void keep(const SceneView& view, Document& document) const override;
   [[nodiscard]] std::string measured() const override;
 
  private:
-  [[nodiscard]] FlowContent read(Input& input, const Options& options, Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const FlowContent& content, const Options& options,
-                                   const SceneSettings& settings, const SceneState* before,
-                                   Progress& progress) const override;
-  void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
-  void describe_session(Session& session, const InputSpec& spec, const Options& options,
-                        const SceneSettings& settings, const SceneView& view) const override;
+  [[nodiscard]] FlowContent read(Input& input, const Document& document, Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const FlowContent& content, const Document& document,
+                                   const SceneState* before, Progress& progress) const override;
+  void complete(Document& document, Input& input, Progress& progress) const override;
 };
 
 }  // namespace palpate

@@ -12,7 +12,6 @@ namespace palpate {
 [[nodiscard]] Verb trace_verb(std::vector<UsageExample> examples);
 /// A picture of lines and volume. @param modes the program's, the default one first.
 [[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
-[[nodiscard]] Verb report_verb(std::vector<UsageExample> examples);
 /// The window.
 [[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
 

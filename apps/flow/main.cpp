@@ -1,5 +1,6 @@
 /// flow: streamlines of CFD data, seen and followed.
 #include "apps/flow/flow_verbs.h"
+#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 
@@ -48,7 +49,9 @@ int main(int argc, char** argv) {
                 "other grids are resampled, and the error is told; lenses as in grid"},
                {"flow render carotid.vtk --path path.csv --out followed.png",
                 "with a hand on that path: the line that holds it, stream balls, the path by force"}}),
-          report_verb({{"flow report carotid.vtk --out report", "then open report/index.html"},
+          report_verb("measure error against run time and stability on this very data",
+                      {Group::kInput, Group::kLines},
+                      {{"flow report carotid.vtk --out report", "then open report/index.html"},
                        {"flow report carotid.vtk --quick --seeds grid:3,3,3 --out report --force",
                         "fewer lines, and in place of the last report"}}),
           open_verb({{"flow carotid.vtk", "a file in the window"},

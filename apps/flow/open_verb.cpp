@@ -1,4 +1,5 @@
 #include "apps/flow/flow_model.h"
+#include "apps/flow/flow_panels.h"
 #include "apps/flow/flow_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
@@ -13,7 +14,7 @@
 namespace palpate {
 namespace {
 
-SceneUse use_of(const Input& input, const Options& options) {
+SceneUse use_of(const Input& input, const Document& options) {
   const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
   const LineColor color = line_color(options.view.color, input);
   SceneUse use;
@@ -24,14 +25,11 @@ SceneUse use_of(const Input& input, const Options& options) {
   return use;
 }
 
-void style(const Options& options, SceneView& view) {
+void style(const Document& options, SceneView& view) {
   style_projection(options, view);
   style_lines(options.view, view.style);
   // Any other name is an array of the input: the model knows it once that is open.
-  for (int i = 0; i < kColorByCount; ++i) {
-    const auto by = static_cast<ColorBy>(i);
-    if (name_of(by) == options.view.color) view.style.color_by = by;
-  }
+  show_quantity(options.view.color, view.style);
 }
 
 }  // namespace
@@ -39,18 +37,19 @@ void style(const Options& options, SceneView& view) {
 Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at lines in a window (the verb that FILE alone stands for)",
-       .groups = {.tracing = true, .view = true, .touch = true, .record = true, .replay = true},
-       .window = user_window(),
+       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kTouch, Group::kRecord, Group::kReplay,
+                  Group::kNotes},
+       .window = user_window(flow_panels()),
        .modes = modes_of(FieldKind::kVector),
        .render = render_verb(modes_of(FieldKind::kVector), {}),
        .next = "trace FILE --seeds grid:8,8,8 --out lines.vtp",
        .check =
-           [](const Options& options) {
+           [](const Document& options) {
              (void)trace_options(options, "both");
              check_flow_volume(options.volume);
            },
        .use = use_of,
-       .model = [](const Options& options,
+       .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<FlowModel>(options, program); },
        .style = style},
       std::move(examples));

@@ -23,7 +23,7 @@ namespace {
 
 /// Adds what a hand on that path has felt.
 void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
-                const Options& options, const std::shared_ptr<const ScalarField>& scalar,
+                const Document& options, const std::shared_ptr<const ScalarField>& scalar,
                 const std::shared_ptr<const VectorField>& field) {
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
   const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
@@ -32,15 +32,15 @@ void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticM
   view.probe->reference_speed = reference_speed(view);
 }
 
-SeedSpec view_seeds(const Options& options) {
+SeedSpec view_seeds(const Document& options) {
   return parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
 }
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
   return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
 }
 
-SceneUse use_of(const Options& options, const Input& input) {
+SceneUse use_of(const Document& options, const Input& input) {
   const LineColor color = line_color(options.view.color, input);
   const TraceOptions trace = trace_options(options, "both");
   return {.verb = "render",
@@ -54,7 +54,7 @@ SceneUse use_of(const Options& options, const Input& input) {
 
 /// Adds the volume that the options name, and what taking it on an image cost.
 void show_volume(DrawnScene& drawn, Input& input, const std::shared_ptr<const VectorField>& field,
-                 const Options& options, const VerbContext& context) {
+                 const Document& options, const VerbContext& context) {
   const std::vector<std::string> names = flow_volume_names(input, options.volume);
   if (names.empty()) return;
   const Stopwatch clock;
@@ -72,7 +72,7 @@ void show_volume(DrawnScene& drawn, Input& input, const std::shared_ptr<const Ve
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
 }
 
-DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Options& options,
+DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,
                       const VerbContext& context, double aspect) {
   const auto field = input.load_field(options.common.threads, &context.progress);
   const auto seeds = make_seeds(view_seeds(options), *field, options.common.seed);
@@ -96,44 +96,44 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const HapticMode& mode = mode_of(modes, options);
   const bool surfaces = wants_surfaces(options, mode.name);
   std::shared_ptr<const ScalarField> scalar;
-  if (surfaces || (!options.path.empty() && !options.touch.scalar.empty())) {
+  if (surfaces || (!options.hand.path.empty() && !options.touch.scalar.empty())) {
     scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
   }
   if (surfaces) {
     const std::string note = show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
-  if (!options.path.empty()) {
-    show_probe(drawn.view, read_probe_path(options.path.string()), mode, options, scalar, field);
+  if (!options.hand.path.empty()) {
+    show_probe(drawn.view, read_probe_path(options.hand.path.string()), mode, options, scalar, field);
   }
-  if (surfaces || !options.path.empty()) fade_lines(drawn.view);
+  if (surfaces || !options.hand.path.empty()) fade_lines(drawn.view);
   return drawn;
 }
 
 }  // namespace
 
 Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
-  return {
-      .name = "render",
-      .summary = "draw a picture, with or without a display",
-      .groups = {.tracing = true, .view = true, .touch = true, .path = true, .out = true, .picture = true},
-      .examples = std::move(examples),
-      .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
-        const PictureMaker maker{
-            .check =
-                [&modes](const Options& given) {
-                  (void)view_seeds(given);
-                  check_flow_volume(given.volume);
-                  (void)trace_options(given, "both");
-                  if (!given.path.empty()) (void)read_probe_path(given.path.string());
-                  (void)mode_of(modes, given);
-                  (void)touch_settings(given.touch);
-                },
-            .use = use_of,
-            .make = [&modes](Input& input, const Options& given, const VerbContext& where,
-                             double aspect) { return make_scene(modes, input, given, where, aspect); }};
-        return draw_picture(maker, options, context);
-      }};
+  return {.name = "render",
+          .summary = "draw a picture, with or without a display",
+          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kTouch, Group::kPath, Group::kOut,
+                     Group::kPicture, Group::kNotes},
+          .examples = std::move(examples),
+          .run = [modes = std::move(modes)](const Document& options, const VerbContext& context) {
+            const PictureMaker maker{
+                .check =
+                    [&modes](const Document& given) {
+                      (void)view_seeds(given);
+                      check_flow_volume(given.volume);
+                      (void)trace_options(given, "both");
+                      if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
+                      (void)mode_of(modes, given);
+                      (void)touch_settings(given.touch);
+                    },
+                .use = use_of,
+                .make = [&modes](Input& input, const Document& given, const VerbContext& where,
+                                 double aspect) { return make_scene(modes, input, given, where, aspect); }};
+            return draw_picture(maker, options, context);
+          }};
 }
 
 }  // namespace palpate

@@ -9,7 +9,7 @@
 #include "common/cli/trace_text.h"
 #include "common/cli/verbs.h"
 #include "common/compose/trace_options.h"
-#include "common/load/write_lines.h"
+#include "common/load/write/write_lines.h"
 #include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
@@ -90,7 +90,7 @@ std::string summary_text(const TraceSummary& summary) {
   return text;
 }
 
-ExitCode run_trace(const Options& options, const VerbContext& context) {
+ExitCode run_trace(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
 
@@ -98,18 +98,18 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
   if (options.tracing.seeds.empty()) {
     throw usage_error("trace needs seeds: try --seeds grid:8,8,8 or --seeds random:100");
   }
-  if (options.out.empty() && !options.common.json && !options.common.explain) {
+  if (options.output.file.empty() && !options.common.json && !options.common.explain) {
     throw usage_error("trace needs an output: try --out lines.vtp (or --json to get the counts alone)");
   }
   const SeedSpec spec = parse_seeds(options.tracing.seeds);
   TraceOptions trace = trace_options(options, "forward");
-  if (!options.out.empty()) check_line_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
   TraceSummary summary;
   summary.input = input.title();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   if (options.common.explain) {
     summary.plan = plan_scene(input, {.verb = "trace",
                                       .tracing = true,
@@ -139,12 +139,12 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
     console.print_json(trace_json(summary));
     throw work_error(summary.failure);
   }
-  if (!options.out.empty()) {
-    context.progress.begin("writing " + options.out.string(), 0);
+  if (!options.output.file.empty()) {
+    context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
-    write_lines(options.out, summary.result.lines, options.common.force);
+    write_lines(options.output.file, summary.result.lines, options.common.force);
     summary.seconds_write = watch.seconds();
-    context.interrupt.keep(options.out);
+    context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary));
   if (options.common.explain) {
@@ -163,7 +163,7 @@ ExitCode run_trace(const Options& options, const VerbContext& context) {
 Verb trace_verb(std::vector<UsageExample> examples) {
   return {.name = "trace",
           .summary = "trace lines from seeds and write them to a file",
-          .groups = {.tracing = true, .out = true},
+          .groups = {Group::kInput, Group::kLines, Group::kOut},
           .examples = std::move(examples),
           .run = run_trace};
 }

@@ -6,20 +6,21 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/verbs.h"
 #include "common/hand/drawn/annotation_list.h"
-#include "common/load/write_annotations.h"
+#include "common/load/write/write_annotations.h"
 
 namespace palpate {
 namespace {
 
-ExitCode run_annotate(const Options& options, const VerbContext& context) {
+ExitCode run_annotate(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const std::vector<Annotation> notes = annotations_of(options.touch.annotations, "--annotation");
   if (notes.empty())
     throw usage_error("annotate needs something to measure: try --annotation length:0,0,0,10,0,0");
-  if (!options.out.empty()) check_annotation_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_annotation_output(options.output.file, options.common.force);
   Input input = open_input(options, context);
   const auto field = input.load_scalar(options.common.threads, &context.progress);
-  AnnotationSummary summary{.input = input.title(), .output = options.out.string(), .annotations = notes};
+  AnnotationSummary summary{
+      .input = input.title(), .output = options.output.file.string(), .annotations = notes};
   const std::string unit = input.file() != nullptr && input.file()->anatomical ? "mm" : "";
   CellHint hint;
   for (const Annotation& each : notes) {
@@ -33,9 +34,9 @@ ExitCode run_annotate(const Options& options, const VerbContext& context) {
                           (each.label.empty() ? "" : "  " + each.label) + "\n");
   }
   if (summary.outside > 0) context.console.note(counted(summary.outside, "place") + " outside the data");
-  if (!options.out.empty()) {
-    write_annotations(options.out, notes, options.common.force);
-    context.interrupt.keep(options.out);
+  if (!options.output.file.empty()) {
+    write_annotations(options.output.file, notes, options.common.force);
+    context.interrupt.keep(options.output.file);
   }
   context.console.print_json(annotation_json(summary));
   return ExitCode::kDone;
@@ -46,7 +47,7 @@ ExitCode run_annotate(const Options& options, const VerbContext& context) {
 Verb annotate_verb(std::vector<UsageExample> examples) {
   return {.name = "annotate",
           .summary = "measure what is marked in the volume: lengths, angles, curves and areas",
-          .groups = {.notes = true, .out = true},
+          .groups = {Group::kInput, Group::kNotes, Group::kOut},
           .examples = std::move(examples),
           .run = run_annotate};
 }

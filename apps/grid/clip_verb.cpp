@@ -17,7 +17,7 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/field/grid/image_resample.h"
-#include "common/load/write_image.h"
+#include "common/load/write/write_image.h"
 
 namespace palpate {
 namespace {
@@ -26,7 +26,7 @@ bool is_picture(const std::filesystem::path& out) {
   return out.extension() == ".png" || out.extension() == ".PNG";
 }
 
-void check_request(const Options& options) {
+void check_request(const Document& options) {
   check_volume_options(options.volume);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
   if (options.slice.box.empty() && options.volume.clips.empty() && options.volume.lenses.empty())
@@ -34,7 +34,7 @@ void check_request(const Options& options) {
 }
 
 /// The voxels in `--box`, all of them without one, as single-precision numbers; NaN where there is no value.
-DataSet cropped(const DataSet& block, const Options& options) {
+DataSet cropped(const DataSet& block, const Document& options) {
   const auto& grid = std::get<UniformTopology>(block.topology);
   IndexBox part{Index3(0), grid.points - 1};
   if (!options.slice.box.empty()) {
@@ -72,8 +72,8 @@ std::vector<ConvexShape> shapes_that_cut(const VolumeOptions& options, const Con
 }
 
 /// Writes the part of the volume; what planes and shapes cut away gets its lowest value.
-ExitCode write_part(const Options& options, const VerbContext& context) {
-  check_image_output(options.out, options.common.force);
+ExitCode write_part(const Document& options, const VerbContext& context) {
+  check_image_output(options.output.file, options.common.force);
   const std::vector<ConvexShape> beyond = shapes_that_cut(options.volume, context.console);
   if (options.slice.box.empty() && beyond.empty())
     throw usage_error("clip needs something to cut voxels with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
@@ -107,14 +107,14 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
       }
     }
   }
-  context.progress.begin("writing " + options.out.filename().string(), 0);
+  context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
-  write_image(options.out, summary.lattice, ImageContent::kScalar, values, ImageConvention::kMrtrix,
+  write_image(options.output.file, summary.lattice, ImageContent::kScalar, values, ImageConvention::kMrtrix,
               options.common.force, space_of(input));
-  context.interrupt.keep(options.out);
+  context.interrupt.keep(options.output.file);
   summary.input = input.title();
   summary.field = input.field_label();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.lowest = static_cast<double>(lowest);
   summary.highest = static_cast<double>(highest);
   summary.seconds_load = input.seconds_open() + input.seconds_read();
@@ -126,7 +126,7 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
                              : std::string()) +
                         "\n");
   constexpr int kVtkComponents = 10;
-  if (options.out.extension() == ".nrrd" && n.x < kVtkComponents) {
+  if (options.output.file.extension() == ".nrrd" && n.x < kVtkComponents) {
     context.console.note(summary.output + ": VTK's NRRD reader takes a first axis of fewer than " +
                          std::to_string(kVtkComponents) +
                          " samples for components of vectors, whatever the header says; write .vti for VTK");
@@ -135,7 +135,7 @@ ExitCode write_part(const Options& options, const VerbContext& context) {
   return ExitCode::kDone;
 }
 
-DrawnScene make_scene(Input& input, const Options& options, const VerbContext& context, double aspect) {
+DrawnScene make_scene(Input& input, const Document& options, const VerbContext& context, double aspect) {
   const DataSet block = cropped(load_volume_block(input, &context.progress), options);
   const auto image = make_volume_image(block, block.arrays.front().name, input.title());
   DrawnScene drawn;
@@ -147,14 +147,15 @@ DrawnScene make_scene(Input& input, const Options& options, const VerbContext& c
   return drawn;
 }
 
-ExitCode run_clip(const Options& options, const VerbContext& context) {
+ExitCode run_clip(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.out.empty()) throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
+  if (options.output.file.empty())
+    throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
   check_request(options);
-  if (!is_picture(options.out)) return write_part(options, context);
+  if (!is_picture(options.output.file)) return write_part(options, context);
   const PictureMaker maker{.check = check_request,
                            .use =
-                               [](const Options& given, const Input& input) {
+                               [](const Document& given, const Input& input) {
                                  (void)input.scalar_choice();
                                  return SceneUse{.verb = "render",
                                                  .threads = resolve_threads(given.common.threads),
@@ -169,7 +170,7 @@ ExitCode run_clip(const Options& options, const VerbContext& context) {
 Verb clip_verb(std::vector<UsageExample> examples) {
   return {.name = "clip",
           .summary = "cut the volume by planes and a box: a picture, or an image of what is left",
-          .groups = {.view = true, .out = true, .picture = true, .part = true},
+          .groups = {Group::kInput, Group::kView, Group::kOut, Group::kPicture, Group::kPart},
           .examples = std::move(examples),
           .run = run_clip};
 }

@@ -10,16 +10,15 @@ namespace palpate {
 
 class GridModel final : public InputModel<TangibleVolume> {
  public:
-  GridModel(Options options, std::string program);
+  GridModel(Document document, std::string program);
+
+  void keep(const SceneView& view, Document& document) const override;
 
  private:
-  [[nodiscard]] TangibleVolume read(Input& input, const Options& options, Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const TangibleVolume& volume, const Options& options,
-                                   const SceneSettings& settings, const SceneState* before,
-                                   Progress& progress) const override;
-  void begin(SceneSettings& settings, const Input& input, const Options& options) const override;
-  void describe_session(Session& session, const InputSpec& spec, const Options& options,
-                        const SceneSettings& settings, const SceneView& view) const override;
+  [[nodiscard]] TangibleVolume read(Input& input, const Document& document,
+                                    Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const TangibleVolume& volume, const Document& document,
+                                   const SceneState* before, Progress& progress) const override;
 };
 
 }  // namespace palpate

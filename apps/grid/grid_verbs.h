@@ -16,8 +16,6 @@ namespace palpate {
 [[nodiscard]] Verb annotate_verb(std::vector<UsageExample> examples);
 /// A part, cut by a box and planes, as a picture or an image.
 [[nodiscard]] Verb clip_verb(std::vector<UsageExample> examples);
-/// What ways to draw a volume faster cost in errors of its picture.
-[[nodiscard]] Verb volume_report_verb(std::vector<UsageExample> examples);
 /// The window.
 [[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
 

@@ -1,5 +1,6 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_verbs.h"
+#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 
@@ -71,7 +72,9 @@ int main(int argc, char** argv) {
                        "a part of the volume, in its place"},
                       {"grid clip --session tooth.palpate.toml --out cut.nrrd",
                        "what the planes of a window have left of its volume"}}),
-           volume_report_verb(
+           report_verb(
+               "measure what ways to draw this volume faster cost in errors of its picture",
+               {Group::kInput, Group::kView},
                {{"grid report tooth.nhdr --out report",
                  "error of the picture against milliseconds a frame, and how well a hand places planes"},
                 {"grid report --example shells --quick --out report", "a first look"}}),

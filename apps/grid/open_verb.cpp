@@ -7,20 +7,22 @@
 #include "common/compose/volume_scene.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/open_window.h"
+#include "common/window/panels/volume_panel.h"
 
 namespace palpate {
 
 Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
-       .groups = {.view = true, .touch = true, .record = true, .replay = true, .notes = true, .part = true},
-       .window = user_window(),
+       .groups = {Group::kInput, Group::kView, Group::kTouch, Group::kRecord, Group::kReplay, Group::kNotes,
+                  Group::kPart},
+       .window = user_window({draw_volume}),
        .modes = modes_of(FieldKind::kScalar),
        .render = volume_render_verb(modes_of(FieldKind::kScalar), {}),
        .next = "probe FILE --path path.csv --out log.csv",
-       .check = [](const Options& options) { check_volume_options(options.volume); },
-       .use = [](const Input&, const Options&) { return SceneUse{}; },
-       .model = [](const Options& options,
+       .check = [](const Document& options) { check_volume_options(options.volume); },
+       .use = [](const Input&, const Document&) { return SceneUse{}; },
+       .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<GridModel>(options, program); },
        .style = style_projection},
       std::move(examples));

@@ -9,7 +9,6 @@
 #include "common/cli/verbs.h"
 #include "common/compose/volume_fields.h"
 #include "common/compose/volume_scene.h"
-#include "common/hand/drawn/annotation_list.h"
 #include "common/hand/felt_surface_view.h"
 #include "common/hand/probe_picture.h"
 #include "common/hand/touch_options.h"
@@ -17,7 +16,7 @@
 namespace palpate {
 namespace {
 
-SceneUse use_of(const Options& options, const Input& input) {
+SceneUse use_of(const Document& options, const Input& input) {
   (void)input.scalar_choice();  // an unknown --field is refused before anything is read
   return {.verb = "render",
           .threads = resolve_threads(options.common.threads),
@@ -25,30 +24,30 @@ SceneUse use_of(const Options& options, const Input& input) {
           .beside = names_beside(input, options.volume)};
 }
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Options& options) {
+const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
   return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
 }
 
 /// Adds the surfaces that are felt, and what a hand on the path has felt, where they are asked for.
 void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const TangibleVolume& volume,
-                const Options& options, const VerbContext& context) {
+                const Document& options, const VerbContext& context) {
   const HapticMode& mode = mode_of(modes, options);
   if (wants_surfaces(options, mode.name)) {
     const std::string note = show_felt_surfaces(view, *volume.field, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
-  if (options.path.empty()) return;
+  if (options.hand.path.empty()) return;
   const Workspace workspace = touch_workspace(options.touch, volume.field->diagonal(), volume.field->frame());
   const HapticScene scene{nullptr, workspace, touch_settings(options.touch, nullptr, workspace),
                           options.common.threads, volume.field};
-  view.probe = probe_after(read_probe_path(options.path.string()), mode.make(scene), scene,
+  view.probe = probe_after(read_probe_path(options.hand.path.string()), mode.make(scene), scene,
                            touch_limits(options.touch), view.style.color_by);
 }
 
-DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Options& options,
+DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,
                       const VerbContext& context, double aspect) {
   DrawnScene drawn;
-  const bool touched = !options.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
+  const bool touched = !options.hand.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
   TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
                                   : TangibleVolume{.image = load_volume(input, &context.progress)};
   volume.beside = load_beside(input, options.volume, &context.progress);
@@ -62,8 +61,6 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, volume, options, aspect);
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
-  drawn.view.notes = notes_of(AnnotationList(annotations_of(options.touch.annotations, "--annotation")),
-                              length_unit(drawn.view), std::nullopt);
   if (touched) show_touch(drawn.view, modes, volume, options, context);
   return drawn;
 }
@@ -73,20 +70,20 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
 Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the volume, with or without a display",
-          .groups = {.view = true, .touch = true, .path = true, .notes = true, .out = true, .picture = true},
+          .groups = {Group::kInput, Group::kView, Group::kTouch, Group::kPath, Group::kNotes, Group::kOut,
+                     Group::kPicture},
           .examples = std::move(examples),
-          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
+          .run = [modes = std::move(modes)](const Document& options, const VerbContext& context) {
             const PictureMaker maker{
                 .check =
-                    [&modes](const Options& given) {
+                    [&modes](const Document& given) {
                       check_volume_options(given.volume);
-                      (void)annotations_of(given.touch.annotations, "--annotation");
-                      if (!given.path.empty()) (void)read_probe_path(given.path.string());
+                      if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
                       (void)mode_of(modes, given);
                       (void)touch_settings(given.touch);
                     },
                 .use = use_of,
-                .make = [&modes](Input& input, const Options& given, const VerbContext& where,
+                .make = [&modes](Input& input, const Document& given, const VerbContext& where,
                                  double aspect) { return make_scene(modes, input, given, where, aspect); }};
             return draw_picture(maker, options, context);
           }};

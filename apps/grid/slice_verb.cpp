@@ -21,8 +21,8 @@
 #include "common/field/grid/image_contours.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/value_histogram.h"
-#include "common/load/write_image.h"
-#include "common/load/write_lines.h"
+#include "common/load/write/write_image.h"
+#include "common/load/write/write_lines.h"
 #include "common/render/png.h"
 
 namespace palpate {
@@ -34,14 +34,14 @@ bool is_picture(const std::filesystem::path& out) {
   return out.extension() == ".png" || out.extension() == ".PNG";
 }
 
-void check_request(const Options& options) {
-  if (options.out.empty()) throw usage_error("slice needs an output: try --out slice.png");
+void check_request(const Document& options) {
+  if (options.output.file.empty()) throw usage_error("slice needs an output: try --out slice.png");
   if (!parse_contours(options.slice.contours).empty()) {
-    check_line_output(options.out, options.common.force);
-  } else if (is_picture(options.out)) {
-    check_output(options.out, options.common.force);
+    check_line_output(options.output.file, options.common.force);
+  } else if (is_picture(options.output.file)) {
+    check_output(options.output.file, options.common.force);
   } else {
-    check_image_output(options.out, options.common.force);
+    check_image_output(options.output.file, options.common.force);
   }
   Box unit;
   unit.include(Vec3(0.0));
@@ -108,13 +108,13 @@ Image grey_image(const UniformTopology& lattice, const std::vector<float>& value
   return image;
 }
 
-UniformTopology lattice_of(const UniformTopology& grid, const Options& options, const Box& bounds) {
+UniformTopology lattice_of(const UniformTopology& grid, const Document& options, const Box& bounds) {
   const ImagePlane plane = parse_plane(options.slice.plane, bounds);
   std::optional<double> spacing;
   if (options.slice.spacing > 0.0) spacing = options.slice.spacing;
   auto lattice = plane_lattice(grid, plane, spacing);
   // Pixels of a picture are square.
-  if (lattice && !spacing && is_picture(options.out)) {
+  if (lattice && !spacing && is_picture(options.output.file)) {
     const double u = glm::length(lattice->axes[0]), v = glm::length(lattice->axes[1]);
     constexpr double kEqual = 1e-6;
     if (std::abs(u - v) > kEqual * std::max(u, v)) lattice = plane_lattice(grid, plane, std::min(u, v));
@@ -169,7 +169,7 @@ Box bounds_of(const UniformTopology& grid) {
   return box;
 }
 
-ExitCode run_slice(const Options& options, const VerbContext& context) {
+ExitCode run_slice(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   check_request(options);
   Input input = open_input(options, context);
@@ -185,7 +185,7 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
   const bool as_lines = !contour_values.empty();
   const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
   const ResampledImage slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
-  context.progress.begin("writing " + options.out.filename().string(), 0);
+  context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
   const bool anatomical = space_of(input) == ImageSpace::kPatient;
   summary.right = direction_words(glm::normalize(summary.lattice.axes[0]), anatomical);
@@ -198,22 +198,22 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
                        short_number(greys.highest));
     }
     summary.lines = contours.lines.size();
-    write_lines(options.out, contours.lines, options.common.force, std::span(&contours.values, 1));
-  } else if (is_picture(options.out)) {
+    write_lines(options.output.file, contours.lines, options.common.force, std::span(&contours.values, 1));
+  } else if (is_picture(options.output.file)) {
     summary.window = greys.window;
     summary.level = greys.level;
-    write_png(options.out, grey_image(summary.lattice, slice.values, greys),
+    write_png(options.output.file, grey_image(summary.lattice, slice.values, greys),
               {{"Software", version_text(context.explorer.name)},
                {"Command", context.command_line},
                {"Comment", "right: " + summary.right + "; up: " + summary.up}});
   } else {
-    write_image(options.out, summary.lattice, ImageContent::kScalar, slice.values, ImageConvention::kMrtrix,
-                options.common.force, space_of(input));
+    write_image(options.output.file, summary.lattice, ImageContent::kScalar, slice.values,
+                ImageConvention::kMrtrix, options.common.force, space_of(input));
   }
-  context.interrupt.keep(options.out);
+  context.interrupt.keep(options.output.file);
   summary.input = input.title();
   summary.field = input.field_label();
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.outside = slice.outside;
   summary.lowest = greys.lowest;
   summary.highest = greys.highest;
@@ -222,10 +222,10 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
   const Index3& n = summary.lattice.points;
   context.console.print(summary.input + ": slice -> " + summary.output + " (" + std::to_string(n.x) + " x " +
                         std::to_string(n.y) +
-                        (as_lines                  ? ", " + counted(summary.lines, "line")
-                         : is_picture(options.out) ? ", window " + short_number(greys.window) + ", level " +
-                                                         short_number(greys.level)
-                                                   : std::string()) +
+                        (as_lines                          ? ", " + counted(summary.lines, "line")
+                         : is_picture(options.output.file) ? ", window " + short_number(greys.window) +
+                                                                 ", level " + short_number(greys.level)
+                                                           : std::string()) +
                         "), " + summary.right + " on the right, " + summary.up + " at the top" +
                         (slice.outside > 0 && !as_lines
                              ? "; " + counted(slice.outside, "point") + " outside, at the lowest value"
@@ -240,7 +240,7 @@ ExitCode run_slice(const Options& options, const VerbContext& context) {
 Verb slice_verb(std::vector<UsageExample> examples) {
   return {.name = "slice",
           .summary = "write a slice through the volume as a picture or an image",
-          .groups = {.out = true, .slice = true},
+          .groups = {Group::kInput, Group::kOut, Group::kSlice},
           .examples = std::move(examples),
           .run = run_slice};
 }

@@ -9,7 +9,7 @@
 #include "common/calibration/synthetic_poses.h"
 #include "common/calibration/synthetic_tracker.h"
 #include "common/kinematics/workbench_file.h"
-#include "lab/report.h"
+#include "lab/page/report.h"
 
 namespace palpate {
 namespace {

@@ -7,9 +7,9 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "lab/html.h"
-#include "lab/plane_picture.h"
-#include "lab/scatter_plot.h"
+#include "lab/page/html.h"
+#include "lab/page/plane_picture.h"
+#include "lab/page/scatter_plot.h"
 
 namespace palpate {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/calibration/fit_report.h"
 #include "common/calibration/head_error.h"
-#include "lab/section.h"
+#include "lab/page/section.h"
 
 namespace palpate {
 

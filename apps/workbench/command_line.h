@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "apps/workbench/calibration_section.h"
+#include "apps/workbench/feel_score.h"
 #include "common/calibration/least_squares.h"
 #include "common/calibration/registration.h"
 #include "common/calibration/tracker_fit.h"
-#include "lab/feel_score.h"
 
 namespace palpate {
 

@@ -9,7 +9,7 @@
 #include "common/calibration/measurements.h"
 #include "common/kinematics/vector_polynomial.h"
 #include "common/render/scene_view.h"
-#include "lab/section.h"
+#include "lab/page/section.h"
 
 namespace palpate {
 

@@ -20,7 +20,7 @@
 #include "common/device/replay_device.h"
 #include "common/haptics/coupling.h"
 #include "common/servo/servo_loop.h"
-#include "lab/html.h"
+#include "lab/page/html.h"
 
 namespace palpate {
 namespace {

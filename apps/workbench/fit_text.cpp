@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/text.h"
-#include "lab/html.h"
+#include "lab/page/html.h"
 
 namespace palpate {
 namespace {

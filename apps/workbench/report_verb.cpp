@@ -6,9 +6,9 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "lab/html.h"
-#include "lab/report.h"
-#include "lab/stability_sweep.h"
+#include "lab/hand/stability_sweep.h"
+#include "lab/page/html.h"
+#include "lab/page/report.h"
 
 namespace palpate {
 

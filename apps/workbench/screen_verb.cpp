@@ -2,8 +2,8 @@
 
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/clock.h"
-#include "lab/html.h"
-#include "lab/report.h"
+#include "lab/page/html.h"
+#include "lab/page/report.h"
 
 namespace palpate {
 namespace {

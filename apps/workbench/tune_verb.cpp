@@ -15,7 +15,7 @@
 #include "common/servo/servo_loop.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"
-#include "lab/html.h"
+#include "lab/page/html.h"
 
 namespace palpate {
 namespace {

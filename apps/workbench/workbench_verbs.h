@@ -9,8 +9,8 @@
 #include "common/base/progress.h"
 #include "common/calibration/fit_report.h"
 #include "common/cli/console.h"
-#include "lab/section.h"
-#include "lab/stability.h"
+#include "lab/data/stability.h"
+#include "lab/page/section.h"
 
 namespace palpate {
 

@@ -1,11 +1,10 @@
 #include "common/base/csv_reader.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -15,10 +14,7 @@ namespace {
 std::string plain_name(std::string_view name) {
   name = trimmed(name);
   if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-  std::string plain(name);
-  std::transform(plain.begin(), plain.end(), plain.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return plain;
+  return lowered(name);
 }
 
 }  // namespace
@@ -34,7 +30,7 @@ CsvReader::CsvReader(const std::string& file, std::span<const std::string_view> 
   const auto find = [&](std::string_view name) {
     const auto place = std::find(header.begin(), header.end(), name);
     names_.emplace_back(name);
-    columns_.push_back(place == header.end() ? kMissing : static_cast<std::size_t>(place - header.begin()));
+    columns_.push_back(place == header.end() ? kMissing : as_size(place - header.begin()));
     return place != header.end();
   };
   for (const auto name : required) {

@@ -1,6 +1,6 @@
 #include "common/base/error.h"
 
-#include "common/base/printable.h"
+#include "common/base/text.h"
 
 namespace palpate {
 

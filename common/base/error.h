@@ -4,8 +4,10 @@
 /// a result; neither is an Error.
 #pragma once
 
+#include <cerrno>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace palpate {
 
@@ -47,5 +49,8 @@ class Cancelled : public Error {
  public:
   explicit Cancelled(const std::string& kept = "cancelled") : Error(ExitCode::kInterrupted, kept) {}
 };
+
+/// What errno says, in words: std::strerror() may not be called from several threads.
+[[nodiscard]] inline std::string errno_text() { return std::generic_category().message(errno); }
 
 }  // namespace palpate

@@ -15,7 +15,8 @@ std::filesystem::path find_helper(std::string_view name, HelperKind kind) {
   } else {
     std::error_code error;
     const std::filesystem::path bin = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-    folders = {bin / "../lib/palpate", bin / "../" PALPATE_INSTALL_LIBDIR "/palpate"};
+    // A helper that starts another one lies beside it.
+    folders = {bin / "../lib/palpate", bin / "../" PALPATE_INSTALL_LIBDIR "/palpate", bin};
   }
   for (const auto& folder : folders) {
     std::filesystem::path path = folder / name;

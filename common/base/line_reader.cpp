@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -22,7 +23,7 @@ LineReader::LineReader(std::string file, std::string expected)
 bool LineReader::next() {
   in_.getline(buffer_.get(), static_cast<std::streamsize>(kLongestLine + 2));
   if (in_.bad()) throw input_error({file_, "line " + std::to_string(number_ + 1), "cannot be read", "", ""});
-  const auto taken = static_cast<std::size_t>(in_.gcount());
+  const auto taken = as_size(in_.gcount());
   if (in_.fail() && taken == 0) return false;  // the end
   ++number_;
   if (in_.fail()) refuse("is longer than " + std::to_string(kLongestLine) + " bytes", expected_);

@@ -7,8 +7,8 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-#include "common/base/errno_text.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/unique_fd.h"
 
 namespace palpate {
@@ -20,7 +20,7 @@ MappedFile::MappedFile(const std::string& file) {
     throw input_error({file, "", std::string("cannot be read (") + errno_text() + ")"});
   }
   if (!S_ISREG(status.st_mode)) throw input_error({file, "", "is not a regular file"});
-  size_ = static_cast<std::size_t>(status.st_size);
+  size_ = as_size(status.st_size);
   if (size_ == 0) return;
   void* data = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd.get(), 0);
   if (data == MAP_FAILED)

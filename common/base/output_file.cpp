@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -14,8 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/base/errno_text.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -40,10 +40,8 @@ std::optional<pid_t> maker_of(std::string_view name, std::string_view start) {
   name.remove_prefix(start.size());
   if (name.size() <= kPartEnding.size()) return std::nullopt;
   name.remove_suffix(kPartEnding.size());
-  pid_t pid = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
-  if (error != std::errc() || end != name.data() + name.size() || pid <= 0) return std::nullopt;
-  return pid;
+  const std::optional<pid_t> pid = parsed<pid_t>(name);
+  return pid && *pid > 0 ? pid : std::nullopt;
 }
 
 /// Removes what programs that are gone left of `path`.
@@ -136,7 +134,7 @@ void OutputFile::flush() {
     const ssize_t done = ::write(fd_.get(), buffer_.data() + written, buffer_.size() - written);
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) refuse("cannot be written");
-    written += static_cast<std::size_t>(done);
+    written += as_size(done);
   }
   buffer_.clear();
 }
@@ -155,6 +153,13 @@ void OutputFile::finish() {
   }
   unfinished_outputs().drop(temporary_);
   temporary_.clear();
+}
+
+bool may_keep_beside(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  struct stat status {};
+  return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+         (status.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) != 0 && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
 }  // namespace palpate

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "common/base/index.h"
 #include "common/base/sanitizers.h"
 
 namespace palpate {
@@ -21,9 +22,9 @@ namespace {
 /// it would report every use of a result as a race, and a suppression would hide our own races with them.
 /// Under it the pieces are shared among plain threads, whose start and join it knows.
 void run_pieces(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
-  const std::size_t piece = std::max<std::size_t>(1, count / (8 * static_cast<std::size_t>(threads)));
+  const std::size_t piece = std::max<std::size_t>(1, count / (8 * as_size(threads)));
   std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(threads));
+  std::vector<std::exception_ptr> errors(as_size(threads));
   std::vector<std::jthread> workers;
   for (std::exception_ptr& error : errors) {
     workers.emplace_back([&] {

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -29,7 +30,7 @@ void draw(const Progress& progress) {
     std::fprintf(stderr, "\r\033[K%s: %.0f s", stage.c_str(), seconds);
   } else {
     const int filled = static_cast<int>(fraction * kWidth);
-    const std::string bar(static_cast<std::size_t>(filled), '=');
+    const std::string bar(as_size(filled), '=');
     std::fprintf(stderr, "\r\033[K%s [%-30s] %3.0f %%", stage.c_str(), bar.c_str(), 100.0 * fraction);
     if (fraction > 0.0) std::fprintf(stderr, ", %.0f s left", seconds * (1.0 - fraction) / fraction);
   }

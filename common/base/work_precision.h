@@ -23,4 +23,11 @@ struct StabilityRow {
   bool holds = false;
 };
 
+/// A row with what it shows.
+struct StabilityCase {
+  StabilityRow row;
+  std::string unit;     ///< of measured and limit: "of the diagonal", "points"
+  std::string meaning;  ///< what was done
+};
+
 }  // namespace palpate

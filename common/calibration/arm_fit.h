@@ -1,6 +1,7 @@
 /// Calibration of an arm's kinematics from places that its tip was put to (Ikits 2006, sec. 4.3).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "common/calibration/arm_problem.h"
@@ -26,5 +27,14 @@ struct ArmFit {
 /// apart: names them and says where to measure next.
 [[nodiscard]] ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhChain& nominal,
                                    const ArmFitOptions& options);
+
+/// Tries further grids in planes through and beside the places measured so far, each with an unknown frame of
+/// its own and twenty poses that the arm reaches with readings like those seen, and ranks them by the
+/// condition number that all measurements would have together. Reproducible.
+/// @param now the condition number without.
+/// @return sentences, the best grid first; empty where no candidate helps.
+[[nodiscard]] std::vector<std::string> where_to_measure_next(const std::vector<ArmMeasurement>& rows,
+                                                             const ArmEstimate& estimate,
+                                                             const std::vector<DhhPlace>& free, double now);
 
 }  // namespace palpate

@@ -1,10 +1,12 @@
 #include "common/calibration/arm_problem.h"
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
 double& at(DhhChain& chain, const DhhPlace& place) {
-  return chain.rows[static_cast<std::size_t>(place.first)].values[static_cast<std::size_t>(place.second)];
+  return chain.rows[as_size(place.first)].values[as_size(place.second)];
 }
 
 DhhChain with_numbers(DhhChain chain, const std::vector<DhhPlace>& free, const double* numbers) {
@@ -23,7 +25,7 @@ std::vector<DhhPlace> full_parameters(const DhhChain& chain) {
   std::vector<DhhPlace> out;
   for (std::size_t row = 0; row < chain.rows.size(); ++row) {
     for (int q = 0; q < kDhhQuantities; ++q) {
-      if (chain.rows[row].free[static_cast<std::size_t>(q)])
+      if (chain.rows[row].free[as_size(q)])
         out.emplace_back(static_cast<int>(row), static_cast<DhhQuantity>(q));
     }
   }
@@ -33,7 +35,7 @@ std::vector<DhhPlace> full_parameters(const DhhChain& chain) {
 std::vector<DhhPlace> offset_parameters(const DhhChain& chain) {
   std::vector<DhhPlace> out;
   for (const DhhPlace& place : full_parameters(chain)) {
-    const bool joint = chain.rows[static_cast<std::size_t>(place.first)].joint >= 0;
+    const bool joint = chain.rows[as_size(place.first)].joint >= 0;
     if (joint && place.second == DhhQuantity::kGamma) out.push_back(place);
   }
   return out;
@@ -68,7 +70,7 @@ LeastSquaresProblem arm_problem(const std::vector<ArmMeasurement>& rows, const D
     ResidualBlock block;
     block.dimension = 3;
     block.parameters = {0};
-    const auto grid = static_cast<std::size_t>(row.grid);
+    const auto grid = as_size(row.grid);
     if (grid > 0) block.parameters.insert(block.parameters.end(), {2 * grid - 1, 2 * grid});
     block.evaluate = [row, chain, free](const double* const* x, double* r) {
       const Vec3 tip = with_numbers(chain, free, x[0]).forward(row.readings).translation;

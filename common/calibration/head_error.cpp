@@ -47,12 +47,4 @@ Vec2 orientation_error_effect(const EyePair& actual, const Vec2& point, double e
           std::abs(point.y * e * (2.0 * (az - point.y) * middle + apart * e) / n)};
 }
 
-Vec2 linear_orientation_error_effect(const EyePair& actual, const Vec2& point, double e) noexcept {
-  const double az = actual.left.y, apart = actual.left.x - actual.right.x;
-  const double middle = 0.5 * (actual.left.x + actual.right.x) - point.x;
-  return {2.0 * std::abs(point.y * (actual.left.x - point.x) * (actual.right.x - point.x) * e /
-                         (az * (az - point.y) * apart)),
-          2.0 * std::abs(point.y * middle * e / (az * apart))};
-}
-
 }  // namespace palpate

@@ -48,8 +48,5 @@ struct EyePair {
 /// Exact. The printed eqs. 4.30 and 4.31 have these two exchanged, and neither has the dimension of a length.
 /// @pre actual.left.y == actual.right.y.
 [[nodiscard]] Vec2 orientation_error_effect(const EyePair& actual, const Vec2& point, double e) noexcept;
-/// (3) to first order in e.
-[[nodiscard]] Vec2 linear_orientation_error_effect(const EyePair& actual, const Vec2& point,
-                                                   double e) noexcept;
 
 }  // namespace palpate

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -57,14 +58,13 @@ Identifiability analyze(const Linearization& in, std::size_t keep) {
   for (Eigen::Index c = 0; c < v.rows(); ++c) {
     double variance = 0.0;
     for (Eigen::Index k = 0; k < s.size(); ++k) variance += std::pow(v(c, k) / s(k), 2);
-    out.standard_deviations.push_back(std::sqrt(variance) / out.scales[static_cast<std::size_t>(c)]);
+    out.standard_deviations.push_back(std::sqrt(variance) / out.scales[as_size(c)]);
   }
   for (Eigen::Index k = last; k >= 0 && s(k) * kReliableCondition < s(0); --k) {
     WeakCombination weak{.singular_value = s(k) / s(0), .parts = {}};
     for (Eigen::Index c = 0; c < v.rows(); ++c) {
       constexpr double kWorthNaming = 0.2;
-      if (std::abs(v(c, k)) >= kWorthNaming)
-        weak.parts.emplace_back(in.names[static_cast<std::size_t>(c)], v(c, k));
+      if (std::abs(v(c, k)) >= kWorthNaming) weak.parts.emplace_back(in.names[as_size(c)], v(c, k));
     }
     std::stable_sort(weak.parts.begin(), weak.parts.end(),
                      [](const auto& a, const auto& b) { return std::abs(a.second) > std::abs(b.second); });

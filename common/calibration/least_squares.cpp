@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -96,7 +97,7 @@ class Differenced final : public ceres::CostFunction {
     std::vector<double> above(block_.dimension), below(block_.dimension);
     for (std::size_t b = 0; b < moved.size(); ++b) {
       if (!jacobians[b]) continue;
-      const auto size = static_cast<std::size_t>(parameter_block_sizes()[b]);
+      const auto size = as_size(parameter_block_sizes()[b]);
       std::vector<double> values(parameters[b], parameters[b] + size);
       moved[b] = values.data();
       for (std::size_t c = 0; c < size; ++c) {
@@ -191,14 +192,14 @@ Linearization linearize(const LeastSquaresProblem& problem) {
   }
   ceres::CRSMatrix sparse;
   ceres_problem->Evaluate(evaluate, nullptr, &out.residuals, nullptr, &sparse);
-  out.rows = static_cast<std::size_t>(sparse.num_rows);
-  out.columns = static_cast<std::size_t>(sparse.num_cols);
+  out.rows = as_size(sparse.num_rows);
+  out.columns = as_size(sparse.num_cols);
   PALPATE_CHECK(out.names.size() == out.columns);
   out.jacobian.assign(out.rows * out.columns, 0.0);
   for (std::size_t row = 0; row < out.rows; ++row) {
     for (int k = sparse.rows[row]; k < sparse.rows[row + 1]; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      out.jacobian[row * out.columns + static_cast<std::size_t>(sparse.cols[at])] = sparse.values[at];
+      const auto at = as_size(k);
+      out.jacobian[row * out.columns + as_size(sparse.cols[at])] = sparse.values[at];
     }
   }
   return out;

@@ -1,7 +1,6 @@
 #include "common/calibration/point_alignment.h"
 
 #include <cmath>
-#include <vector>
 
 #include <Eigen/Dense>
 
@@ -47,17 +46,6 @@ std::optional<PointAlignment> align_points(std::span<const Vec3> model, std::spa
   }
   out.rms = std::sqrt(squares);
   return out;
-}
-
-std::optional<PointAlignment> pose_from_markers(std::span<const Vec3> places,
-                                                const std::array<std::optional<Vec3>, kMaxMarkers>& seen) {
-  std::vector<Vec3> model, measured;
-  for (std::size_t m = 0; m < places.size() && m < kMaxMarkers; ++m) {
-    if (!seen[m]) continue;
-    model.push_back(places[m]);
-    measured.push_back(*seen[m]);
-  }
-  return align_points(model, measured);
 }
 
 }  // namespace palpate

@@ -1,7 +1,6 @@
 /// The rigid motion that brings points to where they were measured.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 
@@ -20,11 +19,5 @@ struct PointAlignment {
 /// so nothing is iterated. Nothing for fewer than three points, or where they lie on a line.
 [[nodiscard]] std::optional<PointAlignment> align_points(std::span<const Vec3> model,
                                                          std::span<const Vec3> measured);
-
-/// The pose of a sensor's frame from three or more of its markers (Ikits 2006, eq. 4.12), in the instrument's
-/// frame.
-/// @param places of markers in the sensor's frame; @param seen where each was measured, if it was.
-[[nodiscard]] std::optional<PointAlignment> pose_from_markers(
-    std::span<const Vec3> places, const std::array<std::optional<Vec3>, kMaxMarkers>& seen);
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 
+#include "common/base/index.h"
 #include "common/calibration/arm_problem.h"
 
 namespace palpate {
@@ -29,15 +30,15 @@ std::optional<std::vector<double>> reaching(const DhhChain& arm, const Vec3& tar
     if (glm::length(left) < kThere) {
       constexpr double kRange = 2.0;  // [rad] from the middle
       for (int j = 0; j < 3; ++j) {
-        if (std::abs(readings[static_cast<std::size_t>(j)]) > kRange) return std::nullopt;
+        if (std::abs(readings[as_size(j)]) > kRange) return std::nullopt;
       }
       return readings;
     }
     Mat3 jacobian{0.0};
     for (int j = 0; j < 3; ++j) {
       std::vector<double> above = readings, below = readings;
-      above[static_cast<std::size_t>(j)] += kStep;
-      below[static_cast<std::size_t>(j)] -= kStep;
+      above[as_size(j)] += kStep;
+      below[as_size(j)] -= kStep;
       jacobian[j] = (arm.forward(above).translation - arm.forward(below).translation) / (2.0 * kStep);
     }
     constexpr double kSingular = 1e-6;
@@ -45,7 +46,7 @@ std::optional<std::vector<double>> reaching(const DhhChain& arm, const Vec3& tar
     Vec3 turn = glm::inverse(jacobian) * left;
     const double size = glm::length(turn);
     if (size > kMostTurn) turn *= kMostTurn / size;
-    for (int j = 0; j < 3; ++j) readings[static_cast<std::size_t>(j)] += turn[j];
+    for (int j = 0; j < 3; ++j) readings[as_size(j)] += turn[j];
   }
   return std::nullopt;
 }
@@ -85,7 +86,7 @@ SyntheticArm synthetic_arm(std::uint64_t seed) {
           static_cast<double>(poses.size());
     }
     for (const auto& [row, quantity] : offset_parameters(out.nominal)) {
-      const auto r = static_cast<std::size_t>(row), q = static_cast<std::size_t>(quantity);
+      const auto r = as_size(row), q = as_size(quantity);
       const double nominal = out.nominal.rows[r].values[q];
       double& actual = out.actual.rows[r].values[q];
       actual = nominal + (actual - nominal) * kNominalError / mean;

@@ -8,6 +8,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -68,7 +69,7 @@ void require_volume(const std::vector<Vec3>& places, const std::string& source) 
 MatrixXd design(const std::vector<Vec3>& places, const VectorPolynomial& frame) {
   const Index terms = term_count(frame.degree);
   MatrixXd a(static_cast<Index>(places.size()), terms);
-  std::vector<double> row(static_cast<std::size_t>(terms));
+  std::vector<double> row(as_size(terms));
   for (std::size_t i = 0; i < places.size(); ++i) {
     monomials((places[i] - frame.center) / frame.scale, frame.degree, row);
     a.row(static_cast<Index>(i)) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), terms);
@@ -102,10 +103,10 @@ struct PolynomialFit {
 };
 
 PolynomialFit fit_polynomials(const Samples& samples, int degree, Loss loss, const std::string& source) {
-  const auto terms = static_cast<std::size_t>(term_count(degree));
+  const auto terms = as_size(term_count(degree));
   if (samples.places.size() <= terms) {
     int bearable = -1;
-    while (static_cast<std::size_t>(term_count(bearable + 1)) < samples.places.size()) ++bearable;
+    while (as_size(term_count(bearable + 1)) < samples.places.size()) ++bearable;
     throw input_error({.file = source,
                        .place = "",
                        .found = counted(samples.places.size(), "measurement") +
@@ -128,7 +129,7 @@ PolynomialFit fit_polynomials(const Samples& samples, int degree, Loss loss, con
     out.orientation.coefficients.emplace_back(cq(j, 0), cq(j, 1), cq(j, 2));
   }
   Linearization& lin = out.linearization;
-  lin.rows = static_cast<std::size_t>(a.rows());
+  lin.rows = as_size(a.rows());
   lin.columns = terms;
   for (Index i = 0; i < a.rows(); ++i)
     lin.jacobian.insert(lin.jacobian.end(), a.row(i).begin(), a.row(i).end());
@@ -155,10 +156,10 @@ ErrorSpline fit_spline(const std::vector<Vec3>& all_places, const MatrixXd& all_
 
   MatrixXd k = MatrixXd::Zero(n + 4, n + 4);
   for (Index i = 0; i < n; ++i) {
-    const Vec3& p = places[static_cast<std::size_t>(i)];
-    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = glm::distance(p, places[static_cast<std::size_t>(j)]);
+    const Vec3& p = places[as_size(i)];
+    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = glm::distance(p, places[as_size(j)]);
     const std::array<double, 4> plane{1.0, p.x, p.y, p.z};
-    for (Index c = 0; c < 4; ++c) k(i, n + c) = k(n + c, i) = plane[static_cast<std::size_t>(c)];
+    for (Index c = 0; c < 4; ++c) k(i, n + c) = k(n + c, i) = plane[as_size(c)];
   }
   std::optional<MatrixXd> best;
   double least = HUGE_VAL;
@@ -186,7 +187,7 @@ ErrorSpline fit_spline(const std::vector<Vec3>& all_places, const MatrixXd& all_
   if (!best) return out;
   out.centers = places;
   for (Index i = 0; i < n; ++i) out.weights.push_back(pose_error_of(best->row(i)));
-  for (Index c = 0; c < 4; ++c) out.plane[static_cast<std::size_t>(c)] = pose_error_of(best->row(n + c));
+  for (Index c = 0; c < 4; ++c) out.plane[as_size(c)] = pose_error_of(best->row(n + c));
   return out;
 }
 
@@ -351,7 +352,7 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
       if (!sweep && degree != 1) break;
       asked.degree = sweep ? degree : options.degree;
       const std::size_t folds = validation.empty() ? options.folds : fit.size();
-      const auto terms = static_cast<std::size_t>(has_degree ? term_count(asked.degree) : 0);
+      const auto terms = as_size(has_degree ? term_count(asked.degree) : 0);
       if (fit.size() - (fit.size() + folds - 1) / folds <= terms) break;
       const TrackerCorrection whole = fit_tracker(fit, asked, table.source);
       const std::vector<Left> errors = left_out(asked, whole);

@@ -4,16 +4,17 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/error.h"
 #include "common/base/version.h"
-#include "common/cli/verb_parser.h"
+#include "common/scene/document/setting.h"
 #include "common/scene/session.h"
+#include "common/scene/session_of.h"
 
 namespace palpate {
 namespace {
@@ -73,7 +74,8 @@ class HelpText : public CLI::Formatter {
 
   std::string make_usage(const CLI::App* app, std::string name) const override {
     if (const Verb* verb = find_verb(explorer_, app->get_name())) {
-      return "Usage: " + name + (verb->groups.input ? " FILE... | --example NAME" : "") + " [options]\n";
+      return "Usage: " + name + (verb->groups.has(Group::kInput) ? " FILE... | --example NAME" : "") +
+             " [options]\n";
     }
     return "Usage: " + name + " [VERB] FILE... [options]\n       " + name +
            " [VERB] --example NAME [options]\n";
@@ -83,15 +85,102 @@ class HelpText : public CLI::Formatter {
   const Explorer& explorer_;
 };
 
-/// Names of options that a session may hold: of the verb at hand, and of any verb.
-struct SceneOptionNames {
-  std::function<bool(const std::string&)> of_verb, of_any;
+/// "Examples:" and what follows it in a help text; empty where there are none.
+std::string examples_text(const std::vector<UsageExample>& examples) {
+  if (examples.empty()) return {};
+  std::string text = "Examples:";
+  for (const UsageExample& example : examples) text += "\n  " + example.command + "\n      " + example.what;
+  return text;
+}
+
+/// An option and the setting whose value it gives.
+struct Bound {
+  const Setting* row = nullptr;
+  CLI::Option* option = nullptr;
+  std::string word;  ///< Spelling::kWords: that the flag stands for
 };
 
-/// @param with_names called with the option names before everything is taken down.
-ParsedCommand parse_once(
-    const Explorer& explorer, std::vector<std::string> arguments,
-    const std::function<void(const ParsedCommand&, const SceneOptionNames&)>& with_names = {}) {
+/// "--out,-o"
+std::string spelled(const Setting& row) {
+  return row.option() + (row.alias.empty() ? "" : "," + std::string(row.alias));
+}
+
+/// Appends the option, or the options, of a setting.
+void bind(CLI::App& app, const Setting& row, std::vector<Bound>& bound) {
+  const auto add = [&](CLI::Option* option, const std::string& word = {}) {
+    option->group(std::string(row.heading));
+    bound.push_back({&row, option, word});
+    return option;
+  };
+  const auto taken = [](const CLI::results_t&) { return true; };  // read once all are there
+  switch (row.spelling) {
+    case Spelling::kFlag:
+      add(app.add_flag_callback(
+          spelled(row), [] {}, row.full_help()));
+      return;
+    case Spelling::kWords:
+      for (const std::string_view word : row.word_list()) {
+        if (word == default_text(row)) continue;
+        add(app.add_flag_callback(
+                "--" + std::string(word), [] {}, std::string(row.help)),
+            std::string(word));
+      }
+      return;
+    case Spelling::kPositional:
+      add(app.add_option(std::string(row.value), taken, row.full_help()))
+          ->type_name("")
+          ->expected(1, -1)
+          ->allow_extra_args();
+      return;
+    case Spelling::kOption:
+      break;
+    case Spelling::kNone:
+      return;
+  }
+  CLI::Option* option = add(app.add_option(spelled(row), taken, row.full_help()));
+  option->type_name(std::string(row.value_name()));
+  if (!row.several()) return;
+  option->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);  // or it would swallow the FILE behind it
+}
+
+/// What `verb` takes besides its own groups.
+Groups groups_of(const Verb& verb) { return verb.groups.with(Group::kCommon); }
+
+/// The text that was typed for an option; the parts of a list with ';' between.
+std::string typed_text(const Bound& bound) {
+  if (!bound.word.empty()) return bound.word;
+  if (!bound.row->several()) return bound.option->results().back();
+  std::string text;
+  for (const std::string& part : bound.option->results()) text += (text.empty() ? "" : ";") + part;
+  return text;
+}
+
+/// Takes what a session has for the verb, but for what was typed.
+void take_session(const Verb& verb, FieldKind kind, const std::vector<const Setting*>& typed,
+                  ParsedCommand& parsed) {
+  Document& document = parsed.options;
+  const Session session = load_session(document.common.session);
+  const bool input_typed = !document.input.files.empty() || !document.input.example.empty();
+  Document with;
+  for (const Setting* row : take_settings(session, kind, document.common.session, with, parsed.notes)) {
+    if (!row->belongs(kind, groups_of(verb)) || std::ranges::find(typed, row) != typed.end()) continue;
+    if (row->name == "example" && input_typed) continue;
+    set_value(*row, document, value_text(*row, with));
+    document.given.emplace_back(row->name);
+  }
+  if (input_typed) return;
+  for (const SessionInput& input : session.inputs) {
+    if (!input.solution) document.input.files.push_back(input.file);
+    if (input.solution && !document.input.solution) document.input.solution = input.file;
+  }
+}
+
+}  // namespace
+
+ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std::string>& typed_arguments) {
+  std::vector<std::string> arguments = with_verb_first(explorer, typed_arguments);
   ParsedCommand parsed;
   CLI::App app(explorer.summary, explorer.name);
   app.set_help_flag("--help,-h", "print this help");
@@ -103,12 +192,15 @@ ParsedCommand parse_once(
                              " VERB --help' lists a verb's options.\n\n";
   app.footer(footer + examples_text(explorer.examples));
 
-  std::map<const CLI::App*, std::unique_ptr<VerbParser>> parsers;
+  std::map<const CLI::App*, std::vector<Bound>> options;
   for (const Verb& verb : explorer.verbs) {
     CLI::App* sub = app.add_subcommand(verb.name, verb.summary)->group("Verbs");
     sub->set_help_flag("--help,-h", "print this help");
     sub->set_version_flag("--version", version_text(explorer.name));
-    parsers[sub] = std::make_unique<VerbParser>(*sub, explorer, verb, parsed.options);
+    sub->footer(examples_text(verb.examples));
+    for (const Setting& row : settings()) {
+      if (row.belongs(explorer.kind, groups_of(verb))) bind(*sub, row, options[sub]);
+    }
   }
 
   try {
@@ -128,63 +220,16 @@ ParsedCommand parse_once(
   }
   const CLI::App* chosen = app.get_subcommands().front();
   parsed.verb = find_verb(explorer, chosen->get_name());
-  parsers.at(chosen)->check();
-  parsed.options.given = parsers.at(chosen)->scene_options().given();
-  if (with_names) {
-    with_names(parsed,
-               {[&](const std::string& name) { return parsers.at(chosen)->scene_options().knows(name); },
-                [&](const std::string& name) {
-                  return std::any_of(parsers.begin(), parsers.end(), [&](const auto& parser) {
-                    return parser.second->scene_options().knows(name);
-                  });
-                }});
+  parsed.options.input.kind = explorer.kind;
+  std::vector<const Setting*> typed;
+  for (const Bound& bound : options[chosen]) {
+    if (bound.option->count() == 0) continue;
+    set_value(*bound.row, parsed.options, typed_text(bound));
+    typed.push_back(bound.row);
+    parsed.options.given.emplace_back(bound.row->name);
   }
+  if (!parsed.options.common.session.empty()) take_session(*parsed.verb, explorer.kind, typed, parsed);
   return parsed;
-}
-
-/// The arguments with the session's files and options in front, except what was typed.
-std::vector<std::string> with_session(const std::vector<std::string>& arguments, const Options& typed,
-                                      const SceneOptionNames& names) {
-  const Session session = load_session(typed.session);
-  std::vector<std::string> merged{arguments.front()};
-  const auto is_typed = [&](const std::string& name) {
-    return std::any_of(typed.given.begin(), typed.given.end(),
-                       [&](const auto& option) { return option.first == name; });
-  };
-  const bool input_typed = !typed.input.files.empty() || !typed.input.example.empty();
-  for (const auto& [name, value] : session.options) {
-    if (!names.of_any(name)) {
-      throw input_error(
-          {typed.session.string(), "[scene]", "'" + name + "' is no option", "an option's name", ""});
-    }
-    if (is_typed(name) || !names.of_verb(name) || (name == "example" && input_typed)) continue;
-    std::string option = "--";
-    option.append(name).append("=").append(value);
-    merged.push_back(std::move(option));
-  }
-  if (!input_typed) {
-    for (const SessionInput& input : session.inputs) {
-      if (input.solution) {
-        if (!typed.input.solution) merged.push_back("--solution=" + input.file.string());
-      } else {
-        merged.push_back(input.file.string());
-      }
-    }
-  }
-  merged.insert(merged.end(), arguments.begin() + 1, arguments.end());
-  return merged;
-}
-
-}  // namespace
-
-ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std::string>& arguments) {
-  const std::vector<std::string> ordered = with_verb_first(explorer, arguments);
-  std::vector<std::string> merged;
-  const auto merge = [&](const ParsedCommand& parsed, const SceneOptionNames& names) {
-    if (!parsed.options.session.empty()) merged = with_session(ordered, parsed.options, names);
-  };
-  ParsedCommand parsed = parse_once(explorer, ordered, merge);
-  return merged.empty() ? std::move(parsed) : parse_once(explorer, merged);
 }
 
 }  // namespace palpate

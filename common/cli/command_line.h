@@ -1,24 +1,25 @@
-/// The command line's spelling: which option is called what, and the help texts. With touch_command_line.h,
-/// the only user of CLI11.
+/// The command line: which verb is meant, and the document that its options and a session make. The only user
+/// of CLI11 among the explorers; what an option is called and takes stands in the tables of settings
+/// (scene/document/setting.h).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/cli/explorer.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
 struct ParsedCommand {
   const Verb* verb = nullptr;  ///< null: `text` is to be printed and that is all (--help, --version)
-  Options options;
+  Document options;
   std::string text;
+  std::vector<std::string> notes;  ///< what of a session was left out
 };
 
-/// Reads `arguments` (without the program's name). Where no verb is named, explorer.default_verb is meant. A
-/// session named by `--session` stands in front of what was typed, so typed options win.
+/// Reads `arguments` (without the program's name). Where no verb is named, explorer.default_verb is meant.
+/// Options that were typed win over those of the session that `--session` names.
 /// @throws Error (usage), (bad input) for a session file.
 [[nodiscard]] ParsedCommand parse_command_line(const Explorer& explorer,
                                                const std::vector<std::string>& arguments);

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
-#include "common/base/printable.h"
+#include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 
 namespace palpate {
@@ -21,12 +21,13 @@ void Console::print(const std::string& text) {
 void Console::print_json(const std::string& object) {
   if (!json_ || json_printed_) return;
   json_printed_ = true;
-  std::fputs(object.c_str(), stdout);
+  std::fputs((settings_.empty() ? object : with_settings(object, settings_)).c_str(), stdout);
   std::fputc('\n', stdout);
 }
 
 void Console::fail(const std::string& line, int exit_code) {
   std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line, "\n").c_str());
+  settings_.clear();  // an error says what was wrong with them
   print_json(error_json(line, exit_code));
   std::fflush(stdout);
 }

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace palpate {
 
 class Console {
  public:
-  Console(std::string program, bool json, bool quiet)
-      : program_(std::move(program)), json_(json), quiet_(quiet) {}
+  /// @param settings JSON object of the settings that JSON results repeat as "settings"; empty: none.
+  Console(std::string program, bool json, bool quiet, std::string settings = {})
+      : program_(std::move(program)), settings_(std::move(settings)), json_(json), quiet_(quiet) {}
 
   [[nodiscard]] bool json() const noexcept { return json_; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
@@ -26,6 +28,7 @@ class Console {
 
  private:
   std::string program_;
+  std::string settings_;
   bool json_ = false;
   bool quiet_ = false;
   bool json_printed_ = false;

@@ -1,5 +1,5 @@
-/// What a program is to the command line: a name, a summary, examples, and verbs. `flow`, `cardiac`, `dtmri`
-/// and `grid` share everything else.
+/// What a program is to the command line: a name, a summary, examples, and verbs. Programs share everything
+/// else.
 #pragma once
 
 #include <functional>
@@ -10,8 +10,9 @@
 #include "common/base/progress.h"
 #include "common/cli/console.h"
 #include "common/cli/interrupt.h"
+#include "common/scene/document/document.h"
+#include "common/scene/document/setting.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 
@@ -32,43 +33,13 @@ struct VerbContext {
   std::string command_line;  ///< as typed, for the text chunk of pictures
 };
 
-/// Groups of options that a verb takes besides the common ones.
-struct VerbGroups {
-  bool input = true;
-  bool tracing = false;
-  bool tracts = false;        ///< seeds, regions and limits of tracts
-  bool fibres = false;        ///< seeds and limits of lines along fibres
-  bool layer = false;         ///< --layer of a heart
-  bool angle = false;         ///< --angle, --convention, --axis
-  bool contours = false;      ///< --contours, --contour-spacing of a layer
-  bool mesh_picture = false;  ///< --picture of a made mesh
-  bool series = false;        ///< --value, --at, --along
-  bool plot = false;          ///< --plot
-  bool view = false;
-  bool touch = false;
-  bool path = false;    ///< --path
-  bool hand = false;    ///< --device and --rate, for a hand on that path
-  bool record = false;  ///< --record
-  bool replay = false;  ///< --replay
-  bool notes = false;   ///< --annotation
-  bool out = false;
-  bool picture = false;  ///< --size, --repeat
-  bool effort = false;   ///< --quick, --thorough
-  bool image = false;    ///< --convention of an image that is written
-  bool measure = false;  ///< --measure
-  bool slice = false;    ///< --plane and how a slice is written
-  bool part = false;     ///< --box of a volume
-  bool focal = false;    ///< --focal without `view`: of a view that a hand moves over a haptic grid
-  bool turn = false;     ///< --tracts and --turn
-};
-
 struct Verb {
   std::string name;
   std::string summary;
-  VerbGroups groups;
+  Groups groups;  ///< of settings that it takes besides the common ones
   std::vector<UsageExample> examples;
   /// Does the work. @throws Error.
-  std::function<ExitCode(const Options&, const VerbContext&)> run;
+  std::function<ExitCode(const Document&, const VerbContext&)> run;
 };
 
 struct Explorer {
@@ -81,7 +52,7 @@ struct Explorer {
   std::string default_verb = "open";
   /// Completes options, once they are parsed, by what only the program knows; may be empty. @throws Error
   /// (usage).
-  std::function<void(Options&)> complete = {};
+  std::function<void(Document&)> complete = {};
 };
 
 /// Parses the command line, runs the verb and turns errors into one line and an exit code. Ctrl-C cancels the

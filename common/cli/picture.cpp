@@ -12,10 +12,11 @@
 #include "common/compose/line_view.h"
 #include "common/compose/stereo_text.h"
 #include "common/hand/bench/head_view.h"
+#include "common/hand/drawn/annotation_list.h"
 #include "common/hand/technique/scene_pick.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
 namespace {
@@ -121,22 +122,23 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
 
 }  // namespace
 
-ExitCode draw_picture(const PictureMaker& maker, const Options& options, const VerbContext& context) {
+ExitCode draw_picture(const PictureMaker& maker, const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.out.empty()) throw usage_error("render needs an output: try --out picture.png");
+  if (options.output.file.empty()) throw usage_error("render needs an output: try --out picture.png");
   (void)camera_of(options.view, Box{}, 1.0);
   if (options.view.converged && options.view.frame_budget > 0.0)
     throw usage_error("--converged and --frame-budget: a picture is either refined or hurried");
   if (!options.view.pick.empty()) (void)beam_of_option(options.view, {});
+  const std::vector<Annotation> annotations = annotations_of(options.touch.annotations, "--annotation");
   const std::vector<ScreenPicture> pictures = asked_pictures(options);
   const auto [width, height] = pictures.front().size;
   const double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
-  if (options.out.extension() != ".png" && options.out.extension() != ".PNG") {
-    throw usage_error(options.out.string() + ": pictures are written as .png");
+  if (options.output.file.extension() != ".png" && options.output.file.extension() != ".PNG") {
+    throw usage_error(options.output.file.string() + ": pictures are written as .png");
   }
   for (const ScreenPicture& picture : pictures)
-    check_output(output_of(options.out, picture, pictures.size() > 1), options.common.force);
+    check_output(output_of(options.output.file, picture, pictures.size() > 1), options.common.force);
   maker.check(options);
 
   Input input = open_input(options, context);
@@ -150,6 +152,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
 
   DrawnScene drawn = maker.make(input, options, context, aspect);
   if (options.view.converged) refine(drawn.view);
+  drawn.view.notes = notes_of(AnnotationList(annotations), length_unit(drawn.view), std::nullopt);
   summary.field = drawn.field;
   summary.lines = drawn.lines;
   summary.points = drawn.points;
@@ -170,10 +173,11 @@ ExitCode draw_picture(const PictureMaker& maker, const Options& options, const V
     if (picture.stereo.mode != StereoMode::kNone && !has_two_eyes(drawn.view))
       throw usage_error("--stereo needs a perspective picture: leave out --projection orthographic");
     context.progress.begin("drawing", 0);
-    const int repeat = options.repeat > 0 ? options.repeat : (console.json() ? kFramesForJson : 0);
+    const int repeat =
+        options.output.repeat > 0 ? options.output.repeat : (console.json() ? kFramesForJson : 0);
     const RenderedImage rendered =
         render_image(drawn.view, across, up, repeat, options.view.frame_budget, console.json());
-    summary.output = output_of(options.out, picture, pictures.size() > 1).string();
+    summary.output = output_of(options.output.file, picture, pictures.size() > 1).string();
     summary.width = rendered.image.width;
     summary.height = rendered.image.height;
     summary.first_frame_ms = rendered.first_frame_ms;

@@ -29,14 +29,14 @@ struct DrawnScene {
 
 struct PictureMaker {
   /// Refuses what can be refused before the input is opened. @throws Error.
-  std::function<void(const Options&)> check;
+  std::function<void(const Document&)> check;
   /// What the scene needs. @throws Error for what the input does not have.
-  std::function<SceneUse(const Options&, const Input&)> use;
+  std::function<SceneUse(const Document&, const Input&)> use;
   /// @param aspect width / height. @throws Error, Cancelled.
-  std::function<DrawnScene(Input&, const Options&, const VerbContext&, double aspect)> make;
+  std::function<DrawnScene(Input&, const Document&, const VerbContext&, double aspect)> make;
 };
 
 /// Runs a verb that draws. @throws Error, Cancelled.
-ExitCode draw_picture(const PictureMaker& maker, const Options& options, const VerbContext& context);
+ExitCode draw_picture(const PictureMaker& maker, const Document& options, const VerbContext& context);
 
 }  // namespace palpate

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "common/base/text.h"
-#include "common/field/scalar_threshold.h"
 #include "common/field/tensor/measures_at.h"
+#include "common/field/value_histogram.h"
 
 namespace palpate {
 

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/cli/command_line.h"
 #include "common/cli/explorer.h"
+#include "common/cli/json/json_output.h"
 
 namespace palpate {
 namespace {
@@ -25,20 +26,22 @@ std::string joined(const std::string& program, const std::vector<std::string>& a
 
 /// No output may be one of the inputs, under whatever name: --force would destroy it.
 /// @throws Error (usage).
-void check_outputs(const Options& options) {
+void check_outputs(const Document& options) {
   std::vector<std::filesystem::path> inputs = options.input.files;
   if (options.input.solution) inputs.push_back(*options.input.solution);
   std::string device;
   for (const std::string_view word : {"replay:", "hands:"}) {
-    if (options.device.starts_with(word)) device = options.device.substr(word.size());
+    if (options.hand.device.starts_with(word)) device = options.hand.device.substr(word.size());
   }
   for (const std::filesystem::path& input :
        {options.input.tensor.bval, options.input.tensor.bvec,
-        std::filesystem::path(options.input.tensor.mask), options.path, options.workbench, options.replay,
-        options.session, std::filesystem::path(options.tracing.seeds), std::filesystem::path(device)}) {
+        std::filesystem::path(options.input.tensor.mask), options.hand.path, options.hand.workbench,
+        options.hand.replay, options.common.session, std::filesystem::path(options.tracing.seeds),
+        std::filesystem::path(device)}) {
     inputs.push_back(input);
   }
-  const std::array<std::filesystem::path, 3> outputs{options.out, options.record, options.tract};
+  const std::array<std::filesystem::path, 3> outputs{options.output.file, options.hand.record,
+                                                     options.output.tract};
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const std::filesystem::path& output = outputs[o];
     for (std::size_t other = 0; other < o; ++other) {
@@ -56,7 +59,7 @@ void check_outputs(const Options& options) {
 }
 
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
-ExitCode run_verb(const Verb& verb, const Options& options, const VerbContext& context) {
+ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& context) {
   const auto interrupted = [&] {
     context.console.fail("interrupted; " + context.interrupt.kept(),
                          static_cast<int>(ExitCode::kInterrupted));
@@ -103,7 +106,10 @@ int run_explorer(const Explorer& explorer, int argc, char** argv) {
   }
 
   const CommonOptions& common = parsed.options.common;
-  Console console(explorer.name, common.json, common.quiet);
+  const Groups groups = parsed.verb->groups.with(Group::kCommon);
+  Console console(explorer.name, common.json, common.quiet,
+                  common.json ? settings_json(parsed.options, groups) : std::string());
+  for (const std::string& note : parsed.notes) console.note(note);
   Progress progress;
   InterruptGuard interrupt(progress, explorer.name);
   const ProgressBar bar(progress, common.quiet);

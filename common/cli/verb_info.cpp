@@ -96,7 +96,7 @@ std::string orientation_of(const DataSet& block, bool anatomical) {
 }
 
 /// Ranges, orientation and memory of everything in the file.
-void read_all(Input& input, const Options& options, const VerbContext& context, InfoSummary& summary) {
+void read_all(Input& input, const Document& options, const VerbContext& context, InfoSummary& summary) {
   std::vector<std::string> names;
   for (const ArrayInfo& info : input.arrays()) {
     summary.arrays.push_back({.info = info, .ranges = {}});
@@ -234,7 +234,7 @@ void add_field(const Input& input, const Field& field, bool explain, InfoSummary
 
 /// Fibres and layers of a heart. What the file holds is of use without layers, too: why there are none is a
 /// part of the answer. They are not solved for it.
-void add_heart(Input& input, const Options& options, Progress& progress, InfoSummary& summary) {
+void add_heart(Input& input, const Document& options, Progress& progress, InfoSummary& summary) {
   const Heart heart = input.load_heart(options.common.threads, &progress, {}, LayersNeeded::kSurfaces);
   summary.field = input.field_label();
   summary.bounds = heart.fibres->bounds();
@@ -243,9 +243,9 @@ void add_heart(Input& input, const Options& options, Progress& progress, InfoSum
   if (options.common.explain) summary.measured = measured_costs(input, heart.fibres->grid()->tets.get());
 }
 
-ExitCode run_info(const Options& options, const VerbContext& context) {
+ExitCode run_info(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
+  Input input = Input::open(options.input, &context.progress);
   InfoSummary summary;
   summary.input = &input;
   const bool has_field = !input.file() || (!input.fields().empty() && input.not_volume().empty());
@@ -254,17 +254,19 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
   if (options.common.explain) {
     const bool field = has_field;
     const int threads = resolve_threads(options.common.threads);
+    const bool has_lines = context.explorer.kind == FieldKind::kVector;
     summary.plans = {
         {"info",
          plan_scene(input, {.verb = "info", .field = field, .all_arrays = true, .threads = threads})}};
     for (const Verb& verb : context.explorer.verbs) {
       if (verb.name == "info" || !field) continue;
-      const bool drawing = verb.groups.view;
-      summary.plans.push_back({verb.name, plan_scene(input, {.verb = verb.name,
-                                                             .tracing = verb.groups.tracing,
-                                                             .threads = threads,
-                                                             .drawing = drawing,
-                                                             .window = verb.name == "open"})});
+      const bool drawing = verb.groups.has(Group::kView);
+      summary.plans.push_back(
+          {verb.name, plan_scene(input, {.verb = verb.name,
+                                         .tracing = has_lines && verb.groups.has(Group::kLines),
+                                         .threads = threads,
+                                         .drawing = drawing,
+                                         .window = verb.name == "open"})});
     }
     for (const auto& plan : summary.plans)
       context.console.print(plan.verb + ", " + plan_text(plan.plan) + "\n");
@@ -306,7 +308,7 @@ ExitCode run_info(const Options& options, const VerbContext& context) {
 Verb info_verb(std::vector<UsageExample> examples) {
   return {.name = "info",
           .summary = "say what a file holds: grids, fields, ranges, orientation, memory",
-          .groups = {},
+          .groups = {Group::kInput},
           .examples = std::move(examples),
           .run = run_info};
 }

@@ -15,14 +15,14 @@ namespace palpate {
 namespace {
 
 /// Refuses what the window would refuse, before anything is opened. @throws Error (usage).
-void check_view(const Options& options) {
+void check_view(const Document& options) {
   (void)camera_angles(options.view.camera);
   (void)focal_point_of(options.view);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
 }
 
-ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContext& context) {
-  Options options = given;
+ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbContext& context) {
+  Document options = given;
   if (list_examples(options, context)) return ExitCode::kDone;
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
@@ -53,7 +53,7 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
   const auto model = verb.model(options, context.explorer.name);
   verb.style(options, request.view);
   request.view.stereo = stereo;
-  if (!options.record.empty()) context.interrupt.keep(options.record);
+  if (!options.hand.record.empty()) context.interrupt.keep(options.hand.record);
   const WindowOutcome outcome = verb.window.open(*model, options, std::move(request));
   if (felt) tell_of_touch(outcome, context);
   if (options.common.explain) context.console.print(outcome.measured + model->measured());
@@ -64,17 +64,17 @@ ExitCode run_open(const WindowVerb& verb, const Options& given, const VerbContex
 
 Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples) {
   const std::string summary = window.summary;
-  const VerbGroups groups = window.groups;
+  const Groups groups = window.groups;
   return {.name = "open",
           .summary = summary,
           .groups = groups,
           .examples = std::move(examples),
-          .run = [window = std::move(window)](const Options& options, const VerbContext& context) {
+          .run = [window = std::move(window)](const Document& options, const VerbContext& context) {
             return run_open(window, options, context);
           }};
 }
 
-void style_projection(const Options& options, SceneView& view) {
+void style_projection(const Document& options, SceneView& view) {
   if (options.volume.projection == "orthographic") view.camera.projection = Projection::kOrthographic;
 }
 

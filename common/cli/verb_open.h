@@ -18,25 +18,25 @@ namespace palpate {
 /// What the window of an explorer is made of.
 struct WindowVerb {
   std::string summary;  ///< "look at lines in a window (…)"
-  VerbGroups groups;
+  Groups groups;
   WindowMaker window;
   std::vector<HapticMode> modes;  ///< the default one first; none: the window knows no touch
   Verb render;                    ///< draws in place of the window where there is no display
   std::string next;               ///< another command to try then, without the program's name
   /// Refuses options before anything is opened. @throws Error (usage).
-  std::function<void(const Options&)> check;
+  std::function<void(const Document&)> check;
   /// For --explain: what the window does with the input, but for what every window does.
-  std::function<SceneUse(const Input&, const Options&)> use;
+  std::function<SceneUse(const Input&, const Document&)> use;
   /// @param program its name, for sessions.
-  std::function<std::unique_ptr<WindowModel>(const Options&, const std::string& program)> model;
+  std::function<std::unique_ptr<WindowModel>(const Document&, const std::string& program)> model;
   /// What is shown at the start, but for lines, bounds and camera.
-  std::function<void(const Options&, SceneView&)> style;
+  std::function<void(const Document&, SceneView&)> style;
 };
 
 /// The verb `open`. Without a file it shows the first example; without a display it draws that one.
 [[nodiscard]] Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples);
 
 /// Sets what `--projection` says.
-void style_projection(const Options& options, SceneView& view);
+void style_projection(const Document& options, SceneView& view);
 
 }  // namespace palpate

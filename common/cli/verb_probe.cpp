@@ -11,7 +11,7 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_fields.h"
 #include "common/field/field_grid.h"
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 #include "common/hand/mode/chain_description.h"
 #include "common/hand/mode/felt_surfaces.h"
 #include "common/hand/mode/grid_mode.h"
@@ -19,7 +19,7 @@
 #include "common/hand/touch_options.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/haptics/widget/widget_text.h"
-#include "common/load/write_lines.h"
+#include "common/load/write/write_lines.h"
 #include "common/math/vec_text.h"
 #include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
@@ -102,7 +102,7 @@ struct FeltInput {
   std::vector<VolumeField> beside;  ///< other scalars of a volume, which are logged
 };
 
-FeltInput load_felt(Input& input, const Options& options, const VerbContext& context) {
+FeltInput load_felt(Input& input, const Document& options, const VerbContext& context) {
   FeltInput felt;
   const auto describe = [&felt](const auto& field) {
     felt.name = field.name();
@@ -153,36 +153,38 @@ void settle_isosurfaces(FeltInput& felt, ProbeSummary& summary, const Console& c
 }
 
 /// What can be refused before any work is done.
-void check_request(const Options& options) {
-  if (options.path.empty() && options.replay.empty()) {
+void check_request(const Document& options) {
+  if (options.hand.path.empty() && options.hand.replay.empty()) {
     throw usage_error(
         "probe needs a path or a recording: try --path path.csv, a table with the header t,x,y,z, or "
         "--replay run.rec");
   }
-  if (!options.path.empty() && !options.replay.empty()) {
+  if (!options.hand.path.empty() && !options.hand.replay.empty()) {
     throw usage_error("give either --path or --replay, not both");
   }
   check_replay_options(options);
-  check_servo_rate(options.rate);
-  if (!simulated_option(options.device) && options.device != "mouse") {
-    throw usage_error("unknown device '" + options.device +
+  check_servo_rate(options.hand.rate);
+  if (!simulated_option(options.hand.device) && options.hand.device != "mouse") {
+    throw usage_error("unknown device '" + options.hand.device +
                       "'; probe knows simulated, besides the path itself");
   }
-  if (!options.tract.empty()) check_line_output(options.tract, options.common.force);
-  if (options.out.empty() && options.tract.empty() && !options.common.json && !options.common.explain) {
+  if (!options.output.tract.empty()) check_line_output(options.output.tract, options.common.force);
+  if (options.output.file.empty() && options.output.tract.empty() && !options.common.json &&
+      !options.common.explain) {
     throw usage_error("probe needs an output: try --out log.csv (or --json to get the summary alone)");
   }
-  if (!options.out.empty()) check_output(options.out, options.common.force);
+  if (!options.output.file.empty()) check_output(options.output.file, options.common.force);
 }
 
-ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options, const VerbContext& context) {
+ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options,
+                   const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
   const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
   check_request(options);
   ProbeSummary summary;
   summary.limits = touch_limits(options.touch);
-  std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
+  std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.hand.device);
   if (simulated) {
     summary.device = title_of(*simulated);
     summary.limits = simulated_limits(*simulated, summary.limits);
@@ -193,20 +195,20 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   std::vector<PathRow> path;
   std::vector<TrackedHands> hands;
   WorkbenchGeometry bench;
-  if (!options.workbench.empty()) bench = read_workbench(options.workbench);
-  const bool immersive = bench.interaction.immersive && options.replay.empty();
+  if (!options.hand.workbench.empty()) bench = read_workbench(options.hand.workbench);
+  const bool immersive = bench.interaction.immersive && options.hand.replay.empty();
   if (immersive && simulated)
     throw usage_error("tracked hands hold no simulated arm: leave --device out, or take a desktop");
   std::optional<Recording> recording;
   if (immersive) {
-    hands = read_hands(options.path.string());
-  } else if (options.replay.empty()) {
-    path = read_probe_path(options.path.string());
+    hands = read_hands(options.hand.path.string());
+  } else if (options.hand.replay.empty()) {
+    path = read_probe_path(options.hand.path.string());
   } else {
-    recording = read_recording(options.replay.string());
+    recording = read_recording(options.hand.replay.string());
     summary.changed_inputs = changed_since(recording->header, options, context.progress);
     for (const std::string& line : summary.changed_inputs)
-      console.note(options.replay.string() + ": " + line);
+      console.note(options.hand.replay.string() + ": " + line);
     summary.limits = recording->header.limits;
   }
 
@@ -241,18 +243,18 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   summary.input = input.title();
   summary.field = felt.name;
   summary.mode = mode.name;
-  summary.output = options.out.string();
+  summary.output = options.output.file.string();
   summary.workspace_scale = workspace.scale();
   summary.diagonal = felt.diagonal;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
 
   std::optional<OutputFile> file;
-  if (!options.out.empty()) file.emplace(options.out, options.common.force);
+  if (!options.output.file.empty()) file.emplace(options.output.file, options.common.force);
   ProbeRun run(summary, workspace, context);
   std::shared_ptr<WidgetNewsBuffer> planes;
   std::shared_ptr<const ScalarField> noise;  ///< that is felt
   std::optional<TractPen> pen;
-  if (!options.tract.empty()) {
+  if (!options.output.tract.empty()) {
     pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
     run.draw_on(*pen);
   }
@@ -306,18 +308,18 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
       follow_hands(hands, technique, summary.settings, planes.get(), stepper, workspace, run,
                    context.progress);
     } else if (simulated) {
-      const std::string note = stiffness_warning(wall_loop(simulated->profile, options.rate),
+      const std::string note = stiffness_warning(wall_loop(simulated->profile, options.hand.rate),
                                                  summary.settings.stiffness, summary.settings.damping);
       if (!note.empty()) console.note(note);
-      follow_operator(path, *simulated, options.rate, stepper, workspace, run, context.progress);
+      follow_operator(path, *simulated, options.hand.rate, stepper, workspace, run, context.progress);
     } else {
       follow_path(path, stepper, workspace, run, context.progress);
     }
   }
   run.finish();
   if (WidgetNews news; planes && planes->read(news)) summary.planes = news.poses;
-  if (path.empty() && hands.empty() && options.replay.empty())
-    console.note(options.path.string() + ": the path has no rows");
+  if (path.empty() && hands.empty() && options.hand.replay.empty())
+    console.note(options.hand.path.string() + ": the path has no rows");
   if (run.first_fault() > 0) {
     console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +
                  " without a force, the first is step " + std::to_string(run.first_fault()) + ": " +
@@ -325,14 +327,14 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
   }
   if (file) {
     file->finish();
-    context.interrupt.keep(options.out);
+    context.interrupt.keep(options.output.file);
   }
   if (pen) {
-    summary.tract = options.tract.string();
-    summary.tracts = save_tracts(options.tract, pen->tracts(), options.common.force);
+    summary.tract = options.output.tract.string();
+    summary.tracts = save_tracts(options.output.tract, pen->tracts(), options.common.force);
     if (summary.tracts == 0)
-      console.note(options.tract.string() + ": no tract, since nothing held the probe");
-    context.interrupt.keep(options.tract);
+      console.note(options.output.tract.string() + ": no tract, since nothing held the probe");
+    context.interrupt.keep(options.output.tract);
   }
   console.print(summary_text(summary));
   if (options.common.explain) console.print(measured_text(measured_costs(input, felt.mesh)));
@@ -344,19 +346,16 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Options& options,
 
 Verb probe_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   const bool has_grid = std::ranges::any_of(modes, [](const HapticMode& m) { return m.name == kGridMode; });
-  return {.name = "probe",
-          .summary = "follow a recorded path of the probe and log proxies and forces",
-          .groups = {.touch = true,
-                     .path = true,
-                     .hand = true,
-                     .replay = true,
-                     .out = true,
-                     .part = has_grid,
-                     .focal = has_grid},
-          .examples = std::move(examples),
-          .run = [modes = std::move(modes)](const Options& options, const VerbContext& context) {
-            return run_probe(modes, options, context);
-          }};
+  return {
+      .name = "probe",
+      .summary = "follow a recorded path of the probe and log proxies and forces",
+      .groups = Groups{Group::kInput, Group::kTouch, Group::kPath, Group::kHand, Group::kReplay, Group::kOut}
+                    .with(Group::kPart, has_grid)
+                    .with(Group::kFocal, has_grid),
+      .examples = std::move(examples),
+      .run = [modes = std::move(modes)](const Document& options, const VerbContext& context) {
+        return run_probe(modes, options, context);
+      }};
 }
 
 }  // namespace palpate

@@ -4,11 +4,11 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/verbs.h"
 #include "common/field/analytic/examples.h"
-#include "common/scene/session.h"
+#include "common/scene/open_input.h"
 
 namespace palpate {
 
-bool list_examples(const Options& options, const VerbContext& context) {
+bool list_examples(const Document& options, const VerbContext& context) {
   if (options.input.example != "list") return false;
   const std::vector<ExampleInfo> list = examples_of(context.explorer.kind);
   std::size_t widest = 0;
@@ -22,27 +22,19 @@ bool list_examples(const Options& options, const VerbContext& context) {
   return true;
 }
 
-Input open_input(const Options& options, const VerbContext& context) {
-  if (!options.session.empty()) {
-    for (const std::string& sentence : changed_inputs(load_session(options.session), &context.progress)) {
-      context.console.note(sentence);
-    }
-  }
-  context.progress.begin("opening", 0);
-  Input input = Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
-  for (const std::string& note : input.notes()) context.console.note(input.title() + ": " + note);
-  return input;
+Input open_input(const Document& options, const VerbContext& context) {
+  return open_input(options, context.progress, [&](const std::string& line) { context.console.note(line); });
 }
 
-ExitCode headless_tour(const Verb& render, Options options, const VerbContext& context,
+ExitCode headless_tour(const Verb& render, Document options, const VerbContext& context,
                        const std::string& next) {
   const std::string program = context.explorer.name;
   // The first name that is free: flow-tour.png, flow-tour-2.png, …
-  options.out = program + "-tour.png";
-  for (int n = 2; std::filesystem::exists(options.out); ++n)
-    options.out = program + "-tour-" + std::to_string(n) + ".png";
+  options.output.file = program + "-tour.png";
+  for (int n = 2; std::filesystem::exists(options.output.file); ++n)
+    options.output.file = program + "-tour-" + std::to_string(n) + ".png";
   context.console.note("no display here, so no window: drawing example " + options.input.example + " into " +
-                       options.out.string() + " instead");
+                       options.output.file.string() + " instead");
   const ExitCode code = render.run(options, context);
   if (code == ExitCode::kDone) {
     context.console.note("next: " + program + " --example list, " + program +
@@ -51,8 +43,8 @@ ExitCode headless_tour(const Verb& render, Options options, const VerbContext& c
   return code;
 }
 
-void refuse_window(const Options& options, const VerbContext& context) {
-  (void)Input::open(input_spec(options.input, context.explorer.kind), &context.progress);
+void refuse_window(const Document& options, const VerbContext& context) {
+  (void)Input::open(options.input, &context.progress);
   throw work_error("no display, so no window; '" + context.explorer.name +
                    " render' draws a picture without one: add --out picture.png");
 }

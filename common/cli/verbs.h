@@ -17,23 +17,23 @@ namespace palpate {
 /// @{
 
 /// Handles `--example list`: prints the explorer's examples and returns true.
-[[nodiscard]] bool list_examples(const Options& options, const VerbContext& context);
+[[nodiscard]] bool list_examples(const Document& options, const VerbContext& context);
 
 /// Opens the input and says on stderr which field and time step are taken.
-[[nodiscard]] Input open_input(const Options& options, const VerbContext& context);
+[[nodiscard]] Input open_input(const Document& options, const VerbContext& context);
 
 /// `<app>` alone where there is no display: a picture of the example that `options` name, under a name that
 /// is free.
 /// @param render the explorer's verb that draws. @param next another command to try, without the program's
 /// name.
 /// @throws as the verb.
-ExitCode headless_tour(const Verb& render, Options options, const VerbContext& context,
+ExitCode headless_tour(const Verb& render, Document options, const VerbContext& context,
                        const std::string& next);
 
 /// Where there is no display and an input is named.
 /// @throws Error (bad input) for a file that is missing or broken, the first thing to know; (work failed)
 /// else.
-[[noreturn]] void refuse_window(const Options& options, const VerbContext& context);
+[[noreturn]] void refuse_window(const Document& options, const VerbContext& context);
 /// @}
 
 }  // namespace palpate

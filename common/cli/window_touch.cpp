@@ -54,8 +54,8 @@ void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeS
   if (asked > tuned->stiffness) context.console.note(tuned_note(asked, tuned->stiffness));
 }
 
-[[noreturn]] void refuse_desktop(const Options& options) {
-  throw usage_error("--device " + options.device +
+[[noreturn]] void refuse_desktop(const Document& options) {
+  throw usage_error("--device " + options.hand.device +
                     " needs a workbench whose [interaction] has technique = \"immersive\": try --workbench "
                     "workbench.toml");
 }
@@ -72,17 +72,17 @@ void take_to_desk(WorkbenchGeometry& bench) {
   hands.surface = screen ? std::optional(Vec4{0.0, 0.0, 1.0, 0.0}) : std::nullopt;
 }
 
-[[noreturn]] void refuse_immersive(const Options& options) {
-  throw usage_error(options.workbench.string() +
+[[noreturn]] void refuse_immersive(const Document& options) {
+  throw usage_error(options.hand.workbench.string() +
                     " has technique = \"immersive\", which needs tracked hands, or an arm of which "
                     "[coregistration] says where it stands: try --device polhemus or hands:FILE.csv");
 }
 
 /// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own. A
 /// tracker at an immersive workbench is its hands; an arm is where the workbench says.
-void take_link(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
+void take_link(const Document& options, const VerbContext& context, ProbeSessionOptions& touch) {
   const WorkbenchGeometry& bench = touch.workbench;
-  const DeviceText text = device_at_bench(options.device, bench);
+  const DeviceText text = device_at_bench(options.hand.device, bench);
   OpenedDevice opened =
       open_at_bench(text, bench, [&](const std::string& line) { context.console.note(line); });
   const bool tracks = opened.link->poses() != nullptr;
@@ -110,29 +110,29 @@ void take_link(const Options& options, const VerbContext& context, ProbeSessionO
 }
 
 /// A real device: neither mouse nor simulation nor a file.
-bool is_driver(const Options& options, const ProbeSessionOptions& touch) {
-  return options.device != "mouse" && !touch.simulated && touch.path.empty() &&
-         !std::string_view(options.device).starts_with(kHands);
+bool is_driver(const Document& options, const ProbeSessionOptions& touch) {
+  return options.hand.device != "mouse" && !touch.simulated && touch.path.empty() &&
+         !std::string_view(options.hand.device).starts_with(kHands);
 }
 
 /// The workbench, and recorded hands at it; a desktop where a mouse, a simulation or a path takes the place
 /// of its tracked hands.
 /// @throws Error (usage) for hands without such a workbench; (bad input).
-void take_workbench(const Options& options, const VerbContext& context, ProbeSessionOptions& touch) {
-  const std::string_view device = options.device;
+void take_workbench(const Document& options, const VerbContext& context, ProbeSessionOptions& touch) {
+  const std::string_view device = options.hand.device;
   const bool hands = device.starts_with(kHands);
-  if (!options.workbench.empty()) touch.workbench = read_workbench(options.workbench);
+  if (!options.hand.workbench.empty()) touch.workbench = read_workbench(options.hand.workbench);
   const bool immersive = touch.workbench.interaction.immersive;
   if (hands && !immersive) refuse_desktop(options);
   if (immersive && !hands && !is_driver(options, touch)) {
-    context.console.note(options.workbench.string() +
+    context.console.note(options.hand.workbench.string() +
                          " has technique = \"immersive\": without its tracked hands (--device polhemus or "
                          "hands:FILE.csv) this is a desktop");
     take_to_desk(touch.workbench);
   }
   if (!hands) return;
   touch.hands = read_hands(std::string(device.substr(kHands.size())));
-  if (touch.hands.empty()) throw usage_error("--device " + options.device + ": there are no rows");
+  if (touch.hands.empty()) throw usage_error("--device " + options.hand.device + ": there are no rows");
 }
 
 /// What is said when the window is closed: how the servo did, in a row a line.
@@ -148,24 +148,18 @@ std::string servo_text(const WindowOutcome& outcome) {
 
 }  // namespace
 
-ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& options,
+ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Document& options,
                                  const VerbContext& context) {
   ProbeSessionOptions touch;
   touch.modes = std::move(modes);
-  if (!options.touch.mode.empty()) {
-    touch.choice.mode =
-        static_cast<std::size_t>(&find_mode(touch.modes, options.touch.mode) - touch.modes.data());
-  }
-  touch.choice.settings = touch_settings(options.touch);
-  touch.choice.ticks = wants_ticks(options.touch);
-  touch.choice.stroke = stroke_use_from_name(options.touch.stroke);
+  touch.choice = touch_choice(options.touch, touch.modes);
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;
   touch.notes = annotations_of(options.touch.annotations, "--annotation");
   check_replay_options(options);
-  touch.path = device_path(options.device);
-  touch.simulated = simulated_option(options.device);
+  touch.path = device_path(options.hand.device);
+  touch.simulated = simulated_option(options.hand.device);
   take_workbench(options, context, touch);
   if (touch.simulated) {
     touch.limits = simulated_limits(*touch.simulated, touch.limits);
@@ -173,21 +167,21 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     hold_to_tuned(device_key(*touch.simulated), context, touch);
     ChainSettings settings = touch.choice.settings;
     settings.stiffness = std::min(settings.stiffness, touch.most_stiffness);
-    const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.rate),
+    const std::string note = stiffness_warning(wall_loop(touch.simulated->profile, options.hand.rate),
                                                settings.stiffness, settings.damping);
     if (!note.empty()) context.console.note(note);
   } else if (is_driver(options, touch)) {
     take_link(options, context, touch);
   }
-  if (!options.replay.empty()) {
-    touch.replay = read_recording(options.replay.string());
+  if (!options.hand.replay.empty()) {
+    touch.replay = read_recording(options.hand.replay.string());
     for (const std::string& line : changed_since(touch.replay->header, options, context.progress)) {
-      context.console.note(options.replay.string() + ": " + line);
+      context.console.note(options.hand.replay.string() + ": " + line);
     }
   }
-  check_servo_rate(options.rate);
-  touch.servo_rate = options.rate;
-  touch.record = options.record;
+  check_servo_rate(options.hand.rate);
+  touch.servo_rate = options.hand.rate;
+  touch.record = options.hand.record;
   touch.overwrite = options.common.force;
   touch.recorded.program = context.explorer.name;
   touch.recorded.version = version();
@@ -198,7 +192,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& o
     RecordedFile input{std::filesystem::absolute(file, missing).string(), 0, {}};
     input.bytes = std::filesystem::file_size(file, missing);
     if (missing) input.bytes = 0;
-    if (!options.record.empty()) input.sha256 = describe_input(file, false, &context.progress).sha256;
+    if (!options.hand.record.empty()) input.sha256 = describe_input(file, false, &context.progress).sha256;
     touch.recorded.inputs.push_back(std::move(input));
   };
   for (const auto& file : options.input.files) add(file);

@@ -6,7 +6,7 @@
 #include "common/cli/explorer.h"
 #include "common/hand/probe_session.h"
 #include "common/hand/window_request.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
@@ -14,7 +14,7 @@ namespace palpate {
 /// device is and what of a recording's inputs has changed.
 /// @param modes the program's, the default one first.
 /// @throws Error (usage), (bad input) for a path or recording that cannot be read.
-[[nodiscard]] ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Options& options,
+[[nodiscard]] ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Document& options,
                                                const VerbContext& context);
 
 /// When the window is closed: how the servo did, in a row a line, or as JSON.

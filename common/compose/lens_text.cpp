@@ -9,10 +9,10 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/color_transfer_file.h"
-#include "common/field/region_transfer_file.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 #include "common/math/normal_length.h"
-#include "common/scene/seeds.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -22,10 +22,6 @@ constexpr const char* kGrammar =
     "polyhedron:nx,ny,nz,d,nx,ny,nz,d,..., halfspace:nx,ny,nz,d or screen:x,y,r, and behind it ',cut' where "
     "it cuts away, "
     "',magnify=M', ',blend=B', ',samples=N', ',shading=on' or 'off', ',field=NAME' or last ',tf=NAME|FILE'";
-
-Vec3 vec_at(const std::vector<double>& numbers, std::size_t first) {
-  return {numbers[first], numbers[first + 1], numbers[first + 2]};
-}
 
 void check_above_zero(double size, const std::string& text, const char* what) {
   if (!(size > 0.0)) throw usage_error("--lens " + text + ": the " + what + " must be above zero");
@@ -113,9 +109,8 @@ double trace(const Mat3& m) { return m[0][0] + m[1][1] + m[2][2]; }
 std::optional<std::string> shape_text(const ConvexShape& shape) {
   const auto& faces = shape.half_spaces;
   if (shape.quadric && faces.empty()) {
-    const Vec3& c = shape.quadric->center;
     // M = I / r
-    return "sphere:" + joined({c.x, c.y, c.z, 3.0 / trace(shape.quadric->unit_from_data)});
+    return sphere_text(shape.quadric->center, 3.0 / trace(shape.quadric->unit_from_data));
   }
   if (shape.quadric && faces.size() == 2) {
     // M = (I - a a^T) / r; the ends stand on the faces, whose normals are a and -a.
@@ -249,16 +244,19 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   return text;
 }
 
-std::string lenses_text(const VolumeView& view) {
-  std::string all;
+std::string sphere_text(const Vec3& center, double radius) {
+  return "sphere:" + joined({center.x, center.y, center.z, radius});
+}
+
+std::vector<std::string> lens_texts(const VolumeView& view) {
+  std::vector<std::string> all;
   for (const CuttingPlane& cut : view.cuts) {
     ConvexShape gone;
     gone.half_spaces.push_back({-cut.kept.outward, -cut.kept.offset});
-    (all += all.empty() ? "" : ";") += *shape_text(gone) + (cut.on ? ",cut" : ",cut,off");
+    all.push_back(*shape_text(gone) + (cut.on ? ",cut" : ",cut,off"));
   }
   for (const Lens& lens : view.lenses) {
-    const auto text = lens_text(lens, view);
-    if (text) all += (all.empty() ? "" : ";") + *text;
+    if (auto text = lens_text(lens, view)) all.push_back(std::move(*text));
   }
   return all;
 }

@@ -17,7 +17,7 @@
 
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_view.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
@@ -35,8 +35,10 @@ struct LensWords {
 /// The words for a lens that parse_lens() made, or that was moved or scaled since; nothing for other shapes.
 /// @param view that the lens is part of: what it shares with the context is not said.
 [[nodiscard]] std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view);
-/// The planes that cut and all lenses that have words, with ';' between: as a session keeps them.
-[[nodiscard]] std::string lenses_text(const VolumeView& view);
+/// A ball as `--lens` says it.
+[[nodiscard]] std::string sphere_text(const Vec3& center, double radius);
+/// The planes that cut and all lenses that have words: what `--lens` is given so many times.
+[[nodiscard]] std::vector<std::string> lens_texts(const VolumeView& view);
 
 /// The half-space n.x > d of "nx,ny,nz,d".
 /// @param asked what the user wrote, named where the text is no plane. @throws Error (usage).

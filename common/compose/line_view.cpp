@@ -9,11 +9,10 @@
 #include "common/compose/domain_outline.h"
 #include "common/compose/trace_options.h"
 #include "common/compose/volume_scene.h"
-#include "common/scene/seeds.h"
 
 namespace palpate {
 
-TraceOptions view_trace_options(const Options& options, const VectorField& field) {
+TraceOptions view_trace_options(const Document& options, const VectorField& field) {
   TraceOptions trace = trace_options(options, "both");
   if (trace.max_length == 0.0) trace.max_length = kViewDiagonals * field.diagonal();
   return trace;
@@ -58,13 +57,20 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
          short_number(angles.zoom);
 }
 
+void show_quantity(const std::string& color, LineStyle& style) {
+  for (int i = 0; i < kColorByCount; ++i) {
+    const auto by = static_cast<ColorBy>(i);
+    if (name_of(by) == color) style.color_by = by;
+  }
+}
+
 void style_lines(const ViewOptions& options, LineStyle& style) {
   style.width = options.line_width;
   style.opacity = options.line_opacity;
 }
 
 SceneView make_line_view(const Input& input, const VectorField& field,
-                         std::shared_ptr<const std::vector<Line>> lines, const Options& options,
+                         std::shared_ptr<const std::vector<Line>> lines, const Document& options,
                          const LineStyle& style, double aspect) {
   SceneView view;
   view.bounds = field.bounds();

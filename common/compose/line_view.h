@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -19,7 +19,7 @@ inline constexpr const char* kViewSeeds = "speed:300";
 inline constexpr double kViewDiagonals = 1.0;
 
 /// The options of tracing with the defaults of a global view: both directions, lines of kViewDiagonals.
-[[nodiscard]] TraceOptions view_trace_options(const Options& options, const VectorField& field);
+[[nodiscard]] TraceOptions view_trace_options(const Document& options, const VectorField& field);
 
 /// "azimuth,elevation,roll,zoom"; empty: the default view.
 /// @throws Error (usage).
@@ -36,13 +36,16 @@ inline constexpr double kViewDiagonals = 1.0;
 /// them.
 [[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
 
+/// Colours lines by a quantity of theirs, where `color` names one.
+void show_quantity(const std::string& color, LineStyle& style);
+
 /// Sets what `--line-width` and `--line-opacity` say.
 void style_lines(const ViewOptions& options, LineStyle& style);
 
 /// A scene of `lines` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,
-                                       std::shared_ptr<const std::vector<Line>> lines, const Options& options,
-                                       const LineStyle& style, double aspect);
+                                       std::shared_ptr<const std::vector<Line>> lines,
+                                       const Document& options, const LineStyle& style, double aspect);
 
 }  // namespace palpate

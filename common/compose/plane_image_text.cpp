@@ -6,7 +6,6 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/scene/seeds.h"
 
 namespace palpate {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/render/volume/volume_view.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 

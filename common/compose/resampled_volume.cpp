@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/compose/line_color.h"
 #include "common/compose/volume_fields.h"

@@ -15,8 +15,8 @@
 #include "common/compose/volume_scene.h"
 #include "common/field/scalar_lattice.h"
 #include "common/field/vector_field.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/scene/seeds.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {

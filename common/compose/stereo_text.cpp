@@ -23,20 +23,6 @@ StereoView stereo_of(const ViewOptions& options) {
           .swapped = options.swap_eyes};
 }
 
-std::vector<std::pair<const char*, std::string>> stereo_options(const ViewOptions& options) {
-  const ViewOptions usual;
-  std::vector<std::pair<const char*, std::string>> out;
-  if (options.stereo != usual.stereo) out.emplace_back("stereo", options.stereo);
-  const auto add = [&](const char* name, double value, double default_value) {
-    if (value != default_value) out.emplace_back(name, exact_number(value));
-  };
-  add("eye-separation", options.eye_separation, usual.eye_separation);
-  add("eye-distance", options.eye_distance, usual.eye_distance);
-  add("disparity-limit", options.disparity_limit, usual.disparity_limit);
-  if (options.swap_eyes) out.emplace_back("swap-eyes", "on");
-  return out;
-}
-
 std::string stereo_text(const SceneView& view) {
   if (!has_two_eyes(view)) return {};
   const StereoEyes eyes = stereo_eyes(view.camera, view.stereo, view.bounds);

@@ -1,7 +1,7 @@
 #include "common/compose/trace_options.h"
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -17,7 +17,7 @@ StopRule stop_plane(const std::string& text) {
 
 }  // namespace
 
-TraceOptions trace_options(const Options& options, const std::string& default_direction) {
+TraceOptions trace_options(const Document& options, const std::string& default_direction) {
   const TracingOptions& tracing = options.tracing;
   TraceOptions trace;
   if (!tracing.integrator.empty()) trace.integrator = integrator_from_name(tracing.integrator);

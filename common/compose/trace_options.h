@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 #include "common/scene/seeds.h"
 #include "common/trace/trace.h"
 
@@ -13,7 +13,7 @@ namespace palpate {
 /// Reads `--direction`, `--integrator` and the limits.
 /// @param default_direction where `--direction` is not given.
 /// @throws Error (usage).
-[[nodiscard]] TraceOptions trace_options(const Options& options, const std::string& default_direction);
+[[nodiscard]] TraceOptions trace_options(const Document& options, const std::string& default_direction);
 
 /// How many lines these seeds make: one each way.
 [[nodiscard]] std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept;

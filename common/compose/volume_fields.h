@@ -13,8 +13,8 @@
 #include "common/base/progress.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/volume/volume_view.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 

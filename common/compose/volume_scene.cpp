@@ -17,11 +17,11 @@
 #include "common/compose/line_view.h"
 #include "common/compose/plane_image_text.h"
 #include "common/compose/volume_fields.h"
-#include "common/field/color_transfer_file.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
-#include "common/field/region_transfer_file.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
-#include "common/render/volume/value_gradient.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "common/scene/volume_source.h"
 
 namespace palpate {
@@ -190,7 +190,7 @@ Projection projection_of(const VolumeOptions& options) {
   return options.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
 }
 
-VolumeView make_volume_view(const TangibleVolume& shown, const Options& options) {
+VolumeView make_volume_view(const TangibleVolume& shown, const Document& options) {
   const std::shared_ptr<const VolumeImage>& image = shown.image;
   VolumeView volume;
   volume.image = image;
@@ -219,7 +219,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Options& options)
   return volume;
 }
 
-SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Options& options,
+SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Document& options,
                             double aspect) {
   const std::shared_ptr<const VolumeImage>& image = shown.image;
   SceneView view;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "common/base/progress.h"
-#include "common/load/write_image.h"
+#include "common/load/write/write_image.h"
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
-#include "common/scene/options.h"
 
 namespace palpate {
 
@@ -68,7 +68,7 @@ struct TangibleVolume {
 
 /// `shown` as the options have it drawn: transfer functions, lenses, cuts, rays.
 /// @throws Error (usage), (bad input) as take_parts() and volume_transfer_of().
-[[nodiscard]] VolumeView make_volume_view(const TangibleVolume& shown, const Options& options);
+[[nodiscard]] VolumeView make_volume_view(const TangibleVolume& shown, const Document& options);
 
 /// How the options project.
 [[nodiscard]] Projection projection_of(const VolumeOptions& options);
@@ -76,6 +76,6 @@ struct TangibleVolume {
 /// A scene of `volume` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_volume_scene(const Input& input, const TangibleVolume& volume,
-                                          const Options& options, double aspect);
+                                          const Document& options, double aspect);
 
 }  // namespace palpate

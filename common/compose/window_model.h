@@ -1,5 +1,4 @@
-/// What the window needs of a program: opening inputs, tracing lines and reading volumes, behind plain
-/// values.
+/// What the window needs of a program: opening inputs and making scenes of documents, behind plain values.
 ///
 /// The window calls these functions on a background thread, one at a time; the picture goes on meanwhile.
 /// What they return is immutable. Words are those of the command line (design: command line).
@@ -22,6 +21,7 @@
 #include "common/geometry/line.h"
 #include "common/render/lens/lens.h"
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 #include "common/scene/input.h"
 
 namespace palpate {
@@ -32,38 +32,6 @@ struct InputFiles {
   std::optional<std::filesystem::path> solution;  ///< PLOT3D
 
   bool operator==(const InputFiles&) const = default;
-};
-
-/// What the panel can change about the lines.
-struct SceneSettings {
-  std::string field;                ///< one of SceneInfo::fields
-  std::vector<std::string> beside;  ///< of a volume: other scalars, for lenses (InputSpec::beside)
-  std::size_t time_step = 0;        ///< index into SceneInfo::times
-  std::string integrator;           ///< "dp54"; empty: the default for the grid
-  std::string seeds;                ///< grammar of --seeds: "grid:8,8,8"
-  std::string direction = "both";   ///< forward, backward, both
-  double tolerance = 1e-6;
-  double step = 0.0;        ///< as --step; 0: the default
-  double max_length = 0.0;  ///< data units; 0: the default
-  std::uint64_t random_seed = 1;
-  int seeds_per_voxel = 1;  ///< of tracts, as --seeds-per-voxel; `seeds` is empty where none are wanted
-  double cutoff = 0.2;      ///< of tracts, as --cutoff
-  std::string tracts;       ///< a file of tracts, as --tracts; empty where they are traced, or none are there
-  std::string underlay;     ///< a scalar image below slices, as --underlay; empty: none
-  std::string color_array;  ///< one of SceneInfo::color_arrays; empty: a quantity of the lines colours them
-  double layer = 0.5;       ///< of a heart: the depth that is shown
-  double contours = 0.0;    ///< of a heart: distance of lines of equal value on the layer; 0: none
-  /// Of a heart: what is not in it is left out of the picture, as --cut; none: nothing is.
-  std::optional<ConvexShape::HalfSpace> cut;
-  std::string lens_array;  ///< of a heart: what a lens shows in place of color_array; empty: there is none
-  /// Of a flow: scalars that are a volume around the lines, as --volume; the first one is seen around lenses,
-  /// none: no volume.
-  std::vector<std::string> volumes;
-  std::string resample;  ///< of those, as --resample; empty: at the points of an image
-  std::string transfer;  ///< of a volume, as --transfer-function; empty: from the histogram
-  std::string focus;     ///< of lenses, as --focus-tf; empty: the model's own
-
-  bool operator==(const SceneSettings&) const = default;
 };
 
 /// What is known of an open input.
@@ -79,7 +47,7 @@ struct SceneInfo {
   std::vector<std::string> plotted;       ///< scalars that can be plotted over time at the probe
   std::vector<std::string> volumes;       ///< scalars of a flow that can be drawn as a volume
   bool resampled = false;                 ///< these can be only where they are resampled
-  InputSpec input;                        ///< to read them from; meaningless where there are none
+  InputOptions input;                     ///< to read them from; meaningless where there are none
   Box bounds;
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
@@ -89,21 +57,22 @@ struct SceneInfo {
 /// A scene with its lines, or its volume.
 struct SceneState {
   std::shared_ptr<const SceneInfo> info;
-  SceneSettings settings;                          ///< as used; what was left to a default is filled in
+  Document document;                               ///< as used; what was left to a default is filled in
   std::shared_ptr<const std::vector<Line>> lines;  ///< never null
   std::shared_ptr<const VectorField> probed;       ///< the flow that the hand feels; null: none
   std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed, if any
   std::shared_ptr<const TensorField> felt_tensor;  ///< fibres that the hand feels; null: none
   std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
-  std::shared_ptr<const LineArray> color_array;    ///< settings.color_array along the lines, or null
-  std::vector<SurfaceView> surfaces;               ///< drawn with the lines
-  std::optional<ColorLens> color_lens;             ///< where the settings want one; its ball is the first one
-  std::optional<LineStyle> style;                  ///< of the lines at the start; none: the window's
-  std::optional<VolumeView> volume;                ///< in place of lines, or of a flow around them
-  std::string volume_label;                        ///< what its values are
-  std::vector<std::string> volume_notes;           ///< what resampling it cost, one line each
-  std::optional<TensorView> tensors;               ///< likewise, also with a volume
-  std::optional<TractView> tracts;                 ///< through them
+  std::shared_ptr<const LineArray>
+      color_array;  ///< what the document colours the lines by, where that is no quantity of theirs
+  std::vector<SurfaceView> surfaces;      ///< drawn with the lines
+  std::optional<ColorLens> color_lens;    ///< where the document has one
+  std::optional<LineStyle> style;         ///< of the lines at the start; none: the window's
+  std::optional<VolumeView> volume;       ///< in place of lines, or of a flow around them
+  std::string volume_label;               ///< what its values are
+  std::vector<std::string> volume_notes;  ///< what resampling it cost, one line each
+  std::optional<TensorView> tensors;      ///< likewise, also with a volume
+  std::optional<TractView> tracts;        ///< through them
   /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
   std::vector<Lens> looks;
   /// Whether a volume of scalars is all that there is.
@@ -136,19 +105,31 @@ class WindowModel {
   /// @throws Error, Cancelled; what was open before then stays open.
   virtual SceneState open(const InputFiles& files, Progress& progress) = 0;
 
-  /// Lines of the open input with other settings; only what changed is read or traced again.
+  /// The scene of the open input that `document` describes; only what changed is read or traced again.
   /// @throws Error, Cancelled; what was open before then stays open.
-  virtual SceneState update(const SceneSettings& settings, Progress& progress) = 0;
+  virtual SceneState update(const Document& document, Progress& progress) = 0;
 
-  /// Saves scene, view and what the window has set beside the input.
-  /// @param set options of the command line and their values: of touch, of playing and of what is plotted.
-  /// @return what was written, for the message line.
-  /// @throws Error.
-  virtual std::string save_session(const SceneSettings& settings, const SceneView& view,
-                                   const std::vector<std::pair<std::string, std::string>>& set) = 0;
+  /// Writes into `document` what `view` shows, as the program's settings say it: what mouse, hand and panels
+  /// did to the picture. The inverse of what update() makes of them. Called on the window's thread, whatever
+  /// job runs.
+  virtual void keep(const SceneView& view, Document& document) const = 0;
+
+  /// Saves the document as a session.
+  /// @return what was written, for the message line. @throws Error.
+  virtual std::string save_session(const Document& document) = 0;
 
   /// A line on what the scene shown last took, for `--explain`; empty where nothing was or it is not known.
   [[nodiscard]] virtual std::string measured() const { return {}; }
 };
+
+/// Which time step a document shows. @param times of the input.
+[[nodiscard]] std::size_t time_step_of(const Document& document, const std::vector<double>& times);
+/// Shows that one; nothing where there are no times.
+void set_time_step(Document& document, const std::vector<double>& times, std::size_t step);
+
+/// Whether both make the same scene, however that is drawn: the same input, lines, tracts, layer and volumes.
+[[nodiscard]] bool same_scene(const Document& a, const Document& b);
+/// Takes over of `used`, which made a scene, what that scene is made of: defaults are filled in there.
+void take_scene(const Document& used, Document& document);
 
 }  // namespace palpate

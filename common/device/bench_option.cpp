@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/device/calibrated_link.h"
 
@@ -38,7 +39,7 @@ OpenedDevice open_at_bench(const DeviceText& device, const WorkbenchGeometry& be
     const int joints = opened.link->atoms().joint_count, asked = bench.arm->joint_count;
     const bool arm = opened.link->poses() == nullptr && opened.link->atoms().has_position;
     if (arm && joints != asked) {
-      note("[arm] is of " + counted(static_cast<std::size_t>(asked), "joint") + ", and " + device.name +
+      note("[arm] is of " + counted(as_size(asked), "joint") + ", and " + device.name +
            (joints == 0 ? " tells none" : " tells " + std::to_string(joints)) +
            ": its own positions are used");
     }

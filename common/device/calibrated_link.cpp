@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -45,7 +46,7 @@ void CalibratedLink::correct() noexcept {
   }
   const PoseAtoms* const poses = link_->poses();
   if (poses == nullptr || atoms_.station == 0) return;
-  const PoseAtom& reported = poses->stations[static_cast<std::size_t>(atoms_.station - 1)];
+  const PoseAtom& reported = poses->stations[as_size(atoms_.station - 1)];
   TrackerPose pose{reported.position, reported.orientation};
   if (calibration_.tracker) pose = calibration_.tracker->corrected(pose);
   const Vec3 tip = pose.position + pose.orientation * calibration_.tip.value_or(Vec3{0.0});

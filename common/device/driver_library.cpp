@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -12,7 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -95,10 +94,8 @@ DriverModule& open_driver(const std::string& name) {
 
 std::optional<int> enabling_button_of(std::string_view text) noexcept {
   if (text == "none") return DeviceLimits::kNoButton;
-  int button = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), button);
-  const bool whole = fault == std::errc() && end == text.data() + text.size();
-  return whole && button >= 0 && button < DeviceLimits::kButtons ? std::optional(button) : std::nullopt;
+  const std::optional<int> button = parsed<int>(text);
+  return button && *button >= 0 && *button < DeviceLimits::kButtons ? button : std::nullopt;
 }
 
 DeviceText parse_device(std::string_view text) {

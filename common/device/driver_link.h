@@ -1,7 +1,7 @@
 /// The border between the programs and driver modules: what a module gives, opened by its name.
 ///
 /// A driver is a link to one device, worked in rounds by whoever has it: a thread of its own for the servo
-/// (linked_device.h), a loop in `workbench monitor`, a test in simulated time. It finds the device, prepares
+/// (linked_device.h), a loop that shows its read-outs, a test in simulated time. It finds the device, prepares
 /// it and, plugged out and in again, starts over by itself, without force.
 #pragma once
 

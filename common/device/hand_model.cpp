@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -68,7 +69,7 @@ Vec3 Operator::tremor_at(double time) const noexcept {
   const double amplitude = settings_.tremor * std::sqrt(2.0 / kSines);
   Vec3 sum{0.0};
   for (int a = 0; a < 3; ++a) {
-    for (const Sine& sine : tremor_[static_cast<std::size_t>(a)]) {
+    for (const Sine& sine : tremor_[as_size(a)]) {
       sum[a] += amplitude * std::sin(sine.angular * time + sine.phase);
     }
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 ReplayDevice::ReplayDevice(const std::vector<DeviceSample>& samples, const DeviceLimits& limits)
@@ -23,7 +25,7 @@ bool ReplayDevice::read(double now, DeviceSample& sample) noexcept {
   const auto due =
       std::upper_bound(samples_.begin() + static_cast<std::ptrdiff_t>(next_), samples_.end(), now,
                        [this](double t, const DeviceSample& s) { return t < s.time + offset_; });
-  next_ = static_cast<std::size_t>(due - samples_.begin());
+  next_ = as_size(due - samples_.begin());
   DeviceSample current = samples_[next_ - 1];
   current.time += offset_;
   if (next_ == samples_.size() && now - current.time > limits_.stale_after) return false;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -17,7 +18,7 @@ SimulatedArm::SimulatedArm(const DeviceProfile& profile, const HandImpedance& ha
       time_(time - profile.sensor_delay),
       rest_(position) {
   PALPATE_CHECK(profile.valid());
-  for (int a = 0; a < 3; ++a) axes_[static_cast<std::size_t>(a)].position = position[a];
+  for (int a = 0; a < 3; ++a) axes_[as_size(a)].position = position[a];
 }
 
 void SimulatedArm::command(double time, const Vec3& force) noexcept {
@@ -64,7 +65,7 @@ void SimulatedArm::advance(double time) noexcept {
 
 void SimulatedArm::move(double dt) noexcept {
   for (int a = 0; a < 3; ++a) {
-    AxisState& axis = axes_[static_cast<std::size_t>(a)];
+    AxisState& axis = axes_[as_size(a)];
     const double before = axis.position;
     const AxisLoss loss = advance_axis(load_, motor_[a] + push_[a], rest_[a], dt, axis);
     const double moved = axis.position - before;

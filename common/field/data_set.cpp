@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -19,28 +21,23 @@ double read_as(std::span<const std::byte> bytes, std::size_t index) noexcept {
 template <typename T>
 DataArray copy_array(std::string name, Association association, int components, ScalarType type,
                      std::span<const T> values) {
-  PALPATE_CHECK(components > 0 && values.size() % static_cast<std::size_t>(components) == 0);
+  PALPATE_CHECK(components > 0 && values.size() % as_size(components) == 0);
   auto storage = std::make_shared<std::vector<T>>(values.begin(), values.end());
   DataArray array;
   array.name = std::move(name);
   array.association = association;
   array.components = components;
   array.type = type;
-  array.tuples = values.size() / static_cast<std::size_t>(components);
+  array.tuples = values.size() / as_size(components);
   array.bytes = std::as_bytes(std::span<const T>(*storage));
   array.owner = std::move(storage);
   return array;
 }
 
-std::size_t product(const Index3& n) noexcept {
-  if (n.x <= 0 || n.y <= 0 || n.z <= 0) return 0;
-  return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
-}
-
 /// A structured block of one point along an axis has cells of a lower dimension, as in VTK.
 std::size_t structured_cells(const Index3& n) noexcept {
-  if (product(n) == 0) return 0;
-  return product(glm::max(n - 1, Index3{1}));
+  if (count_of(n) == 0) return 0;
+  return count_of(glm::max(n - 1, Index3{1}));
 }
 
 Index3 points_of(const RectilinearTopology& grid) noexcept {
@@ -49,9 +46,9 @@ Index3 points_of(const RectilinearTopology& grid) noexcept {
 }
 
 struct PointCount {
-  std::size_t operator()(const UniformTopology& t) const noexcept { return product(t.points); }
-  std::size_t operator()(const RectilinearTopology& t) const noexcept { return product(points_of(t)); }
-  std::size_t operator()(const StructuredTopology& t) const noexcept { return product(t.points); }
+  std::size_t operator()(const UniformTopology& t) const noexcept { return count_of(t.points); }
+  std::size_t operator()(const RectilinearTopology& t) const noexcept { return count_of(points_of(t)); }
+  std::size_t operator()(const StructuredTopology& t) const noexcept { return count_of(t.points); }
   std::size_t operator()(const UnstructuredTopology& t) const noexcept { return t.positions.tuples; }
 };
 
@@ -89,15 +86,14 @@ std::size_t byte_size(ScalarType type) noexcept {
 const char* name_of(ScalarType type) noexcept {
   static constexpr std::array<const char*, 10> kNames{"int8",   "uint8", "int16",  "uint16",  "int32",
                                                       "uint32", "int64", "uint64", "float32", "float64"};
-  const auto index = static_cast<std::size_t>(type);
+  const auto index = as_size(type);
   return index < kNames.size() ? kNames[index] : "unknown";
 }
 
 double DataArray::at(std::size_t tuple, int component) const noexcept {
   PALPATE_ASSERT(tuple < tuples && component >= 0 && component < components);
   if (sparse) return static_cast<double>((*sparse)[tuple]);
-  const std::size_t index =
-      tuple * static_cast<std::size_t>(components) + static_cast<std::size_t>(component);
+  const std::size_t index = tuple * as_size(components) + as_size(component);
   switch (type) {
     case ScalarType::kInt8:
       return read_as<std::int8_t>(bytes, index);

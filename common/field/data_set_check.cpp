@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -61,7 +63,7 @@ class BlockCheck {
              "at least one component of a known type");
     }
     if (array.sparse) return;
-    const std::size_t tuple = static_cast<std::size_t>(array.components) * byte_size(array.type);
+    const std::size_t tuple = as_size(array.components) * byte_size(array.type);
     if (array.tuples > array.bytes.size() / tuple || array.tuples * tuple != array.bytes.size()) {
       refuse("array '" + array.name + "' has " + std::to_string(array.bytes.size()) + " bytes",
              std::to_string(array.tuples) + " tuples of " + std::to_string(tuple) + " bytes");
@@ -129,6 +131,10 @@ Error block_error(const DataSet& block, std::size_t index, std::size_t count, co
   std::string place = count > 1 ? "block " + std::to_string(index + 1) : std::string();
   if (!block.name.empty()) place += (place.empty() ? "block '" : " '") + block.name + "'";
   return input_error({.file = file, .place = place, .found = found, .expected = expected, .remedy = {}});
+}
+
+void refuse_data(const std::string& file, const std::string& found, const std::string& expected) {
+  throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
 }
 
 void check_block(const DataSet& block, std::size_t index, std::size_t count, const std::string& file) {

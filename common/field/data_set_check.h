@@ -17,6 +17,9 @@ namespace palpate {
                                 const std::string& file, const std::string& found,
                                 const std::string& expected);
 
+/// Refuses a file. @throws Error (bad input), always.
+[[noreturn]] void refuse_data(const std::string& file, const std::string& found, const std::string& expected);
+
 /// Arrays have the bytes and tuples that they claim, positions three components, offsets rise within the
 /// connectivity; points and cells of a uniform or rectilinear block are backed by an array. Point numbers
 /// in the connectivity are checked where they are used.

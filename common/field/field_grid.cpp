@@ -5,10 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/tet_shape.h"
+#include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -34,20 +36,17 @@ std::string count_text(std::size_t n, const std::string& one, const std::string&
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& expected) {
-  throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
-}
-
 void refuse_flat(const Index3& n, const std::string& file) {
   if (n.x >= 2 && n.y >= 2 && n.z >= 2) return;
-  refuse(file, "a flat grid of " + size_text(n) + " points",
-         "a volume: at least 2 points along each of the three axes");
+  refuse_data(file, "a flat grid of " + size_text(n) + " points",
+              "a volume: at least 2 points along each of the three axes");
 }
 
 int length_exponent_of(const Box& bounds, const std::string& file) {
   const double diagonal = bounds.diagonal();
   if (!std::isfinite(diagonal) || diagonal <= 0.0) {
-    refuse(file, "a grid whose bounds have the diagonal " + number_text(diagonal), "finite, positive bounds");
+    refuse_data(file, "a grid whose bounds have the diagonal " + number_text(diagonal),
+                "finite, positive bounds");
   }
   return binary_exponent(diagonal);
 }
@@ -55,15 +54,14 @@ int length_exponent_of(const Box& bounds, const std::string& file) {
 /// Grid lines of one axis must differ after they were rounded.
 void check_widths(double width, double largest, const std::string& file) {
   if (width >= kLeastWidth && width > kCoordinateRounding * largest) return;
-  refuse(file,
-         "cells of width " + number_text(width) + " at the coordinate " + number_text(largest) +
-             " (in units of about the grid's size)",
-         "cells that double precision can tell apart");
+  refuse_data(file,
+              "cells of width " + number_text(width) + " at the coordinate " + number_text(largest) +
+                  " (in units of about the grid's size)",
+              "cells that double precision can tell apart");
 }
 
 void note_blanking(FieldGrid& grid, const DataSet& block) {
-  const auto blanked =
-      static_cast<std::size_t>(std::count(block.visible.begin(), block.visible.end(), std::uint8_t{0}));
+  const auto blanked = as_size(std::count(block.visible.begin(), block.visible.end(), std::uint8_t{0}));
   if (blanked == 0) return;
   grid.blanked = true;
   grid.notes.lines.push_back(count_text(blanked, "blanked point", "blanked points") +
@@ -77,7 +75,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   refuse_flat(n, file);
   for (int axis = 0; axis < 3; ++axis) {
     if (!is_finite(topology.axes[axis]) || !is_finite(topology.origin)) {
-      refuse(file, "an origin or spacing that is not finite", "finite numbers");
+      refuse_data(file, "an origin or spacing that is not finite", "finite numbers");
     }
   }
 
@@ -87,7 +85,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   const auto reverse = [&](int axis) {
     origin += axes[axis] * static_cast<double>(n[axis] - 1);
     axes[axis] = -axes[axis];
-    grid->reversed[static_cast<std::size_t>(axis)] = true;
+    grid->reversed[as_size(axis)] = true;
   };
 
   // Steps along the grid's axes and the directions they take, free of overflow.
@@ -97,7 +95,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3& a = axes[axis];
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-    if (largest == 0.0) refuse(file, "a spacing of zero along an axis", "a positive one");
+    if (largest == 0.0) refuse_data(file, "a spacing of zero along an axis", "a positive one");
     const double unit = power_of_two(binary_exponent(largest));
     const double length = glm::length(a / unit);
     direction[axis] = a / unit / length;
@@ -169,10 +167,10 @@ std::shared_ptr<FieldGrid> make_rectilinear(const DataSet& block, const std::str
     for (std::size_t i = 0; i < x.size(); ++i) {
       const bool rises = i == 0 || x[i - 1] < x[i];
       if (std::isfinite(x[i]) && rises) continue;
-      refuse(file,
-             std::string("coordinate ") + std::to_string(i) + " along " + "xyz"[axis] + " is " +
-                 number_text(x[i]) + (i == 0 ? "" : " after " + number_text(x[i - 1])),
-             "finite coordinates that rise or fall all along");
+      refuse_data(file,
+                  std::string("coordinate ") + std::to_string(i) + " along " + "xyz"[axis] + " is " +
+                      number_text(x[i]) + (i == 0 ? "" : " after " + number_text(x[i - 1])),
+                  "finite coordinates that rise or fall all along");
     }
     const int a = static_cast<int>(axis);
     grid->bounds.lower[a] = x.front();
@@ -269,9 +267,9 @@ struct Store {
   bool use_double;
 
   void put(std::size_t point, const double* value) const {
-    const std::size_t at = point * static_cast<std::size_t>(components);
+    const std::size_t at = point * as_size(components);
     for (int c = 0; c < components; ++c) {
-      const auto i = at + static_cast<std::size_t>(c);
+      const auto i = at + as_size(c);
       if (use_double) {
         out.doubles[i] = value[c];
       } else {
@@ -284,24 +282,21 @@ struct Store {
 /// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.
 std::size_t data_index(const FieldGrid& grid, const Index3& n, Index3 at) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (grid.reversed[static_cast<std::size_t>(axis)]) at[axis] = n[axis] - 1 - at[axis];
+    if (grid.reversed[as_size(axis)]) at[axis] = n[axis] - 1 - at[axis];
   }
-  return static_cast<std::size_t>(at.x) +
-         static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(at.y) +
-                                          static_cast<std::size_t>(n.y) * static_cast<std::size_t>(at.z));
+  return index_in(n, at);
 }
 
 void gather_box(const FieldGrid& grid, const DataSet& block, Association association, const TupleReader& read,
                 const Store& store, int threads) {
   const Index3 n = grid.box->points();
-  const auto slice = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
-  parallel_for(static_cast<std::size_t>(n.z), threads, [&](std::size_t first, std::size_t last) {
-    std::vector<double> value(static_cast<std::size_t>(store.components));
+  const auto slice = as_size(n.x) * as_size(n.y);
+  parallel_for(as_size(n.z), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<double> value(as_size(store.components));
     std::vector<double> sum(value.size());
     for (std::size_t point = first * slice; point < last * slice; ++point) {
-      const Index3 at{static_cast<int>(point % static_cast<std::size_t>(n.x)),
-                      static_cast<int>(point / static_cast<std::size_t>(n.x) % static_cast<std::size_t>(n.y)),
-                      static_cast<int>(point / slice)};
+      const Index3 at{static_cast<int>(point % as_size(n.x)),
+                      static_cast<int>(point / as_size(n.x) % as_size(n.y)), static_cast<int>(point / slice)};
       const std::size_t input = data_index(grid, n, at);
       if (!block.visible.empty() && block.visible[input] == 0) continue;
       if (association == Association::kPoint) {
@@ -373,14 +368,13 @@ class CellsAroundPoints {
 void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
                  const TupleReader& read, const Store& store, int threads) {
   if (association == Association::kPoint) {
-    std::vector<double> value(static_cast<std::size_t>(store.components));
+    std::vector<double> value(as_size(store.components));
     std::vector<std::uint8_t> done(grid.tets->points().size(), 0);
     std::size_t input = 0;
     for (const DataSet& block : blocks) {
       const std::size_t count = block.point_count();
       for (std::size_t i = 0; i < count; ++i, ++input) {
-        const std::size_t point =
-            grid.point_of_input.empty() ? input : static_cast<std::size_t>(grid.point_of_input[input]);
+        const std::size_t point = grid.point_of_input.empty() ? input : as_size(grid.point_of_input[input]);
         if (point == kNoPoint || done[point] != 0) continue;
         if (!block.visible.empty() && block.visible[i] == 0) continue;
         done[point] = 1;
@@ -394,7 +388,7 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Associa
   for (const DataSet& block : blocks) first_cell.push_back(first_cell.back() + block.cell_count());
   CellsAroundPoints cells(grid);
   parallel_for(grid.tets->points().size(), threads, [&](std::size_t first, std::size_t last) {
-    std::vector<double> value(static_cast<std::size_t>(store.components));
+    std::vector<double> value(as_size(store.components));
     std::vector<double> sum(value.size());
     for (std::size_t point = first; point < last; ++point) {
       const auto around = cells.around(point);
@@ -403,7 +397,7 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Associa
       std::ranges::fill(sum, 0.0);
       for (const std::uint32_t cell : around) {
         const auto above = std::upper_bound(first_cell.begin(), first_cell.end(), cell);
-        const auto block = static_cast<std::size_t>(above - first_cell.begin()) - 1;
+        const auto block = as_size(above - first_cell.begin()) - 1;
         read(blocks[block], cell - first_cell[block], value.data());
         // Where no cell has a volume they all count the same.
         const double weight =
@@ -420,7 +414,7 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Associa
 std::size_t FieldGrid::point_count() const noexcept {
   if (tets) return tets->points().size();
   const Index3& n = box->points();
-  return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
+  return count_of(n);
 }
 
 std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
@@ -443,7 +437,7 @@ std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks
 GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
                              int components, bool use_double, const TupleReader& read, int threads) {
   GatheredValues out;
-  const std::size_t count = grid.point_count() * static_cast<std::size_t>(components);
+  const std::size_t count = grid.point_count() * as_size(components);
   if (use_double) {
     out.doubles.assign(count, std::numeric_limits<double>::quiet_NaN());
   } else {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/base/index.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/cell_faces.h"
@@ -25,17 +26,17 @@ std::optional<Corners> corners_of(const DataSet& block, std::size_t cell) {
     static constexpr std::array<std::size_t, 8> kFromHexahedron{0, 1, 3, 2, 4, 5, 7, 6};
     Corners out{};
     for (std::size_t i = 0; i < 8; ++i) {
-      out[i] = static_cast<std::size_t>(v[type == kVoxel ? i : kFromHexahedron[i]]);
+      out[i] = as_size(v[type == kVoxel ? i : kFromHexahedron[i]]);
     }
     return out;
   }
   const Index3 n = structured_points(block);
   if (n.x < 2 || n.y < 2 || n.z < 2) return std::nullopt;
-  const auto row = static_cast<std::size_t>(n.x);
-  const std::size_t slice = row * static_cast<std::size_t>(n.y);
+  const auto row = as_size(n.x);
+  const std::size_t slice = row * as_size(n.y);
   const std::size_t i = cell % (row - 1);
-  const std::size_t j = cell / (row - 1) % static_cast<std::size_t>(n.y - 1);
-  const std::size_t k = cell / ((row - 1) * static_cast<std::size_t>(n.y - 1));
+  const std::size_t j = cell / (row - 1) % as_size(n.y - 1);
+  const std::size_t k = cell / ((row - 1) * as_size(n.y - 1));
   const std::size_t p = i + row * j + slice * k;
   return Corners{p,         p + 1,         p + row,         p + row + 1,
                  p + slice, p + slice + 1, p + slice + row, p + slice + row + 1};

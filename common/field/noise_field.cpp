@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 
 namespace palpate {
@@ -29,18 +30,16 @@ class Window {
     for (int a = 0; a < 3; ++a) {
       const int n = points[a];
       const int reach = n >= 3 ? kReach + 1 : kReach;
-      first[static_cast<std::size_t>(a)] = std::max(0, center[a] - reach);
-      count_[static_cast<std::size_t>(a)] =
-          std::min(n - 1, center[a] + reach) - first[static_cast<std::size_t>(a)] + 1;
+      first[as_size(a)] = std::max(0, center[a] - reach);
+      count_[as_size(a)] = std::min(n - 1, center[a] + reach) - first[as_size(a)] + 1;
     }
-    const auto row = static_cast<std::size_t>(points.x), slice = row * static_cast<std::size_t>(points.y);
+    const auto row = as_size(points.x), slice = row * as_size(points.y);
     std::size_t out = 0;
     for (int k = 0; k < count_[2]; ++k) {
       for (int j = 0; j < count_[1]; ++j) {
-        const std::size_t from = static_cast<std::size_t>(first[0]) +
-                                 row * static_cast<std::size_t>(first[1] + j) +
-                                 slice * static_cast<std::size_t>(first[2] + k);
-        for (int i = 0; i < count_[0]; ++i) value_[out++] = at_point(from + static_cast<std::size_t>(i));
+        const std::size_t from =
+            as_size(first[0]) + row * as_size(first[1] + j) + slice * as_size(first[2] + k);
+        for (int i = 0; i < count_[0]; ++i) value_[out++] = at_point(from + as_size(i));
       }
     }
   }
@@ -49,7 +48,7 @@ class Window {
   void difference(std::size_t axis) noexcept {
     std::array<std::size_t, 3> n{}, step{};
     for (std::size_t a = 0; a < 3; ++a) {
-      n[a] = static_cast<std::size_t>(count_[a]);
+      n[a] = as_size(count_[a]);
       step[a] = a == 0 ? 1 : step[a - 1] * n[a - 1];
     }
     const std::size_t along = step[axis];
@@ -68,8 +67,7 @@ class Window {
 
   /// The lower quartile of their sizes; 0 where too few are finite.
   [[nodiscard]] double lower_quartile() noexcept {
-    const std::size_t all = static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                            static_cast<std::size_t>(count_[2]);
+    const std::size_t all = as_size(count_[0]) * as_size(count_[1]) * as_size(count_[2]);
     const auto first = value_.begin();
     auto end = first;
     for (std::size_t i = 0; i < all; ++i) {
@@ -103,9 +101,9 @@ DataSet lattice(const BoxGrid& grid, const LocalFrame& frame, const std::array<N
   if (!grid.uniform()) {  // such grids are not turned
     RectilinearTopology topology;
     for (int a = 0; a < 3; ++a) {
-      const Nodes& along = nodes[static_cast<std::size_t>(a)];
+      const Nodes& along = nodes[as_size(a)];
       for (int i = 0; i < along.count; ++i) {
-        topology.coordinates[static_cast<std::size_t>(a)].push_back(
+        topology.coordinates[as_size(a)].push_back(
             grid.coordinate(a, std::min(i * along.step, grid.points()[a] - 1)) * frame.length_scale());
       }
     }
@@ -115,7 +113,7 @@ DataSet lattice(const BoxGrid& grid, const LocalFrame& frame, const std::array<N
   UniformTopology topology;
   Vec3 origin;
   for (int a = 0; a < 3; ++a) {
-    const Nodes& along = nodes[static_cast<std::size_t>(a)];
+    const Nodes& along = nodes[as_size(a)];
     origin[a] = grid.coordinate(a, 0);
     Vec3 step{0.0};
     step[a] = along.step * (grid.coordinate(a, 1) - grid.coordinate(a, 0));
@@ -137,13 +135,13 @@ std::shared_ptr<const ScalarField> make_noise_field(const ScalarField& field, in
   std::array<Nodes, 3> nodes{};
   double response = 0.31863936396437515;  // the lower quartile of |N(0, 1)|
   for (int a = 0; a < 3; ++a) {
-    nodes[static_cast<std::size_t>(a)] = nodes_along(points[a]);
+    nodes[as_size(a)] = nodes_along(points[a]);
     if (points[a] >= 3) response *= std::sqrt(6.0);
   }
   const double range = field.local_range(), scale = field.values().scale;
-  const auto row = static_cast<std::size_t>(nodes[0].count);
-  const auto slice = row * static_cast<std::size_t>(nodes[1].count);
-  std::vector<float> sigma(slice * static_cast<std::size_t>(nodes[2].count), 0.0F);
+  const auto row = as_size(nodes[0].count);
+  const auto slice = row * as_size(nodes[1].count);
+  std::vector<float> sigma(slice * as_size(nodes[2].count), 0.0F);
   if (range > 0.0) {
     std::visit(
         [&](const auto& values) {
@@ -152,8 +150,7 @@ std::shared_ptr<const ScalarField> make_noise_field(const ScalarField& field, in
           };
           parallel_for(sigma.size(), threads, [&](std::size_t first, std::size_t last) {
             for (std::size_t n = first; n < last; ++n) {
-              const std::array<std::size_t, 3> at{n % row, n / row % static_cast<std::size_t>(nodes[1].count),
-                                                  n / slice};
+              const std::array<std::size_t, 3> at{n % row, n / row % as_size(nodes[1].count), n / slice};
               Index3 center;
               for (std::size_t a = 0; a < 3; ++a) {
                 const int axis = static_cast<int>(a);

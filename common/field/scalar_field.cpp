@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/base/index.h"
 #include "common/field/field_grid.h"
 
 namespace palpate {
@@ -14,7 +15,7 @@ SampleStatus load(const TetMesh& mesh, const PointScalars& values, const Vec3& x
   const auto start = hint.cell >= 0 && hint.cell <= INT32_MAX ? static_cast<CellIndex>(hint.cell) : kNoCell;
   if (!mesh.locate(x, start, at)) return SampleStatus::kOutside;
   hint.cell = at.cell;
-  tet = load_scalar_tet(values, mesh.cells()[static_cast<std::size_t>(at.cell)]);
+  tet = load_scalar_tet(values, mesh.cells()[as_size(at.cell)]);
   return tet.bad_data ? SampleStatus::kBadData : SampleStatus::kOk;
 }
 

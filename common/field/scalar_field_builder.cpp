@@ -31,15 +31,11 @@ bool wants_double(ScalarType type) {
          type == ScalarType::kInt32 || type == ScalarType::kUint32;
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& found, const std::string& expected) {
-  throw input_error({.file = file, .place = {}, .found = found, .expected = expected, .remedy = {}});
-}
-
 [[noreturn]] void refuse_missing(const ScalarChoice& choice, const std::string& file) {
-  refuse(file,
-         "no " + std::string(choice.association == Association::kPoint ? "point" : "cell") + " array '" +
-             choice.array + "'",
-         {});
+  refuse_data(file,
+              "no " + std::string(choice.association == Association::kPoint ? "point" : "cell") + " array '" +
+                  choice.array + "'",
+              {});
 }
 
 void check_component(const DataArray& array, const ScalarChoice& choice) {
@@ -308,8 +304,8 @@ std::shared_ptr<const ScalarField> make_scalar_field(const VectorField& like,
   bool found = false;
   for (const std::size_t b : like.blocks()) {
     if (b >= blocks.size()) {
-      refuse(file, std::to_string(blocks.size()) + " blocks",
-             "at least " + std::to_string(b + 1) + ", as in the vector field");
+      refuse_data(file, std::to_string(blocks.size()) + " blocks",
+                  "at least " + std::to_string(b + 1) + ", as in the vector field");
     }
     used.push_back(blocks[b]);
     check_block(used.back(), b, blocks.size(), file);
@@ -326,9 +322,9 @@ std::shared_ptr<const ScalarField> make_scalar_field(const VectorField& like,
     cells += block.cell_count();
   }
   if (points != like.grid()->input_points || cells != like.grid()->input_cells) {
-    refuse(file, std::to_string(points) + " points and " + std::to_string(cells) + " cells",
-           std::to_string(like.grid()->input_points) + " and " + std::to_string(like.grid()->input_cells) +
-               ", as in the vector field");
+    refuse_data(file, std::to_string(points) + " points and " + std::to_string(cells) + " cells",
+                std::to_string(like.grid()->input_points) + " and " +
+                    std::to_string(like.grid()->input_cells) + ", as in the vector field");
   }
   return ScalarFieldBuilder::from_data(like.grid(), used, choice, {}, threads);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/scalar_field.h"
 #include "common/math/counter_random.h"
@@ -40,19 +41,19 @@ DataSet take_scalar(const ScalarSampler& sample, const std::string& name, const 
   // that no value is another one.
   constexpr double kInwards = 1.0 - 1e-12;
   const Index3 n = lattice.points;
-  const auto rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
+  const auto rows = as_size(n.y) * as_size(n.z);
   const Vec3 middle = 0.5 * Vec3(n - 1);
-  std::vector<double> values(rows * static_cast<std::size_t>(n.x));
+  std::vector<double> values(rows * as_size(n.x));
   if (progress) progress->begin("resampling " + name, rows);
   parallel_for(rows, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end && !(progress && progress->cancelled()); ++row) {
       CellHint hint;  // of its own for each row: on faces between cells it has a say
-      const auto j = static_cast<int>(row % static_cast<std::size_t>(n.y));
-      const auto k = static_cast<int>(row / static_cast<std::size_t>(n.y));
+      const auto j = static_cast<int>(row % as_size(n.y));
+      const auto k = static_cast<int>(row / as_size(n.y));
       for (int i = 0; i < n.x; ++i) {
         const Vec3 g = middle + kInwards * (Vec3(i, j, k) - middle);
         const ScalarSample s = sample(lattice.origin + lattice.axes * g, hint);
-        values[row * static_cast<std::size_t>(n.x) + static_cast<std::size_t>(i)] =
+        values[row * as_size(n.x) + as_size(i)] =
             s.status == SampleStatus::kOk ? s.value : std::numeric_limits<double>::quiet_NaN();
       }
       if (progress) progress->advance();

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/field/scalar_field.h"
+
 namespace palpate {
 
 struct ValueHistogram {
@@ -77,5 +79,16 @@ struct ValueWindow {
 /// From `histogram.lower` to the value that only the brightest two hundredth pass, so that a few bright
 /// voxels do not leave the rest in the dark; one wide about the value where all are the same.
 [[nodiscard]] ValueWindow default_window(const ValueHistogram& histogram) noexcept;
+
+// The value that parts a scalar field best into two: what is shown and felt of a volume before anybody has
+// chosen an isovalue.
+
+/// How many of the values at the points lie in each of 1024 bins over their range, local values; a formula is
+/// asked on a lattice. @pre field.lowest() <= field.highest().
+[[nodiscard]] ValueHistogram value_histogram(const ScalarField& field);
+
+/// Otsu's threshold (value_histogram.h) of value_histogram(), data units. The lowest value where there is no
+/// range; 0 where no value is finite.
+[[nodiscard]] double otsu_threshold(const ScalarField& field);
 
 }  // namespace palpate

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -108,7 +109,7 @@ std::vector<Triple> component_triples(const std::vector<ArrayInfo>& arrays) {
         fresh.triple.order = i;
         slot = slots.insert(slots.end(), fresh);
       }
-      auto& place = slot->triple.arrays[static_cast<std::size_t>(part.component)];
+      auto& place = slot->triple.arrays[as_size(part.component)];
       if (place == nullptr) place = &array;
     }
   }

@@ -1,5 +1,6 @@
 #include "common/field/vector_field.h"
 
+#include "common/base/index.h"
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
@@ -39,8 +40,6 @@ VertexVectors read_vertices(const PointVectors& values, const TetMesh::Tet& cell
 }
 
 /// The column v times the row g^T: m[j][i] = v_i g_j.
-Mat3 outer(const Vec3& v, const Vec3& g) noexcept { return {v * g.x, v * g.y, v * g.z}; }
-
 CellIndex tet_hint(const CellHint& hint) noexcept {
   return hint.cell >= 0 && hint.cell <= INT32_MAX ? static_cast<CellIndex>(hint.cell) : kNoCell;
 }
@@ -55,7 +54,7 @@ VectorSample VectorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     TetPoint at;
     if (!tets_->locate(x, tet_hint(hint), at)) return out;
     hint.cell = at.cell;
-    const VertexVectors vertices = read_vertices(values_, tets_->cells()[static_cast<std::size_t>(at.cell)]);
+    const VertexVectors vertices = read_vertices(values_, tets_->cells()[as_size(at.cell)]);
     out.status = vertices.finite ? SampleStatus::kOk : SampleStatus::kBadData;
     v = at.b[0] * vertices.v[0] + at.b[1] * vertices.v[1] + at.b[2] * vertices.v[2] + at.b[3] * vertices.v[3];
   } else if (box_) {
@@ -82,11 +81,11 @@ SampleStatus VectorField::jacobian(const Vec3& x_data, CellHint& hint, Mat3& m) 
     TetPoint at;
     if (!tets_->locate(x, tet_hint(hint), at)) return SampleStatus::kOutside;
     hint.cell = at.cell;
-    const VertexVectors vertices = read_vertices(values_, tets_->cells()[static_cast<std::size_t>(at.cell)]);
+    const VertexVectors vertices = read_vertices(values_, tets_->cells()[as_size(at.cell)]);
     if (!vertices.finite) return SampleStatus::kBadData;
     const Mat3 gradients = tets_->barycentric_gradients(at.cell);
     for (std::size_t i = 0; i < 3; ++i) {
-      local += outer(vertices.v[i + 1] - vertices.v[0], gradients[static_cast<int>(i)]);
+      local += glm::outerProduct(vertices.v[i + 1] - vertices.v[0], gradients[static_cast<int>(i)]);
     }
   } else if (box_) {
     Index3 index;

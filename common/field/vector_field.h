@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,12 +13,27 @@
 
 #include "common/field/data_set.h"
 #include "common/field/local_frame.h"
-#include "common/field/once_made.h"
 #include "common/field/sample.h"
 #include "common/field/vector_choice.h"
 #include "common/math/vec.h"
 
 namespace palpate {
+
+/// A thing that is made of an immutable object at its first use and lives as long as the object.
+class OnceMade {
+ public:
+  /// What `make` (returns std::shared_ptr<const T>) made at the first call; others wait until it is there.
+  /// @pre every call is for the same T. An exception of `make` passes; the next call tries again.
+  template <class T, class Make>
+  [[nodiscard]] const T& get(const Make& make) const {
+    std::call_once(once_, [&] { made_ = make(); });
+    return *static_cast<const T*>(made_.get());
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::shared_ptr<const void> made_;
+};
 
 class BoxGrid;        // grid/box_grid.h: uniform and rectilinear
 class TetMesh;        // grid/tet_mesh.h

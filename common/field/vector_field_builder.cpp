@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
@@ -225,7 +226,7 @@ class VectorFieldBuilder {
     const Mat3 rotation = grid.frame.rotation;
     const bool rotated = grid.frame.rotated;
     const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const auto b = static_cast<std::size_t>(&block - blocks.data());
+      const auto b = as_size(&block - blocks.data());
       Vec3 v = vector_of(choice, arrays[b], tuple);
       if (rotated) v = v * rotation;  // R^T v
       for (int i = 0; i < 3; ++i) out[i] = v[i];

@@ -5,9 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/field/derived.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -61,8 +63,7 @@ VorticityField::VorticityField(std::shared_ptr<const VectorField> field) : field
 void VorticityField::recover_on_boxes() {
   const BoxGrid& grid = *field_->box_grid();
   const Index3 n = grid.points();
-  PointMeans means(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
-                   static_cast<std::size_t>(n.z));
+  PointMeans means(count_of(n));
   Index3 index;
   for (index.z = 0; index.z + 1 < n.z; ++index.z) {
     for (index.y = 0; index.y + 1 < n.y; ++index.y) {
@@ -73,10 +74,7 @@ void VorticityField::recover_on_boxes() {
         for (int corner = 0; corner < 8; ++corner) {
           const Index3 at = index + Index3{corner & 1, (corner >> 1) & 1, corner >> 2};
           const Vec3 x{grid.coordinate(0, at.x), grid.coordinate(1, at.y), grid.coordinate(2, at.z)};
-          const auto point = (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(n.y) +
-                              static_cast<std::size_t>(at.y)) *
-                                 static_cast<std::size_t>(n.x) +
-                             static_cast<std::size_t>(at.x);
+          const auto point = (as_size(at.z) * as_size(n.y) + as_size(at.y)) * as_size(n.x) + as_size(at.x);
           means.add(point, vorticity(cell.jacobian(x)), 1.0);
         }
       }
@@ -97,7 +95,7 @@ void VorticityField::recover_on_tetrahedra() {
     // curl (b v) = grad b x v for a constant v.
     Vec3 curl{0.0};
     for (int i = 0; i < 3; ++i) {
-      const auto vertex = vertices[static_cast<std::size_t>(i) + 1];
+      const auto vertex = vertices[as_size(i) + 1];
       curl += glm::cross(gradients[i], vector_at(field_->values(), vertex) - v0);
     }
     if (!is_finite(curl)) continue;
@@ -117,8 +115,8 @@ VectorSample VorticityField::sample(const Vec3& x_data, CellHint& hint) const no
     const bool usable = hint.cell >= 0 && hint.cell < static_cast<std::int64_t>(mesh->cells().size());
     if (!mesh->locate(x, usable ? static_cast<CellIndex>(hint.cell) : kNoCell, at)) return out;
     hint.cell = at.cell;
-    const TetMesh::Tet& vertices = mesh->cells()[static_cast<std::size_t>(at.cell)];
-    for (int i = 0; i < 4; ++i) local += at.b[i] * vector_at(values_, vertices[static_cast<std::size_t>(i)]);
+    const TetMesh::Tet& vertices = mesh->cells()[as_size(at.cell)];
+    for (int i = 0; i < 4; ++i) local += at.b[i] * vector_at(values_, vertices[as_size(i)]);
   } else if (const BoxGrid* grid = field_->box_grid()) {
     Index3 index;
     if (!grid->locate(x, index)) return out;

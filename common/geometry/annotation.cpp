@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 
 namespace palpate {

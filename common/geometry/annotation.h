@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -23,7 +24,7 @@ inline constexpr int kAnnotationKindCount = 5;
 [[nodiscard]] constexpr std::string_view name_of(AnnotationKind kind) noexcept {  ///< "length"
   constexpr std::array<std::string_view, kAnnotationKindCount> kNames{"point", "length", "angle", "curve",
                                                                       "area"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kNames[as_size(kind)];
 }
 
 /// The fewest points, and the most; 0: as many as there are.

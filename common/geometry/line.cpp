@@ -2,13 +2,15 @@
 
 #include <array>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::string_view name_of(End end) noexcept {
   static constexpr std::array<std::string_view, kEndCount> kNames{
       "left_domain", "stagnation", "max_length",      "max_time",     "max_steps",
       "loop",        "bad_data",   "stopped_by_rule", "below_cutoff", "sharp_turn"};
-  return kNames[static_cast<std::size_t>(end)];
+  return kNames[as_size(end)];
 }
 
 }  // namespace palpate

@@ -1,14 +1,18 @@
-/// A flat screen that pictures are shown on, by three of its corners, in any frame and unit.
+/// A flat screen that pictures are shown on, by three of its corners, in any frame and unit; and how a picture for
+/// two eyes is laid out on it.
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "common/math/vec.h"
 
 namespace palpate {
 
+/// A flat screen that pictures are shown on, by three of its corners, in any frame and unit.
 struct Screen {
   Vec3 lower_left{0.0}, lower_right{0.0}, upper_left{0.0};
 
@@ -57,5 +61,19 @@ struct Screen {
   const Vec3 lower_left = upper_left - height * up;
   return {lower_left, lower_left + width * across, upper_left};
 }
+
+/// How a display shows two eyes: what a workbench says of a screen, and a picture is made for.
+enum class StereoMode : std::uint8_t {
+  kNone,          ///< one eye
+  kSideBySide,    ///< left eye left; halves with square pixels, not squeezed
+  kTopBottom,     ///< left eye on top; likewise
+  kRows,          ///< left eye in the first row, right eye in the second, ...
+  kColumns,       ///< likewise
+  kAnaglyph,      ///< red-cyan, in colour: Dubois 2009
+  kAnaglyphGrey,  ///< red-cyan, of luminances: free of rivalry between colours
+  kQuadBuffer,    ///< a buffer of the window for each eye, shown in turn; in a file the left eye's on top
+};
+inline constexpr std::array<std::string_view, 8> kStereoModeNames{
+    "none", "side-by-side", "top-bottom", "rows", "columns", "anaglyph", "anaglyph-grey", "quad-buffer"};
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 /// Many lines packed one after another, as tractogram files hold them: a few bytes a point.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,5 +40,16 @@ struct Tractogram {
     return std::span(points).subspan(starts[i], starts[i + 1] - starts[i]);
   }
 };
+
+/// Lengths along the lines [mm]; zeros where there is no line.
+struct TractogramLengths {
+  static constexpr std::size_t kBins = 8;
+  double least = 0.0, median = 0.0, mean = 0.0, most = 0.0;
+  double bin = 0.0;                            ///< width of a bin: `most` / kBins
+  std::array<std::size_t, kBins> histogram{};  ///< from 0 to `most`
+  Box bounds;                                  ///< of all points
+};
+
+[[nodiscard]] TractogramLengths lengths_of(const Tractogram& lines);
 
 }  // namespace palpate

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "common/base/text.h"
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 #include "common/hand/mode/felt_surfaces.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/touch_options.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
 
-bool wants_surfaces(const Options& options, const std::string& mode) {
-  const bool felt = !options.touch.mode.empty() || !options.path.empty();
+bool wants_surfaces(const Document& options, const std::string& mode) {
+  const bool felt = !options.touch.mode.empty() || !options.hand.path.empty();
   return !options.touch.isovalues.empty() || (felt && mode == kIsosurfaceMode);
 }
 

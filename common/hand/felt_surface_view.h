@@ -6,13 +6,13 @@
 #include "common/base/progress.h"
 #include "common/field/scalar_field.h"
 #include "common/render/scene_view.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
 /// Whether the options speak of isosurfaces: by `--isovalue`, or as the mode that a path is felt in.
 /// @param mode that is taken, by name or by default.
-[[nodiscard]] bool wants_surfaces(const Options& options, const std::string& mode);
+[[nodiscard]] bool wants_surfaces(const Document& options, const std::string& mode);
 
 /// Adds the isosurfaces of `field` that `--isovalue` names, or the one that parts its values best, and names
 /// them in the subtitle.

@@ -80,7 +80,7 @@ ProbeSeries::~ProbeSeries() {
   if (progress_) progress_->cancel();
 }
 
-void ProbeSeries::choose(const InputSpec& input, const std::string& value, int threads) {
+void ProbeSeries::choose(const InputOptions& input, const std::string& value, int threads) {
   const std::lock_guard lock(mutex_);
   ++wanted_.choice;
   wanted_.input = input;

@@ -46,7 +46,7 @@ class ProbeSeries {
 
   /// Opens the input anew, beside what the window has open, and reads `value` of it from now on. The place
   /// stays. @param value a scalar's label; empty: nothing is read.
-  void choose(const InputSpec& input, const std::string& value, int threads);
+  void choose(const InputOptions& input, const std::string& value, int threads);
   /// The latest place wins. One that has moved by less than a thousandth of the data's size is the same.
   void request(const Vec3& place);
   /// Whether steps stay in memory once they were read.
@@ -60,7 +60,7 @@ class ProbeSeries {
   /// What is wanted.
   struct Wanted {
     std::uint64_t choice = 0;  ///< counts calls of choose()
-    InputSpec input;
+    InputOptions input;
     std::string value;
     int threads = 0;
     std::optional<Vec3> place;

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "common/hand/drawn/drawn_tract.h"
 #include "common/haptics/chain_settings.h"
@@ -32,12 +30,5 @@ struct TouchChoice {
 [[nodiscard]] std::string_view name_of(StrokeUse use) noexcept;
 /// @throws Error (usage) that lists the known ones.
 [[nodiscard]] StrokeUse stroke_use_from_name(std::string_view name);
-
-/// The choice as options of the command line and their values.
-/// @param mode name of choice.mode.  @param tensors whether these are what is felt: their program takes no
-/// options of flows and scalars.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> touch_options_of(const TouchChoice& choice,
-                                                                                const std::string& mode,
-                                                                                bool tensors);
 
 }  // namespace palpate

@@ -1,19 +1,19 @@
 #include "common/hand/touch_options.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/mode/linear_mode.h"
 #include "common/hand/mode/texture_link.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/math/units.h"
+#include "common/scene/document/setting.h"
 #include "common/scene/session.h"
 
 namespace palpate {
@@ -128,6 +128,51 @@ ChainSettings touch_settings(const TouchOptions& options) {
   return settings;
 }
 
+TouchChoice touch_choice(const TouchOptions& options, const std::vector<HapticMode>& modes, TouchChoice now) {
+  if (!options.mode.empty())
+    now.mode = static_cast<std::size_t>(&find_mode(modes, options.mode) - modes.data());
+  const int edit = now.settings.plane_widget.edit;
+  now.settings = touch_settings(options);
+  now.settings.plane_widget.edit = edit;
+  now.ticks = wants_ticks(options);
+  now.stroke = stroke_use_from_name(options.stroke);
+  return now;
+}
+
+void keep_touch(const TouchChoice& choice, const std::string& mode, TouchOptions& options) {
+  constexpr double kMillimetres = 1e3;
+  const ChainSettings& settings = choice.settings;
+  const IsosurfaceSettings& surface = settings.isosurface;
+  options.mode = mode;
+  options.stiffness = settings.stiffness;
+  options.damping = settings.damping;
+  options.release = kMillimetres * settings.streamline.release_distance;
+  options.speed_force = settings.streamline.speed_force;
+  options.drag = kMillimetres * settings.drag.threshold;
+  options.tick_stiffness = settings.ticks.stiffness;
+  options.ticks.clear();
+  if (choice.ticks)
+    options.ticks = settings.ticks.interval > 0.0 ? exact_number(settings.ticks.interval) : "auto";
+  options.surface = name_of(surface.hold);
+  options.depth = kMillimetres * surface.depth;
+  options.snap = kMillimetres * surface.snap_distance;
+  options.along_streamline = surface.along_streamline;
+  options.isovalues.clear();
+  for (int i = 0; i < surface.isovalues.count; ++i) {
+    (options.isovalues += i > 0 ? "," : "") +=
+        exact_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
+  }
+  options.field_force = settings.force_field.strength;
+  options.field_damping = settings.force_field.damping;
+  options.density_curve = settings.force_field.density.text();
+  options.anisotropy_curve = settings.anisotropy.tau.text(1.0 / kMillimetres);
+  options.noise_texture = texture_words(settings.texture);
+  options.linear = linear_words(settings.linear);
+  options.grid = grid_words(settings.grid_axis);
+  options.planes = plane_words(settings.plane_widget);
+  options.stroke = name_of(choice.stroke);
+}
+
 ChainSettings touch_settings(const TouchOptions& options, const VectorField* field,
                              const Workspace& workspace) {
   ChainSettings settings = touch_settings(options);
@@ -137,60 +182,17 @@ ChainSettings touch_settings(const TouchOptions& options, const VectorField* fie
   return settings;
 }
 
-void check_replay_options(const Options& options) {
-  if (options.replay.empty()) return;
-  constexpr std::array<std::string_view, 43> kRecorded{"anisotropy-curve",
-                                                       "grid-frame",
-                                                       "grid-spacing",
-                                                       "grid-marks",
-                                                       "grid-switch",
-                                                       "grid-peaks",
-                                                       "grid-pull",
-                                                       "grid-notch",
-                                                       "grid-teeth",
-                                                       "planes",
-                                                       "detent",
-                                                       "plane-sphere",
-                                                       "plane-reach",
-                                                       "fibre-spacing",
-                                                       "least-friction",
-                                                       "most-friction",
-                                                       "mode",
-                                                       "workspace-scale",
-                                                       "stiffness",
-                                                       "release",
-                                                       "drag",
-                                                       "ticks",
-                                                       "tick-stiffness",
-                                                       "speed-force",
-                                                       "force-cap",
-                                                       "slew-cap",
-                                                       "isovalue",
-                                                       "surface",
-                                                       "depth",
-                                                       "snap",
-                                                       "along-streamline",
-                                                       "field-force",
-                                                       "field-damping",
-                                                       "density-curve",
-                                                       "damping",
-                                                       "passivity",
-                                                       "reference",
-                                                       "axes",
-                                                       "tau",
-                                                       "kappa",
-                                                       "measure",
-                                                       "friction",
-                                                       "noise-texture"};
-  for (const auto& [name, value] : options.given) {
-    if (std::find(kRecorded.begin(), kRecorded.end(), name) != kRecorded.end()) {
+void check_replay_options(const Document& options) {
+  if (options.hand.replay.empty()) return;
+  for (const std::string& name : options.given) {
+    const Setting* row = find_setting(name, options.input.kind);
+    if (row != nullptr && row->recorded)
       throw usage_error("--" + name + " is part of the recording; leave it out with --replay");
-    }
   }
-  if (options.device != "mouse") throw usage_error("give either --replay or --device, not both");
+  if (options.hand.device != "mouse") throw usage_error("give either --replay or --device, not both");
 }
 
-std::vector<std::string> changed_since(const RecordingHeader& header, const Options& options,
+std::vector<std::string> changed_since(const RecordingHeader& header, const Document& options,
                                        Progress& progress) {
   std::vector<SessionInput> open;
   for (const auto& file : options.input.files) open.push_back(describe_input(file, false, &progress));

@@ -10,7 +10,7 @@
 #include "common/hand/bench/bench_display.h"
 #include "common/hand/probe_session.h"
 #include "common/render/scene_view.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
@@ -37,7 +37,7 @@ struct WindowMaker {
   bool (*available)() = nullptr;
   /// Shows it until it is closed. @param options say what is looked at, and how.
   /// @throws Error (work failed) where none can be opened, and whatever WindowModel::start() throws.
-  WindowOutcome (*open)(WindowModel& model, const Options& options, WindowRequest request) = nullptr;
+  std::function<WindowOutcome(WindowModel& model, const Document& options, WindowRequest request)> open;
 };
 
 }  // namespace palpate

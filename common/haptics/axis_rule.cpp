@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/haptics/motion_rule.h"
 
 namespace palpate {
@@ -30,7 +31,7 @@ void fade_reach(AxisHold& hold, double least, double certainty) noexcept {
 
 }  // namespace
 
-std::string_view name_of(AxisRule rule) noexcept { return kNames[static_cast<std::size_t>(rule)]; }
+std::string_view name_of(AxisRule rule) noexcept { return kNames[as_size(rule)]; }
 
 std::optional<AxisRule> axis_rule_of(std::string_view name) noexcept {
   const auto at = std::find(kNames.begin(), kNames.end(), name);
@@ -42,7 +43,7 @@ AxisMotion move_by_rules(const Vec3& dx, const AxisHolds& holds, double friction
   AxisMotion motion;
   double pressed = 0.0;  // squared
   for (int a = 0; a < 3; ++a) {
-    const AxisHold& hold = holds[static_cast<std::size_t>(a)];
+    const AxisHold& hold = holds[as_size(a)];
     if (hold.rule == AxisRule::kUnilateral) {
       motion.moved[a] = unilateral(dx[a], hold.tau);
       const bool moves = dx[a] > 0.0 || dx[a] < -hold.tau;
@@ -58,7 +59,7 @@ AxisMotion move_by_rules(const Vec3& dx, const AxisHolds& holds, double friction
   Vec3 drags{HUGE_VAL}, snaps{HUGE_VAL};
   bool any_drag = false, any_snap = false;
   for (int a = 0; a < 3; ++a) {
-    const AxisHold& hold = holds[static_cast<std::size_t>(a)];
+    const AxisHold& hold = holds[as_size(a)];
     if (hold.rule == AxisRule::kFree) drags[a] = 0.0;
     if (hold.rule == AxisRule::kDrag) drags[a] = hold.tau + more;
     if (hold.rule == AxisRule::kSnap) snaps[a] = hold.tau + more;
@@ -82,7 +83,7 @@ void make_alike(AxisHolds& holds, int first, double certainty) noexcept {
   double reach = HUGE_VAL, kappa = 1.0;
   bool all_drag = true, all_snap = true;
   for (int a = first; a < 3; ++a) {
-    const AxisHold& hold = holds[static_cast<std::size_t>(a)];
+    const AxisHold& hold = holds[as_size(a)];
     reach = std::min(reach, hold.reach());
     kappa = std::min(kappa, hold.kappa);
     all_drag = all_drag && is_dragged(hold);
@@ -90,7 +91,7 @@ void make_alike(AxisHolds& holds, int first, double certainty) noexcept {
   }
   if (!all_drag && !all_snap) reach = 0.0;
   for (int a = first; a < 3; ++a) {
-    AxisHold& hold = holds[static_cast<std::size_t>(a)];
+    AxisHold& hold = holds[as_size(a)];
     fade_reach(hold, reach, certainty);
     hold.kappa = kappa + certainty * (hold.kappa - kappa);
   }

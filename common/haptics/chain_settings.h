@@ -7,17 +7,11 @@
 
 #include <cmath>
 
-#include "common/haptics/constraint/anisotropy_settings.h"
-#include "common/haptics/constraint/drag_settings.h"
-#include "common/haptics/constraint/fibre_settings.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/isosurface_settings.h"
 #include "common/haptics/constraint/linear_settings.h"
+#include "common/haptics/constraint/link_settings.h"
 #include "common/haptics/constraint/plane_widget_settings.h"
-#include "common/haptics/constraint/shape_settings.h"
-#include "common/haptics/constraint/streamline_settings.h"
-#include "common/haptics/constraint/texture_settings.h"
-#include "common/haptics/constraint/tick_settings.h"
 #include "common/haptics/force_field/force_field_settings.h"
 #include "common/haptics/passivity_settings.h"
 

@@ -47,7 +47,7 @@ std::string stiffness_warning(const WallLoop& loop, double stiffness, double dam
 
 std::string tuned_note(double asked, double most) {
   return "a stiffness of " + short_number(asked) + " N/m is held to " + short_number(most) +
-         " N/m, what workbench tune found that the device bears";
+         " N/m, what tuning found that the device bears";
 }
 
 }  // namespace palpate

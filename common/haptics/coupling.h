@@ -19,6 +19,8 @@
 #include <string>
 #include <string_view>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 /// The loop that a wall is shown by. All finite and >= 0, the period above zero.
@@ -40,7 +42,7 @@ enum class StiffnessLimit : std::uint8_t {
 [[nodiscard]] constexpr std::string_view name_of(StiffnessLimit limit) noexcept {  ///< "servo's hold"
   constexpr std::array<std::string_view, 4> kNames{"stated for the device", "servo's hold", "encoder steps",
                                                    "delay"};
-  return kNames[static_cast<std::size_t>(limit)];
+  return kNames[as_size(limit)];
 }
 
 struct StiffnessBound {
@@ -54,7 +56,7 @@ struct StiffnessBound {
 /// One line that names the limit, for a stiffness above it; empty for others.
 [[nodiscard]] std::string stiffness_warning(const WallLoop& loop, double stiffness, double damping);
 
-/// One line for a stiffness that is held to what `workbench tune` found.
+/// One line for a stiffness that is held to what tuning a device found.
 [[nodiscard]] std::string tuned_note(double asked, double most);
 
 }  // namespace palpate

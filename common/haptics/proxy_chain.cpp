@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -19,7 +20,7 @@ Vec3 coupling_damper(const Vec3& velocity, const Vec3& held_back, double b) noex
 std::string_view name_of(HoldState state) noexcept {
   constexpr std::array<std::string_view, 6> kNames{"free",     "held",    "fell_back",
                                                    "released", "outside", "fault"};
-  return kNames[static_cast<std::size_t>(state)];
+  return kNames[as_size(state)];
 }
 
 ProxyChain::ProxyChain(std::vector<std::unique_ptr<Constraint>> links, const ChainSettings& settings)
@@ -53,7 +54,7 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
                 coupling_damper(pulled_velocity, pulled_velocity - passed_on, settings_.damping));
     pulled_velocity = passed_on;
     if (update.damping != Vec3{0.0}) damper -= update.frame * (update.damping * (velocity * update.frame));
-    result.proxies[static_cast<std::size_t>(result.links++)] = update.proxy;
+    result.proxies[as_size(result.links++)] = update.proxy;
     result.state = std::max(result.state, update.state);
     result.residual = update.residual;
     result.jumped = result.jumped || update.jumped;

@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/haptics/chain_force.h"
 #include "common/haptics/constraint.h"
 
@@ -43,7 +44,7 @@ struct ChainStep {
 
   /// The last proxy; the probe itself where the chain is empty.
   [[nodiscard]] Vec3 proxy(const Vec3& probe) const noexcept {
-    return links > 0 ? proxies[static_cast<std::size_t>(links - 1)] : probe;
+    return links > 0 ? proxies[as_size(links - 1)] : probe;
   }
 };
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <vector>
 
-#include "common/base/number_text.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/math/vec_text.h"
@@ -57,7 +57,7 @@ bool read_value(std::string_view text, PlanePoses& poses) { return !read_text(te
 std::string value_text(const Isovalues& values) {
   std::string text;
   for (int i = 0; i < values.count; ++i) {
-    (text += i > 0 ? "," : "") += exact_number(values.value[static_cast<std::size_t>(i)]);
+    (text += i > 0 ? "," : "") += exact_number(values.value[as_size(i)]);
   }
   return text;
 }
@@ -67,7 +67,7 @@ bool read_value(std::string_view text, Isovalues& values) {
   if (text.empty()) return true;
   for (const std::string_view word : split(text, ',')) {
     if (values.count == Isovalues::kMax) return false;
-    if (!read_value(word, values.value[static_cast<std::size_t>(values.count++)])) return false;
+    if (!read_value(word, values.value[as_size(values.count++)])) return false;
   }
   return true;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -45,7 +47,7 @@ std::optional<DeltaPose> DeltaArm::at(const Vec3& position) const noexcept {
   const DeltaGeometry& g = geometry_;
   DeltaPose pose;
   for (int i = 0; i < 3; ++i) {
-    const Leg& leg = legs_[static_cast<std::size_t>(i)];
+    const Leg& leg = legs_[as_size(i)];
     const double u = leg.cosine * position.x + leg.sine * position.y - g.base_u;
     const double v = -leg.sine * position.x + leg.cosine * position.y - g.base_v;
     const double w = position.z;

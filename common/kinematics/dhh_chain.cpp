@@ -1,5 +1,7 @@
 #include "common/kinematics/dhh_chain.h"
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -17,7 +19,7 @@ Rigid row_transform(const DhhRow& row, double reading) noexcept {
 Rigid DhhChain::forward(std::span<const double> readings) const noexcept {
   Rigid pose;
   for (const DhhRow& row : rows) {
-    const double reading = row.joint < 0 ? 0.0 : readings[static_cast<std::size_t>(row.joint)];
+    const double reading = row.joint < 0 ? 0.0 : readings[as_size(row.joint)];
     pose = pose * row_transform(row, reading);
   }
   return pose;
@@ -25,7 +27,7 @@ Rigid DhhChain::forward(std::span<const double> readings) const noexcept {
 
 std::string dhh_name(int row, DhhQuantity quantity) {
   constexpr std::array<const char*, kDhhQuantities> kNames{"d", "a", "alpha", "beta", "gamma"};
-  return kNames[static_cast<std::size_t>(quantity)] + std::to_string(row);
+  return kNames[as_size(quantity)] + std::to_string(row);
 }
 
 DhhChain nominal_phantom_3() {

@@ -7,7 +7,6 @@
 /// them for what it leaves.
 #pragma once
 
-#include "common/kinematics/error_spline.h"
 #include "common/kinematics/error_table.h"
 #include "common/kinematics/vector_polynomial.h"
 #include "common/math/quaternion.h"

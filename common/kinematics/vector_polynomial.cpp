@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 void monomials(const Vec3& u, int degree, std::span<double> values) noexcept {
@@ -19,7 +21,7 @@ void monomials(const Vec3& u, int degree, std::span<double> values) noexcept {
 Vec3 VectorPolynomial::at(const Vec3& p) const noexcept {
   if (degree < 0) return Vec3{0.0};
   std::array<double, kMaxTerms> values{};
-  const auto terms = static_cast<std::size_t>(term_count(degree));
+  const auto terms = as_size(term_count(degree));
   monomials((p - center) / scale, degree, std::span(values).first(terms));
   Vec3 sum{0.0};
   for (std::size_t j = 0; j < terms; ++j) sum += values[j] * coefficients[j];

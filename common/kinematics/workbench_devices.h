@@ -4,7 +4,7 @@
 ///   gain = 3620        #   as a calibration finds them; what the command line says comes first
 ///   thigh = 0.0603
 ///
-///   [tuned.falcon]     # what it bears; `workbench tune` writes it
+///   [tuned.falcon]     # what it bears; the verb `tune` writes it
 ///   stiffness = 950    # [N/m] the most that explorers show on it
 ///   rate = 1000        # [Hz] of the servo that it was found with
 ///   places = [[x, y, z, stiffness], …]     # [m] frame of the device, and where each began to swing [N/m]

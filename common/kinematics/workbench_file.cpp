@@ -10,10 +10,11 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/index.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/kinematics/workbench_section.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -33,7 +34,7 @@ std::string contents(const std::filesystem::path& path) {
   if (in.is_open()) text << in.rdbuf();
   if (!in.is_open() || in.bad()) {
     throw input_error({path.string(), "", "cannot be read", "a workbench.toml",
-                       "make one with `workbench calibrate … --out workbench.toml`"});
+                       "the verb `calibrate` makes one with --out workbench.toml"});
   }
   return text.str();
 }
@@ -194,7 +195,7 @@ TrackerCorrection tracker_of(const WorkbenchSection& s) {
       s.refuse_at("degree", short_number(degree), "0 to " + std::to_string(kMaxDegree));
     if (!(s.number("scale") > 0.0)) s.refuse_at("scale", "not positive", "a length");
     const auto r = static_cast<int>(degree);
-    const auto terms = static_cast<std::size_t>(term_count(r));
+    const auto terms = as_size(term_count(r));
     out.position = {r, s.vector("center"), s.number("scale"), s.vectors("position", terms)};
     out.orientation = {r, s.vector("center"), s.number("scale"), s.vectors("orientation", terms)};
   }
@@ -207,7 +208,7 @@ TrackerCorrection tracker_of(const WorkbenchSection& s) {
       if (!(s.vector("table_spacing")[axis] > 0.0)) s.refuse_at("table_spacing", "not positive", "lengths");
     }
     out.table = {s.vector("table_lower"), s.vector("table_spacing"), Index3(count), {}};
-    const auto nodes = static_cast<std::size_t>(count.x * count.y * count.z);
+    const std::size_t nodes = count_of(out.table.count);
     const auto position = s.vectors("table_position", nodes), turn = s.vectors("table_orientation", nodes);
     for (std::size_t i = 0; i < nodes; ++i) out.table.values.push_back({position[i], turn[i]});
   }
@@ -239,7 +240,7 @@ DhhChain arm_of(const WorkbenchSection& s) {
       for (int q = 0; q < kDhhQuantities; ++q) {
         const std::string name = dhh_name(0, static_cast<DhhQuantity>(q));
         if (name.substr(0, name.size() - 1) != word) continue;
-        out.rows[row].free[static_cast<std::size_t>(q)] = found = true;
+        out.rows[row].free[as_size(q)] = found = true;
       }
       if (!found) s.refuse_at("free", "'" + word + "'", "d, a, alpha, beta or gamma");
     }
@@ -400,7 +401,7 @@ WorkbenchGeometry read_workbench(const std::filesystem::path& path) {
 
 Rigid device_from_arm(const WorkbenchGeometry& geometry) {
   PALPATE_CHECK(geometry.arm.has_value());
-  const std::vector<double> zeros(static_cast<std::size_t>(geometry.arm->joint_count), 0.0);
+  const std::vector<double> zeros(as_size(geometry.arm->joint_count), 0.0);
   const Vec3 middle = geometry.interaction.arm_middle.value_or(geometry.arm->forward(zeros).translation);
   const Quat& turn = geometry.interaction.arm_rotation;
   return {turn, -(turn * middle)};
@@ -442,7 +443,7 @@ std::string section_text(const DhhChain& arm) {
     rows.push_back(row_text({d, a, alpha, beta, gamma, static_cast<double>(row.joint + 1)}));
     std::string words;
     for (int q = 0; q < kDhhQuantities; ++q) {
-      if (!row.free[static_cast<std::size_t>(q)]) continue;
+      if (!row.free[as_size(q)]) continue;
       const std::string name = dhh_name(0, static_cast<DhhQuantity>(q));
       words += (words.empty() ? "" : " ") + name.substr(0, name.size() - 1);
     }

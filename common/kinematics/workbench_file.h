@@ -81,7 +81,6 @@
 #include <vector>
 
 #include "common/geometry/screen.h"
-#include "common/geometry/stereo_mode.h"
 #include "common/kinematics/dhh_chain.h"
 #include "common/kinematics/tracker_correction.h"
 #include "common/kinematics/workbench_devices.h"

@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/base/errno_text.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/unique_fd.h"
 #include "common/load/gzip_head.h"
 #include "common/load/plot3d_layout.h"
@@ -84,7 +84,7 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) refuse(path, std::string("cannot be read (") + errno_text() + ")");
       if (got == 0) break;
-      have += static_cast<std::size_t>(got);
+      have += as_size(got);
     }
     part.resize(have);
     return part;

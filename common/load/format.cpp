@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "common/base/number_text.h"
+#include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/load/gzip_head.h"
 #include "common/load/plot3d_layout.h"
 
@@ -214,7 +215,7 @@ bool is_plot3d(const FileHead& head, Plot3dFile kind) {
 bool looks_like_plot3d(const FileHead& head, const FormatRow&) { return is_plot3d(head, Plot3dFile::kGrid); }
 /// @}
 
-std::string printable(std::string_view bytes) {
+std::string first_bytes(std::string_view bytes) {
   std::string text;
   for (const char c : bytes.substr(0, 16)) {
     const auto b = static_cast<unsigned char>(c);
@@ -276,7 +277,7 @@ std::span<const FormatRow> format_rows() noexcept {
   return kRows;
 }
 
-const FormatRow& row_of(Format format) noexcept { return format_rows()[static_cast<std::size_t>(format)]; }
+const FormatRow& row_of(Format format) noexcept { return format_rows()[as_size(format)]; }
 
 bool names_ending(const FormatRow& row, std::string_view ending) {
   if (ending.empty()) return false;
@@ -301,7 +302,7 @@ Sniffed sniff(const FileHead& head) {
   if (is_plot3d(head, Plot3dFile::kSolution))
     return {{}, "a PLOT3D solution", "name the grid first: GRID --solution THIS"};
   return {{},
-          "not recognised (it starts with \"" + printable(text_of(head)) + "\")",
+          "not recognised (it starts with \"" + first_bytes(text_of(head)) + "\")",
           "voxels without a header are opened with --raw-size and --raw-type"};
 }
 

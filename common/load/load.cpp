@@ -6,11 +6,11 @@
 
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
-#include "common/base/machine_memory.h"
+#include "common/base/memory.h"
 #include "common/load/find_format.h"
 #include "common/load/format.h"
-#include "common/load/helper_process.h"
-#include "common/load/protocol.h"
+#include "common/load/helper/helper_process.h"
+#include "common/load/helper/protocol.h"
 
 namespace palpate {
 namespace {

@@ -1,11 +1,9 @@
 #include "common/load/mrtrix_header.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 
 namespace palpate {
 
@@ -45,19 +43,10 @@ MrtrixHeader read_mrtrix_header(const std::string& file, std::string_view bytes,
 }
 
 MrtrixNumber parse_mrtrix_number(std::string_view datatype) {
-  MrtrixNumber number{std::string(datatype), false};
-  std::transform(number.type.begin(), number.type.end(), number.type.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  MrtrixNumber number{lowered(datatype), false};
   number.big_endian = number.type.ends_with("be");
   if (number.big_endian || number.type.ends_with("le")) number.type.resize(number.type.size() - 2);
   return number;
-}
-
-std::optional<std::uint64_t> parse_count(std::string_view text) {
-  std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return count;
 }
 
 }  // namespace palpate

@@ -35,7 +35,4 @@ struct MrtrixNumber {
 };
 [[nodiscard]] MrtrixNumber parse_mrtrix_number(std::string_view datatype);
 
-/// "12" -> 12; none where the text is anything else.
-[[nodiscard]] std::optional<std::uint64_t> parse_count(std::string_view text);
-
 }  // namespace palpate

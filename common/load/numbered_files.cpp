@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <optional>
+
+#include "common/base/index.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
 
 std::optional<long long> whole_number(std::string_view text) {
   constexpr long long kLargest = 1'000'000'000;
-  long long value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < -kLargest || value > kLargest)
-    return std::nullopt;
-  return value;
+  const auto value = parsed<long long>(text);
+  return value && *value >= -kLargest && *value <= kLargest ? value : std::nullopt;
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ NumberedFiles numbered_files(std::string_view format, std::string_view first, st
     files.problem = "its list of data files makes no sense";
     return files;
   }
-  const auto width = static_cast<std::size_t>(digits.empty() ? 0 : *whole_number(digits));
+  const auto width = as_size(digits.empty() ? 0 : *whole_number(digits));
   const bool zeros = digits.starts_with('0');
   for (long long i = *from; *by > 0 ? i <= *to : i >= *to; i += *by) {
     if (files.names.size() == most) {

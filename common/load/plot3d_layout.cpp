@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
+
+#include "common/base/text.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -84,10 +86,6 @@ std::optional<Plot3dLayout> read_dimensions(const Reader& reader, const Plot3dLa
   return layout;
 }
 
-std::uint64_t points_of(const Index3& n) {
-  return static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
-}
-
 /// Values at a point of a solution: density, momentum, energy.
 std::uint64_t solution_values(const Plot3dLayout& layout) { return axes_of(layout) + 2; }
 
@@ -98,9 +96,9 @@ std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
   std::uint64_t size = layout.data_offset;
   for (const Index3& n : layout.grids) {
     if (kind == Plot3dFile::kGrid) {
-      size += marks + points_of(n) * (axes_of(layout) * number + (layout.blanking ? 4 : 0));
+      size += marks + count_of(n) * (axes_of(layout) * number + (layout.blanking ? 4 : 0));
     } else {
-      size += marks + 4 * number + marks + points_of(n) * solution_values(layout) * number;
+      size += marks + 4 * number + marks + count_of(n) * solution_values(layout) * number;
     }
   }
   return size;
@@ -128,13 +126,7 @@ class Words {
     return text_.substr(first, at_ - first);
   }
   /// The next word as a whole number.
-  std::optional<std::int32_t> next_integer() {
-    const std::string_view word = next();
-    std::int32_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return value;
-  }
+  std::optional<std::int32_t> next_integer() { return parsed<std::int32_t>(next()); }
 
  private:
   std::string_view text_;
@@ -166,8 +158,8 @@ std::uint64_t expected_numbers(const Plot3dLayout& layout, Plot3dFile kind) {
   const std::uint64_t axes = axes_of(layout);
   std::uint64_t numbers = (layout.multi_grid ? 1 : 0) + axes * layout.grids.size();
   for (const Index3& n : layout.grids) {
-    numbers += kind == Plot3dFile::kGrid ? points_of(n) * (axes + (layout.blanking ? 1 : 0))
-                                         : 4 + points_of(n) * solution_values(layout);
+    numbers += kind == Plot3dFile::kGrid ? count_of(n) * (axes + (layout.blanking ? 1 : 0))
+                                         : 4 + count_of(n) * solution_values(layout);
   }
   return numbers;
 }

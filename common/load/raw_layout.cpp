@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <regex>
@@ -10,22 +9,20 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
-
-template <typename T>
-bool parse_number(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 /// Three numbers with `separator` between them.
 template <typename T>
 bool parse_three(std::string_view text, char separator, std::array<T, 3>& values) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t end = i < 2 ? text.find(separator) : text.size();
-    if (end == std::string_view::npos || !parse_number(text.substr(0, end), values[i])) return false;
+    if (end == std::string_view::npos) return false;
+    const std::optional<T> value = parsed<T>(text.substr(0, end));
+    if (!value) return false;
+    values[i] = *value;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return true;
@@ -90,9 +87,12 @@ RawLayout parse_raw_layout(const RawWords& words) {
         parse_vector(words.origin, "--raw-origin", "the place of the first voxel is expected, such as 0,0,0");
   }
   constexpr std::uint64_t kMostSkipped = std::uint64_t{1} << 46;
-  const bool skips =
-      words.skip.empty() || (parse_number(words.skip, layout.skip) && layout.skip <= kMostSkipped);
-  if (!skips) throw usage_error("--raw-skip " + words.skip + ": a count of bytes is expected");
+  if (!words.skip.empty()) {
+    const auto skip = parsed<std::uint64_t>(words.skip);
+    if (!skip || *skip > kMostSkipped)
+      throw usage_error("--raw-skip " + words.skip + ": a count of bytes is expected");
+    layout.skip = *skip;
+  }
   return layout;
 }
 

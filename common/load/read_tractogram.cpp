@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -29,7 +30,7 @@ std::vector<std::size_t> columns_of(const DataArray& array, std::size_t before, 
         array.components > 1 ? array.name + " " + std::to_string(component + 1) : array.name;
     const auto found = std::find_if(columns.begin(), columns.end(),
                                     [&name](const auto& column) { return column.name == name; });
-    places.push_back(static_cast<std::size_t>(found - columns.begin()));
+    places.push_back(as_size(found - columns.begin()));
     if (found == columns.end()) columns.push_back({.name = name, .values = {}});
     columns[places.back()].values.resize(before, std::numeric_limits<float>::quiet_NaN());
   }
@@ -43,7 +44,7 @@ void append_lines(const DataSet& block, const UnstructuredTopology& cells, Tract
   for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
     if (!is_line(cells.types[cell])) continue;
     for (std::int64_t c = cells.offsets[cell]; c < cells.offsets[cell + 1]; ++c) {
-      const auto point = static_cast<std::size_t>(cells.connectivity[static_cast<std::size_t>(c)]);
+      const auto point = as_size(cells.connectivity[as_size(c)]);
       of_points.push_back(point);
       lines.points.emplace_back(static_cast<float>(cells.positions.at(point, 0)),
                                 static_cast<float>(cells.positions.at(point, 1)),

@@ -4,6 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -29,8 +32,8 @@ BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array
   for (int axis = 0; axis < 3; ++axis) {
     block.cell_count *= static_cast<std::uint64_t>(std::max(1, block.points[axis] - 1));
     if (block.points[axis] == 1) {
-      block.not_volume = std::string("is flat (one sample along its ") +
-                         kAxes[static_cast<std::size_t>(axis)] + " spatial axis), not a volume";
+      block.not_volume = std::string("is flat (one sample along its ") + kAxes[as_size(axis)] +
+                         " spatial axis), not a volume";
     }
   }
   block.bounds = sample_bounds(topology);
@@ -50,6 +53,18 @@ BlockInfo describe_mesh(const DataSet& mesh) {
   for (const DataArray& array : mesh.arrays)
     block.arrays.push_back({array.name, array.association, array.components, array.type, array.tuples});
   return block;
+}
+
+std::vector<DataSet> read_image(const UniformTopology& topology, const std::string& array,
+                                const std::vector<std::string>& names,
+                                const std::function<DataArray()>& values) {
+  std::vector<DataSet> blocks(1);
+  blocks.front().topology = topology;
+  if (std::find(names.begin(), names.end(), array) == names.end()) return blocks;
+  DataArray read = values();
+  read.name = array;
+  blocks.front().arrays.push_back(std::move(read));
+  return blocks;
 }
 
 }  // namespace palpate

@@ -1,6 +1,10 @@
 /// What loaders say of the one block that an image or a mesh is.
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "common/field/data_set.h"
 #include "common/load/load.h"
 
@@ -14,5 +18,11 @@ namespace palpate {
 
 /// The block of an unstructured mesh. @pre mesh.topology is one.
 [[nodiscard]] BlockInfo describe_mesh(const DataSet& mesh);
+
+/// What a reader of one image gives for the arrays that are asked for: the block, with `values()` where `array` is
+/// one of `names`.
+[[nodiscard]] std::vector<DataSet> read_image(const UniformTopology& topology, const std::string& array,
+                                              const std::vector<std::string>& names,
+                                              const std::function<DataArray()>& values);
 
 }  // namespace palpate

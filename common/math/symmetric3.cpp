@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -58,8 +59,8 @@ SymmetricEigen solve(const Mat3& m, bool with_vectors) noexcept {
   for (int c = 0; c < 3; ++c) {
     for (int r = c; r < 3; ++r) {
       const double value = m[c][r] * half * rest;
-      s.a[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = value;
-      s.a[static_cast<std::size_t>(c)][static_cast<std::size_t>(r)] = value;
+      s.a[as_size(r)][as_size(c)] = value;
+      s.a[as_size(c)][as_size(r)] = value;
     }
   }
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
@@ -76,7 +77,7 @@ SymmetricEigen solve(const Mat3& m, bool with_vectors) noexcept {
   std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return s.a[i][i] > s.a[j][j]; });
   SymmetricEigen out;
   for (int i = 0; i < 3; ++i) {
-    const std::size_t from = order[static_cast<std::size_t>(i)];
+    const std::size_t from = order[as_size(i)];
     out.values[i] = s.a[from][from] / rest / half;
     out.vectors[i] = {s.v[from][0], s.v[from][1], s.v[from][2]};
   }

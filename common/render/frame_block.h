@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 
 #include "common/render/camera.h"
-#include "common/render/palette.h"
+#include "common/render/color/palette.h"
 
 namespace palpate {
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/render/line/line_values.h"
 
 namespace palpate {
@@ -20,9 +21,7 @@ constexpr double kMaxDecades = 12.0;
 
 }  // namespace
 
-std::string_view name_of(ColorBy color_by) noexcept {
-  return kColorByNames[static_cast<std::size_t>(color_by)];
-}
+std::string_view name_of(ColorBy color_by) noexcept { return kColorByNames[as_size(color_by)]; }
 
 ColorBy color_by_from_name(std::string_view name) {
   for (std::size_t i = 0; i < kColorByNames.size(); ++i) {
@@ -70,7 +69,7 @@ std::optional<ValueRange> usual_range(std::vector<double> values) {
   const auto quantile = [&](double part) {
     const std::ptrdiff_t n = std::lround(part * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + n, values.end());
-    return values[static_cast<std::size_t>(n)];
+    return values[as_size(n)];
   };
   const double lower = quantile(kTail);
   return ValueRange{lower, quantile(1.0 - kTail)};

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/geometry/line.h"
-#include "common/render/color_map.h"
+#include "common/render/color/color_map.h"
 
 namespace palpate {
 

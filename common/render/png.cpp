@@ -24,7 +24,6 @@ namespace {
 
 constexpr std::size_t kSignature = 8;     // bytes before the first chunk
 constexpr std::size_t kHeaderChunk = 25;  // IHDR: length 4, type 4, data 13, CRC 4
-constexpr std::array<std::uint8_t, kSignature> kMagic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
 // CRC-32 of ISO 3309, as the PNG standard asks for.
 std::uint32_t crc(const std::uint8_t* bytes, std::size_t count) {
@@ -38,10 +37,6 @@ std::uint32_t crc(const std::uint8_t* bytes, std::size_t count) {
 
 void append_number(std::vector<std::uint8_t>& out, std::uint32_t value) {
   for (const unsigned shift : {24U, 16U, 8U, 0U}) out.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-std::uint32_t read_number(const std::uint8_t* p) {
-  return (std::uint32_t{p[0]} << 24U) | (std::uint32_t{p[1]} << 16U) | (std::uint32_t{p[2]} << 8U) | p[3];
 }
 
 std::vector<std::uint8_t> text_chunk(const PngText& entry) {
@@ -77,24 +72,6 @@ std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngTe
   }
   png.insert(png.end(), bytes.get() + kSignature + kHeaderChunk, bytes.get() + size);
   return png;
-}
-
-std::vector<PngText> png_texts(const std::vector<std::uint8_t>& png) {
-  if (png.size() < kSignature || !std::equal(kMagic.begin(), kMagic.end(), png.begin())) return {};
-  std::vector<PngText> texts;
-  for (std::size_t at = kSignature; at + 12 <= png.size();) {
-    const std::size_t length = read_number(png.data() + at);
-    if (length > png.size() - at - 12) break;
-    const std::string_view type(reinterpret_cast<const char*>(png.data() + at + 4), 4);
-    const std::string_view body(reinterpret_cast<const char*>(png.data() + at + 8), length);
-    const auto end = body.find('\0');
-    const std::size_t skip = type == "iTXt" ? 5 : 1;
-    if ((type == "tEXt" || type == "iTXt") && end != std::string_view::npos && end + skip <= body.size()) {
-      texts.push_back({std::string(body.substr(0, end)), std::string(body.substr(end + skip))});
-    }
-    at += 12 + length;
-  }
-  return texts;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, const std::vector<PngText>& texts) {

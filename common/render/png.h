@@ -20,9 +20,6 @@ struct PngText {
 /// ASCII, iTXt otherwise.
 [[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image, const std::vector<PngText>& texts);
 
-/// The texts of a PNG in memory; empty where it is none.
-[[nodiscard]] std::vector<PngText> png_texts(const std::vector<std::uint8_t>& png);
-
 /// Writes a PNG under a temporary name and renames it; a file of that name is replaced.
 /// @throws Error (work failed) naming the file.
 void write_png(const std::filesystem::path& path, const Image& image, const std::vector<PngText>& texts);

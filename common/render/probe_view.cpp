@@ -12,22 +12,10 @@ bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::i
 
 }  // namespace
 
-PathView make_path_view(std::span<const Vec3> positions, std::span<const double> forces) {
-  PathView view;
-  view.points = make_probe_path(positions, forces);
-  view.count = view.points->size();
-  return view;
-}
-
 Rgb kept_color(int number) noexcept {
   constexpr int kColors = kCategoryCount - 1;  // the last one is a grey
   const int k = ((number - 1) % kColors + kColors) % kColors;
   return map_color(ColorMap::kCategorical, (k + 0.5) / kCategoryCount);
-}
-
-double tension(const ProbeView& view) noexcept {
-  if (!(view.force > 0.0) || !(view.force_cap > 0.0)) return 0.0;
-  return std::min(1.0, view.force / view.force_cap);
 }
 
 ValueRange force_range(const ProbeView& view) noexcept {

@@ -17,7 +17,7 @@
 
 #include "common/geometry/line.h"
 #include "common/math/vec.h"
-#include "common/render/color_map.h"
+#include "common/render/color/color_map.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_path.h"
 
@@ -42,11 +42,6 @@ struct PathView {
 
   bool operator==(const PathView&) const = default;
 };
-
-/// A path that is complete, from arrays such as the columns of a probe log.
-/// @param forces [N], one a position.
-/// @throws Error (work failed) where their numbers differ.
-[[nodiscard]] PathView make_path_view(std::span<const Vec3> positions, std::span<const double> forces);
 
 enum class SeedShape : std::uint8_t { kNone, kRake, kPlane };
 
@@ -117,9 +112,6 @@ struct ProbeView {
   std::shared_ptr<const std::vector<KeptLine>> kept;  ///< may be null
   ProbeStyle style;
 };
-
-/// force / force_cap, clamped to [0, 1]; 0 where either is not a positive number.
-[[nodiscard]] double tension(const ProbeView& view) noexcept;
 
 /// The range over which the colours of path and band spread [N].
 [[nodiscard]] ValueRange force_range(const ProbeView& view) noexcept;

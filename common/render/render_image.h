@@ -8,7 +8,7 @@
 #include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
 

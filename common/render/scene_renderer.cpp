@@ -11,6 +11,7 @@
 #include "common/base/clock.h"
 #include "common/geometry/box_edges.h"
 #include "common/math/power_of_two.h"
+#include "common/render/color/palette.h"
 #include "common/render/frame_block.h"
 #include "common/render/gl/frame_timer.h"
 #include "common/render/gl/framebuffer.h"
@@ -22,8 +23,7 @@
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/line/line_pass.h"
-#include "common/render/overlay.h"
-#include "common/render/palette.h"
+#include "common/render/overlay/overlay.h"
 #include "common/render/scene_parts.h"
 #include "common/render/sign/sign_pass.h"
 #include "common/render/stereo/stereo_pass.h"
@@ -31,7 +31,7 @@
 #include "common/render/tensor/tensor_pass.h"
 #include "common/render/tract/tract_pass.h"
 #include "common/render/tract/tract_progress.h"
-#include "common/render/volume/picture_estimates.h"
+#include "common/render/volume/estimate/picture_estimates.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {

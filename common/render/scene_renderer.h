@@ -11,7 +11,7 @@
 
 #include "common/render/budget/quality_errors.h"
 #include "common/render/scene_view.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
 

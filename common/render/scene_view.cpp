@@ -1,5 +1,7 @@
 #include "common/render/scene_view.h"
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 bool same_tensors(const SceneView& a, const SceneView& b) {
@@ -28,8 +30,7 @@ std::string length_unit(const SceneView& view) {
 }
 
 std::array<int, 4> Image::pixel(int x, int y) const noexcept {
-  const std::uint8_t* p = rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                             static_cast<std::size_t>(x));
+  const std::uint8_t* p = rgba.data() + 4 * (as_size(y) * as_size(width) + as_size(x));
   return {p[0], p[1], p[2], p[3]};
 }
 

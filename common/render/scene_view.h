@@ -18,7 +18,7 @@
 #include "common/render/stereo/stereo_view.h"
 #include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
-#include "common/render/tract/tract_view.h"
+#include "common/render/tract/tract_bundle.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -65,7 +67,7 @@ std::vector<Tick> linear_ticks(const ValueRange& range, int max_count) {
   std::vector<Tick> result;
   // Counted in whole steps, so that rounding neither drops the last tick nor adds up.
   const double first = std::ceil(range.lower / step - 1e-9), last = std::floor(range.upper / step + 1e-9);
-  for (double i = first; i <= last && result.size() < static_cast<std::size_t>(max_count); ++i) {
+  for (double i = first; i <= last && result.size() < as_size(max_count); ++i) {
     result.push_back({i * step, tick_text(i * step, step, largest)});
   }
   return result;

@@ -7,7 +7,6 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
@@ -22,7 +21,7 @@ namespace {
 /// What the one field of a formula is called.
 constexpr const char* kFormulaField = "velocity";
 
-std::string title_of(const InputSpec& spec) {
+std::string title_of(const InputOptions& spec) {
   if (!spec.example.empty()) return "example " + spec.example;
   std::string title = spec.files.front().filename().string();
   if (title.empty()) title = spec.files.front().string();
@@ -55,20 +54,6 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
                       " to " + exact_number(*highest) + " (" + std::to_string(times.size()) + " steps)");
   }
   return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
-}
-
-std::string_view name_of(FieldKind kind) noexcept {
-  switch (kind) {
-    case FieldKind::kScalar:
-      return "scalar";
-    case FieldKind::kTensor:
-      return "tensor";
-    case FieldKind::kFibre:
-      return "fibre";
-    case FieldKind::kVector:
-      break;
-  }
-  return "vector";
 }
 
 std::vector<ExampleInfo> examples_of(FieldKind kind) {
@@ -105,7 +90,7 @@ std::size_t nearest_step(const std::vector<double>& times, double time) {
   return static_cast<std::size_t>(nearest - times.begin());
 }
 
-Input Input::open(const InputSpec& spec, Progress* progress) {
+Input Input::open(const InputOptions& spec, Progress* progress) {
   if (spec.files.empty() && spec.example.empty()) {
     throw usage_error("no input: give a file, or --example NAME (--example list shows them)");
   }
@@ -255,7 +240,7 @@ TensorSource Input::tensor_source() const {
 HeartChoice Input::heart_choice() const {
   check_volume();
   HeartChoice choice = choose_heart(arrays_, spec_.field, file_name());
-  choice.constant_cells = spec_.constant_cells;
+  choice.constant_cells = spec_.cell_directions == "constant";
   return choice;
 }
 
@@ -394,7 +379,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
-  LayerCache cache(file_name(), source_ ? spec_.keeping : Keeping::kOff, threads);
+  LayerCache cache(file_name(), source_ ? keeping_from_name(spec_.cache) : Keeping::kOff, threads);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
   heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
   heart.axis = file()->long_axis;

@@ -20,40 +20,13 @@
 #include "common/field/tensor/tensor_source.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
-#include "common/scene/kept_file.h"
-#include "common/scene/remesher.h"
+#include "common/scene/document/input_options.h"
 #include "common/scene/tensor_image.h"
 
 namespace palpate {
 
-/// What an explorer takes from its input.
-enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor, kFibre };
-
-/// "vector", "scalar", "tensor", "fibre".
-[[nodiscard]] std::string_view name_of(FieldKind kind) noexcept;
-
 /// The built-in data sets of a kind; the first is the one shown by default.
 [[nodiscard]] std::vector<ExampleInfo> examples_of(FieldKind kind);
-
-/// What the user named.
-struct InputSpec {
-  std::vector<std::filesystem::path> files;
-  std::optional<std::filesystem::path> solution;  ///< PLOT3D
-  std::string example;                            ///< in place of files
-  /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `beside`.
-  std::string field;
-  std::vector<std::string> beside;  ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
-  std::string time = "first";       ///< first, last or a time
-  FieldKind kind = FieldKind::kVector;
-  RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
-  TensorWords tensor;  ///< how tensors are read and fitted
-  int refine = 0;      ///< LoadRequest::refine
-  std::string series;  ///< LoadRequest::series
-  bool constant_cells = false;      ///< HeartChoice::constant_cells
-  Keeping keeping = Keeping::kOff;  ///< of layers that took time to solve
-  std::string surface_markers;      ///< LoadRequest::surface_markers
-  Remesher remesher;  ///< fills hearts with tetrahedra of its own; empty: the file's cells are taken
-};
 
 /// A time step and whether it is the very one that was asked for.
 struct TimeChoice {
@@ -78,11 +51,11 @@ class Input {
  public:
   /// Opens the files (a helper program starts) or finds the example.
   /// @throws Error (usage: neither or both named, an unknown example; bad input); Cancelled.
-  static Input open(const InputSpec& spec, Progress* progress = nullptr);
+  static Input open(const InputOptions& spec, Progress* progress = nullptr);
 
   /// "carotid.vtk", "example abc"
   [[nodiscard]] const std::string& title() const noexcept { return title_; }
-  [[nodiscard]] const InputSpec& spec() const noexcept { return spec_; }
+  [[nodiscard]] const InputOptions& spec() const noexcept { return spec_; }
   /// What the loader says, or would say of a built-in volume; null for a formula.
   [[nodiscard]] const FileInfo* file() const noexcept;
   [[nodiscard]] const std::vector<ArrayInfo>& arrays() const noexcept { return arrays_; }
@@ -101,7 +74,7 @@ class Input {
 
   /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
   void set_field(std::string name) { spec_.field = std::move(name); }
-  /// Chooses what InputSpec::beside has.
+  /// Chooses what InputOptions::beside has.
   void set_beside(std::vector<std::string> names) { spec_.beside = std::move(names); }
 
   /// The recipe of the vector field that spec().field means. @pre file().
@@ -157,7 +130,7 @@ class Input {
   [[nodiscard]] std::string file_name() const;
   void check_volume() const;
 
-  InputSpec spec_;
+  InputOptions spec_;
   std::string title_;
   std::string raw_note_;
   std::optional<Source> source_;

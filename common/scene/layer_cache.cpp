@@ -5,7 +5,6 @@
 #include <span>
 #include <string_view>
 
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/scene/mesh_digest.h"

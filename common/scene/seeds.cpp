@@ -8,9 +8,10 @@
 #include <random>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/math/vec_text.h"
 #include "common/scene/seed_file.h"
 
 namespace palpate {
@@ -35,10 +36,6 @@ int count_from(double value, const std::string& text) {
 void check_total(double total, const std::string& text) {
   if (total > static_cast<double>(kMostSeeds))
     throw usage_error("--seeds " + text + ": more than 100000000 seeds");
-}
-
-Vec3 vec_at(const std::vector<double>& numbers, std::size_t i) {
-  return {numbers[i], numbers[i + 1], numbers[i + 2]};
 }
 
 /// i / (n - 1), the middle of the range for a single point.
@@ -163,22 +160,6 @@ std::vector<Vec3> grid_seeds(const Box& bounds, const Index3& n) {
 }
 
 }  // namespace
-
-std::vector<double> parse_numbers(std::string_view text, std::size_t count, const std::string& grammar) {
-  std::vector<double> numbers;
-  for (const auto part : split(text, ',')) {
-    const auto value = number(part);
-    if (!value || !std::isfinite(*value)) {
-      throw usage_error("'" + std::string(trimmed(part)) + "' is no finite number; " + grammar);
-    }
-    numbers.push_back(*value);
-  }
-  if (numbers.size() != count) {
-    throw usage_error("'" + std::string(text) + "' has " + std::to_string(numbers.size()) +
-                      " numbers, need " + std::to_string(count) + "; " + grammar);
-  }
-  return numbers;
-}
 
 SeedSpec parse_seeds(const std::string& text, const std::string& grammar) {
   const std::string known = grammar.empty() ? kGrammar : grammar;

@@ -65,9 +65,4 @@ using SeedSpec = std::variant<SeedList, SeedGrid, SeedRandom>;
 [[nodiscard]] std::vector<Vec3> make_seeds(const SeedSpec& spec, const TetMesh& mesh, const LocalFrame& frame,
                                            const Box& bounds, std::uint64_t random_seed);
 
-/// `count` numbers separated by commas.
-/// @throws Error (usage) that quotes `text` and says `grammar`.
-[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::size_t count,
-                                                const std::string& grammar);
-
 }  // namespace palpate

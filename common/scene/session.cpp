@@ -113,22 +113,26 @@ Session load_session(const std::filesystem::path& path) {
   } catch (const toml::parse_error& error) {
     fail(path, "line " + std::to_string(error.source().begin.line), std::string(error.description()), "TOML");
   }
-  if (root["format"].value_or<std::int64_t>(0) != kFormat) {
-    fail(path, "format", "not a session of this version", "format = 1");
-  }
+  const auto format = root["format"].value_or<std::int64_t>(0);
+  if (format < kFormat) fail(path, "format", "not a session", "format = 1");
   Session session;
+  session.newer = format > kFormat;
   session.program = root["program"].value_or(std::string());
   if (const toml::array* inputs = root["input"].as_array()) {
     for (const toml::node& node : *inputs) session.inputs.push_back(read_input(node, path));
   }
   const toml::table* scene = root["scene"].as_table();
-  if (!scene) fail(path, "[scene]", "is missing", "a table of options");
+  if (!scene) fail(path, "[scene]", "is missing", "a table of settings");
   for (const auto& [key, node] : *scene) {
     const std::string name(key.str());
     const auto value = node.value<std::string>();
+    if (!value && session.newer) {
+      session.options.emplace_back(name, std::string());
+      continue;
+    }
     if (!value) {
       fail(path, "line " + std::to_string(node.source().begin.line), "'" + name + "' is no text",
-           "the option's value in quotes");
+           "the setting's value in quotes");
     }
     session.options.emplace_back(name, *value);
   }

@@ -1,10 +1,10 @@
 /// Sessions: a scene as a small text file that diffs well (TOML).
 ///
-/// One grammar: the values of [scene] are those of the command line's options of the same names, so a session
-/// is read by putting them in front of the options that the user typed. Inputs carry their size and SHA-256
-/// checksum, and a changed one is named when the session is opened.
+/// The keys of [scene] are names of settings, and their values have the grammar of the command line
+/// (document/setting.h); those at their defaults are left out. Inputs carry their size and SHA-256 checksum,
+/// and a changed one is named when the session is opened.
 ///
-///   format = 1
+///   format = 1                  # a newer one is read as far as it is known
 ///   program = "flow"
 ///   [[input]]
 ///   file = "carotid.vtk"        # relative to the session file
@@ -36,7 +36,8 @@ struct SessionInput {
 struct Session {
   std::string program;                                       ///< "flow"
   std::vector<SessionInput> inputs;                          ///< none for a built-in example
-  std::vector<std::pair<std::string, std::string>> options;  ///< option name without dashes, value
+  std::vector<std::pair<std::string, std::string>> options;  ///< name of a setting, its value as text
+  bool newer = false;  ///< its format is newer than the one that this program writes
 };
 
 /// Size and checksum of `file`. Of a folder (a DICOM series) the sum of its files' sizes, and the checksum of

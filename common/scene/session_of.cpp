@@ -1,27 +1,63 @@
 #include "common/scene/session_of.h"
 
-#include <filesystem>
+#include <utility>
 
-#include "common/base/keep_beside.h"
+#include "common/base/error.h"
+#include "common/base/output_file.h"
 
 namespace palpate {
 
-Session begin_session(const InputSpec& spec, const std::string& program) {
+std::vector<std::pair<std::string, std::string>> kept_settings(const Document& document) {
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (const Setting& row : settings()) {
+    if (!row.kept || !row.kinds.has(document.input.kind) || is_default(row, document)) continue;
+    std::string text = value_text(row, document);
+    std::error_code ignored;
+    if (row.file && std::filesystem::is_regular_file(text, ignored))
+      text = std::filesystem::absolute(text).lexically_normal().string();
+    kept.emplace_back(row.name, std::move(text));
+  }
+  return kept;
+}
+
+Session session_of(const Document& document, const std::string& program) {
   Session session{.program = program};
-  for (const auto& file : spec.files) session.inputs.push_back(describe_input(file, false));
-  if (spec.solution) session.inputs.push_back(describe_input(*spec.solution, true));
+  for (const auto& file : document.input.files) session.inputs.push_back(describe_input(file, false));
+  if (document.input.solution) session.inputs.push_back(describe_input(*document.input.solution, true));
+  session.options = kept_settings(document);
   return session;
 }
 
-std::string store_session(const Session& session, const InputSpec& spec) {
+std::string store_session(const Session& session, const Document& document) {
+  const auto& files = document.input.files;
   const std::string name =
-      (spec.files.empty() ? session.program + "-" + spec.example : spec.files.front().stem().string()) +
+      (files.empty() ? session.program + "-" + document.input.example : files.front().stem().string()) +
       ".palpate.toml";
-  const auto beside = spec.files.empty() ? std::filesystem::path() : spec.files.front().parent_path();
+  const auto beside = files.empty() ? std::filesystem::path() : files.front().parent_path();
   std::filesystem::path path = beside / name;
   if (!may_keep_beside(path)) path = name;
   save_session(path, session);
   return path.string();
+}
+
+std::vector<const Setting*> take_settings(const Session& session, FieldKind kind,
+                                          const std::filesystem::path& file, Document& document,
+                                          std::vector<std::string>& notes) {
+  std::vector<const Setting*> taken;
+  for (const auto& [name, value] : session.options) {
+    const Setting* row = find_setting(name, kind);
+    if (row == nullptr && session.newer) {
+      notes.push_back(file.string() + ": '" + name + "' is left out: a newer version knows it");
+      continue;
+    }
+    if (row == nullptr) {
+      throw input_error({file.string(), "[scene]", "'" + name + "' is no setting",
+                         "a setting's name, such as '" + std::string(nearest_setting(name, kind)) + "'", ""});
+    }
+    set_value(*row, document, value);
+    taken.push_back(row);
+  }
+  return taken;
 }
 
 }  // namespace palpate

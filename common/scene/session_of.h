@@ -1,9 +1,12 @@
-/// Saving what a window shows as a session: the part that all explorers share.
+/// Documents as sessions, and back.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
-#include "common/scene/input.h"
+#include "common/scene/document/document.h"
+#include "common/scene/document/setting.h"
 #include "common/scene/session.h"
 
 namespace palpate {
@@ -11,13 +14,26 @@ namespace palpate {
 /// Saved angles hold for any window; the zoom is stated for a picture of this shape (width / height).
 inline constexpr double kSessionAspect = 1.5;
 
-/// A session with the inputs of `spec` and no options yet. @throws Error (bad input) where one cannot be
-/// read.
-[[nodiscard]] Session begin_session(const InputSpec& spec, const std::string& program);
+/// The settings that sessions keep and that differ from their defaults, by name. Files that they name are
+/// named by their full paths.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> kept_settings(const Document& document);
 
-/// Writes it beside the first input, or where that cannot be written, or there is none, into the current
-/// folder.
+/// The inputs of `document` and what kept_settings() gives. @throws Error (bad input) where an input cannot
+/// be read.
+[[nodiscard]] Session session_of(const Document& document, const std::string& program);
+
+/// Writes it beside the first input of `document`, or where that cannot be written, or there is none, into
+/// the current folder.
 /// @return what was written. @throws Error (work failed).
-std::string store_session(const Session& session, const InputSpec& spec);
+std::string store_session(const Session& session, const Document& document);
+
+/// Takes the settings of `session` into `document`, for programs of `kind`.
+/// @param file of the session, for messages. @param notes gets what was left out of a newer session.
+/// @return what was taken.
+/// @throws Error (bad input) for a setting that is not known, with the one that is most like it; (usage) for
+/// a value that a setting does not take.
+std::vector<const Setting*> take_settings(const Session& session, FieldKind kind,
+                                          const std::filesystem::path& file, Document& document,
+                                          std::vector<std::string>& notes);
 
 }  // namespace palpate

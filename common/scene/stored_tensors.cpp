@@ -16,11 +16,6 @@ namespace {
 
 using Six = std::array<double, 6>;
 
-Six six_of(const Mat3& m) noexcept { return {m[0][0], m[1][0], m[2][0], m[1][1], m[2][1], m[2][2]}; }
-Mat3 matrix_of(const Six& d) noexcept {
-  return {Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
-}
-
 /// Stores a tensor turned by `axes`; NaN where it is zero or not finite.
 void store(const Six& tensor, const Mat3& axes, float* out) {
   const bool zero = std::all_of(tensor.begin(), tensor.end(), [](double d) { return d == 0.0; });
@@ -29,7 +24,8 @@ void store(const Six& tensor, const Mat3& axes, float* out) {
     std::fill_n(out, 6, std::numeric_limits<float>::quiet_NaN());
     return;
   }
-  const Six turned = axes == Mat3{1.0} ? tensor : six_of(axes * matrix_of(tensor) * glm::transpose(axes));
+  const Six turned =
+      axes == Mat3{1.0} ? tensor : six_numbers(axes * symmetric_matrix(tensor) * glm::transpose(axes));
   std::transform(turned.begin(), turned.end(), out, [](double value) { return static_cast<float>(value); });
 }
 
@@ -61,7 +57,7 @@ double positive_part(const DataArray& array, TensorOrder order) {
     if (!std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); })) continue;
     if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) continue;
     ++asked;
-    positive += symmetric_eigenvalues(matrix_of(d))[2] >= 0.0 ? 1 : 0;
+    positive += symmetric_eigenvalues(symmetric_matrix(d))[2] >= 0.0 ? 1 : 0;
   }
   return asked > 0 ? static_cast<double>(positive) / static_cast<double>(asked) : 0.0;
 }
@@ -138,7 +134,7 @@ std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& sour
       const Vec3 v{arrays[e]->at(p, 0), arrays[e]->at(p, 1), arrays[e]->at(p, 2)};
       sum += arrays[e + 3]->at(p) * glm::outerProduct(v, v);
     }
-    store(six_of(sum), axes, &tensors[6 * p]);
+    store(six_numbers(sum), axes, &tensors[6 * p]);
   }
   return tensors;
 }
@@ -161,7 +157,7 @@ std::vector<float> from_directions(const DataSet& image, const TensorSource& sou
       const Vec3 unit = v / length;
       tensor = kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
     }
-    store(six_of(tensor), axes, &tensors[6 * p]);
+    store(six_numbers(tensor), axes, &tensors[6 * p]);
   }
   return tensors;
 }

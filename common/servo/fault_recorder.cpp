@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/output_file.h"
 #include "common/servo/recording_text.h"
 
@@ -118,17 +119,17 @@ void FaultRecorder::finish() {
   if (!thread_.joinable()) return;
   thread_.request_stop();
   thread_.join();
-  if (to_go_) save(memories_[static_cast<std::size_t>(active_)]);
+  if (to_go_) save(memories_[as_size(active_)]);
 }
 
 void FaultRecorder::change(std::uint64_t step, const Change& change) noexcept {
   now_.take(change);
-  memories_[static_cast<std::size_t>(active_)].add(step, change, header_.limits);
+  memories_[as_size(active_)].add(step, change, header_.limits);
 }
 
 void FaultRecorder::step(const HandInput& input, const HandStep& step) noexcept {
   now_.take(step, header_.limits);
-  memories_[static_cast<std::size_t>(active_)].add(StepEntry{input, step}, header_.limits);
+  memories_[as_size(active_)].add(StepEntry{input, step}, header_.limits);
   if (is_fault(step.cut) && step.cut != cut_) begin_fault();
   cut_ = step.cut;
   if (to_go_ && (*to_go_)-- == 0) hand_over();
@@ -145,7 +146,7 @@ void FaultRecorder::hand_over() noexcept {
   if (handed_.load(std::memory_order_acquire) != kNone) return;
   ++files_;
   const int full = std::exchange(active_, 1 - active_);
-  memories_[static_cast<std::size_t>(active_)].begin(now_);
+  memories_[as_size(active_)].begin(now_);
   handed_.store(full, std::memory_order_release);
 }
 
@@ -167,7 +168,7 @@ void FaultRecorder::write_loop(const std::stop_token& stop) {
     stopping = wake_.wait_for(lock, stop, kPause, [] { return false; }) || stop.stop_requested();
     const int full = handed_.load(std::memory_order_acquire);
     if (full == kNone) continue;
-    save(memories_[static_cast<std::size_t>(full)]);
+    save(memories_[as_size(full)]);
     handed_.store(kNone, std::memory_order_release);
   }
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -120,7 +122,7 @@ Vec3 HandStepper::controlled(const ChainStep& step, const Vec3& probe, double dt
   double stored = 0.0;
   Vec3 pulled = probe;
   for (int i = 0; i < step.links; ++i) {
-    const Vec3 stretch = step.proxies[static_cast<std::size_t>(i)] - pulled;
+    const Vec3 stretch = step.proxies[as_size(i)] - pulled;
     stored += 0.5 * settings.stiffness * glm::dot(stretch, stretch);
     pulled += stretch;
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/servo/real_time.h"
 
 namespace palpate {
@@ -19,7 +20,7 @@ bool LiveHands::read(double /*now*/, TrackedHands& hands) {
   tracker_->read_poses(now, poses);
   const auto seen = [&poses](int station) -> const PoseAtom* {
     if (station < 1 || station > static_cast<int>(PoseAtoms::kStations)) return nullptr;
-    const PoseAtom& pose = poses.stations[static_cast<std::size_t>(station - 1)];
+    const PoseAtom& pose = poses.stations[as_size(station - 1)];
     return pose.valid ? &pose : nullptr;
   };
   const PoseAtom* const stylus = seen(stations_.stylus);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/servo/safety_rules.h"
 
 namespace palpate {
@@ -53,7 +54,7 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
   steered_at_ = now;
   Vec3 push{0.0};
   for (int a = 0; a < 3; ++a) {
-    const double n = atoms.valuators[static_cast<std::size_t>(a)];
+    const double n = atoms.valuators[as_size(a)];
     push[a] = std::isfinite(n) ? n * std::abs(n) : 0.0;  // (1)
   }
   steered_ += placement_.axes * (kTopSpeed * dt * push);

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/line_reader.h"
 #include "common/haptics/settings_text.h"
 
@@ -204,9 +205,7 @@ class BodyReader {
 
 }  // namespace
 
-std::string_view name_of(HandSwitch change) noexcept {
-  return kSwitchNames[static_cast<std::size_t>(change)];
-}
+std::string_view name_of(HandSwitch change) noexcept { return kSwitchNames[as_size(change)]; }
 
 Recording read_recording(const std::string& file) {
   LineReader lines(file, kWhat);
@@ -239,7 +238,7 @@ Recording read_recording(const std::string& file) {
 }
 
 void StepHash::add(const HandStep& step) noexcept {
-  for (int i = 0; i < step.chain.links; ++i) add(step.chain.proxies[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < step.chain.links; ++i) add(step.chain.proxies[as_size(i)]);
   add(step.force);
   ++steps_;
 }

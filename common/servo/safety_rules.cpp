@@ -6,13 +6,15 @@
 
 #include <glm/common.hpp>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::string_view name_of(ForceCut cut) noexcept {
   constexpr std::array<std::string_view, kForceCutCount> kNames{
       "none",     "no_hand",  "start", "jump", "switched_off", "out_of_reach",
       "released", "too_fast", "stale", "time", "not_finite",   "chain"};
-  return kNames[static_cast<std::size_t>(cut)];
+  return kNames[as_size(cut)];
 }
 
 Vec3 capped(const Vec3& force, double cap) noexcept {

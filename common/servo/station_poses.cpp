@@ -3,11 +3,12 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
 StationPoses::StationPoses(std::shared_ptr<LinkedDevice> tracker, int station)
-    : tracker_(std::move(tracker)), station_(static_cast<std::size_t>(station - 1)) {
+    : tracker_(std::move(tracker)), station_(as_size(station - 1)) {
   PALPATE_CHECK(tracker_ && tracker_->tracks());
   PALPATE_CHECK(station >= 1 && station_ < PoseAtoms::kStations);
 }

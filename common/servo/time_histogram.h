@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 class TimeHistogram {
@@ -45,8 +47,7 @@ class TimeHistogram {
   static constexpr std::size_t bin_of(std::uint64_t ns) noexcept {
     if (ns < (1U << kBits)) return ns;
     const int octave = std::bit_width(ns) - kBits;
-    const std::size_t bin =
-        (static_cast<std::size_t>(octave) << kBits) + ((ns >> (octave - 1)) & ((1U << kBits) - 1));
+    const std::size_t bin = (as_size(octave) << kBits) + ((ns >> (octave - 1)) & ((1U << kBits) - 1));
     return std::min(bin, kBins - 1);
   }
   static constexpr std::uint64_t last_of(std::size_t bin) noexcept {

@@ -7,10 +7,11 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/trace/isosurface.h"
+#include "common/trace/isosurface/isosurface.h"
 
 namespace palpate {
 namespace {
@@ -292,7 +293,7 @@ FibreLineResult trace_fibres(const LayeredHeart& heart, std::span<const Vec3> se
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (of_seed[s].outside) result.outside_seeds.push_back(static_cast<std::uint32_t>(s));
     for (Line& line : of_seed[s].lines) {
-      ++result.ends[static_cast<std::size_t>(line.end)];
+      ++result.ends[as_size(line.end)];
       result.points += line.points.size();
       result.error_max = std::max(result.error_max, line.points.back().error);
       result.lines.push_back(std::move(line));

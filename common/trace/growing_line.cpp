@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 GrowingLine::GrowingLine(const VectorField& field, const WalkFactory& factory, const GrowthLimits& limits)
     : field_(field), limits_(limits) {
   for (const Side side : {Side::kDownstream, Side::kUpstream}) {
-    OneSide& one = sides_[static_cast<std::size_t>(side)];
+    OneSide& one = sides_[as_size(side)];
     one.walk = factory.make(side == Side::kDownstream ? TraceDirection::kForward : TraceDirection::kBackward);
     // Filled with zeros, so that the pages are there before the servo writes to them.
-    one.nodes = std::make_unique<LineNode[]>(static_cast<std::size_t>(limits.capacity) + 1);
+    one.nodes = std::make_unique<LineNode[]>(as_size(limits.capacity) + 1);
   }
 }
 
@@ -36,7 +38,7 @@ bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
   }
   bool inside = true;
   for (const Side side : {Side::kDownstream, Side::kUpstream}) {
-    OneSide& one = sides_[static_cast<std::size_t>(side)];
+    OneSide& one = sides_[as_size(side)];
     inside = inside && one.walk->start(seed);
     if (!inside) break;
     const LinePoint& begin = one.walk->end();
@@ -51,7 +53,7 @@ bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
 }
 
 int GrowingLine::grow(Side side) noexcept {
-  OneSide& one = sides_[static_cast<std::size_t>(side)];
+  OneSide& one = sides_[as_size(side)];
   if (one.end.load(std::memory_order_relaxed) >= 0) return 0;
   LineWalk& walk = *one.walk;
   std::optional<End> ended = walk.advance();
@@ -93,7 +95,7 @@ void GrowingLine::add_piece(OneSide& to, Side side) noexcept {
     return glm::distance(cubic.at(sign * (s - a.arc)), middle.position);
   };
 
-  const LineNode before = to.nodes[static_cast<std::size_t>(count)];
+  const LineNode before = to.nodes[as_size(count)];
   LineNode whole = node_of(walk.end(), walk.direction(), side);
   whole.gap = gap_between(before, whole, 0.5);
   // The gap falls with the fourth power of the length.
@@ -112,7 +114,7 @@ void GrowingLine::add_piece(OneSide& to, Side side) noexcept {
     }
     if (!(sign * (next.arc - last.arc) > 0.0)) continue;  // shorter than rounding
     if (parts > 1) next.gap = gap_between(last, next, (i - 0.5) / parts);
-    to.nodes[static_cast<std::size_t>(++count)] = next;
+    to.nodes[as_size(++count)] = next;
     last = next;
   }
   to.count.store(count, std::memory_order_release);

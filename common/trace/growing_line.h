@@ -14,12 +14,13 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/hermite.h"
 #include "common/geometry/line.h"
-#include "common/trace/line_walk.h"
 #include "common/trace/loop_detector.h"
-#include "common/trace/walk_factory.h"
+#include "common/trace/walk/line_walk.h"
+#include "common/trace/walk/walk_factory.h"
 
 namespace palpate {
 
@@ -72,8 +73,7 @@ class GrowingLine {
   }
   /// @pre first() <= i <= last().
   [[nodiscard]] const LineNode& node(int i) const noexcept {
-    return i >= 0 ? sides_[0].nodes[static_cast<std::size_t>(i)]
-                  : sides_[1].nodes[static_cast<std::size_t>(-i)];
+    return i >= 0 ? sides_[0].nodes[as_size(i)] : sides_[1].nodes[as_size(-i)];
   }
   /// The cubic between nodes i and i + 1.
   [[nodiscard]] HermitePiece piece(int i) const noexcept {
@@ -94,9 +94,7 @@ class GrowingLine {
     LoopDetector loop;
     CellHint hint;
   };
-  [[nodiscard]] const OneSide& side_of(Side side) const noexcept {
-    return sides_[static_cast<std::size_t>(side)];
-  }
+  [[nodiscard]] const OneSide& side_of(Side side) const noexcept { return sides_[as_size(side)]; }
   [[nodiscard]] LineNode node_of(const LinePoint& point, const Vec3& tangent, Side side) const noexcept;
   [[nodiscard]] Vec3 tangent_at(const LinePoint& point, const Vec3& otherwise, CellHint& hint) const noexcept;
   void add_piece(OneSide& to, Side side) noexcept;

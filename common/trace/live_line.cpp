@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -27,8 +29,8 @@ bool LiveLine::start(const Vec3& seed, double arc, double time) noexcept {
   const int held = held_.load();
   int spare = 0;
   while (spare == now || spare == held) ++spare;
-  if (!lines_[static_cast<std::size_t>(spare)]->start(seed, arc, time)) return false;
-  numbers_[static_cast<std::size_t>(spare)] = ++started_;
+  if (!lines_[as_size(spare)]->start(seed, arc, time)) return false;
+  numbers_[as_size(spare)] = ++started_;
   current_.store(spare);
   return true;
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "common/base/index.h"
 #include "common/trace/growing_line.h"
 
 namespace palpate {
@@ -31,11 +32,11 @@ class LiveLine {
   /// The line that is followed, or null.
   [[nodiscard]] GrowingLine* current() noexcept {
     const int now = current_.load(std::memory_order_relaxed);
-    return now < 0 ? nullptr : lines_[static_cast<std::size_t>(now)].get();
+    return now < 0 ? nullptr : lines_[as_size(now)].get();
   }
   [[nodiscard]] const GrowingLine* current() const noexcept {
     const int now = current_.load(std::memory_order_relaxed);
-    return now < 0 ? nullptr : lines_[static_cast<std::size_t>(now)].get();
+    return now < 0 ? nullptr : lines_[as_size(now)].get();
   }
   /// Begins a line in place of the current one. False, and nothing changes, where none begins at `seed`.
   [[nodiscard]] bool start(const Vec3& seed, double arc = 0.0, double time = 0.0) noexcept;
@@ -54,7 +55,7 @@ class LiveLine {
       if (seen < 0) {
         look(static_cast<const GrowingLine*>(nullptr), std::uint64_t{0});
       } else {
-        const auto slot = static_cast<std::size_t>(seen);
+        const auto slot = as_size(seen);
         look(static_cast<const GrowingLine*>(lines_[slot].get()), numbers_[slot]);
       }
       held_.store(-1);

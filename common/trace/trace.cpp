@@ -8,11 +8,12 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
-#include "common/trace/exact_walk.h"
+#include "common/trace/exact/exact_walk.h"
 #include "common/trace/line_builder.h"
 #include "common/trace/loop_detector.h"
-#include "common/trace/walk_factory.h"
+#include "common/trace/walk/walk_factory.h"
 
 namespace palpate {
 namespace {
@@ -69,9 +70,7 @@ void check_options(const VectorField& field, const TraceOptions& options, Integr
 
 }  // namespace
 
-std::string_view name_of(Integrator integrator) noexcept {
-  return kNames[static_cast<std::size_t>(integrator)];
-}
+std::string_view name_of(Integrator integrator) noexcept { return kNames[as_size(integrator)]; }
 
 Integrator integrator_from_name(std::string_view name) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
@@ -152,7 +151,7 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
     }
     for (std::size_t i = 0; i < per_seed; ++i) {
       Line& line = lines[seed * per_seed + i];
-      ++result.ends[static_cast<std::size_t>(line.end)];
+      ++result.ends[as_size(line.end)];
       result.points += line.points.size();
       for (const LinePoint& point : line.points) result.error_max = std::max(result.error_max, point.error);
       result.lines.push_back(std::move(line));

@@ -16,6 +16,7 @@
 #include "common/render/png.h"
 #include "common/window/event_text.h"
 #include "common/window/keys.h"
+#include "common/window/panels/panel_parts.h"
 
 namespace palpate {
 namespace {
@@ -24,17 +25,28 @@ namespace {
 // graphics card each picture of its progress takes processors from it.
 constexpr double kBusyRest = 1.0 / 60.0, kJobRest = 0.1;
 
+/// Where the mouse is to be in the window [pixels]; none where no such control was drawn.
+std::optional<Vec2> place_of_control(const ScriptedEvent& scripted) {
+  int before = 0;
+  for (const DrawnControl& control : drawn_controls()) {
+    if (control.label != scripted.control || before++ < scripted.which) continue;
+    return Vec2{control.left + scripted.across * control.width, control.top + scripted.down * control.height};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
     : model_(model),
       options_(options),
-      job_(start_model(model)),
-      files_(options.picture_folder, options.program),
+      jobs_(model),
       glfw_(options),
       view_(options.view),
-      region_control_(options.region),
-      focal_point_(options.focal_point) {
+      focal_point_(options.focal_point),
+      touch_(options.touch, [] { glfwPostEmptyEvent(); }),
+      controls_(touch_, options.region),
+      files_(options.picture_folder, options.program, touch_, state_) {
   GLFWwindow* const window = glfw_.get();
   glfwSwapInterval(scripted() ? 0 : 1);
   float scale = 1.0F;
@@ -42,8 +54,6 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   constexpr float kTextHeight = 14.0F;
   gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
   live_ = std::make_unique<LivePicture>(options_.frame_budget);
-  touch_ = std::make_unique<ProbeSession>(options_.touch, [] { glfwPostEmptyEvent(); });
-  touch_control_ = std::make_unique<TouchControl>(*touch_);
   if (options_.bench) {
     bench_ = std::make_unique<BenchDisplay>(*options_.bench);
     if (options_.bench->several) {
@@ -52,8 +62,8 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
       view_.stereo.mode = StereoMode::kNone;
     }
   }
-  state_.touch = touch_.get();
-  state_.region = &region_control_;
+  state_.touch = &touch_;
+  state_.region = &controls_.region();
   state_.recent = options_.recent;
   state_.plotted = options_.plotted;
   state_.play_rate = options_.play_rate;
@@ -65,9 +75,9 @@ WindowResult ExplorerWindow::run() {
     wait_for_events();
     if (options_.stop_requested && options_.stop_requested()) break;
     take_outcome();
-    const bool counted = scene_.has_value() && !job_->running();
+    const bool counted = scene_.has_value() && !jobs_.running();
     if (counted) inject(frame_);
-    if (touch_->replaying()) inject_replayed();
+    if (touch_.servo().replaying()) inject_replayed();
     const double seconds = frame_clock.seconds();
     frame_clock.restart();
     draw_frame(seconds);
@@ -78,17 +88,18 @@ WindowResult ExplorerWindow::run() {
     glfwSwapBuffers(glfw_.get());
     if (bench_) bench_->finished(BenchDisplay::now());
   }
-  touch_->finish();
+  touch_.finish();
   WindowResult result{.frames = frame_,
                       .recent = state_.recent,
                       .view = view_,
-                      .settings = state_.settings,
+                      .document = state_.document,
                       .message = state_.message,
-                      .region = region_control_.box(),
-                      .probe = touch_->readout(),
+                      .region = controls_.region().box(),
+                      .probe = touch_.readout(),
                       .tensor = state_.tensor,
-                      .replay = touch_->replay_verdict(),
-                      .series = plot_.curve()};
+                      .replay = touch_.servo().replay_verdict(),
+                      .series = plot_.curve(),
+                      .missing = missing_};
   if (screens_) result.screens = screens_->read();
   if (bench_) result.latency = bench_->latency();
   std::tie(result.width, result.height) = glfw_.size();
@@ -100,13 +111,13 @@ WindowResult ExplorerWindow::run() {
 }
 
 void ExplorerWindow::wait_for_events() {
-  if (scripted() && !job_->running()) {
+  if (scripted() && !jobs_.running()) {
     glfwPollEvents();
     return;
   }
   // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
   if (live_->complete() && glfw_.events().empty()) {
-    glfwWaitEventsTimeout(lively() ? kBusyRest : job_->running() ? kJobRest : kIdleRest);
+    glfwWaitEventsTimeout(lively() ? kBusyRest : jobs_.running() ? kJobRest : kIdleRest);
   } else {
     glfwPollEvents();  // there is work to do meanwhile: more tracts, or events that the last frame has left
   }
@@ -114,25 +125,36 @@ void ExplorerWindow::wait_for_events() {
 }
 
 bool ExplorerWindow::lively() const {
-  return lively_frames_ > 0 || state_.playing || touch_->lively() || (bench_ && bench_->lively());
+  return lively_frames_ > 0 || state_.playing || touch_.lively() || (bench_ && bench_->lively());
 }
 
 bool ExplorerWindow::closes() {
   if (screens_ && screens_->close_asked()) glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
   if (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) return false;
-  if (leave_ || !asked_about(std::nullopt)) return true;
+  if (leave_ || !files_.ask(std::nullopt)) return true;
+  controls_.touch().let_go();
   glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
   return false;
 }
 
 void ExplorerWindow::inject(int frame) {
   for (const ScriptedEvent& scripted : options_.script) {
-    if (scripted.frame == frame) glfw_.events().push_back(scripted.event);
+    if (scripted.frame != frame) continue;
+    if (!scripted.control.empty()) {
+      const auto place = place_of_control(scripted);
+      if (!place) {
+        missing_.push_back(scripted.control);
+        continue;
+      }
+      glfw_.events().push_back({.kind = InputKind::kMove, .x = place->x, .y = place->y});
+      if (scripted.event.kind == InputKind::kMove) continue;
+    }
+    glfw_.events().push_back(scripted.event);
   }
 }
 
 void ExplorerWindow::inject_replayed() {
-  for (const std::string& text : touch_->due_events()) {
+  for (const std::string& text : touch_.servo().due_events()) {
     const auto event = event_from_text(text);
     if (!event) continue;
     const auto command = command_of(*event);
@@ -142,15 +164,10 @@ void ExplorerWindow::inject_replayed() {
     }
     glfw_.events().push_back(*event);
   }
-  if (const std::string verdict = touch_->replay_verdict(); verdict != state_.replay_verdict) {
+  if (const std::string verdict = touch_.servo().replay_verdict(); verdict != state_.replay_verdict) {
     state_.replay_verdict = verdict;
-    say("replay " + verdict, false);
+    state_.say("replay " + verdict);
   }
-}
-
-void ExplorerWindow::say(const std::string& message, bool is_error) {
-  state_.message = message;
-  state_.message_is_error = is_error;
 }
 
 void ExplorerWindow::save_screenshot() {

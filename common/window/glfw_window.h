@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/geometry/stereo_mode.h"
+#include "common/geometry/screen.h"
 #include "common/window/input_event.h"
 
 struct GLFWwindow;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace palpate {
@@ -49,6 +50,11 @@ struct InputEvent {
 struct ScriptedEvent {
   int frame = 0;
   InputEvent event;
+  /// Label of a control of the panel, at which the mouse is then, wherever the panel has drawn it; empty: where
+  /// the event says.
+  std::string control = {};
+  int which = 0;                    ///< of several controls of that label, from above
+  double across = 0.5, down = 0.5;  ///< the place in it, from its upper left corner to the lower right one
 };
 
 }  // namespace palpate

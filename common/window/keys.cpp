@@ -18,6 +18,8 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'R', 0, Command::kLocalLines, "R", "lines about the probe: none, a rake, a plane of seeds"},
       {'X', 0, Command::kLockX, "X", "lock the probe to the x axis, or unlock it"},
       {'Y', 0, Command::kLockY, "Y", "to the y axis"},
+      {'Z', kModifierControl | kModifierShift, Command::kRedo, "Ctrl+Shift+Z", "and restore it (or Ctrl+Y)"},
+      {'Y', kModifierControl, Command::kRedo, "", ""},
       {'Z', 0, Command::kLockZ, "Z", "to the z axis"},
       {kF12, 0, Command::kForceOff, "F12", "force off, at once and anywhere"},
       {'L', 0, Command::kLens, "L",

@@ -30,6 +30,7 @@ enum class Command : std::uint8_t {
   kKeepLine,
   kSaveLines,
   kUndo,
+  kRedo,
   kLocalLines,
   kCorner,  ///< of the region of interest, at the probe
   kLockX,

@@ -7,7 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/math/power_of_two.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
 namespace {

@@ -1,6 +1,7 @@
 #include "common/window/open_window.h"
 
 #include <utility>
+#include <vector>
 
 #include "common/base/version.h"
 #include "common/compose/line_view.h"
@@ -11,7 +12,8 @@
 namespace palpate {
 namespace {
 
-WindowOutcome open_window(WindowModel& model, const Options& options, WindowRequest request) {
+WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& model, const Document& options,
+                          WindowRequest request) {
   const WindowResult result = run_user_window(
       model,
       {.program = request.program,
@@ -23,6 +25,7 @@ WindowOutcome open_window(WindowModel& model, const Options& options, WindowRequ
        .version = version_text(request.program),
        .bench = std::move(request.bench),
        .touch = std::move(request.touch),
+       .panels = panels,
        .region =
            options.slice.box.empty() ? std::nullopt : std::optional(parse_box(options.slice.box, "--box")),
        .plotted = options.series.plot,
@@ -38,6 +41,12 @@ WindowOutcome open_window(WindowModel& model, const Options& options, WindowRequ
 
 }  // namespace
 
-WindowMaker user_window() { return {.available = window_available, .open = open_window}; }
+WindowMaker user_window(std::vector<PanelPart> panels) {
+  return {.available = window_available,
+          .open = [panels = std::move(panels)](WindowModel& model, const Document& options,
+                                               WindowRequest request) {
+            return open_window(panels, model, options, std::move(request));
+          }};
+}
 
 }  // namespace palpate

@@ -7,11 +7,11 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
-#include "common/field/color_transfer_file.h"
 #include "common/field/grid/image_resample.h"
-#include "common/field/region_transfer_file.h"
-#include "common/load/write_annotations.h"
-#include "common/load/write_image.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
+#include "common/load/write/write_annotations.h"
+#include "common/load/write/write_image.h"
 
 namespace palpate {
 

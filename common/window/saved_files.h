@@ -11,11 +11,11 @@
 
 #include "common/geometry/annotation.h"
 #include "common/hand/drawn/kept_lines.h"
-#include "common/load/write_image.h"
+#include "common/load/write/write_image.h"
 #include "common/render/lens/lens.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 
@@ -38,7 +38,7 @@ class SavedFiles {
   [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
                                                        const std::string& ending) const;
   /// Saves the voxels of `image` in `region` as `crop` and `ending`, .nii.gz, .nrrd or .vti, under the first
-  /// number that is free: in single precision, the lowest value where there is none, as `grid clip` does.
+  /// number that is free: in single precision, the lowest value where there is none, as the verb `clip` does.
   /// @pre some are in it.
   [[nodiscard]] std::filesystem::path save_region(const VolumeImage& image, const Box& region,
                                                   const std::string& ending, ImageSpace space) const;

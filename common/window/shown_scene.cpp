@@ -13,11 +13,11 @@
 namespace palpate {
 namespace {
 
-void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
+void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
   const std::optional<VolumeView> before = std::exchange(view.volume, scene.volume);
   view.anatomical = scene.info->anatomical;
   view.volume_label = scene.volume_label;
-  if (!view.volume || !before || new_input) return;
+  if (!view.volume || !before || as_made) return;
   view.volume->shading = before->shading;
   view.volume->samples_per_voxel = before->samples_per_voxel;
   view.volume->far_sampling = before->far_sampling;
@@ -51,19 +51,19 @@ void show_volume(const SceneState& scene, bool new_input, SceneView& view) {
   }
 }
 
-void show_tracts(const SceneState& scene, bool new_input, SceneView& view) {
+void show_tracts(const SceneState& scene, bool as_made, SceneView& view) {
   const std::optional<TractView> before = std::exchange(view.tracts, scene.tracts);
-  if (!view.tracts || !before || new_input) return;
+  if (!view.tracts || !before || as_made) return;
   const auto bundle = view.tracts->bundle;
   view.tracts = before;
   view.tracts->bundle = bundle;
 }
 
 // Another time step of an image keeps its slices.
-void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
+void show_tensors(const SceneState& scene, bool as_made, SceneView& view) {
   const std::optional<TensorView> before = std::exchange(view.tensors, scene.tensors);
   if (!view.tensors) return;
-  if (!before || new_input) {
+  if (!before || as_made) {
     view.style.color_by = ColorBy::kDirection;
     return;
   }
@@ -80,10 +80,10 @@ void show_tensors(const SceneState& scene, bool new_input, SceneView& view) {
 }
 
 // A lens stays where it is, whatever it shows.
-void show_lens(const SceneState& scene, bool new_input, SceneView& view) {
+void show_lens(const SceneState& scene, bool as_made, SceneView& view) {
   const std::optional<ColorLens> before = std::exchange(view.color_lens, scene.color_lens);
   if (!view.color_lens) return;
-  if (before && !new_input) {
+  if (before && !as_made) {
     view.color_lens->center = before->center;
     view.color_lens->radius = before->radius;
   } else if (!(view.color_lens->radius > 0.0)) {
@@ -107,25 +107,24 @@ void color_lines(const SceneState& scene, LineStyle& style) {
 
 }  // namespace
 
-void show_scene(const SceneState& scene, bool new_input, SceneView& view) {
+void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
+  const bool as_made = as != ShownAs::kChanged;
   view.lines = scene.lines;
   view.surfaces = scene.surfaces;
-  show_lens(scene, new_input, view);
+  show_lens(scene, as_made, view);
   color_lines(scene, view.style);
   view.bounds = scene.info->bounds;
   view.outline = scene.info->outline;
   view.units = scene.info->units;
   view.title = scene.info->name;
-  const std::string& field = scene.settings.field;
+  const std::string& field = scene.document.input.field;
   view.subtitle = (field.empty() ? "" : field + ", ") + size_text(scene);
   const std::vector<double>& times = scene.info->times;
-  if (times.size() > 1 && scene.settings.time_step < times.size()) {
-    view.subtitle += ", time " + short_number(times[scene.settings.time_step]);
-  }
-  show_volume(scene, new_input, view);
-  show_tensors(scene, new_input, view);
-  show_tracts(scene, new_input, view);
-  if (!new_input) return;
+  if (times.size() > 1) view.subtitle += ", time " + short_number(times[time_step_of(scene.document, times)]);
+  show_volume(scene, as_made, view);
+  show_tensors(scene, as_made, view);
+  show_tracts(scene, as_made, view);
+  if (as != ShownAs::kNew) return;
   if (scene.style) {
     view.style = *scene.style;
   } else {

@@ -16,6 +16,7 @@
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_pick.h"
 #include "common/window/input_event.h"
+#include "common/window/panels/panel.h"
 
 namespace palpate {
 
@@ -37,11 +38,12 @@ struct WindowOptions {
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
   std::optional<BenchDisplayOptions> bench;
-  ProbeSessionOptions touch;     ///< without modes: the window knows no touch
-  std::optional<Box> region;     ///< of interest, in a volume
-  std::string plotted;           ///< one of SceneInfo::plotted, or empty
-  double play_rate = kPlayRate;  ///< time steps a second
-  int threads = 0;               ///< of what is read beside the picture; 0: all cores
+  ProbeSessionOptions touch;      ///< without modes: the window knows no touch
+  std::vector<PanelPart> panels;  ///< the program's parts of the panel, from above
+  std::optional<Box> region;      ///< of interest, in a volume
+  std::string plotted;            ///< one of SceneInfo::plotted, or empty
+  double play_rate = kPlayRate;   ///< time steps a second
+  int threads = 0;                ///< of what is read beside the picture; 0: all cores
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 
@@ -63,7 +65,7 @@ struct WindowResult {
   int height = 0;
   std::vector<InputFiles> recent;  ///< with what was opened in this window
   SceneView view;                  ///< at the end
-  SceneSettings settings;          ///< at the end
+  Document document;               ///< at the end
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
   FrameQuality quality;        ///< of the last picture
@@ -74,6 +76,7 @@ struct WindowResult {
   std::optional<TensorPick> tensor;  ///< that is read out under the mouse at the end
   std::string replay;                ///< verdict on a replay that came to its end
   SeriesCurve series;                ///< that was plotted at the end
+  std::vector<std::string> missing;  ///< labels of controls that the script named and no panel had
   std::vector<Image> screens;        ///< of a workbench, each in a window of its own, at the end
   double latency = 0.0;              ///< BenchDisplay::latency()
 };

@@ -1,28 +1,74 @@
+#include "common/window/window_files.h"
+
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
+#include <exception>
 #include <utility>
-#include <vector>
-
-#include <GLFW/glfw3.h>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/window/explorer_window.h"
 
 namespace palpate {
 
-bool ExplorerWindow::asked_about(std::optional<InputFiles> opens) {
-  const std::size_t count =
-      files_.unsaved(touch_->kept()) +
-      static_cast<std::size_t>(std::ranges::count_if(
-          touch_->drawn(), [](const DrawnTract& tract) { return tract.line.points.size() > 1; }));
-  if (count == 0 || touch_->replaying()) return false;
-  touch_control_->let_go();
-  const std::string lines = counted(count, touch_->has_tensors() ? "tract" : "line");
+bool WindowFiles::attempt(const std::function<std::string()>& save) {
+  try {
+    state_.say("saved " + save());
+    return true;
+  } catch (const std::exception& error) {
+    state_.fail(error.what());
+    return false;
+  }
+}
+
+std::string WindowFiles::write_lines() {
+  ProbeTrail& trail = touch_.trail();
+  if (!trail.drawn().empty()) (void)trail.keep_line();
+  if (trail.kept().entries().empty())
+    throw work_error(touch_.data().has_tensors() ? "no tract is drawn; press G, then drag along one"
+                                                 : "no line is kept; grab the probe (G), then K keeps one");
+  return saved_.save_lines(trail.kept(), state_.lines_file).string();
+}
+
+void WindowFiles::save_lines() {
+  attempt([this] { return write_lines(); });
+}
+
+void WindowFiles::save_picture(const Image& image, const std::vector<PngText>& texts) {
+  attempt([&] { return saved_.save_picture(image, texts).string(); });
+}
+
+void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
+                             const std::optional<Box>& region) {
+  if (actions.save_transfer && view.volume) {
+    attempt([&] {
+      Lens context;
+      context.transfer = view.volume->transfer;
+      context.regions = view.volume->regions;
+      return saved_.save_transfer(state_.transfer_file, context).string();
+    });
+  }
+  if (actions.save_focus && state_.scene != nullptr)
+    attempt([&] { return saved_.save_transfer(state_.focus_file, state_.scene->look(0)).string(); });
+  if (!actions.touch.save_notes.empty()) {
+    attempt(
+        [&] { return saved_.save_annotations(touch_.notes().entries(), actions.touch.save_notes).string(); });
+  }
+  if (!actions.region.crop.empty()) {
+    attempt([&] {
+      return saved_
+          .save_region(*view.volume->image, *region, actions.region.crop,
+                       view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown)
+          .string();
+    });
+  }
+}
+
+bool WindowFiles::ask(std::optional<InputFiles> opens) {
+  const auto whole = [](const DrawnTract& tract) { return tract.line.points.size() > 1; };
+  const std::size_t count = saved_.unsaved(touch_.trail().kept()) +
+                            static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
+  if (count == 0 || touch_.servo().replaying()) return false;
+  const std::string lines = counted(count, touch_.data().has_tensors() ? "tract" : "line");
   question_.ask(lines + (count == 1 ? " is" : " are") + " not saved." +
                     (opens ? " Opening another input in place of this one forgets " +
                                  std::string(count == 1 ? "it." : "them.")
@@ -31,72 +77,13 @@ bool ExplorerWindow::asked_about(std::optional<InputFiles> opens) {
   return true;
 }
 
-void ExplorerWindow::open(const InputFiles& files) {
-  if (!asked_about(files)) to_open_ = files;
-}
-
-void ExplorerWindow::answer_question() {
+std::optional<WindowFiles::Leave> WindowFiles::answer() {
   const auto answer = question_.draw();
-  if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel) return;
-  if (answer == UnsavedQuestion::Answer::kSave && !attempt([this] { return save_lines(); })) return;
-  if (question_.opens()) {
-    to_open_ = question_.opens();
-  } else {
-    leave_ = true;
-    glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
-  }
-}
-
-std::filesystem::path ExplorerWindow::save_lines() {
-  if (!touch_->drawn().empty()) (void)touch_->keep_line();
-  if (touch_->kept().entries().empty())
-    throw work_error(touch_->has_tensors() ? "no tract is drawn; press G, then drag along one"
-                                           : "no line is kept; grab the probe (G), then K keeps one");
-  return files_.save_lines(touch_->kept(), state_.lines_file);
-}
-
-bool ExplorerWindow::attempt(const std::function<std::filesystem::path()>& save) {
-  try {
-    say("saved " + save().string(), false);
-    return true;
-  } catch (const std::exception& error) {
-    say(error.what(), true);
-    return false;
-  }
-}
-
-void ExplorerWindow::save_asked(const PanelActions& actions) {
-  if (actions.save_transfer && view_.volume) {
-    attempt([this] {
-      Lens context;
-      context.transfer = view_.volume->transfer;
-      context.regions = view_.volume->regions;
-      return files_.save_transfer(state_.transfer_file, context);
-    });
-  }
-  if (actions.save_focus && scene_) {
-    attempt([this] { return files_.save_transfer(state_.focus_file, scene_->look(0)); });
-  }
-  if (!actions.touch.save_notes.empty())
-    attempt([&] { return files_.save_annotations(touch_->notes().entries(), actions.touch.save_notes); });
-  if (!actions.region.crop.empty()) {
-    attempt([&] {
-      return files_.save_region(*view_.volume->image, *region_control_.box(), actions.region.crop,
-                                view_.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown);
-    });
-  }
-}
-
-std::vector<std::pair<std::string, std::string>> ExplorerWindow::set_options() const {
-  auto set = touch_->options();
-  if (!state_.plotted.empty()) set.emplace_back("plot", state_.plotted);
-  if (const auto& box = region_control_.box(); box && has_region()) set.emplace_back("box", box_text(*box));
-  if (state_.play_rate != kPlayRate) set.emplace_back("play-rate", exact_number(state_.play_rate));
-  return set;
-}
-
-std::vector<PngText> ExplorerWindow::picture_texts() const {
-  return {{"Software", options_.version}, {"Comment", options_.command_line}};
+  if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel)
+    return std::nullopt;
+  if (answer == UnsavedQuestion::Answer::kSave && !attempt([this] { return write_lines(); }))
+    return std::nullopt;
+  return Leave{.opens = question_.opens()};
 }
 
 }  // namespace palpate

@@ -7,7 +7,11 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include "common/render/stereo/screen_camera.h"
+#include "common/base/text.h"
+#include "common/compose/line_view.h"
+#include "common/compose/slice_plane.h"
+#include "common/compose/volume_scene.h"
+#include "common/scene/session_of.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/keys.h"
@@ -25,34 +29,15 @@ std::vector<InputEvent> ExplorerWindow::take_events() {
 void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const InputEvent& event : events) {
-    pointer_.follow(event);
-    const Aim aim(view_.camera, seeing());
-    if (event.kind == InputKind::kDrop && !question_.asking()) open({event.files, {}});
-    if (const std::string text = event_text(event); !text.empty()) {
-      touch_->record_event(static_cast<std::uint64_t>(frame_), text);
-    }
+    if (event.kind == InputKind::kDrop && !files_.asking()) open({event.files, {}});
+    if (const std::string text = event_text(event); !text.empty())
+      touch_.servo().record_event(static_cast<std::uint64_t>(frame_), text);
     const auto command = command_of(event);
     // The one key that works in text fields, too.
     if (command == Command::kForceOff) run_command(*command);
-    if (question_.handle(event)) continue;
-    const bool begins = event.kind == InputKind::kPress || event.kind == InputKind::kWheel;
-    const bool key = event.kind == InputKind::kKeyDown || event.kind == InputKind::kKeyUp;
-    const bool of_panel =
-        (begins && io.WantCaptureMouse && !control_.dragging()) || (key && io.WantTextInput);
-    // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
-    const bool of_lens =
-        event.kind == InputKind::kPress && (lens_control_.followed() || color_lens_control_.followed());
-    if (!of_panel && !menu_.handle(event, pointer_.area(), view_.camera) &&
-        !handle_region(event, pointer_.area()) && !handle_plane_image(event, pointer_.area()) &&
-        !(of_lens && handle_lens(event, pointer_.area())) &&
-        !touch_control_->handle(event, pointer_.area(), view_, glfwGetTime(), io.WantCaptureMouse) &&
-        !handle_lens(event, pointer_.area()) &&
-        !(view_.tensors && slice_control_.handle(event, pointer_.area(), view_.camera, *view_.tensors))) {
-      control_.handle(event, pointer_.area(), view_.bounds, view_.camera);
-    } else if (event.kind == InputKind::kMove) {
-      control_.place(event.x, event.y);
-      slice_control_.place(event.x, event.y);
-    }
+    controls_.follow_pointer(event);
+    if (files_.handle(event)) continue;
+    say(controls_.handle(event, controlled(), io.WantCaptureMouse, io.WantTextInput));
     // An open list takes Esc for itself.
     const bool of_list =
         command == Command::kLetGo && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
@@ -60,37 +45,31 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   }
 }
 
-bool ExplorerWindow::handle_region(const InputEvent& event, const PictureArea& area) {
-  if (!has_region() || (touch_control_->grabbed() && event.kind != InputKind::kMove)) return false;
-  return region_control_.handle(event, area, view_.camera, view_.bounds);
-}
-
-bool ExplorerWindow::handle_plane_image(const InputEvent& event, const PictureArea& area) {
-  if (!view_.volume) return false;
-  const bool taken = plane_image_control_.handle(event, area, view_.camera, *view_.volume);
-  if (plane_image_control_.dragging()) live_->lens_moved(glfwGetTime());
-  return taken;
-}
-
-bool ExplorerWindow::handle_lens(const InputEvent& event, const PictureArea& area) {
-  bool taken = false;
-  if (scene_ && scene_->info->layers) {
-    taken = color_lens_control_.handle(event, area, {scene_->felt_scalar, scene_->settings.layer}, view_);
-  } else if (view_.volume) {
-    if (lens_control_.followed()) live_->lens_moved(glfwGetTime());
-    taken = lens_control_.handle(event, area, view_.camera, view_.bounds, *view_.volume);
+void ExplorerWindow::open(const InputFiles& files) {
+  if (files_.ask(files)) {
+    controls_.touch().let_go();
+  } else {
+    jobs_.open(files);
   }
-  // Where it is left, what was said of moving it is over.
-  if (taken && event.kind == InputKind::kPress) say({}, false);
-  return taken;
+}
+
+void ExplorerWindow::answer_question() {
+  const auto leave = files_.answer();
+  if (!leave) return;
+  if (leave->opens) {
+    jobs_.open(*leave->opens);
+  } else {
+    leave_ = true;
+    glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+  }
 }
 
 void ExplorerWindow::obey(const PanelActions& actions) {
-  if (actions.cancel) job_->cancel();
+  if (actions.cancel) jobs_.cancel();
   if (actions.reset_camera) needs_camera_ = true;
   if (actions.look) run_command(*actions.look);
   if (actions.time && has_times())
-    state_.settings.time_step = nearest_step(scene_->info->times, *actions.time);
+    set_time_step(state_.document, scene_->info->times, nearest_step(scene_->info->times, *actions.time));
   if (actions.open) open(*actions.open);
   if (actions.save_picture) run_command(Command::kSavePicture);
   if (actions.save_session) run_command(Command::kSaveSession);
@@ -98,9 +77,9 @@ void ExplorerWindow::obey(const PanelActions& actions) {
   if (actions.touch.keep) run_command(Command::kKeepLine);
   if (actions.touch.undo) run_command(Command::kUndo);
   if (actions.touch.save_lines) run_command(Command::kSaveLines);
-  if (actions.touch.mark) touch_control_->mark(!touch_control_->marking());
-  save_asked(actions);
-  if (actions.lens) say(lens_control_.follow(*actions.lens), false);
+  if (actions.touch.mark) controls_.touch().mark(!controls_.touch().marking());
+  files_.save_asked(actions, view_, controls_.region().box());
+  if (actions.lens) say(controls_.follow_lens(*actions.lens));
 }
 
 void ExplorerWindow::run_command(Command command) {
@@ -116,8 +95,8 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kPlay:
       // Along layers there are no lines to keep.
-      if (touch_control_->grabbed() && (touch_->has_flow() || touch_->has_tensors())) {
-        run_touch(Command::kKeepLine);
+      if (controls_.touch().grabbed() && (touch_.data().has_flow() || touch_.data().has_tensors())) {
+        say(controls_.run(Command::kKeepLine, controlled()));
       } else if (has_times())
         state_.playing = !state_.playing;
       break;
@@ -132,22 +111,22 @@ void ExplorerWindow::run_command(Command command) {
     case Command::kQuit:
       glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
       break;
-    case Command::kCorner:
-      put_corner();
-      break;
     case Command::kUndo:
-      if (!undo_view_edit()) run_touch(command);
+      state_.say(undo());
+      break;
+    case Command::kRedo:
+      state_.say(redo());
       break;
     case Command::kMenu:
-      toggle_menu();
+      controls_.toggle_menu(controlled());
       break;
     case Command::kVolume:
       if (view_.volume) view_.volume->shown = !view_.volume->shown;
       break;
     case Command::kLens:
-    case Command::kLensSmaller:
-    case Command::kLensLarger:
-      run_lens(command);
+      // What it shows is sampled before it is there.
+      if (scene_ && scene_->info->layers && !view_.color_lens) add_color_lens(view_, state_.document.heart);
+      say(controls_.run(command, controlled()));
       break;
     case Command::kColorBar:
       view_.show_color_bar = !view_.show_color_bar;
@@ -159,106 +138,114 @@ void ExplorerWindow::run_command(Command command) {
       state_.show_rates = !state_.show_rates;
       break;
     case Command::kSavePicture:
-      attempt([this] { return files_.save_picture(live_->read(), picture_texts()); });
+      files_.save_picture(live_->read(), picture_texts());
       break;
     case Command::kSaveSession:
-      if (scene_) attempt([this] { return model_.save_session(scene_->settings, view_, set_options()); });
+      keep_document();
+      if (scene_) files_.attempt([this] { return model_.save_session(state_.document); });
       break;
     case Command::kSaveLines:
-      attempt([this] { return save_lines(); });
+      files_.save_lines();
       break;
     default:
-      run_touch(command);
+      say(controls_.run(command, controlled()));
   }
 }
 
 void ExplorerWindow::let_go() {
-  control_.let_go();
-  slice_control_.let_go();
-  lens_control_.let_go();
-  color_lens_control_.follow(false);
-  plane_image_control_.let_go();
-  region_control_.let_go();
-  touch_control_->let_go();
-  touch_control_->mark(false);
+  controls_.let_go();
   state_.show_help = state_.playing = false;
-  if (job_->running() && job_kind_ != JobKind::kStart) job_->cancel();
-  say({}, false);
-}
-
-void ExplorerWindow::put_corner() {
-  if (!has_region()) return;
-  if (touch_->readout().held) {
-    say(region_control_.put_corner(touch_->readout().proxy), false);
-  } else {
-    say("grab the probe (G) first: the corner is put where it is", false);
-  }
-}
-
-void ExplorerWindow::run_lens(Command command) {
-  if (scene_ && scene_->info->layers) {
-    if (command == Command::kLens && state_.settings.lens_array.empty())
-      state_.settings.lens_array = scene_->info->color_arrays.front();  // is sampled before it is there
-    say(color_lens_control_.run(command, view_), false);
-    return;
-  }
-  if (!scene_ || !view_.volume) return;
-  say(lens_control_.run(command, pointer_.area(), view_.camera, view_.bounds, scene_->look(0), *view_.volume),
-      false);
-  live_->lens_moved(glfwGetTime());
-}
-
-void ExplorerWindow::run_touch(Command command) {
-  if (ViewControl::look(command, view_.bounds, eye_aspect(view_.stereo.mode, picture_.width, picture_.height),
-                        view_.camera))
-    return;
-  if (view_.tensors && SliceControl::run(command, *view_.tensors)) return;
-  if (const auto words = touch_control_->run(command, pointer_.area(), view_, glfwGetTime()))
-    say(*words, false);
+  if (jobs_.running() && jobs_.kind() != SceneJobs::Kind::kStart) jobs_.cancel();
+  state_.say({});
 }
 
 void ExplorerWindow::work_in_space() {
-  Camera seeing = view_.camera;
-  if (bench_) {
-    // Between both eyes, where they are before the screen.
-    const Eyes& eyes = bench_->eyes();
-    const Vec3 viewer = place_of(view_.camera, bench_->screen())(0.5 * (eyes[0] + eyes[1]));
-    if (glm::dot(viewer - seeing.focal_point, seeing.axes[2]) > 0.0) seeing = seen_from(seeing, viewer);
+  say(controls_.work_in_space(controlled()));
+  if (!controls_.menu().shown()) return;
+  for (const Command command : controls_.menu().act(*scene_, state_.document, view_)) run_command(command);
+}
+
+void ExplorerWindow::keep_document() {
+  if (!scene_ || needs_camera_ || jobs_.restoring()) return;
+  Document& document = state_.document;
+  if (!same_picture(view_, kept_)) {
+    model_.keep(view_, document);
+    kept_ = view_;
   }
-  const auto words = hand_in_space_.follow(menu_, *touch_, view_, seeing, pointer_.area(), glfwGetTime());
-  if (words) say(*words, false);
-  if (hand_in_space_.holding()) live_->lens_moved(glfwGetTime());
-  if (!menu_.shown()) return;
-  for (const Command command : menu_.act(state_.settings, view_)) run_command(command);
+  const auto& box = controls_.region().box();
+  document.slice.box = box && controlled().has_region() ? box_text(*box) : std::string();
+  document.series.plot = state_.plotted;
+  document.view.play_rate = state_.play_rate;
+  touch_.keep(document.touch);
 }
 
-void ExplorerWindow::toggle_menu() {
-  if (!scene_) return;
-  std::vector<std::string> modes;
-  for (const HapticMode& mode : touch_->modes()) modes.push_back(mode.name);
-  menu_.toggle(*scene_, view_, modes);
-  touch_->engage(false);
-}
-
-EditedView ExplorerWindow::edited_view() const {
-  return {region_control_.box(), view_.volume ? view_.volume->planes.window : std::nullopt};
+bool ExplorerWindow::dragging() const {
+  const auto& planes = touch_.planes();
+  const bool plane = planes && planes->state != WidgetState::kFree && touch_.readout().acts;
+  // Time that plays, and layers that the hand goes through, are one edit each.
+  const bool layers = scene_ && scene_->info->layers && touch_.readout().held;
+  return state_.playing || plane || layers || !controls_.resting() || ImGui::IsAnyItemActive();
 }
 
 void ExplorerWindow::follow_edits() {
-  if (!view_.volume) return;
-  const bool resting =
-      !region_control_.dragging() && !plane_image_control_.dragging() && !ImGui::IsAnyItemActive();
-  view_edits_.follow(edited_view(), cut_planes_, resting);
+  if (!scene_ || needs_camera_ || jobs_.restoring()) return;
+  keep_document();
+  if (!history_) history_.emplace(state_.document);
+  // Planes that a mode begins with are no edit.
+  const auto& planes = state_.document.touch.planes.planes;
+  if (history_->now().touch.planes.planes.empty() && !planes.empty()) history_->settle(state_.document);
+  if (!dragging() && !(state_.document == history_->now())) {
+    history_->push(state_.document, "edit");
+    edits_.push_back(EditKind::kDocument);
+  }
+  const std::size_t trail = touch_.trail().undo_depth();
+  if (trail > trail_edits_) edits_.push_back(EditKind::kTrail);
+  trail_edits_ = trail;
 }
 
-bool ExplorerWindow::undo_view_edit() {
-  if (!view_.volume || touch_control_->marking()) return false;
-  const auto before = view_edits_.undo(cut_planes_);
-  if (!before) return false;
-  region_control_.put(before->region);
-  view_.volume->planes.window = before->window;
-  say("undone", false);
-  return true;
+std::string ExplorerWindow::undo() {
+  // A point of what is being marked is in no document yet.
+  if (controls_.touch().marking() && !touch_.notes().pending().empty() && touch_.notes().undo())
+    return "undone";
+  if (edits_.empty()) return "nothing to undo";
+  const EditKind last = edits_.back();
+  edits_.pop_back();
+  if (last == EditKind::kTrail) {
+    (void)touch_.trail().undo();
+    trail_edits_ = touch_.trail().undo_depth();
+  } else if (history_->can_undo()) {
+    restore(history_->undo());
+  } else {
+    return "nothing to undo";  // the history is bounded
+  }
+  return "undone";
+}
+
+std::string ExplorerWindow::redo() {
+  if (!history_ || !history_->can_redo()) return "nothing to restore";
+  edits_.push_back(EditKind::kDocument);
+  restore(history_->redo());
+  return "restored";
+}
+
+void ExplorerWindow::restore(const Document& document) {
+  state_.document = document;
+  state_.seeds = seed_choice(document.tracing.seeds);
+  state_.plotted = document.series.plot;
+  state_.play_rate = document.view.play_rate;
+  view_.camera = camera_of(document.view, view_.bounds, kSessionAspect, projection_of(document.volume));
+  style_lines(document.view, view_.style);
+  show_quantity(document.view.color, view_.style);
+  controls_.region().put(document.slice.box.empty() ? std::nullopt
+                                                    : std::optional(parse_box(document.slice.box, "--box")));
+  touch_.restore(document.touch);
+  kept_ = view_;
+  // Lenses, slices and the like come with the scene that is made of the document.
+  jobs_.restore();
+}
+
+std::vector<PngText> ExplorerWindow::picture_texts() const {
+  return {{"Software", options_.version}, {"Comment", options_.command_line}};
 }
 
 }  // namespace palpate

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/machine_memory.h"
+#include "common/base/memory.h"
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
 #include "loaders/cardiac/carp_reader.h"

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/mesh_text.h"

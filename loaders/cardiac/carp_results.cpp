@@ -13,7 +13,6 @@
 #include <sstream>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate::ex {

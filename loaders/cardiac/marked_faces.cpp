@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/math/symmetric3.h"

@@ -1,14 +1,13 @@
 #include "loaders/cardiac/mesh_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <span>
 #include <system_error>
 
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 #include "common/load/gzip_head.h"
 #include "common/math/vec.h"
 
@@ -16,12 +15,6 @@ namespace palpate {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-  return text;
-}
 
 Vec3 unit_or_nan(const Vec3& v) {
   // Scaled first, so that neither tiny nor huge numbers are lost in squares.
@@ -37,7 +30,7 @@ void append(std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v[0],
 std::size_t believed_count(TextLines& lines, const char* what, std::size_t least_bytes) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(lines.file(), ignored);
-  const bool packed = lower(lines.file()).ends_with(".gz");
+  const bool packed = lowered(lines.file()).ends_with(".gz");
   const double room =
       static_cast<double>(ignored ? 0 : bytes) * (packed ? static_cast<double>(kGzipRatio) : 1.0);
   const double most = std::min(room / static_cast<double>(least_bytes), 2e9);
@@ -87,14 +80,14 @@ void add_directions(const Directions& directions, DataSet& mesh) {
 
 std::string ending_of(const std::string& file) {
   std::filesystem::path path(file);
-  std::string ending = lower(path.extension().string());
-  if (ending == ".gz") ending = lower(path.stem().extension().string());
+  std::string ending = lowered(path.extension().string());
+  if (ending == ".gz") ending = lowered(path.stem().extension().string());
   return ending;
 }
 
 std::string stem_of(const std::string& file) {
   std::filesystem::path path(file);
-  if (lower(path.extension().string()) == ".gz") path.replace_extension();
+  if (lowered(path.extension().string()) == ".gz") path.replace_extension();
   return path.replace_extension().string();
 }
 

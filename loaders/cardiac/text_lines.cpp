@@ -7,7 +7,6 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 
 namespace palpate {

@@ -11,7 +11,7 @@
 #include <gdcmSequenceOfItems.h>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
+#include "common/base/text.h"
 #include "loaders/dicom/dicom_check.h"
 #include "loaders/dicom/dicom_gradients.h"
 

@@ -1,7 +1,6 @@
 #include "loaders/dicom/dicom_loader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
+#include "common/math/lattice.h"
 #include "loaders/dicom/dicom_pixels.h"
 #include "loaders/dicom/dicom_series.h"
 
@@ -76,10 +76,8 @@ std::vector<Listed> list_series(const std::vector<std::string>& files) {
 }
 
 const Listed& chosen(const std::vector<Listed>& all, const std::string& asked, const std::string& place) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
-  if (error == std::errc() && end == asked.data() + asked.size() && number >= 1 && number <= all.size())
-    return all[number - 1];
+  const auto number = parsed<std::size_t>(asked);
+  if (number && *number >= 1 && *number <= all.size()) return all[*number - 1];
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Listed& one) { return one.series == asked; });
   if (found == all.end()) throw usage_error("--series " + asked + ": " + place + " has " + list_of(all));
@@ -106,8 +104,7 @@ class DicomLoader : public Loader {
     info.notes.push_back("series " + title + ", " + counted(files.size(), "file") + "; LPS turned into RAS+");
     info.notes.insert(info.notes.end(), series_.notes.begin(), series_.notes.end());
     const Index3& n = series_.topology.points;
-    const auto points =
-        static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
+    const auto points = count_of(n);
     array_ = {"scalars", Association::kPoint, 1, dicom_value_type(series_), points};
     volumes_ = {0};
     if (request.diffusion) {
@@ -121,17 +118,9 @@ class DicomLoader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
-    DataSet block;
-    block.topology = series_.topology;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end()) {
-      DataArray values =
-          read_dicom_values(series_, signals_ ? volumes_ : std::vector<std::size_t>{step}, on_progress);
-      values.name = array_.name;
-      block.arrays.push_back(std::move(values));
-    }
-    std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
-    return blocks;
+    return read_image(series_.topology, array_.name, names, [&] {
+      return read_dicom_values(series_, signals_ ? volumes_ : std::vector<std::size_t>{step}, on_progress);
+    });
   }
 
  private:

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
@@ -63,7 +62,7 @@ class HeaderReader {
 
   void read_axes() {
     for (const std::string_view word : split(value_of("dim"), ',')) {
-      const auto size = parse_count(trimmed(word));
+      const auto size = parsed<std::uint64_t>(trimmed(word));
       constexpr std::uint64_t kMost = std::numeric_limits<int>::max();
       if (!size || *size == 0 || *size > kMost)
         refuse("dim", "is '" + value_of("dim").substr(0, 60) + "'", "sizes above zero");
@@ -96,7 +95,7 @@ class HeaderReader {
       std::string_view word = trimmed(words[axis]);
       axes[axis].backwards = word.starts_with('-');
       if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
-      const auto rank = parse_count(word);
+      const auto rank = parsed<std::uint64_t>(word);
       if (!rank || *rank >= axes.size() || seen[*rank]) break;
       seen[*rank] = true;
       axes[axis].rank = static_cast<int>(*rank);
@@ -211,7 +210,7 @@ class HeaderReader {
     std::string_view name = files.front();
     std::uint64_t at = 0;
     if (const std::size_t blank = name.find_last_of(" \t"); blank != std::string_view::npos) {
-      if (const auto count = parse_count(name.substr(blank + 1))) {
+      if (const auto count = parsed<std::uint64_t>(name.substr(blank + 1))) {
         at = *count;
         name = trimmed(name.substr(0, blank));
       }

@@ -35,18 +35,11 @@ class MifLoader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
-    DataSet block;
-    block.topology = header_.topology;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end()) {
+    return read_image(header_.topology, array_.name, names, [&] {
       std::vector<std::uint64_t> volumes = tuple_;
       if (volumes.size() == 1) volumes.front() = step;
-      DataArray values = read_mif_values(header_, volumes, on_progress);
-      values.name = array_.name;
-      block.arrays.push_back(std::move(values));
-    }
-    std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
-    return blocks;
+      return read_mif_values(header_, volumes, on_progress);
+    });
   }
 
  private:

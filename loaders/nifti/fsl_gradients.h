@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/field/tensor/gradient_table.h"
@@ -34,5 +35,14 @@ struct FslGradientFiles {
 /// has no direction.
 [[nodiscard]] GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes,
                                                const Mat3& axes, std::vector<std::string>& notes);
+
+/// "V1" to "V3", "L1" to "L3" or "FA" where the file's name is that, alone or after a "_".
+[[nodiscard]] std::optional<std::string> fsl_image_name(const std::string& file);
+
+/// The others of these beside `file` under the same prefix: name and path. @pre fsl_image_name(file).
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> fsl_images_beside(const std::string& file);
+
+/// The file's name without .nii, .nii.gz, .hdr or .img.
+[[nodiscard]] std::string nifti_stem(const std::string& file);
 
 }  // namespace palpate

@@ -10,7 +10,6 @@
 #include "common/base/error.h"
 #include "common/load/volume_block.h"
 #include "loaders/nifti/fsl_gradients.h"
-#include "loaders/nifti/fsl_names.h"
 #include "loaders/nifti/nifti_file.h"
 
 namespace palpate {

@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
+#include <zlib.h>
+
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
-#include "loaders/nrrd/gzip_rest.h"
 
 namespace palpate {
 namespace {
@@ -27,19 +29,6 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
 
 /// How far bzip2 compresses at best (runs of one byte): some 45 000 : 1. For deflate see gzip_head.h.
 constexpr std::uint64_t kBzip2Ratio = 50'000;
-
-std::string trim(std::string_view text) {
-  const auto space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  while (!text.empty() && space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && space(text.back())) text.remove_suffix(1);
-  return std::string(text);
-}
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Bytes of one value of a NRRD type by any of its names, or 0.
 std::uint64_t bytes_of_type(const std::string& name) {
@@ -68,7 +57,8 @@ std::uint64_t bytes_of_type(const std::string& name) {
   return 0;
 }
 
-std::optional<std::uint64_t> number(std::string_view text) {
+/// A count; the largest number where it is larger than that.
+std::optional<std::uint64_t> count_in(std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range) return ~std::uint64_t{0};
@@ -76,15 +66,8 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return value;
 }
 
-std::vector<std::string> words(const std::string& text) {
-  std::vector<std::string> list;
-  std::istringstream stream(text);
-  for (std::string word; stream >> word;) list.push_back(word);
-  return list;
-}
-
 /// "name%03d.raw 1 20 1 [subdim]": the names that it stands for.
-void add_numbered(const std::vector<std::string>& parts, NrrdClaims& claims) {
+void add_numbered(const std::vector<std::string_view>& parts, NrrdClaims& claims) {
   NumberedFiles files = numbered_files(parts[0], parts[1], parts[2], parts[3], kMaxDataFiles);
   claims.problem = std::move(files.problem);
   claims.data_files.insert(claims.data_files.end(), files.names.begin(), files.names.end());
@@ -93,10 +76,10 @@ void add_numbered(const std::vector<std::string>& parts, NrrdClaims& claims) {
 void read_field(const std::string& field, const std::string& value, NrrdClaims& claims, bool& list_follows) {
   if (field == "sizes") {
     claims.sizes.clear();
-    for (const std::string& word : words(value)) {
-      const auto size = number(word);
+    for (const std::string_view word : words(value)) {
+      const auto size = count_in(word);
       if (!size || *size == 0) {
-        claims.problem = "'sizes' holds '" + word.substr(0, 40) + "', expected counts above 0";
+        claims.problem = "'sizes' holds '" + std::string(word.substr(0, 40)) + "', expected counts above 0";
         return;
       }
       claims.sizes.push_back(*size);
@@ -104,16 +87,16 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
     if (claims.sizes.empty() || claims.sizes.size() > kMaxAxes)
       claims.problem = "'sizes' names no axes, or too many";
   } else if (field == "type") {
-    claims.bytes_per_value = bytes_of_type(lower(value));
+    claims.bytes_per_value = bytes_of_type(lowered(value));
     if (claims.bytes_per_value == 0)
       claims.problem = "has values of type '" + value.substr(0, 40) + "', expected numbers";
   } else if (field == "encoding") {
-    claims.encoding = lower(value);
+    claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
     claims.skips = true;
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
-    const std::vector<std::string> parts = words(value);
+    const std::vector<std::string_view> parts = words(value);
     if (!parts.empty() && parts[0] == "LIST") {
       list_follows = true;
     } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos) {
@@ -134,7 +117,7 @@ NrrdClaims read_nrrd_claims(std::string_view head) {
   bool ended = false;
   while (at < head.size() && claims.problem.empty()) {
     const std::size_t end = std::min(head.find('\n', at), head.size());
-    const std::string line = trim(head.substr(at, end - at));
+    const std::string_view line = trimmed(head.substr(at, end - at));
     at = std::min(end + 1, head.size());
     if (first) {
       first = false;  // the magic
@@ -142,7 +125,7 @@ NrrdClaims read_nrrd_claims(std::string_view head) {
     }
     if (list_follows) {
       if (line.empty()) continue;
-      claims.data_files.push_back(line);
+      claims.data_files.emplace_back(line);
       if (claims.data_files.size() > kMaxDataFiles) claims.problem = "names too many data files";
       continue;
     }
@@ -153,7 +136,7 @@ NrrdClaims read_nrrd_claims(std::string_view head) {
     // "field: value"; comments begin with #, key/value pairs have ":=".
     const std::size_t colon = line.find(": ");
     if (line.front() == '#' || colon == std::string::npos) continue;
-    read_field(lower(line.substr(0, colon)), trim(std::string_view(line).substr(colon + 2)), claims,
+    read_field(lowered(line.substr(0, colon)), std::string(trimmed(line.substr(colon + 2))), claims,
                list_follows);
   }
   claims.header_bytes = at;
@@ -215,6 +198,72 @@ std::string check_nrrd(const std::string& file) {
   for (const std::uint64_t size : claims.sizes) wanted *= size;
   if (!claims.detached) return gzip_rest(file, claims.header_bytes, wanted);
   return gzip_rest(std::filesystem::path(file).parent_path() / claims.data_files.front(), 0, wanted);
+}
+
+namespace {
+
+/// zlib's state, ended with this.
+struct Inflater {
+  z_stream stream{};
+  bool good = false;
+
+  Inflater() {
+    constexpr int kGzip = 16;
+    good = inflateInit2(&stream, MAX_WBITS + kGzip) == Z_OK;
+  }
+  ~Inflater() {
+    if (good) inflateEnd(&stream);
+  }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+};
+
+}  // namespace
+
+std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first, std::uint64_t wanted) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(in.tellg());
+  constexpr std::uint64_t kTrailer = 4;
+  if (!in || size < first + kTrailer) return {};
+  std::array<unsigned char, kTrailer> trailer{};
+  in.seekg(static_cast<std::streamoff>(size - kTrailer));
+  in.read(reinterpret_cast<char*>(trailer.data()), kTrailer);
+  std::uint32_t stated = 0;
+  for (std::size_t i = kTrailer; i-- > 0;) stated = stated << 8U | trailer[i];
+  if (stated == static_cast<std::uint32_t>(wanted)) return {};
+
+  Inflater inflater;
+  if (!inflater.good) return {};
+  in.seekg(static_cast<std::streamoff>(first));
+  std::array<unsigned char, 1U << 16U> packed{}, unpacked{};
+  std::uint64_t consumed = first, made = 0;
+  z_stream& z = inflater.stream;
+  int result = Z_OK;
+  while (true) {
+    if (z.avail_in == 0) {
+      in.read(reinterpret_cast<char*>(packed.data()), packed.size());
+      z.next_in = packed.data();
+      z.avail_in = static_cast<uInt>(in.gcount());
+      if (z.avail_in == 0) return {};  // cut off, which is the reader's to say
+    }
+    // Another member may follow; anything else is no gzip data.
+    if (result == Z_STREAM_END) {
+      if (z.next_in[0] != 0x1f || inflateReset(&z) != Z_OK) break;
+    }
+    const uInt before = z.avail_in;
+    z.next_out = unpacked.data();
+    z.avail_out = static_cast<uInt>(unpacked.size());
+    result = inflate(&z, Z_NO_FLUSH);
+    consumed += before - z.avail_in;
+    made += unpacked.size() - z.avail_out;
+    if (made > wanted)
+      return "its gzip data unpacks to more than the " + std::to_string(wanted) +
+             " bytes that the header claims: the rest is left out";
+    if (result != Z_OK && result != Z_STREAM_END) break;
+    if (result == Z_STREAM_END && consumed == size) return {};
+  }
+  return counted(static_cast<std::size_t>(size - consumed), "byte") + " after its gzip data are left out";
 }
 
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -33,5 +34,11 @@ struct NrrdClaims {
 /// @throws Error (bad input).
 /// @return what the user should know of data beyond what the header claims, or empty.
 std::string check_nrrd(const std::string& file);
+
+/// One sentence where the gzip data from byte `first` of the file on unpacks to more than `wanted` bytes, or
+/// other bytes follow it; else empty. The size that the data states at its end is believed where it is
+/// `wanted`; otherwise the data is unpacked, `wanted` bytes and a little more of it at most.
+[[nodiscard]] std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first,
+                                    std::uint64_t wanted);
 
 }  // namespace palpate

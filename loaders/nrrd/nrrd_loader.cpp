@@ -167,12 +167,7 @@ class NrrdLoader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    DataSet block;
-    block.topology = topology_;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end()) block.arrays.push_back(values());
-    std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
-    return blocks;
+    return read_image(topology_, array_.name, names, [this] { return values(); });
   }
 
  private:
@@ -310,7 +305,6 @@ class NrrdLoader : public Loader {
       throw input_error({file_, "", "has changed since it was opened", "", "open it again"});
     }
     DataArray array;
-    array.name = array_.name;
     array.components = array_.components;
     array.tuples = array_.tuples;
     if (turned_) return turned(*nrrd, std::move(array));

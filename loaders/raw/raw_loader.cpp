@@ -53,12 +53,7 @@ class RawLoader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    DataSet block;
-    block.topology = topology_;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end()) block.arrays.push_back(values());
-    std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
-    return blocks;
+    return read_image(topology_, array_.name, names, [this] { return values(); });
   }
 
  private:
@@ -85,7 +80,6 @@ class RawLoader : public Loader {
     const bool native = layout_.big_endian == (std::endian::native == std::endian::big);
     if (!native) swap_bytes(*bytes, byte_size(layout_.type));
     DataArray array;
-    array.name = array_.name;
     array.type = array_.type;
     array.tuples = array_.tuples;
     array.bytes = std::as_const(*bytes);

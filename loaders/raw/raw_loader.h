@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "common/load/serve.h"
+#include "common/load/helper/serve.h"
 
 namespace palpate {
 

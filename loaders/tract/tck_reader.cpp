@@ -6,7 +6,6 @@
 
 #include "common/base/error.h"
 #include "common/base/file_numbers.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/load/mrtrix_header.h"
 #include "loaders/tract/tract_loader.h"
@@ -23,7 +22,7 @@ std::size_t start_of_points(const std::string& file, const MrtrixHeader& header,
     throw input_error(
         {file, "header, file", "names another file", "points in the file itself (file: . 123)", ""});
   const std::string_view place = trimmed(std::string_view(*found).substr(2));
-  const auto offset = parse_count(place);
+  const auto offset = parsed<std::uint64_t>(place);
   if (!offset || *offset < header.end || *offset > file_size) {
     throw input_error({file, "header, file", "the points cannot begin at byte " + std::string(place),
                        std::to_string(header.end) + " to " + std::to_string(file_size), kDamagedTracts});
@@ -84,7 +83,7 @@ Tractogram read_tck(const std::string& file, std::string_view bytes, std::vector
   Tractogram lines = number.type == "float64" ? read_points<double>(file, points, number.big_endian, notes)
                                               : read_points<float>(file, points, number.big_endian, notes);
   const std::string* const claimed = header.find("count");
-  const auto count = claimed != nullptr ? parse_count(*claimed) : std::nullopt;
+  const auto count = claimed != nullptr ? parsed<std::uint64_t>(*claimed) : std::nullopt;
   if (count && *count != lines.line_count()) {
     notes.push_back("the header counts " + counted(*count, "line") + ", the file holds " +
                     std::to_string(lines.line_count()));

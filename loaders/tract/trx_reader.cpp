@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -87,13 +86,10 @@ std::optional<ArrayName> parse_name(std::string_view path) {
   path = path.substr(0, dot);
   dot = path.rfind('.');
   if (dot != std::string_view::npos) {
-    const std::string_view number = path.substr(dot + 1);
-    std::size_t components = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), components);
+    const auto components = parsed<std::size_t>(path.substr(dot + 1));
     constexpr std::size_t kMost = 4096;
-    if (error == std::errc() && end == number.data() + number.size() && components > 0 &&
-        components <= kMost) {
-      array.components = components;
+    if (components && *components > 0 && *components <= kMost) {
+      array.components = *components;
       path = path.substr(0, dot);
     }
   }

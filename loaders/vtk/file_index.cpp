@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/xml_scan.h"
@@ -24,10 +24,8 @@ constexpr int kMaxDepth = 8;
 constexpr std::size_t kMaxPieces = 1'000'000;
 
 std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const std::optional<double> value = parsed<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// The blocks of a .vtm, also of those inside it.
@@ -127,8 +125,7 @@ NumberedName split_name(const std::filesystem::path& file) {
 bool counts_parts(const std::string& before) {
   std::string word = std::filesystem::path(before).filename().string();
   while (!word.empty() && std::isalpha(static_cast<unsigned char>(word.back())) == 0) word.pop_back();
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  word = lowered(word);
   static constexpr std::array<std::string_view, 7> kWords{"block", "part", "piece", "domain",
                                                           "zone",  "proc", "grid"};
   return std::any_of(kWords.begin(), kWords.end(), [&word](std::string_view end) {

@@ -1,8 +1,6 @@
 #include "loaders/vtk/meta_check.h"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -13,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
@@ -24,32 +23,6 @@ constexpr std::size_t kMetaHeadBytes = std::size_t{4} << 20;  // with a long lis
 constexpr std::size_t kLongestLine = 1000;
 constexpr std::size_t kMostPieces = 100'000;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
-
-std::string_view trim(std::string_view text) {
-  const auto space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  while (!text.empty() && space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::vector<std::string_view> words(std::string_view text) {
-  std::vector<std::string_view> list;
-  for (text = trim(text); !text.empty(); text = trim(text)) {
-    const auto* const end = std::find_if(
-        text.begin(), text.end(), [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
-    const auto length = static_cast<std::size_t>(end - text.begin());
-    list.push_back(text.substr(0, length));
-    text.remove_prefix(length);
-  }
-  return list;
-}
-
-std::optional<std::int64_t> number(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 bool is_true(std::string_view text) { return text.starts_with('T') || text.starts_with('t') || text == "1"; }
 
@@ -90,7 +63,7 @@ void read_numbered(const std::vector<std::string_view>& parts, Fields& fields, M
   }
   const std::string_view first = parts.size() > 1 ? parts[1] : "1";
   const std::string_view step = parts.size() > 3 ? parts[3] : "1";
-  const auto from = number(first), count = number(fields.size.back());
+  const auto from = parsed<std::int64_t>(first), count = parsed<std::int64_t>(fields.size.back());
   constexpr std::int64_t kMost = std::int64_t{1} << 30;
   const bool counted = from && count && *from > -kMost && *from<kMost&& * count> 0 && *count <= kMost;
   const std::string last = parts.size() > 2 ? std::string(parts[2])
@@ -108,7 +81,7 @@ void read_data_file(std::string_view value, Fields& fields, MetaClaims& claims) 
     claims.problem = "'ElementDataFile' names no file";
   } else if (parts[0] == "LIST") {
     fields.list = true;
-    const auto axes = parts.size() > 1 ? number(parts[1]) : std::optional<std::int64_t>(0);
+    const auto axes = parts.size() > 1 ? parsed<std::int64_t>(parts[1]) : std::optional<std::int64_t>(0);
     if (!axes || *axes < 0 || *axes > 3 || parts.size() > 2)
       claims.problem = "'ElementDataFile' is '" + std::string(value.substr(0, 40)) + "'";
     fields.piece_axes = axes.value_or(0);
@@ -121,7 +94,7 @@ void read_data_file(std::string_view value, Fields& fields, MetaClaims& claims) 
 
 void read_field(std::string_view key, std::string_view value, Fields& fields, MetaClaims& claims) {
   const auto count = [&](std::int64_t least, std::int64_t most) {
-    const auto found = number(value);
+    const auto found = parsed<std::int64_t>(value);
     if (found && *found >= least && *found <= most) return *found;
     claims.problem = std::string("'").append(key) + "' is '" + std::string(value.substr(0, 40)) + "'";
     return least;
@@ -162,7 +135,7 @@ void combine(const Fields& fields, MetaClaims& claims) {
   if (!claims.problem.empty()) return;
   constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;
   for (std::size_t axis = 0; axis < fields.size.size(); ++axis) {
-    const auto found = number(fields.size[axis]);
+    const auto found = parsed<std::int64_t>(fields.size[axis]);
     if (!found || *found < 1 || *found > kMostVoxels) {
       claims.problem = "'DimSize' holds '" + std::string(fields.size[axis].substr(0, 40)) + "'";
       return;
@@ -252,15 +225,15 @@ MetaClaims read_meta_claims(std::string_view head) {
       break;
     }
     if (ended) {
-      if (trim(line).empty()) continue;
-      claims.pieces.emplace_back(trim(line));
+      if (trimmed(line).empty()) continue;
+      claims.pieces.emplace_back(trimmed(line));
       if (claims.pieces.size() > kMostPieces) claims.problem = "names too many data files";
       continue;
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
-    const std::string_view key = trim(line.substr(0, equals));
-    read_field(key, trim(line.substr(equals + 1)), fields, claims);
+    const std::string_view key = trimmed(line.substr(0, equals));
+    read_field(key, trimmed(line.substr(equals + 1)), fields, claims);
     ended = key == "ElementDataFile";
   }
   claims.header_bytes = at;

@@ -75,12 +75,7 @@ class MetaLoader : public Loader {
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    DataSet block;
-    block.topology = topology_;
-    if (std::find(names.begin(), names.end(), array_.name) != names.end()) block.arrays.push_back(values());
-    std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
-    return blocks;
+    return read_image(topology_, array_.name, names, [this] { return values(); });
   }
 
  private:
@@ -135,7 +130,6 @@ class MetaLoader : public Loader {
                       image->Quantity() == static_cast<std::streamoff>(array_.tuples);
     if (!same) throw input_error({file_, "", "has changed since it was opened", "", "open it again"});
     DataArray array;
-    array.name = array_.name;
     array.components = array_.components;
     array.type = array_.type;
     array.tuples = array_.tuples;
@@ -156,7 +150,6 @@ class MetaLoader : public Loader {
     }
     const auto owner = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
     DataArray array;
-    array.name = array_.name;
     array.components = array_.components;
     array.type = array_.type;
     array.tuples = array_.tuples;

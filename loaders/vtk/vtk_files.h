@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "common/load/serve.h"
+#include "common/load/helper/serve.h"
 
 namespace palpate {
 

@@ -1,4 +1,4 @@
-// Marches by value and gradient magnitude (common/render/volume/region_table.h). A transfer function of both has no
+// Marches by value and gradient magnitude (common/render/volume/voxels/region_table.h). A transfer function of both has no
 // preintegrated table; between two samples of the ray's lattice, value and magnitude are taken to run linearly, and are
 // classified at places so dense that hardly an entry of the table is passed over. With tau l the depth that the table
 // holds for the reference length l, a place that stands for a stretch of length h adds

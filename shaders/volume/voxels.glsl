@@ -1,4 +1,4 @@
-// The voxels, whole or in bricks (common/render/volume/voxel_bricks.h), and their numbers at any place.
+// The voxels, whole or in bricks (common/render/volume/voxels/voxel_bricks.h), and their numbers at any place.
 // Needs the uniform block of volume/volume_block.glsl.
 layout(binding = 0) uniform sampler3D voxels;  // of the volume, or the pool of bricks
 

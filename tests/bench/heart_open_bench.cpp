@@ -30,8 +30,8 @@
 #include "common/field/analytic/ventricle.h"
 #include "common/field/grid/cell_split.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/load/write_carp.h"
-#include "common/load/write_mesh.h"
+#include "common/load/write/write_carp.h"
+#include "common/load/write/write_mesh.h"
 #include "common/window/window.h"
 
 namespace palpate::bench {
@@ -83,7 +83,7 @@ void print_use(const char* name, int who) {
 
 void open_once(const char* file, std::chrono::steady_clock::time_point began) {
   {
-    Options options;
+    Document options;
     options.input.files = {file};
     CardiacModel model(options, "cardiac");
     WindowOptions window{.program = "cardiac"};

@@ -35,8 +35,8 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "common/field/vector_field.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::bench {
 namespace {
@@ -54,7 +54,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 /// Layers of points at even heights, every other one drawn close to the one below it: between them lie
 /// cells 1e-5 as thick as they are wide.
 DataSet sliver_layers(const AnalyticField& field) {
-  DataSet block = sample_tetrahedra(field, Index3{kLattice}, 0.2);
+  DataSet block = test::sample_tetrahedra(field, Index3{kLattice}, 0.2);
   auto& topology = std::get<UnstructuredTopology>(block.topology);
   constexpr std::size_t kSlice = kLattice * kLattice;
   const double layer = field.bounds().size().z / (kLattice - 1);
@@ -72,7 +72,7 @@ DataSet sliver_layers(const AnalyticField& field) {
     values.insert(values.end(), {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
   }
   topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(numbers));
-  block.arrays[0] = make_array(kSampledName, Association::kPoint, 3, std::span<const float>(values));
+  block.arrays[0] = make_array(test::kSampledName, Association::kPoint, 3, std::span<const float>(values));
   return block;
 }
 
@@ -234,10 +234,11 @@ int main_of(int argc, char** argv) {
   }
 
   std::printf("%-22s %12s %12s\n", "", "palpate", "vtk");
-  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kPoint, {kSampledName}, kSampledName};
+  const VectorChoice choice{
+      VectorChoice::Kind::kArray, Association::kPoint, {test::kSampledName}, test::kSampledName};
   for (const bool slivers : {false, true}) {
-    const DataSet block = with_single_positions(slivers ? sliver_layers(*formula)
-                                                        : sample_tetrahedra(*formula, Index3{kLattice}, 0.2));
+    const DataSet block = with_single_positions(
+        slivers ? sliver_layers(*formula) : test::sample_tetrahedra(*formula, Index3{kLattice}, 0.2));
     const double before = thread_seconds();
     const auto field = make_vector_field({block}, choice, "bench", 1);
     const double built = thread_seconds();

@@ -14,11 +14,11 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/gl/context.h"
 #include "common/render/gl/object.h"
-#include "common/render/volume/gpu_preintegration.h"
-#include "common/render/volume/preintegration.h"
+#include "common/render/volume/table/gpu_preintegration.h"
+#include "common/render/volume/table/preintegration.h"
 
 namespace {
 

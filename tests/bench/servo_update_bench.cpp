@@ -26,7 +26,6 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
@@ -35,8 +34,9 @@
 #include "common/haptics/constraint/streamline.h"
 #include "common/scene/input.h"
 #include "common/servo/hand_step.h"
-#include "lab/probe_paths.h"
-#include "lab/probe_run.h"
+#include "lab/hand/probe_paths.h"
+#include "lab/hand/probe_run.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::bench {
 namespace {
@@ -198,16 +198,17 @@ int main_of(int argc, char** argv) {
     }
   }
   std::printf("reading the clock costs %.2f us, which every step below contains\n", clock_cost());
-  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kPoint, {kSampledName}, kSampledName};
+  const VectorChoice choice{
+      VectorChoice::Kind::kArray, Association::kPoint, {test::kSampledName}, test::kSampledName};
   for (const char* name : {"abc", "tornado", "boundary-layer"}) {
-    const DataSet block = sample_tetrahedra(*example(name), Index3{kLattice}, 0.2);
+    const DataSet block = test::sample_tetrahedra(*example(name), Index3{kLattice}, 0.2);
     const auto field = make_vector_field({block}, choice, name);
     run(name, field, steps);
     run_chain(name, field, steps);
   }
   for (const std::string& file : files) {
     const std::size_t comma = file.find(',');
-    InputSpec spec{.files = {file.substr(0, comma)}};
+    InputOptions spec{.files = {file.substr(0, comma)}};
     if (comma != std::string::npos) spec.solution = file.substr(comma + 1);
     Input input = Input::open(spec);
     run(input.title(), input.load_field(0), steps);

@@ -27,6 +27,7 @@
 #include <sched.h>
 
 #include "apps/flow/flow_model.h"
+#include "apps/flow/flow_panels.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
 #include "common/cli/simulated_option.h"
@@ -105,10 +106,11 @@ struct Setup {
 
 LateCounts run(const Setup& setup) {
   const double seconds = setup.seconds;
-  Options options;
+  Document options;
   options.input.example = setup.example;
   FlowModel model(options, "flow");
   WindowOptions window{.program = "flow"};
+  window.panels = flow_panels();
   window.touch.modes = modes_of(FieldKind::kVector);
   window.frames = static_cast<int>(seconds * kFrameRate);
   window.touch.simulated = simulated_option(setup.device);

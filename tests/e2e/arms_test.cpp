@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/device/driver/dhd_link.h"
-#include "common/device/driver/inverse3_link.h"
+#include "common/device/driver/dhd/dhd_link.h"
+#include "common/device/driver/inverse3/inverse3_link.h"
 #include "tests/common/device/driver/fake_dhd.h"
-#include "tests/common/device/driver/fake_web.h"
 #include "tests/common/device/driver/moved_clock.h"
-#include "tests/common/device/driver/vrpn_server.h"
-#include "tests/common/device/driver/web_server.h"
+#include "tests/common/device/driver/transport/fake_web.h"
+#include "tests/common/device/driver/transport/web_server.h"
+#include "tests/common/device/driver/vrpn/vrpn_server.h"
 #include "tests/e2e/hand_in_flow.h"
 
 namespace palpate::test {

@@ -174,7 +174,7 @@ TEST_F(CardiacDegenerate, OddOptionsAreNamed) {
   const std::string file = vtu(Element());
   const std::string points = carp("1\n1 0 0\n").front();
   refused({"info", file, "--mesher", "tetgen", "--largest-volume", "-1"},
-          "--largest-volume: a finite number");
+          "--largest-volume -1: a number of 0 or more");
   refused({"map", file, "--angle", "vm", "--contour-spacing", "nan"}, "--contour-spacing");
   refused({"series", file, "--value", "nothing", "--at", "0,0,0"}, "there is no scalar nothing");
   refused({"info", points, "--surface-markers", "1/2"}, "openCARP has no .face file");

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "apps/cardiac/cardiac_model.h"
+#include "apps/cardiac/cardiac_panels.h"
 #include "common/hand/mode/haptic_mode.h"
+#include "common/math/vec_text.h"
 #include "common/scene/session.h"
 #include "common/window/panels/panel.h"
 #include "common/window/shown_scene.h"
@@ -21,6 +23,16 @@
 
 namespace palpate::test {
 namespace {
+
+/// The depth of the layer that is shown.
+double layer_of(const WindowResult& result) { return std::atof(result.document.heart.layer.c_str()); }
+
+/// What a window saves of a scene and its view.
+Session saved_session(CardiacModel& model, const SceneState& state, const SceneView& view) {
+  Document document = state.document;
+  model.keep(view, document);
+  return load_session(model.save_session(document));
+}
 
 double distance_to(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
@@ -40,6 +52,7 @@ class CardiacWindow : public ExplorerTest {
     window_.width = kWidth;
     window_.height = kHeight;
     window_.picture_folder = folder_.path();
+    window_.panels = cardiac_panels();
     window_.touch.modes = modes_of(FieldKind::kFibre);
     window_.touch.threads = 1;
     window_.touch.record = folder_.path("run.txt");
@@ -70,7 +83,7 @@ class CardiacWindow : public ExplorerTest {
   }
 
   static constexpr int kWidth = 800, kHeight = 640;
-  Options options_;
+  Document options_;
   WindowOptions window_;
 };
 
@@ -81,12 +94,12 @@ TEST_F(CardiacWindow, ShowsTheLayerThatTheHandIsOnAndProbeRepeatsIt) {
   const WindowResult result = run_until(240);
   ASSERT_TRUE(result.probe.held);
   EXPECT_EQ(result.probe.state, HoldState::kHeld);
-  EXPECT_LT(result.settings.layer, 0.5) << "it came from the outer surface, through the layer that was shown";
+  EXPECT_LT(layer_of(result), 0.5) << "it came from the outer surface, through the layer that was shown";
   ASSERT_TRUE(result.probe.scalar);
-  EXPECT_NEAR(*result.probe.scalar, result.settings.layer, 1e-9) << "what is seen is what is felt";
-  EXPECT_NEAR(8.0 * result.settings.layer, std::round(8.0 * result.settings.layer), 1e-9) << "one of seven";
+  EXPECT_NEAR(*result.probe.scalar, layer_of(result), 1e-9) << "what is seen is what is felt";
+  EXPECT_NEAR(8.0 * layer_of(result), std::round(8.0 * layer_of(result)), 1e-9) << "one of seven";
   ASSERT_EQ(result.view.surfaces.size(), 1U);
-  EXPECT_EQ(result.view.surfaces[0].mesh->level, result.settings.layer);
+  EXPECT_EQ(result.view.surfaces[0].mesh->level, layer_of(result));
   ASSERT_TRUE(result.view.surfaces[0].values);
   EXPECT_EQ(result.view.surfaces[0].values->size(), result.view.surfaces[0].mesh->points.size());
 
@@ -127,18 +140,17 @@ class CardiacDog : public CardiacWindow {
 
   void move(int frame, double x, double y) { at(frame, {.kind = InputKind::kMove, .x = x, .y = y}); }
   void button(int frame, InputKind kind) { at(frame, {.kind = kind, .button = MouseButton::kLeft}); }
-  void click(int frame, double x, double y) {
-    move(frame, x, y);
+  /// A control of the panel, by its label.
+  void press(int frame, const std::string& control) {
+    window_.script.push_back({frame, {.kind = InputKind::kMove}, control});
     button(frame + 2, InputKind::kPress);
     button(frame + 4, InputKind::kRelease);
   }
   /// Chooses the mode and asks for the probe in the panel, and presses on the wall.
-  /// @param mode its place in the list.
-  void grab_by_mouse(double mode) {
-    constexpr double kColumn = 73.0, kGrab = 136.0, kMode = 162.0, kFirst = 188.0, kItem = 20.0;  // [pixels]
-    click(1, kColumn, kMode);
-    click(10, kColumn, kFirst + kItem * mode);
-    click(20, kColumn, kGrab);
+  void grab_by_mouse(const std::string& mode) {
+    press(4, "mode");  // once the panel has been drawn
+    press(12, mode);
+    press(20, "Grab");
     move(30, area_.left + kStartX * area_.width, area_.top + kStartY * area_.height);
     button(34, InputKind::kPress);
   }
@@ -149,12 +161,12 @@ class CardiacDog : public CardiacWindow {
 };
 
 TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
-  grab_by_mouse(0.0);  // fiber
+  grab_by_mouse("fiber");
   window_.touch.record.clear();
   const WindowResult start = run_until(kGrabbed);
   ASSERT_TRUE(start.probe.held) << start.message;
   ASSERT_EQ(start.probe.state, HoldState::kHeld);
-  EXPECT_NEAR(start.settings.layer, 0.875, 1e-12) << "the outermost layer that is felt";
+  EXPECT_NEAR(layer_of(start), 0.875, 1e-12) << "the outermost layer that is felt";
 
   // The fibre there, traced by another method, and where it is seen.
   const Vec3& seed = start.probe.proxy;
@@ -190,7 +202,7 @@ TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
   const WindowResult result = run_until(kGrabbed + kRest * kSteps + 40);
   EXPECT_EQ(result.probe.state, HoldState::kHeld);
   EXPECT_EQ(result.probe.popped, 0) << "it stays on its layer, around the wall";
-  EXPECT_NEAR(result.settings.layer, 0.875, 1e-12);
+  EXPECT_NEAR(layer_of(result), 0.875, 1e-12);
   EXPECT_LT(glm::distance(result.probe.proxy, fibre.back()), 3.0)
       << "[mm]; 50 along the fibre from where it began";
 
@@ -217,7 +229,7 @@ TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
 }
 
 TEST_F(CardiacDog, KeepsItsLayerUnderTheMouseAroundTheWall) {
-  grab_by_mouse(1.0);  // layer
+  grab_by_mouse("layer");
   // To the contour of the heart on the right in a few large steps, each of which the plane of the view would
   // take off the layer.
   constexpr int kSteps = 6, kRest = 12;
@@ -229,9 +241,11 @@ TEST_F(CardiacDog, KeepsItsLayerUnderTheMouseAroundTheWall) {
     move(kGrabbed + kRest * n, x, y);
   }
   const WindowResult result = run_until(kGrabbed + kRest * (kSteps + 2));
+  EXPECT_EQ(result.missing, std::vector<std::string>());
+  EXPECT_EQ(result.document.touch.mode, "layer");
   EXPECT_EQ(result.probe.state, HoldState::kHeld);
   EXPECT_EQ(result.probe.popped, 0);
-  EXPECT_NEAR(result.settings.layer, 0.875, 1e-12);
+  EXPECT_NEAR(layer_of(result), 0.875, 1e-12);
   EXPECT_LT(result.probe.stretch, 0.2) << "[mm]: nothing pulls it off the wall";
   const Vec3 shown = project(result.view.camera, result.probe.proxy, static_cast<int>(area_.width),
                              static_cast<int>(area_.height));
@@ -250,16 +264,18 @@ class CardiacColors : public ::testing::Test {
   /// At a time step; nothing: at the start.
   ValueRange range_at(CardiacModel& model, std::optional<std::size_t> step) {
     Progress progress;
-    if (step) settings_.time_step = *step;
-    const SceneState state = step ? model.update(settings_, progress) : model.start(progress);
-    settings_ = state.settings;
+    if (step) set_time_step(document_, times_, *step);
+    const SceneState state = step ? model.update(document_, progress) : model.start(progress);
+    document_ = state.document;
+    times_ = state.info->times;
     SceneView view;
-    show_scene(state, !step, view);
+    show_scene(state, step ? ShownAs::kChanged : ShownAs::kNew, view);
     return value_range(*view.lines, view.style);
   }
 
-  Options options_;
-  SceneSettings settings_;
+  Document options_;
+  Document document_;
+  std::vector<double> times_;
 };
 
 TEST_F(CardiacColors, KeepTheirRangeWhileTheSeriesPlays) {
@@ -267,8 +283,8 @@ TEST_F(CardiacColors, KeepTheirRangeWhileTheSeriesPlays) {
   options_.input.time = "first";
   CardiacModel model(options_, "cardiac");
   const ValueRange first = range_at(model, std::nullopt);
-  EXPECT_EQ(settings_.color_array, "potential");
-  EXPECT_EQ(settings_.time_step, 0U) << "as it is asked for";
+  EXPECT_EQ(document_.heart.angle, "potential");
+  EXPECT_EQ(time_step_of(document_, times_), 0U) << "as it is asked for";
   EXPECT_LT(first.lower, -75.0) << "at rest, as all is at the start";
   EXPECT_GT(first.upper, 0.0) << "excited, as nothing is yet";
   for (const std::size_t step : {3U, 20U, 40U, 60U, 80U, 0U}) EXPECT_EQ(range_at(model, step), first) << step;
@@ -281,7 +297,7 @@ TEST_F(CardiacColors, OfASeriesShowWhatChangesWhereItHasSpread) {
   CardiacModel model(options_, "cardiac");
   Progress progress;
   const SceneState state = model.start(progress);
-  EXPECT_EQ(state.settings.color_array, "potential");
+  EXPECT_EQ(state.document.heart.angle, "potential");
   const auto [lowest, highest] = std::ranges::minmax(state.color_array->values);
   EXPECT_GT(highest - lowest, 80.0F) << "[mV] at rest and excited";
   // Angles first, then what the file has; not what is of no use to anybody before all else.
@@ -293,8 +309,8 @@ TEST_F(CardiacColors, OfASeriesShowWhatChangesWhereItHasSpread) {
   options_.heart.angle = "helix";
   CardiacModel helix(options_, "cardiac");
   const SceneState asked = helix.start(progress);
-  EXPECT_EQ(asked.settings.color_array, "helix");
-  EXPECT_EQ(asked.settings.time_step, 0U);
+  EXPECT_EQ(asked.document.heart.angle, "helix");
+  EXPECT_EQ(time_step_of(asked.document, asked.info->times), 0U);
 }
 
 TEST_F(CardiacColors, HaveTheRangeThatIsAskedFor) {
@@ -311,9 +327,9 @@ TEST_F(CardiacColors, OfAnglesGoAllTheWayRoundAlsoComingBackToThem) {
   CardiacModel model(options_, "cardiac");
   const ValueRange all{-90.0, 90.0};
   EXPECT_EQ(range_at(model, std::nullopt), all);
-  settings_.color_array = "depth";
+  document_.heart.angle = "depth";
   EXPECT_FALSE(range_at(model, 0) == all);
-  settings_.color_array = "helix";
+  document_.heart.angle = "helix";
   EXPECT_EQ(range_at(model, 0), all);
 }
 
@@ -336,7 +352,7 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
       {"contour-spacing", "10"}, {"range", "-30,30"},
       {"mesher", "cells"},       {"largest-volume", "2.5"},
       {"cut", "0,1,0,0.25"}};
-  Options options;
+  Document options;
   options.common.threads = 1;
   options.input.files = {file};
   options.input.refine = 6;
@@ -356,8 +372,8 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
   Progress progress;
   const SceneState state = model.start(progress);
   SceneView view;
-  show_scene(state, true, view);
-  const Session saved = load_session(model.save_session(state.settings, view, {}));
+  show_scene(state, ShownAs::kNew, view);
+  const Session saved = saved_session(model, state, view);
   for (const auto& option : given)
     EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), option), saved.options.end())
         << option.first;
@@ -379,16 +395,16 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
 
 // The panel's cut is that of --cut, and a session keeps it to the bit.
 TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
-  Options options;
+  Document options;
   options.input.example = "ventricle";
   CardiacModel model(options, "cardiac");
   Progress progress;
   const SceneState whole = model.start(progress);
-  SceneSettings settings = whole.settings;
-  EXPECT_FALSE(settings.cut);
+  Document document = whole.document;
+  EXPECT_EQ(document.heart.cut, "");
   const Vec3 outward = glm::normalize(Vec3(1.0, 2.0, -0.7));
-  settings.cut = {outward, 0.1};
-  const SceneState half = model.update(settings, progress);
+  document.heart.cut = exact_text(outward) + ",0.1";
+  const SceneState half = model.update(document, progress);
   const auto farthest = [&](const SceneState& state) {
     double most = -std::numeric_limits<double>::infinity();
     const IsosurfaceMesh& mesh = *state.surfaces.front().mesh;
@@ -402,33 +418,33 @@ TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
   EXPECT_GT(farthest(whole), 0.2);
   EXPECT_NEAR(farthest(half), 0.1, 1e-9);
   SceneView view;
-  show_scene(half, true, view);
+  show_scene(half, ShownAs::kNew, view);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());
-  const Session saved = load_session(model.save_session(half.settings, view, {}));
+  const Session saved = saved_session(model, half, view);
   std::filesystem::current_path(before);
   const auto cut = std::find_if(saved.options.begin(), saved.options.end(),
                                 [](const auto& option) { return option.first == "cut"; });
   ASSERT_NE(cut, saved.options.end());
   options.heart.cut = cut->second;
   CardiacModel again(options, "cardiac");
-  EXPECT_EQ(again.start(progress).settings.cut, settings.cut);
-  settings.cut.reset();
-  EXPECT_NEAR(farthest(model.update(settings, progress)), farthest(whole), 0.0);
+  EXPECT_EQ(again.start(progress).document.heart.cut, document.heart.cut);
+  document.heart.cut.clear();
+  EXPECT_NEAR(farthest(model.update(document, progress)), farthest(whole), 0.0);
 }
 
 TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {
-  Options options;
+  Document options;
   options.input.example = "ventricle";
   options.input.surface_markers = "1,4/2";
   CardiacModel model(options, "cardiac");
   Progress progress;
   const SceneState state = model.start(progress);
   SceneView view;
-  show_scene(state, true, view);
+  show_scene(state, ShownAs::kNew, view);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());
-  const Session saved = load_session(model.save_session(state.settings, view, {}));
+  const Session saved = saved_session(model, state, view);
   std::filesystem::current_path(before);
   const std::pair<std::string, std::string> markers{"surface-markers", "1,4/2"};
   EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), markers), saved.options.end());

@@ -13,10 +13,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "common/device/driver/falcon_link.h"
+#include "common/device/driver/falcon/falcon_link.h"
 #include "common/servo/recording.h"
-#include "tests/common/device/driver/fake_usb.h"
-#include "tests/common/device/driver/falcon_emulator.h"
+#include "tests/common/device/driver/falcon/falcon_emulator.h"
+#include "tests/common/device/driver/transport/fake_usb.h"
 #include "tests/e2e/hand_in_flow.h"
 
 namespace palpate::test {

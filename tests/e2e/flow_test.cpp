@@ -391,6 +391,34 @@ TEST_F(Flow, StopsWithinASecondOfCtrlC) {
   EXPECT_TRUE(files().empty());
 }
 
+// The work is another program's, which is ended with this one's verb.
+TEST_F(Flow, StopsAReportWithinASecondOfCtrlCAndLeavesNothing) {
+  ASSERT_EQ(run({"report", "--example", "saddle", "--quick", "--seeds", "grid:2,2,2", "--max-length", "1",
+                 "--out", "r"})
+                .exit_code,
+            0);
+  const std::string page = read_file(folder_.path("r/index.html"));
+  Program program({bin("flow").string(), "report", "--example", "abc", "--thorough", "--out", "r", "--force"},
+                  folder_.path());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const double before = program.seconds();
+  program.signal(SIGINT);
+  const ProgramResult result = program.finish(30.0);
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_LT(result.seconds - before, 1.5);  // a second, and slack for a busy machine
+  EXPECT_NE(result.err.find("nothing was kept"), std::string::npos) << result.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"r"});
+  EXPECT_EQ(read_file(folder_.path("r/index.html")), page);
+}
+
+TEST_F(Flow, SaysThatTheProgramOfStudiesIsMissing) {
+  const ProgramResult result = Program({bin("flow").string(), "report", "--example", "saddle", "--out", "r"},
+                                       folder_.path(), {"PALPATE_HELPERS=" + folder_.path().string()})
+                                   .finish();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.err.find("palpate-lab"), std::string::npos) << result.err;
+}
+
 TEST_F(Flow, GivesLinesWhoseEndsAddUpOnRealData) {
   struct Case {
     const char* file;

@@ -18,6 +18,7 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/render/render_image.h"
 #include "common/window/panels/panel.h"
+#include "common/window/panels/volume_panel.h"
 #include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
@@ -52,6 +53,7 @@ class GridWindow : public ExplorerTest {
                          .focal_point = focal_point_of(parsed.options.view),
                          .picture_folder = folder_.path(),
                          .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
+                         .panels = {draw_volume},
                          // Frames of some length: between two events the servo has time to answer.
                          .stop_requested =
                              [] {

@@ -146,7 +146,7 @@ TEST_F(IsosurfaceMode, RefusesWhatMakesNoSense) {
   refused({"--isovalue", "1,x"}, "--isovalue");
   refused({"--isovalue", "nan"}, "--isovalue");
   refused({"--isovalue", "1,2,3,4,5,6,7,8,9"}, "at most eight");
-  refused({"--surface", "floor"}, "wall, below, above or layer");
+  refused({"--surface", "floor"}, "wall, below, above, layer");
   refused({"--depth", "0"}, "--depth");
   refused({"--depth", "nan"}, "--depth");
   refused({"--snap", "11"}, "--snap");

@@ -11,7 +11,7 @@
 #include "common/field/vector_field.h"
 #include "common/haptics/workspace.h"
 #include "common/scene/input.h"
-#include "lab/probe_paths.h"
+#include "lab/hand/probe_paths.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/e2e/probe_log.h"
 #include "tests/e2e/traced_curve.h"
@@ -48,7 +48,7 @@ Scene example_scene(const std::string& name) {
 }
 
 std::optional<Scene> file_scene(const std::string& file, const std::string& solution = "") {
-  InputSpec spec{.files = {shared_data(file)}};
+  InputOptions spec{.files = {shared_data(file)}};
   if (spec.files[0].empty()) return std::nullopt;
   Scene scene{file, {spec.files[0].string()}, nullptr};
   if (!solution.empty()) {

@@ -164,18 +164,18 @@ TEST_F(TensorTouch, ATractDrawnByHandIsRepeatedToTheBit) {
     options.recorded.program = "dtmri";
     ProbeSession session(options, [] {});
     session.set_field({.name = field_key("example straight tensor", 0), .tensor = field});
-    ASSERT_TRUE(session.has_tensors());
+    ASSERT_TRUE(session.data().has_tensors());
     const Camera camera = make_camera(field->bounds(), {}, 1.5);
     ProbeView view;
     session.grab(0.0, start);
-    session.press(true);
+    session.hand().press(true);
     for (int frame = 1; frame <= 60; ++frame) {
       const double t = 0.016 * frame;
-      session.move(start + t * Vec3{12.0, 3.0, 2.0});
+      session.hand().move(start + t * Vec3{12.0, 3.0, 2.0});
       session.update(t, camera, ColorBy::kSpeed, view);
       std::this_thread::sleep_for(std::chrono::milliseconds(16));
     }
-    session.press(false);
+    session.hand().press(false);
     session.finish();
   }
   const Json summary = json({"probe", "--example", "straight", "--replay", "run.txt"});

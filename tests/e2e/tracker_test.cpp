@@ -13,7 +13,7 @@
 
 #include "common/math/quaternion.h"
 #include "common/servo/recording.h"
-#include "tests/common/device/driver/polhemus_emulator.h"
+#include "tests/common/device/driver/polhemus/polhemus_emulator.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/project_folders.h"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "tests/common/device/driver/fake_hd.h"
-#include "tests/common/device/driver/polhemus_emulator.h"
+#include "tests/common/device/driver/polhemus/polhemus_emulator.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/project_folders.h"
 

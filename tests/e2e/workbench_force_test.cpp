@@ -78,7 +78,7 @@ TEST_F(WorkbenchForce, TunesAnArmForTheExplorers) {
                                   "5000", "--workbench", "workbench.toml", "--json"});
   EXPECT_EQ(felt.exit_code, 0) << felt.err;
   EXPECT_NEAR(Json::parse(felt.out)["stiffness_n_per_m"].get<double>(), found, 1e-9);
-  EXPECT_NE(felt.err.find("workbench tune"), std::string::npos) << felt.err;
+  EXPECT_NE(felt.err.find("tuning found"), std::string::npos) << felt.err;
 }
 
 TEST_F(WorkbenchForce, SaysWhatIsWrong) {

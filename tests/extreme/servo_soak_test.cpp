@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 #include "tests/extreme/hostile_hand.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::test {
 namespace {

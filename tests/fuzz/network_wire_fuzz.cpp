@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "common/device/driver/inverse3_message.h"
-#include "common/device/driver/vrpn_link.h"
+#include "common/device/driver/inverse3/inverse3_message.h"
+#include "common/device/driver/vrpn/vrpn_link.h"
 
 using namespace palpate;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/load/protocol.h"
+#include "common/load/helper/protocol.h"
 
 using namespace palpate;
 

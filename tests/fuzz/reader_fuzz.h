@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/load/find_format.h"
-#include "common/load/serve.h"
+#include "common/load/helper/serve.h"
 #include "tests/fuzz/memory_path.h"
 
 namespace palpate::test {

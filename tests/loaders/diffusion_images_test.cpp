@@ -74,7 +74,7 @@ std::vector<double> signals(const Vec3& main) {
 }
 
 Input open(const std::filesystem::path& file, const TensorWords& words = {}) {
-  InputSpec spec;
+  InputOptions spec;
   spec.files = {file};
   spec.kind = FieldKind::kTensor;
   spec.tensor = words;

@@ -17,7 +17,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "common/field/grid/image_resample.h"
-#include "common/load/write_image.h"
+#include "common/load/write/write_image.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {

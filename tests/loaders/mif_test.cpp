@@ -126,7 +126,7 @@ TEST(MifImage, RefusesDamagedFilesInOneLine) {
 int run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()); }
 
 TensorImage tensors_of(const std::filesystem::path& file) {
-  InputSpec spec;
+  InputOptions spec;
   spec.files = {file};
   spec.kind = FieldKind::kTensor;
   return Input::open(spec).load_tensor_image(2);

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/load/read_tractogram.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_tractogram.h"
 #include "tests/loaders/tract_fixture.h"
 #include "tests/support/temp_folder.h"
 

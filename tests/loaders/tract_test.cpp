@@ -10,8 +10,8 @@
 #include "common/base/error.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/trk_header.h"
-#include "common/load/write_lines.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_lines.h"
+#include "common/load/write/write_tractogram.h"
 #include "tests/loaders/tract_fixture.h"
 #include "tests/support/temp_folder.h"
 

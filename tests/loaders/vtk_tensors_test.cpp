@@ -44,7 +44,7 @@ TEST(VtkTensors, OfNineAndSixNumbersAreTheSameField) {
       folder.write("nine.vtk", legacy("TENSORS", kNine)), folder.write("nine.vti", xml(9, kNine)),
       folder.write("six.vtk", legacy("TENSORS6", kSix)), folder.write("six.vti", xml(6, kSix))};
   for (const auto& file : files) {
-    InputSpec spec;
+    InputOptions spec;
     spec.files = {file};
     spec.kind = FieldKind::kTensor;
     Input input = Input::open(spec);

@@ -7,8 +7,8 @@
 
 #include "common/base/parallel.h"
 #include "common/math/power_of_two.h"
-#include "common/render/volume/coarse_image.h"
 #include "common/render/volume/volume_block.h"
+#include "common/render/volume/voxels/coarse_image.h"
 
 namespace palpate::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/cardiac/mesher/mesh_job.h"
+#include "common/scene/wall/mesh_job.h"
 
 namespace palpate {
 

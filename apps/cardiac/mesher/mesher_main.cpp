@@ -4,12 +4,12 @@
 
 #include "apps/cardiac/mesher/border.h"
 #include "apps/cardiac/mesher/delaunay.h"
-#include "apps/cardiac/mesher/mesh_job.h"
 #include "apps/cardiac/mesher/tetgen_filling.h"
 #include "apps/cardiac/mesher/wall_cells.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/load/serve.h"
+#include "common/load/helper/serve.h"
+#include "common/scene/wall/mesh_job.h"
 
 namespace {
 

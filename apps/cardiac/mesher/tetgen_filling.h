@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/cardiac/mesher/border.h"
-#include "apps/cardiac/mesher/mesh_job.h"
+#include "common/scene/wall/mesh_job.h"
 
 namespace palpate {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "apps/cardiac/mesher/delaunay.h"
-#include "apps/cardiac/mesher/mesh_job.h"
+#include "common/scene/wall/mesh_job.h"
 
 namespace palpate {
 

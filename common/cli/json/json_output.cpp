@@ -1,21 +1,53 @@
 #include "common/cli/json/json_output.h"
 
+#include <algorithm>
+#include <string_view>
+
+#include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_parts.h"
 
 namespace palpate {
+namespace {
+
+Json value_json(const Setting& row, const Document& document) {
+  const std::string text = value_text(row, document);
+  if (std::holds_alternative<ValueAt<bool>>(row.place)) return text == "on";
+  if (row.several()) {
+    Json list = Json::array();
+    for (const std::string_view part : split(text, ';')) list.push_back(std::string(part));
+    return list;
+  }
+  const bool words = std::holds_alternative<ValueAt<std::string>>(row.place) ||
+                     std::holds_alternative<ValueAt<std::filesystem::path>>(row.place) ||
+                     std::holds_alternative<ValueAt<std::optional<std::filesystem::path>>>(row.place);
+  if (words || text.empty()) return text;
+  return Json::parse(text);
+}
+
+}  // namespace
+
+std::string settings_json(const Document& document, Groups groups) {
+  Json settings_of = Json::object();
+  for (const Setting& row : settings()) {
+    const bool of_output = row.spelling == Spelling::kPositional ||
+                           (row.groups.has(Group::kCommon) && row.spelling == Spelling::kFlag);
+    const bool given = std::ranges::find(document.given, row.name) != document.given.end();
+    if (of_output || !row.belongs(document.input.kind, groups) || (!given && is_default(row, document)))
+      continue;
+    settings_of[std::string(row.name)] = value_json(row, document);
+  }
+  return json_text(settings_of);
+}
+
+std::string with_settings(const std::string& object, const std::string& settings) {
+  Json json = Json::parse(object);
+  json["settings"] = Json::parse(settings);
+  return json_text(json);
+}
 
 std::string error_json(const std::string& line, int exit_code) {
   return json_text({{"error", line}, {"exit", exit_code}});
-}
-
-std::string report_summary_json(const std::string& folder, std::size_t rows, std::size_t failed_cases,
-                                double seconds) {
-  return json_text({{"out", folder},
-                    {"work_precision_rows", rows},
-                    {"stability_cases_failed", failed_cases},
-                    {"seconds", seconds},
-                    {"version", version()}});
 }
 
 }  // namespace palpate

@@ -7,9 +7,14 @@
 #include "common/cli/summaries.h"
 #include "common/field/analytic/examples.h"
 #include "common/hand/window_request.h"
+#include "common/scene/document/setting.h"
 
 namespace palpate {
 
+/// An object of the settings that verbs with `groups` have and that were given or differ from their defaults.
+[[nodiscard]] std::string settings_json(const Document& document, Groups groups);
+/// `object` with another one in it as "settings".
+[[nodiscard]] std::string with_settings(const std::string& object, const std::string& settings);
 [[nodiscard]] std::string error_json(const std::string& line, int exit_code);
 [[nodiscard]] std::string examples_json(const std::vector<ExampleInfo>& examples);
 [[nodiscard]] std::string trace_json(const TraceSummary& summary);
@@ -26,7 +31,5 @@ namespace palpate {
 [[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
 [[nodiscard]] std::string open_json(const WindowOutcome& outcome);
-[[nodiscard]] std::string report_summary_json(const std::string& folder, std::size_t rows,
-                                              std::size_t failed_cases, double seconds);
 
 }  // namespace palpate

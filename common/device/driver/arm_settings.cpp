@@ -3,7 +3,6 @@
 #include <array>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 
 namespace palpate {

@@ -35,14 +35,6 @@ Mat3 diffusivity(const ExcitableTissue& tissue, const Vec3& fibre) {
 
 }  // namespace
 
-double ExcitableTissue::front_speed(double diffusivity) const noexcept {
-  return std::sqrt(rate * diffusivity / (2.0 * time_unit)) * (1.0 - 2.0 * threshold);
-}
-
-double ExcitableTissue::front_width(double diffusivity) const noexcept {
-  return std::sqrt(2.0 * diffusivity * time_unit / rate);
-}
-
 struct ExcitationWave::Diffusion {
   Sparse stiffness;
   Eigen::VectorXd mass;

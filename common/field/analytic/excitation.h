@@ -37,9 +37,6 @@ struct ExcitableTissue {
   double rate = 8.0, threshold = 0.15;              ///< k, a
   double recovery = 0.002, mu_1 = 0.2, mu_2 = 0.3;  ///< eps, mu_1, mu_2
   bool recovers = true;                             ///< false: v stays 0, fronts are those of (4)
-
-  [[nodiscard]] double front_speed(double diffusivity) const noexcept;  ///< c of (4)
-  [[nodiscard]] double front_width(double diffusivity) const noexcept;  ///< w of (4)
 };
 
 class ExcitationWave {

@@ -21,19 +21,6 @@ struct Sphere {
   }
 };
 
-struct Torus {
-  static constexpr const char* kName = "torus";
-  static constexpr const char* kDescription = "torus: squared distance from a circle of radius 1";
-  static constexpr Box kBounds{{-1.5, -1.5, -0.75}, {1.5, 1.5, 0.75}};
-
-  template <typename T>
-  static T value(const T& x, const T& y, const T& z) noexcept {
-    const T radius = sqrt(x * x + y * y + T(0x1p-100));  // its derivatives are finite on the axis, too
-    const T away = radius - T(1.0);
-    return away * away + z * z;
-  }
-};
-
 struct MarschnerLobb {
   static constexpr const char* kName = "marschner-lobb";
   static constexpr const char* kDescription =
@@ -54,7 +41,6 @@ struct MarschnerLobb {
 }  // namespace
 
 std::shared_ptr<const AnalyticScalar> sphere_scalar() { return std::make_shared<FormulaScalar<Sphere>>(); }
-std::shared_ptr<const AnalyticScalar> torus_scalar() { return std::make_shared<FormulaScalar<Torus>>(); }
 std::shared_ptr<const AnalyticScalar> marschner_lobb_scalar() {
   return std::make_shared<FormulaScalar<MarschnerLobb>>();
 }

@@ -21,11 +21,9 @@ constexpr double kRadius = 5.0;  ///< of bundles [mm]
 constexpr double kNoise = 0.01;  ///< as AnalyticTensor::noise()
 constexpr double kHalf = 40.0;   ///< half the side of the cube that is shown [mm]
 
-Mat3 outer(const Vec3& a) noexcept { return glm::outerProduct(a, a); }
-
 /// Two equal eigenvalues across the unit vector `e`.
 Mat3 uniaxial(double along, double across, const Vec3& e) noexcept {
-  return across * Mat3{1.0} + (along - across) * outer(e);
+  return across * Mat3{1.0} + (along - across) * glm::outerProduct(e, e);
 }
 
 /// How far a place is inside a bundle, in [0, 1]: 1 on the centre line, 1/e at kRadius from it, flat on both
@@ -234,8 +232,9 @@ struct EigenvalueCrossing {
     const Vec3 b{-a.x, a.y, 0.0};
     constexpr double kMiddle = 0.5 * (kAlong + kAcross);
     constexpr double kSwing = 0.5 * (kAlong - kAcross);
-    const Mat3 full = (kMiddle + kSwing * s) * outer(a) + (kMiddle - kSwing * s) * outer(b) +
-                      kAcross * outer(Vec3{0.0, 0.0, 1.0});
+    const Mat3 full = (kMiddle + kSwing * s) * glm::outerProduct(a, a) +
+                      (kMiddle - kSwing * s) * glm::outerProduct(b, b) +
+                      kAcross * glm::outerProduct(Vec3{0.0, 0.0, 1.0}, Vec3{0.0, 0.0, 1.0});
     return strength * full + Mat3{(1.0 - strength) * kAround};
   }
   static std::vector<CenterLine> center_lines() { return {}; }

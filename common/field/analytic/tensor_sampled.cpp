@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/math/counter_random.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -28,8 +29,7 @@ DataSet sample_tensors(const AnalyticTensor& formula, const Index3& points, doub
   const Box box = formula.bounds();
   const Vec3 spacing = box.size() / Vec3(points - 1);
   std::vector<float> values;
-  values.reserve(kComponents * static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
-                 static_cast<std::size_t>(points.z));
+  values.reserve(kComponents * count_of(points));
   const auto add = [&values, noise](double value, double part) {
     const auto index = static_cast<std::uint64_t>(values.size());
     values.push_back(static_cast<float>(noise > 0.0 ? value + noise * part * normal_at(index) : value));

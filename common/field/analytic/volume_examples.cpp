@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/analytic/scalar_examples.h"
 #include "common/field/grid/sparse/sparse_builder.h"
@@ -37,7 +38,7 @@ DataSet cube(int n, const Box& bounds, const std::function<T(const Vec3&, std::u
     topology.axes[axis][axis] = bounds.size()[axis] / (n - 1);
   }
   const auto values = std::make_shared<std::vector<T>>();
-  values->reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  values->reserve(as_size(n) * as_size(n) * as_size(n));
   for (int k = 0; k < n; ++k) {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i)
@@ -173,9 +174,9 @@ DataSet sparse_shells() {
       }
     }
   };
-  std::vector<Made> layer(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y));
+  std::vector<Made> layer(as_size(n.x) * as_size(n.y));
   const auto block_of = [&](std::size_t i, int z) {
-    const auto row = static_cast<std::size_t>(n.x);
+    const auto row = as_size(n.x);
     return Index3(static_cast<int>(i % row), static_cast<int>(i / row), z);
   };
   for (int z = 0; z < n.z; ++z) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_faces.h"
 #include "common/field/grid/point_merge.h"
@@ -70,9 +71,8 @@ class Joiner {
           if (uniform != nullptr) {
             out_.points.push_back(uniform->origin + uniform->axes * Vec3(i, j, k));
           } else if (lines != nullptr) {
-            out_.points.emplace_back(lines->coordinates[0][static_cast<std::size_t>(i)],
-                                     lines->coordinates[1][static_cast<std::size_t>(j)],
-                                     lines->coordinates[2][static_cast<std::size_t>(k)]);
+            out_.points.emplace_back(lines->coordinates[0][as_size(i)], lines->coordinates[1][as_size(j)],
+                                     lines->coordinates[2][as_size(k)]);
           }
         }
       }
@@ -103,16 +103,15 @@ class Joiner {
   /// The points on the outer faces of a structured block.
   void add_shell(std::size_t b, bool seams, std::vector<MergeCandidate>& candidates) const {
     const Index3 n = structured_points(blocks_[b]);
-    const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n.x),
-                                          static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y)};
+    const std::array<std::size_t, 3> step{1, as_size(n.x), as_size(n.x) * as_size(n.y)};
     for (int k = 0; k < n.z; ++k) {
       for (int j = 0; j < n.y; ++j) {
         const bool shell_row = k == 0 || k == n.z - 1 || j == 0 || j == n.y - 1;
         const int stride = shell_row ? 1 : std::max(1, n.x - 1);
         for (int i = 0; i < n.x; i += stride) {
           const Index3 at{i, j, k};
-          const std::size_t p = out_.first_point[b] + static_cast<std::size_t>(i) +
-                                step[1] * static_cast<std::size_t>(j) + step[2] * static_cast<std::size_t>(k);
+          const std::size_t p =
+              out_.first_point[b] + as_size(i) + step[1] * as_size(j) + step[2] * as_size(k);
           if (!is_finite(out_.points[p])) continue;
           double spacing = 0.0;
           for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -134,18 +133,18 @@ class Joiner {
     const std::size_t count = cells.positions.tuples;
     std::vector<double> spacing(count, 0.0);
     std::vector<std::uint8_t> used(count, 0);
-    const auto known = [&](std::int64_t id) { return id >= 0 && static_cast<std::size_t>(id) < count; };
+    const auto known = [&](std::int64_t id) { return id >= 0 && as_size(id) < count; };
     for (std::size_t c = 0; c < cells.types.size(); ++c) {
       if (!is_volume(cells.types[c]) || cells.types[c] == kPolyhedron) continue;
-      const auto begin = static_cast<std::size_t>(cells.offsets[c]);
-      const auto end = static_cast<std::size_t>(cells.offsets[c + 1]);
+      const auto begin = as_size(cells.offsets[c]);
+      const auto end = as_size(cells.offsets[c + 1]);
       for (std::size_t i = begin; i < end; ++i) {
         if (!known(cells.connectivity[i])) continue;  // refused when the cell is split
-        const auto p = static_cast<std::size_t>(cells.connectivity[i]);
+        const auto p = as_size(cells.connectivity[i]);
         used[p] = 1;
         const std::int64_t other = cells.connectivity[i + 1 < end ? i + 1 : begin];
         if (!known(other)) continue;
-        const auto q = static_cast<std::size_t>(other);
+        const auto q = as_size(other);
         include_edge(spacing[p], out_.first_point[b] + p, out_.first_point[b] + q);
         include_edge(spacing[q], out_.first_point[b] + p, out_.first_point[b] + q);
       }

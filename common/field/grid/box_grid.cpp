@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/field/vector_field.h"
 
 namespace palpate {
@@ -61,9 +62,9 @@ BoxGrid::BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing)
 
 BoxGrid::BoxGrid(std::array<std::vector<double>, 3> coordinates) : coordinates_(std::move(coordinates)) {
   for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<double>& x = coordinates_[static_cast<std::size_t>(axis)];
+    const std::vector<double>& x = coordinates_[as_size(axis)];
     PALPATE_CHECK(x.size() >= 2);
-    std::vector<double>& inverse = inverse_widths_[static_cast<std::size_t>(axis)];
+    std::vector<double>& inverse = inverse_widths_[as_size(axis)];
     inverse.reserve(x.size() - 1);
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
       PALPATE_CHECK(x[i] < x[i + 1]);
@@ -84,7 +85,7 @@ Box BoxGrid::bounds() const noexcept {
 
 double BoxGrid::coordinate(int axis, int i) const noexcept {
   if (uniform()) return origin_[axis] + spacing_[axis] * i;
-  return coordinates_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)];
+  return coordinates_[as_size(axis)][as_size(i)];
 }
 
 bool BoxGrid::locate(const Vec3& x, Index3& cell) const noexcept {
@@ -99,7 +100,7 @@ bool BoxGrid::locate(const Vec3& x, Index3& cell) const noexcept {
       if (x[axis] < coordinate(axis, i)) --i;
       if (i < last && x[axis] >= coordinate(axis, i + 1)) ++i;
     } else {
-      const std::vector<double>& lines = coordinates_[static_cast<std::size_t>(axis)];
+      const std::vector<double>& lines = coordinates_[as_size(axis)];
       const auto above = std::upper_bound(lines.begin(), lines.end(), x[axis]);
       i = std::min(static_cast<int>(above - lines.begin()) - 1, last);
     }
@@ -111,10 +112,9 @@ bool BoxGrid::locate(const Vec3& x, Index3& cell) const noexcept {
 void BoxGrid::load(const Index3& cell, const PointVectors& values, BoxCell& out) const noexcept {
   PALPATE_ASSERT(cell.x >= 0 && cell.y >= 0 && cell.z >= 0);
   PALPATE_ASSERT(cell.x < points_.x - 1 && cell.y < points_.y - 1 && cell.z < points_.z - 1);
-  const auto row = static_cast<std::size_t>(points_.x);
-  const std::size_t slice = row * static_cast<std::size_t>(points_.y);
-  const std::size_t first = 3 * (static_cast<std::size_t>(cell.x) + row * static_cast<std::size_t>(cell.y) +
-                                 slice * static_cast<std::size_t>(cell.z));
+  const auto row = as_size(points_.x);
+  const std::size_t slice = row * as_size(points_.y);
+  const std::size_t first = 3 * (as_size(cell.x) + row * as_size(cell.y) + slice * as_size(cell.z));
   if (const auto* floats = std::get_if<std::span<const float>>(&values.values)) {
     load_coefficients(floats->data() + first, 3 * row, 3 * slice, values.scale, out.c);
   } else if (const auto* doubles = std::get_if<std::span<const double>>(&values.values)) {
@@ -131,8 +131,8 @@ void BoxGrid::load(const Index3& cell, const PointVectors& values, BoxCell& out)
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const auto i = static_cast<std::size_t>(cell[axis]);
+    const auto a = as_size(axis);
+    const auto i = as_size(cell[axis]);
     out.lower[axis] = coordinates_[a][i];
     out.size[axis] = coordinates_[a][i + 1] - coordinates_[a][i];
     out.inverse_size[axis] = inverse_widths_[a][i];

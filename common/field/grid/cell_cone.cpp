@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::size_t CellCone::least(std::span<const std::uint32_t> ids) const {
@@ -57,7 +59,7 @@ void CellCone::hexahedron(const std::array<std::uint32_t, 8>& v) {
   for (const auto& face : kHexahedronFaces) {
     const auto at = std::ranges::find(face, far);
     if (at == face.end()) continue;
-    const auto i = static_cast<std::size_t>(at - face.begin());
+    const auto i = as_size(at - face.begin());
     const Corner corner{v[face[(i + 3) % 4]], v[face[(i + 2) % 4]], v[face[(i + 1) % 4]]};
     const std::uint64_t least_key =
         std::min({key(corner.before), key(corner.across), key(corner.after), key(v[far])});

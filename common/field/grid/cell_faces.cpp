@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -193,20 +195,20 @@ void orient_faces(FaceList& faces) {
 void for_each_polyhedron_edge(const UnstructuredTopology& cells,
                               const std::function<void(std::size_t, std::size_t)>& visit) {
   const std::size_t points = cells.positions.tuples;
-  const auto known = [&](std::int64_t id) { return id >= 0 && static_cast<std::size_t>(id) < points; };
+  const auto known = [&](std::int64_t id) { return id >= 0 && as_size(id) < points; };
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
     if (cells.types[c] != kPolyhedron) continue;
-    const auto end = static_cast<std::size_t>(cells.offsets[c + 1]);
-    std::size_t at = static_cast<std::size_t>(cells.offsets[c]) + 1;
+    const auto end = as_size(cells.offsets[c + 1]);
+    std::size_t at = as_size(cells.offsets[c]) + 1;
     while (at < end) {
       const std::int64_t count = cells.connectivity[at++];
-      if (count < 0 || static_cast<std::size_t>(count) > end - at) break;
+      if (count < 0 || as_size(count) > end - at) break;
       const std::size_t first = at;
-      at += static_cast<std::size_t>(count);
+      at += as_size(count);
       for (std::size_t i = first; i < at; ++i) {
         const std::int64_t p = cells.connectivity[i];
         const std::int64_t q = cells.connectivity[i + 1 < at ? i + 1 : first];
-        if (known(p) && known(q)) visit(static_cast<std::size_t>(p), static_cast<std::size_t>(q));
+        if (known(p) && known(q)) visit(as_size(p), as_size(q));
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/block_join.h"
 #include "common/field/grid/cell_cone.h"
@@ -193,8 +194,8 @@ class Splitter {
         ++mesh_.unknown_cells;
         continue;
       }
-      const auto begin = static_cast<std::size_t>(cells.offsets[c]);
-      const auto end = static_cast<std::size_t>(cells.offsets[c + 1]);
+      const auto begin = as_size(cells.offsets[c]);
+      const auto end = as_size(cells.offsets[c + 1]);
       const std::span<const std::int64_t> stream(cells.connectivity.data() + begin, end - begin);
       if (type == kPolyhedron) {
         split_polyhedron(c, stream, cells.positions.tuples);
@@ -223,7 +224,7 @@ class Splitter {
   }
 
   std::uint32_t checked(std::size_t cell, std::int64_t id, std::size_t points) const {
-    if (id < 0 || static_cast<std::size_t>(id) >= points) {
+    if (id < 0 || as_size(id) >= points) {
       refuse("cell " + std::to_string(cell) + " names the point " + std::to_string(id),
              "a number from 0 to " + std::to_string(points == 0 ? 0 : points - 1));
     }
@@ -293,11 +294,10 @@ class Splitter {
     bool complete = true;
     std::size_t at = 1;
     for (std::int64_t f = 0; f < stream[0]; ++f) {
-      if (at >= stream.size() || stream[at] < 0 ||
-          static_cast<std::size_t>(stream[at]) > stream.size() - at - 1) {
+      if (at >= stream.size() || stream[at] < 0 || as_size(stream[at]) > stream.size() - at - 1) {
         malformed();
       }
-      const auto count = static_cast<std::size_t>(stream[at]);
+      const auto count = as_size(stream[at]);
       ++at;
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t input = checked(c, stream[at + i], points);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/math/power_of_two.h"
 
@@ -101,7 +102,7 @@ CellTree::CellTree(std::span<const Vec3> points, std::span<const Tet> cells, con
       Vec3 sum{0.0};
       for (const std::uint32_t v : cells[c]) sum += points[v] - origin_;
       for (int a = 0; a < 3; ++a) {
-        centres[c].x[static_cast<std::size_t>(a)] = static_cast<float>(0.25 * sum[a]);
+        centres[c].x[as_size(a)] = static_cast<float>(0.25 * sum[a]);
       }
       centres[c].cell = static_cast<std::uint32_t>(c);
     }
@@ -164,8 +165,8 @@ void CellTree::finish(std::span<const Vec3> points, std::span<const Tet> cells, 
               for (const std::uint32_t v : cells[c]) box.include(points[v] - origin_);
             }
             for (int a = 0; a < 3; ++a) {
-              node.lower[static_cast<std::size_t>(a)][i] = round_down(box.lower[a] - margin_);
-              node.upper[static_cast<std::size_t>(a)][i] = round_up(box.upper[a] + margin_);
+              node.lower[as_size(a)][i] = round_down(box.lower[a] - margin_);
+              node.upper[as_size(a)][i] = round_up(box.upper[a] + margin_);
             }
             continue;
           }
@@ -214,8 +215,8 @@ void CellTree::make_bins(const Vec3& size, std::span<const std::array<float, 3>>
       std::array<float, 3> middle{};
       std::array<float, 3> upper{};
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto i = static_cast<float>(rest % static_cast<std::size_t>(bins_[a]));
-        rest /= static_cast<std::size_t>(bins_[a]);
+        const auto i = static_cast<float>(rest % as_size(bins_[a]));
+        rest /= as_size(bins_[a]);
         const float width = bins_per_length_[a] > 0.0F ? 1.0F / bins_per_length_[a] : 0.0F;
         lower[a] = i * width;
         middle[a] = (i + 0.5F) * width;

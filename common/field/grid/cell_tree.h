@@ -17,7 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/large_pages.h"
+#include "common/base/index.h"
+#include "common/base/memory.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -53,10 +54,7 @@ class CellTree {
       const auto i = static_cast<int>(q[a] * bins_per_length_[a]);
       at[a] = i < 0 ? 0 : i < bins_[a] ? i : bins_[a] - 1;
     }
-    return static_cast<std::size_t>(at[0]) +
-           static_cast<std::size_t>(bins_[0]) *
-               (static_cast<std::size_t>(at[1]) +
-                static_cast<std::size_t>(bins_[1]) * static_cast<std::size_t>(at[2]));
+    return as_size(at[0]) + as_size(bins_[0]) * (as_size(at[1]) + as_size(bins_[1]) * as_size(at[2]));
   }
   /// From `node` down to the bottom.
   [[nodiscard]] std::size_t descend(std::size_t node, const std::array<float, 3>& at) const noexcept {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -54,8 +55,7 @@ class Squares {
   /// NaN beyond the border.
   [[nodiscard]] double at(int i, int j) const {
     if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return std::nan("");
-    return static_cast<double>(values_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                                       static_cast<std::size_t>(i)]);
+    return static_cast<double>(values_[as_size(j) * as_size(columns_) + as_size(i)]);
   }
 
   /// h^2 |f''| at the middle one of three points; 0 where one is missing.
@@ -100,8 +100,7 @@ class Squares {
 std::vector<ContourLine> contour_lines(const UniformTopology& lattice, std::span<const float> values,
                                        double value) {
   PALPATE_CHECK(lattice.points.z == 1);
-  PALPATE_CHECK(values.size() ==
-                static_cast<std::size_t>(lattice.points.x) * static_cast<std::size_t>(lattice.points.y));
+  PALPATE_CHECK(values.size() == as_size(lattice.points.x) * as_size(lattice.points.y));
   const Squares squares(lattice, values, value);
   const std::vector<std::array<EdgeId, 2>> pieces = squares.pieces();
   // An edge lies between two squares at most, and each has one piece that ends there.

@@ -6,8 +6,10 @@
 #include <cstdint>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/grid_from_data.h"
+#include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -118,21 +120,12 @@ UniformTopology part_of(const UniformTopology& image, const IndexBox& part) noex
 ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
                         const UniformTopology& lattice, float filler, int threads) {
   const Index3 n = image.points, m = lattice.points;
-  const auto count = [](const Index3& p) {
-    return static_cast<std::size_t>(p.x) * static_cast<std::size_t>(p.y) * static_cast<std::size_t>(p.z);
-  };
-  PALPATE_CHECK(values.tuples == count(n) && component >= 0 && component < values.components);
+  PALPATE_CHECK(values.tuples == count_of(n) && component >= 0 && component < values.components);
   const GridFromData grid(image.axes, image.origin);
   const Vec3 start = grid.point(lattice.origin);
   const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
                   grid.direction(lattice.axes[2]));
-  const auto at = [&](const Index3& p) {
-    return values.at(
-        static_cast<std::size_t>(p.x) +
-            static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(p.y) +
-                                             static_cast<std::size_t>(n.y) * static_cast<std::size_t>(p.z)),
-        component);
-  };
+  const auto at = [&](const Index3& p) { return values.at(index_in(n, p), component); };
   // NaN outside, and where a voxel that counts has no value.
   const auto sample = [&](Vec3 g) {
     Index3 low{0};
@@ -161,18 +154,18 @@ ResampledImage resample(const UniformTopology& image, const DataArray& values, i
   };
 
   ResampledImage result;
-  result.values.assign(count(m), filler);
-  const auto row = static_cast<std::size_t>(m.x);
+  result.values.assign(count_of(m), filler);
+  const auto row = as_size(m.x);
   const std::size_t rows = row > 0 ? result.values.size() / row : 0;
   std::vector<std::size_t> outside(rows, 0);
   parallel_for(rows, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
-      const auto j = static_cast<int>(r % static_cast<std::size_t>(m.y));
-      const auto k = static_cast<int>(r / static_cast<std::size_t>(m.y));
+      const auto j = static_cast<int>(r % as_size(m.y));
+      const auto k = static_cast<int>(r / as_size(m.y));
       for (int i = 0; i < m.x; ++i) {
         const double value = sample(start + step * Vec3(i, j, k));
         if (std::isfinite(value)) {
-          result.values[r * row + static_cast<std::size_t>(i)] = static_cast<float>(value);
+          result.values[r * row + as_size(i)] = static_cast<float>(value);
         } else {
           ++outside[r];
         }

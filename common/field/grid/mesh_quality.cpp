@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -24,12 +26,12 @@ void count_components(const TetMesh& mesh, MeshQuality& quality) {
     seen[start] = 1;
     front.push_back(static_cast<CellIndex>(start));
     while (!front.empty()) {
-      const auto c = static_cast<std::size_t>(front.back());
+      const auto c = as_size(front.back());
       front.pop_back();
       ++size;
       for (const CellIndex next : mesh.neighbors()[c]) {
-        if (next == kNoCell || seen[static_cast<std::size_t>(next)] != 0) continue;
-        seen[static_cast<std::size_t>(next)] = 1;
+        if (next == kNoCell || seen[as_size(next)] != 0) continue;
+        seen[as_size(next)] = 1;
         front.push_back(next);
       }
     }
@@ -68,11 +70,10 @@ std::size_t folded_faces(const TetMesh& mesh) {
     if (mesh.zero_volume(static_cast<CellIndex>(c))) continue;
     for (std::size_t f = 0; f < 4; ++f) {
       const CellIndex behind = mesh.neighbors()[c][f];
-      if (behind == kNoCell || static_cast<std::size_t>(behind) < c || mesh.zero_volume(behind)) continue;
-      const TetMesh::Tet& other = mesh.cells()[static_cast<std::size_t>(behind)];
-      const auto& back = mesh.neighbors()[static_cast<std::size_t>(behind)];
-      const auto g = static_cast<std::size_t>(std::find(back.begin(), back.end(), static_cast<CellIndex>(c)) -
-                                              back.begin());
+      if (behind == kNoCell || as_size(behind) < c || mesh.zero_volume(behind)) continue;
+      const TetMesh::Tet& other = mesh.cells()[as_size(behind)];
+      const auto& back = mesh.neighbors()[as_size(behind)];
+      const auto g = as_size(std::find(back.begin(), back.end(), static_cast<CellIndex>(c)) - back.begin());
       if (g == back.size()) continue;
       // Seen from outside, the face of the one runs round against that of the other.
       const std::uint32_t a = mesh.cells()[c][kFaces[f][0]], b = mesh.cells()[c][kFaces[f][1]];
@@ -131,7 +132,7 @@ MeshQuality mesh_quality(const TetMesh& mesh) {
     quality.largest_angle = std::max(quality.largest_angle, *largest);
     quality.slivers += *least < kSliverAngle || *largest > 180.0 - kSliverAngle ? 1 : 0;
   }
-  quality.points = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
+  quality.points = as_size(std::count(used.begin(), used.end(), std::uint8_t{1}));
   count_components(mesh, quality);
   count_border(mesh, quality);
   quality.folded_faces = folded_faces(mesh);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
 
 namespace palpate {
@@ -59,8 +60,7 @@ std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
       const double reach = distance * std::min(p.spacing, power_of_two(level + 1));
       std::array<std::array<double, 2>, 3> range;
       for (int a = 0; a < 3; ++a) {
-        range[static_cast<std::size_t>(a)] = {std::floor((x[a] - reach) * inverse),
-                                              std::floor((x[a] + reach) * inverse)};
+        range[as_size(a)] = {std::floor((x[a] - reach) * inverse), std::floor((x[a] + reach) * inverse)};
       }
       for (unsigned corner = 0; corner < 8 && found == kEnd; ++corner) {
         GridCell cell{level, {range[0][corner & 1U], range[1][(corner >> 1U) & 1U], range[2][corner >> 2U]}};

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -37,16 +38,15 @@ void load_scalar_cell(const BoxGrid& grid, const PointScalars& values, const Ind
         },
         out.c);
   } else {
-    const auto row = static_cast<std::size_t>(n.x);
-    const std::size_t slice = row * static_cast<std::size_t>(n.y);
-    const std::size_t first = static_cast<std::size_t>(cell.x) + row * static_cast<std::size_t>(cell.y) +
-                              slice * static_cast<std::size_t>(cell.z);
+    const auto row = as_size(n.x);
+    const std::size_t slice = row * as_size(n.y);
+    const std::size_t first = as_size(cell.x) + row * as_size(cell.y) + slice * as_size(cell.z);
     std::visit(
         [&](const auto& stored) {
           set_coefficients(
               [&](int x, int y, int z) {
-                return static_cast<double>(stored[first + static_cast<std::size_t>(x) + (y != 0 ? row : 0) +
-                                                  (z != 0 ? slice : 0)]) *
+                return static_cast<double>(
+                           stored[first + as_size(x) + (y != 0 ? row : 0) + (z != 0 ? slice : 0)]) *
                        values.scale;
               },
               out.c);
@@ -68,7 +68,7 @@ ScalarTet load_scalar_tet(const PointScalars& values, const TetMesh::Tet& tet) n
   std::visit(
       [&](const auto& stored) {
         for (int i = 0; i < 4; ++i) {
-          out.s[i] = static_cast<double>(stored[tet[static_cast<std::size_t>(i)]]) * values.scale;
+          out.s[i] = static_cast<double>(stored[tet[as_size(i)]]) * values.scale;
         }
       },
       values.values);

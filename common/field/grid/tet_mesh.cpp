@@ -9,8 +9,9 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/memory.h"
 #include "common/base/parallel.h"
-#include "common/base/resident_pages.h"
 #include "common/field/grid/tet_shape.h"
 
 namespace palpate {
@@ -44,7 +45,7 @@ int least(const Vec4& b) noexcept {
 TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads)
     : points_(std::move(points)) {
   if (cells.empty()) refuse("no tetrahedron", "at least one");
-  if (cells.size() > static_cast<std::size_t>(std::numeric_limits<CellIndex>::max()) - 1) {
+  if (cells.size() > as_size(std::numeric_limits<CellIndex>::max()) - 1) {
     refuse(std::to_string(cells.size()) + " tetrahedra", "at most 2^31 - 2");
   }
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -182,7 +183,7 @@ void TetMesh::find_neighbors(int threads) {
           // Zero-volume cells, of which polyhedra with coplanar faces have equal ones, give way to others.
           const auto rest = std::partition(sharing.begin(), sharing.end(),
                                            [this](const Face& face) { return zero_volume_[face.cell] == 0; });
-          sharing = sharing.first(static_cast<std::size_t>(rest - sharing.begin()));
+          sharing = sharing.first(as_size(rest - sharing.begin()));
           if (sharing.size() > 2) ++non_manifold;
         }
         if (sharing.size() == 2) {
@@ -199,19 +200,19 @@ void TetMesh::find_neighbors(int threads) {
 
 Vec4 TetMesh::barycentric(CellIndex cell, const Vec3& x) const noexcept {
   PALPATE_ASSERT(!zero_volume(cell));
-  const Tet& v = cells_[static_cast<std::size_t>(cell)];
+  const Tet& v = cells_[as_size(cell)];
   return TetShape(points_.data(), v).barycentric(x - points_[v[0]]);
 }
 
 Mat3 TetMesh::barycentric_gradients(CellIndex cell) const noexcept {
   PALPATE_ASSERT(!zero_volume(cell));
-  const TetShape shape(points_.data(), cells_[static_cast<std::size_t>(cell)]);
+  const TetShape shape(points_.data(), cells_[as_size(cell)]);
   const double inverse = 1.0 / shape.volume6;
   return {shape.n1 * inverse, shape.n2 * inverse, shape.n3 * inverse};
 }
 
 Vec3 TetMesh::position(CellIndex cell, const Vec4& b) const noexcept {
-  const Tet& v = cells_[static_cast<std::size_t>(cell)];
+  const Tet& v = cells_[as_size(cell)];
   return b[0] * points_[v[0]] + b[1] * points_[v[1]] + b[2] * points_[v[2]] + b[3] * points_[v[3]];
 }
 
@@ -220,7 +221,7 @@ bool TetMesh::locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexc
     // False for NaN.
     if (!(x[axis] >= bounds_.lower[axis] - slack_ && x[axis] <= bounds_.upper[axis] + slack_)) return false;
   }
-  if (hint >= 0 && static_cast<std::size_t>(hint) < cells_.size() && walk(x, hint, kFarHint, found)) {
+  if (hint >= 0 && as_size(hint) < cells_.size() && walk(x, hint, kFarHint, found)) {
     return true;
   }
   constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
@@ -237,7 +238,7 @@ bool TetMesh::walk_over(const LargeVector<Step<T>>& steps, const Vec3& x, CellIn
                         TetPoint& found) const noexcept {
   CellIndex cell = start;
   for (int step = 0; step < kMaxWalk; ++step) {
-    const auto c = static_cast<std::size_t>(cell);
+    const auto c = as_size(cell);
     if (zero_volume_count_ != 0 && zero_volume_[c] != 0) return false;
     const Step<T>& here = steps[c];
     // Whoever located a point reads its cell's vertices next; else the walk goes on behind a face.
@@ -270,7 +271,7 @@ bool TetMesh::walk_over(const LargeVector<Step<T>>& steps, const Vec3& x, CellIn
       face = other;
     }
     if (step == 0 && b[face] < -farthest) return false;
-    cell = here.behind[static_cast<std::size_t>(face)];
+    cell = here.behind[as_size(face)];
     if (cell == kNoCell) return false;
   }
   return false;

@@ -10,7 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "common/base/large_pages.h"
+#include "common/base/index.h"
+#include "common/base/memory.h"
 #include "common/field/grid/cell_tree.h"
 #include "common/math/vec.h"
 
@@ -42,9 +43,7 @@ class TetMesh {
   [[nodiscard]] std::span<const Vec3> points() const noexcept { return points_; }
   [[nodiscard]] std::span<const Tet> cells() const noexcept { return cells_; }
   [[nodiscard]] std::span<const Neighbors> neighbors() const noexcept { return neighbors_; }
-  [[nodiscard]] bool zero_volume(CellIndex cell) const noexcept {
-    return zero_volume_[static_cast<std::size_t>(cell)] != 0;
-  }
+  [[nodiscard]] bool zero_volume(CellIndex cell) const noexcept { return zero_volume_[as_size(cell)] != 0; }
   [[nodiscard]] std::size_t zero_volume_count() const noexcept { return zero_volume_count_; }
   [[nodiscard]] std::size_t inverted_count() const noexcept { return inverted_count_; }
   [[nodiscard]] std::size_t non_manifold_face_count() const noexcept { return non_manifold_face_count_; }

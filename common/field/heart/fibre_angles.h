@@ -37,6 +37,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/field/heart/heart.h"
 #include "common/field/heart/wall_frame.h"
 
@@ -47,14 +48,14 @@ inline constexpr int kAngleConventionCount = 4;
 [[nodiscard]] constexpr std::string_view name_of(AngleConvention convention) noexcept {  ///< "streeter"
   constexpr std::array<std::string_view, kAngleConventionCount> kNames{"streeter", "bayer", "piersanti",
                                                                        "doste"};
-  return kNames[static_cast<std::size_t>(convention)];
+  return kNames[as_size(convention)];
 }
 
 enum class WallAngle : std::uint8_t { kHelix, kTransverse, kSheet };
 inline constexpr int kWallAngleCount = 3;
 [[nodiscard]] constexpr std::string_view name_of(WallAngle angle) noexcept {  ///< "helix"
   constexpr std::array<std::string_view, kWallAngleCount> kNames{"helix", "transverse", "sheet"};
-  return kNames[static_cast<std::size_t>(angle)];
+  return kNames[as_size(angle)];
 }
 
 /// Whether the convention knows the angle: see the table above.

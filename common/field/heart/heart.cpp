@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 #include <utility>
 
@@ -18,22 +17,16 @@
 namespace palpate {
 namespace {
 
-std::string lower(std::string_view name) {
-  std::string out(name);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 bool means(const std::string& name, std::string_view word) {
-  return lower(name).find(word) != std::string::npos;
+  return lowered(name).find(word) != std::string::npos;
 }
 
 bool means_fibre(const std::string& name) {
-  return means(name, "fibre") || means(name, "fiber") || lower(name) == "f0" || lower(name) == "f";
+  return means(name, "fibre") || means(name, "fiber") || lowered(name) == "f0" || lowered(name) == "f";
 }
 
 bool means_other(const std::string& name) {
-  return means(name, "sheet") || means(name, "normal") || lower(name) == "s0" || lower(name) == "n0";
+  return means(name, "sheet") || means(name, "normal") || lowered(name) == "s0" || lowered(name) == "n0";
 }
 
 bool is_direction(const ArrayInfo& array) {
@@ -144,7 +137,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
-        {file, "", "is an image of voxels", "a mesh of the heart's wall", "dtmri shows images of fibres"});
+        {file, "", "is an image of voxels", "a mesh of the heart's wall", "open it as tensors"});
   }
   if (grid->tets->zero_volume_count() == grid->tets->cells().size())
     throw input_error({file, "", "has no cell with a volume", "tetrahedra that fill the wall"});

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -27,12 +29,11 @@ std::vector<std::int64_t> first_at_place(const DataArray& positions) {
     // Cells with such a point are left out; they have no order either.
     if (is_finite(x[p])) order.push_back(static_cast<std::int64_t>(p));
   }
-  const auto at = [&x](std::int64_t p) -> const Vec3& { return x[static_cast<std::size_t>(p)]; };
+  const auto at = [&x](std::int64_t p) -> const Vec3& { return x[as_size(p)]; };
   std::sort(order.begin(), order.end(),
             [&](std::int64_t p, std::int64_t q) { return at(p) == at(q) ? p < q : before(at(p), at(q)); });
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (at(order[i]) == at(order[i - 1]))
-      first[static_cast<std::size_t>(order[i])] = first[static_cast<std::size_t>(order[i - 1])];
+    if (at(order[i]) == at(order[i - 1])) first[as_size(order[i])] = first[as_size(order[i - 1])];
   return first;
 }
 
@@ -47,12 +48,12 @@ std::size_t join_same_points(DataSet& mesh) {
   std::vector<std::uint8_t> joined(first.size(), 0);
   for (std::int64_t& p : cells->connectivity) {
     // What names no point is refused where cells are split.
-    if (p < 0 || static_cast<std::size_t>(p) >= first.size()) continue;
-    const std::int64_t of = first[static_cast<std::size_t>(p)];
-    if (of != p) joined[static_cast<std::size_t>(p)] = 1;
+    if (p < 0 || as_size(p) >= first.size()) continue;
+    const std::int64_t of = first[as_size(p)];
+    if (of != p) joined[as_size(p)] = 1;
     p = of;
   }
-  return static_cast<std::size_t>(std::count(joined.begin(), joined.end(), std::uint8_t{1}));
+  return as_size(std::count(joined.begin(), joined.end(), std::uint8_t{1}));
 }
 
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/field/grid/scalar_cell.h"
 #include "common/field/grid/tet_mesh.h"
 
@@ -19,7 +20,7 @@ constexpr double kRim = 0.5;
 constexpr double kPole = 1e-6;
 
 double six_volumes(const TetMesh& mesh, CellIndex cell) {
-  const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(cell)];
+  const TetMesh::Tet& tet = mesh.cells()[as_size(cell)];
   const Vec3 x0 = mesh.points()[tet[0]];
   return glm::determinant(
       Mat3{mesh.points()[tet[1]] - x0, mesh.points()[tet[2]] - x0, mesh.points()[tet[3]] - x0});
@@ -28,7 +29,7 @@ double six_volumes(const TetMesh& mesh, CellIndex cell) {
 /// Six volumes times the gradient of a cell, frame L and local values; nothing where it has neither.
 std::optional<Vec3> weighted_gradient(const TetMesh& mesh, const PointScalars& values, CellIndex cell) {
   if (mesh.zero_volume(cell)) return std::nullopt;
-  const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(cell)];
+  const TetMesh::Tet& tet = mesh.cells()[as_size(cell)];
   const ScalarTet s = load_scalar_tet(values, tet);
   if (s.bad_data) return std::nullopt;
   return six_volumes(mesh, cell) *
@@ -53,9 +54,9 @@ SmoothNormals::SmoothNormals(std::shared_ptr<const ScalarField> layer) : layer_(
 }
 
 Vec3 SmoothNormals::at(const TetPoint& place) const noexcept {
-  const TetMesh::Tet& tet = layer_->tet_mesh()->cells()[static_cast<std::size_t>(place.cell)];
+  const TetMesh::Tet& tet = layer_->tet_mesh()->cells()[as_size(place.cell)];
   Vec3 mean{0.0};
-  for (int i = 0; i < 4; ++i) mean += place.b[i] * Vec3(normals_[tet[static_cast<std::size_t>(i)]]);
+  for (int i = 0; i < 4; ++i) mean += place.b[i] * Vec3(normals_[tet[as_size(i)]]);
   return mean;
 }
 

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -97,7 +99,7 @@ std::vector<BoundaryPatch> boundary_patches(const TetMesh& mesh, double crease) 
       patch_of[root] = static_cast<std::int64_t>(patches.size());
       patches.emplace_back();
     }
-    BoundaryPatch& patch = patches[static_cast<std::size_t>(patch_of[root])];
+    BoundaryPatch& patch = patches[as_size(patch_of[root])];
     const Vec3 area = 0.5 * area_vector(points, border[t]);
     patch.triangles.push_back(border[t]);
     patch.area += glm::length(area);

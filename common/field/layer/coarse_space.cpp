@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 
 namespace palpate {
@@ -48,10 +49,9 @@ std::int32_t grow_parts(const Graph& graph, std::vector<std::int32_t>& part) {
   const auto for_strong = [&](std::size_t row, const auto& act) {
     double strongest = 0.0;
     for (std::size_t n = graph.begin[row]; n < graph.begin[row + 1]; ++n)
-      if (static_cast<std::size_t>(graph.columns[n]) != row)
-        strongest = std::max(strongest, -graph.weights[n]);
+      if (as_size(graph.columns[n]) != row) strongest = std::max(strongest, -graph.weights[n]);
     for (std::size_t n = graph.begin[row]; n < graph.begin[row + 1]; ++n) {
-      const auto other = static_cast<std::size_t>(graph.columns[n]);
+      const auto other = as_size(graph.columns[n]);
       if (other != row && strongest > 0.0 && -graph.weights[n] >= kStrong * strongest)
         act(other, -graph.weights[n]);
     }
@@ -83,22 +83,21 @@ std::int32_t grow_parts(const Graph& graph, std::vector<std::int32_t>& part) {
 
 /// Z^T A Z of a graph whose unknowns are in `count` parts.
 Graph coarser(const Graph& graph, const std::vector<std::int32_t>& part, std::int32_t count) {
-  const auto parts = static_cast<std::size_t>(count);
+  const auto parts = as_size(count);
   std::vector<std::size_t> next(parts + 1, 0);
-  for (const std::int32_t p : part) ++next[static_cast<std::size_t>(p) + 1];
+  for (const std::int32_t p : part) ++next[as_size(p) + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
   const std::vector<std::size_t> first = next;
   std::vector<std::size_t> members(part.size());
-  for (std::size_t row = 0; row < part.size(); ++row)
-    members[next[static_cast<std::size_t>(part[row])]++] = row;
+  for (std::size_t row = 0; row < part.size(); ++row) members[next[as_size(part[row])]++] = row;
   Graph coarse{.begin = {0}, .columns = {}, .weights = {}};
   std::vector<std::size_t> place(parts, 0);  // one past the entry of the row at hand, where there is one
   for (std::size_t p = 0; p < parts; ++p) {
     const std::size_t begin = coarse.columns.size();
     for (std::size_t m = first[p]; m < first[p + 1]; ++m) {
       for (std::size_t n = graph.begin[members[m]]; n < graph.begin[members[m] + 1]; ++n) {
-        const std::int32_t column = part[static_cast<std::size_t>(graph.columns[n])];
-        std::size_t& at = place[static_cast<std::size_t>(column)];
+        const std::int32_t column = part[as_size(graph.columns[n])];
+        std::size_t& at = place[as_size(column)];
         if (at <= begin) {
           coarse.columns.push_back(column);
           coarse.weights.push_back(0.0);
@@ -119,10 +118,10 @@ std::int32_t parts_of_block(const Matrix& a, Eigen::Index first, Eigen::Index la
   std::iota(part_of.begin(), part_of.end(), 0);
   std::vector<std::int32_t> part;
   auto count = static_cast<std::int32_t>(graph.size());
-  while (static_cast<std::size_t>(count) * size > part_of.size() && count > 1) {
+  while (as_size(count) * size > part_of.size() && count > 1) {
     const std::int32_t fewer = grow_parts(graph, part);
     if (fewer == count) break;
-    for (std::int32_t& p : part_of) p = part[static_cast<std::size_t>(p)];
+    for (std::int32_t& p : part_of) p = part[as_size(p)];
     graph = coarser(graph, part, fewer);
     count = fewer;
   }
@@ -132,7 +131,7 @@ std::int32_t parts_of_block(const Matrix& a, Eigen::Index first, Eigen::Index la
 }  // namespace
 
 CoarseSpace::CoarseSpace(const Matrix& a, std::span<const Eigen::Index> begin, int threads)
-    : part_of_(static_cast<std::size_t>(a.rows())) {
+    : part_of_(as_size(a.rows())) {
   const std::size_t blocks = begin.size() - 1, size = std::max(kPartSize, part_of_.size() / kMostParts);
   std::vector<std::int32_t> counts(blocks, 0);
   parallel_for(blocks, threads, [&](std::size_t first, std::size_t last) {
@@ -140,25 +139,24 @@ CoarseSpace::CoarseSpace(const Matrix& a, std::span<const Eigen::Index> begin, i
       if (begin[n] == begin[n + 1]) continue;
       counts[n] =
           parts_of_block(a, begin[n], begin[n + 1], size,
-                         std::span(part_of_).subspan(static_cast<std::size_t>(begin[n]),
-                                                     static_cast<std::size_t>(begin[n + 1] - begin[n])));
+                         std::span(part_of_).subspan(as_size(begin[n]), as_size(begin[n + 1] - begin[n])));
     }
   });
   for (std::size_t n = 0; n < blocks; ++n) {
     for (Eigen::Index row = begin[n]; row < begin[n + 1]; ++row)
-      part_of_[static_cast<std::size_t>(row)] += static_cast<std::int32_t>(parts_);
+      part_of_[as_size(row)] += static_cast<std::int32_t>(parts_);
     parts_ += counts[n];
   }
 
   begin_.push_back(0);
   if (parts_ == 0) return;
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<std::size_t> place(static_cast<std::size_t>(parts_), 0);
+  std::vector<std::size_t> place(as_size(parts_), 0);
   for (Eigen::Index row = 0; row < a.rows(); ++row) {
     const std::size_t first = columns_.size();
     for (Matrix::InnerIterator at(a, row); at; ++at) {
-      const std::int32_t column = part_of_[static_cast<std::size_t>(at.index())];
-      std::size_t& entry = place[static_cast<std::size_t>(column)];
+      const std::int32_t column = part_of_[as_size(at.index())];
+      std::size_t& entry = place[as_size(column)];
       if (entry <= first) {
         columns_.push_back(column);
         weights_.push_back(0.0);
@@ -168,7 +166,7 @@ CoarseSpace::CoarseSpace(const Matrix& a, std::span<const Eigen::Index> begin, i
     }
     begin_.push_back(columns_.size());
     for (std::size_t n = first; n < columns_.size(); ++n)
-      entries.emplace_back(part_of_[static_cast<std::size_t>(row)], columns_[n], weights_[n]);
+      entries.emplace_back(part_of_[as_size(row)], columns_[n], weights_[n]);
   }
   Matrix e(parts_, parts_);
   e.setFromTriplets(entries.begin(), entries.end());
@@ -177,16 +175,15 @@ CoarseSpace::CoarseSpace(const Matrix& a, std::span<const Eigen::Index> begin, i
 
 void CoarseSpace::sum(const Eigen::VectorXd& v, Eigen::Index first, Eigen::Index last,
                       Eigen::VectorXd& sums) const {
-  for (Eigen::Index row = first; row < last; ++row) sums[part_of_[static_cast<std::size_t>(row)]] = 0.0;
-  for (Eigen::Index row = first; row < last; ++row) sums[part_of_[static_cast<std::size_t>(row)]] += v[row];
+  for (Eigen::Index row = first; row < last; ++row) sums[part_of_[as_size(row)]] = 0.0;
+  for (Eigen::Index row = first; row < last; ++row) sums[part_of_[as_size(row)]] += v[row];
 }
 
 void CoarseSpace::subtract_product(const Eigen::VectorXd& y, Eigen::Index first, Eigen::Index last,
                                    Eigen::VectorXd& v) const {
   for (Eigen::Index row = first; row < last; ++row) {
     double product = 0.0;
-    for (std::size_t n = begin_[static_cast<std::size_t>(row)]; n < begin_[static_cast<std::size_t>(row) + 1];
-         ++n)
+    for (std::size_t n = begin_[as_size(row)]; n < begin_[as_size(row) + 1]; ++n)
       product += weights_[n] * y[columns_[n]];
     v[row] -= product;
   }
@@ -194,7 +191,7 @@ void CoarseSpace::subtract_product(const Eigen::VectorXd& y, Eigen::Index first,
 
 void CoarseSpace::add_values(const Eigen::VectorXd& y, Eigen::Index first, Eigen::Index last,
                              Eigen::VectorXd& v) const {
-  for (Eigen::Index row = first; row < last; ++row) v[row] += y[part_of_[static_cast<std::size_t>(row)]];
+  for (Eigen::Index row = first; row < last; ++row) v[row] += y[part_of_[as_size(row)]];
 }
 
 }  // namespace palpate

@@ -9,6 +9,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/layer/coarse_space.h"
 
@@ -35,7 +36,7 @@ class Preconditioner {
  public:
   /// @param threads as parallel_for().
   Preconditioner(const Matrix& a, int threads) {
-    const auto rows = static_cast<std::size_t>(a.rows());
+    const auto rows = as_size(a.rows());
     for (std::size_t n = 0; n <= kBlocks; ++n) begin_[n] = static_cast<Eigen::Index>(rows * n / kBlocks);
     parallel_for(kBlocks, threads, [&](std::size_t first, std::size_t last) {
       for (std::size_t n = first; n < last; ++n) {

@@ -13,6 +13,7 @@
 #include <Eigen/SparseCore>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_shape.h"
@@ -39,7 +40,7 @@ double volume_of(const TetMesh& mesh, const TetMesh::Tet& tet) {
 
 bool is_thin(const TetMesh& mesh, CellIndex cell) {
   if (mesh.zero_volume(cell)) return true;
-  const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(cell)];
+  const TetMesh::Tet& tet = mesh.cells()[as_size(cell)];
   double longest = 0.0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -70,7 +71,7 @@ std::vector<bool> reached_points(const TetMesh& mesh, const std::vector<WallSurf
   std::vector<CellIndex> front;
   std::vector<bool> visited(mesh.cells().size());
   const auto visit = [&](CellIndex cell) {
-    const auto c = static_cast<std::size_t>(cell);
+    const auto c = as_size(cell);
     if (visited[c] || mesh.zero_volume(cell)) return;
     visited[c] = true;
     front.push_back(cell);
@@ -79,7 +80,7 @@ std::vector<bool> reached_points(const TetMesh& mesh, const std::vector<WallSurf
     for (const std::uint32_t p : mesh.cells()[c])
       if (surface[p] != WallSurface::kNone) visit(static_cast<CellIndex>(c));
   while (!front.empty()) {
-    const auto c = static_cast<std::size_t>(front.back());
+    const auto c = as_size(front.back());
     front.pop_back();
     for (const std::uint32_t p : mesh.cells()[c]) reached[p] = true;
     for (const CellIndex neighbor : mesh.neighbors()[c])
@@ -110,7 +111,7 @@ CellsOfRows cells_of_rows(const TetMesh& mesh, const System& system, const std::
     for (std::size_t c = 0; c < takes_part.size(); ++c) {
       if (!takes_part[c]) continue;
       for (const std::uint32_t p : mesh.cells()[c])
-        if (system.unknown[p] >= 0) act(static_cast<std::size_t>(system.unknown[p]), c);
+        if (system.unknown[p] >= 0) act(as_size(system.unknown[p]), c);
     }
   };
   visit([&](std::size_t row, std::size_t) { ++rows.begin[row + 1]; });
@@ -142,7 +143,7 @@ RowPiece make_rows(const TetMesh& mesh, const std::vector<WallSurface>& surface,
       const TetMesh::Tet& tet = mesh.cells()[rows.cells[n]];
       const TetShape shape(mesh.points().data(), tet);
       const std::array<Vec3, 4> inward{-(shape.n1 + shape.n2 + shape.n3), shape.n1, shape.n2, shape.n3};
-      const auto i = static_cast<std::size_t>(std::find(tet.begin(), tet.end(), here) - tet.begin());
+      const auto i = as_size(std::find(tet.begin(), tet.end(), here) - tet.begin());
       // The gradient of b_j is n_j / V: their products times the volume V / 6.
       const double scale = 1.0 / (6.0 * shape.volume6);
       for (std::size_t j = 0; j < 4; ++j) {
@@ -152,15 +153,15 @@ RowPiece make_rows(const TetMesh& mesh, const std::vector<WallSurface>& surface,
           if (surface[tet[j]] == WallSurface::kOuter) right -= weight;
           continue;
         }
-        std::int32_t& at = place[static_cast<std::size_t>(column)];
+        std::int32_t& at = place[as_size(column)];
         if (at < 0) {
           at = static_cast<std::int32_t>(row.size());
           row.emplace_back(column, 0.0);
         }
-        row[static_cast<std::size_t>(at)].second += weight;
+        row[as_size(at)].second += weight;
       }
     }
-    for (const auto& entry : row) place[static_cast<std::size_t>(entry.first)] = -1;
+    for (const auto& entry : row) place[as_size(entry.first)] = -1;
     std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     piece.lengths.push_back(static_cast<std::int32_t>(row.size()));
     for (const auto& [column, weight] : row) {
@@ -184,7 +185,7 @@ System assemble(const TetMesh& mesh, const std::vector<WallSurface>& surface,
   const std::size_t count = system.point_of.size();
   system.right = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
   const std::vector<bool> takes_part = cells_of_system(mesh);
-  system.thin_cells = static_cast<std::size_t>(std::count(takes_part.begin(), takes_part.end(), false));
+  system.thin_cells = as_size(std::count(takes_part.begin(), takes_part.end(), false));
   const CellsOfRows rows = cells_of_rows(mesh, system, takes_part);
   constexpr std::size_t kPiece = 16384;  // rows
   std::vector<RowPiece> pieces((count + kPiece - 1) / kPiece);

@@ -6,7 +6,9 @@
 #include <cstddef>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/field/value_histogram.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -17,8 +19,7 @@ using Axes = std::array<bool, 3>;
 /// last voxels along an axis.
 std::vector<std::uint8_t> faces_of(const Index3& points) {
   std::vector<std::uint8_t> faces;
-  faces.reserve(static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
-                static_cast<std::size_t>(points.z));
+  faces.reserve(count_of(points));
   const auto along = [&](int i, int axis) {
     const unsigned first = i == 0 ? 1U : 0U, last = i + 1 == points[axis] ? 2U : 0U;
     return (first | last) << (2 * axis);
@@ -36,9 +37,7 @@ std::vector<std::uint8_t> faces_of(const Index3& points) {
 class Neighbours {
  public:
   Neighbours(const Index3& points, std::span<const std::uint8_t> faces, const Axes& along)
-      : faces_(faces),
-        stride_{1, static_cast<std::size_t>(points.x),
-                static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y)} {
+      : faces_(faces), stride_{1, as_size(points.x), as_size(points.x) * as_size(points.y)} {
     for (std::size_t axis = 0; axis < 3; ++axis) seen_ |= along[axis] ? 3U << (2 * axis) : 0U;
   }
 
@@ -132,8 +131,7 @@ void fill_holes(const Index3& points, std::span<const std::uint8_t> faces, const
 }  // namespace
 
 std::vector<std::uint8_t> foreground_mask(std::span<const float> values, const Index3& points) {
-  PALPATE_CHECK(values.size() == static_cast<std::size_t>(points.x) * static_cast<std::size_t>(points.y) *
-                                     static_cast<std::size_t>(points.z));
+  PALPATE_CHECK(values.size() == count_of(points));
   const double threshold = threshold_of(values);
   std::vector<std::uint8_t> bright(values.size());
   std::transform(values.begin(), values.end(), bright.begin(), [threshold](float value) {

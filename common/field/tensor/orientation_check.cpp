@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/image_axes.h"
+#include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -56,7 +58,7 @@ std::vector<AxisTurn> axis_turns() {
   do {
     for (int flip = -1; flip < 3; ++flip) {
       AxisTurn turn{from, {}};
-      if (flip >= 0) turn.flipped[static_cast<std::size_t>(flip)] = true;
+      if (flip >= 0) turn.flipped[as_size(flip)] = true;
       turns.push_back(turn);
     }
   } while (std::next_permutation(from.begin(), from.end()));
@@ -92,18 +94,13 @@ std::vector<double> DirectionMap::coherence(std::span<const Mat3> turns, int thr
     const Vec3 o = glm::normalize(axes_ * Vec3(offset));
     for (const Mat3& turn : turns) lines.push_back(glm::transpose(turn) * o);
   }
-  const auto slices = static_cast<std::size_t>(points_.z);
+  const auto slices = as_size(points_.z);
   std::vector<double> sums(slices * turns.size(), 0.0);  // a row a slice: the order of sums is fixed
   parallel_for(slices, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t slice = first; slice < last; ++slice) {
       double* const sum = sums.data() + slice * turns.size();
       const int k = static_cast<int>(slice);
-      const auto at = [&](const Index3& p) {
-        return directions_[static_cast<std::size_t>(p.x) +
-                           static_cast<std::size_t>(points_.x) *
-                               (static_cast<std::size_t>(p.y) +
-                                static_cast<std::size_t>(points_.y) * static_cast<std::size_t>(p.z))];
-      };
+      const auto at = [&](const Index3& p) { return directions_[index_in(points_, p)]; };
       for (int j = 0; j < points_.y; ++j) {
         for (int i = 0; i < points_.x; ++i) {
           const Index3 here{i, j, k};
@@ -157,7 +154,7 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   const std::vector<double> scores = directions.coherence(matrices, threads);
   const auto best = std::max_element(scores.begin(), scores.end());
   if (!(scores.front() > 0.0)) return verdict;
-  verdict.best = turns[static_cast<std::size_t>(best - scores.begin())];
+  verdict.best = turns[as_size(best - scores.begin())];
   verdict.gain = *best / scores.front();
   verdict.suspicious = verdict.gain > kClear;
   return verdict;

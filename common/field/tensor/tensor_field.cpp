@@ -8,23 +8,19 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/block_join.h"
 #include "common/field/tensor/tensor_function.h"
+#include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
 namespace {
 
 using Six = std::array<double, 6>;
-
-Mat3 matrix_of(const Six& d) noexcept {
-  return {Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
-}
-
-Six six_of(const Mat3& m) noexcept { return {m[0][0], m[1][0], m[2][0], m[1][1], m[2][1], m[2][2]}; }
 
 /// Where xx, xy, xz, yy, yz and zz stand in a tuple.
 std::array<int, 6> places(TensorOrder order) noexcept {
@@ -136,14 +132,12 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     for (int axis = 0; axis < 3; ++axis) {
       const double lower = box->coordinate(axis, cell[axis]), upper = box->coordinate(axis, cell[axis] + 1);
       const double u = (x[axis] - lower) / (upper - lower);
-      weight[static_cast<std::size_t>(axis)] = {1.0 - u, u};
+      weight[as_size(axis)] = {1.0 - u, u};
     }
     for (unsigned corner = 0; corner < 8; ++corner) {
       const unsigned i = corner & 1U, j = (corner >> 1U) & 1U, k = corner >> 2U;
-      const auto point = static_cast<std::size_t>(cell.x) + i +
-                         static_cast<std::size_t>(n.x) *
-                             (static_cast<std::size_t>(cell.y) + j +
-                              static_cast<std::size_t>(n.y) * (static_cast<std::size_t>(cell.z) + k));
+      const auto point =
+          as_size(cell.x) + i + as_size(n.x) * (as_size(cell.y) + j + as_size(n.y) * (as_size(cell.z) + k));
       mean.add(weight[0][i] * weight[1][j] * weight[2][k], stored(point));
     }
   } else {
@@ -152,9 +146,9 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     TetPoint at;
     if (!mesh.locate(x, start, at)) return {};
     hint.cell = at.cell;
-    if (constant_in_cells()) return sample_of(cells_[grid_->source_cell[static_cast<std::size_t>(at.cell)]]);
-    const TetMesh::Tet& tet = mesh.cells()[static_cast<std::size_t>(at.cell)];
-    for (int i = 0; i < 4; ++i) mean.add(at.b[i], stored(tet[static_cast<std::size_t>(i)]));
+    if (constant_in_cells()) return sample_of(cells_[grid_->source_cell[as_size(at.cell)]]);
+    const TetMesh::Tet& tet = mesh.cells()[as_size(at.cell)];
+    for (int i = 0; i < 4; ++i) mean.add(at.b[i], stored(tet[as_size(i)]));
   }
   return sample_of(mean.result());
 }
@@ -163,7 +157,7 @@ TensorSample TensorField::sample_of(const Six& numbers) const noexcept {
   if (!std::all_of(numbers.begin(), numbers.end(), [](double d) { return std::isfinite(d); })) {
     return {.status = SampleStatus::kBadData};
   }
-  Mat3 value = matrix_of(numbers);
+  Mat3 value = symmetric_matrix(numbers);
   if (interpolation_ == TensorInterpolation::kLogEuclidean) value = symmetric_exp(value);
   return {.value = value, .status = SampleStatus::kOk};
 }
@@ -173,12 +167,9 @@ TensorSample TensorField::voxel(const Index3& at) const noexcept {
   Index3 place = at;
   for (int axis = 0; axis < 3; ++axis) {
     if (at[axis] < 0 || at[axis] >= n[axis]) return {};
-    if (grid_->box && grid_->reversed[static_cast<std::size_t>(axis)]) place[axis] = n[axis] - 1 - at[axis];
+    if (grid_->box && grid_->reversed[as_size(axis)]) place[axis] = n[axis] - 1 - at[axis];
   }
-  auto point =
-      static_cast<std::size_t>(place.x) +
-      static_cast<std::size_t>(n.x) * (static_cast<std::size_t>(place.y) +
-                                       static_cast<std::size_t>(n.y) * static_cast<std::size_t>(place.z));
+  auto point = index_in(n, place);
   if (!grid_->point_of_input.empty()) {
     if (grid_->point_of_input[point] == kNoPoint) return {.status = SampleStatus::kBadData};
     point = grid_->point_of_input[point];
@@ -241,7 +232,7 @@ class TensorFieldBuilder {
       const double trace = d[0] + d[3] + d[5];
       field.largest_trace_ = std::max(field.largest_trace_, trace);
       if (trace > 0.0) traces.push_back(trace);
-      if (!directions && symmetric_eigenvalues(matrix_of(d))[2] < 0.0) ++field.negative_tensors_;
+      if (!directions && symmetric_eigenvalues(symmetric_matrix(d))[2] < 0.0) ++field.negative_tensors_;
     }
     if (!traces.empty()) {
       const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
@@ -268,7 +259,7 @@ class TensorFieldBuilder {
       if (!std::isnan(d[0])) {
         // Where no tensor is above zero there is no scale, and no logarithm.
         if (floor > 0.0) {
-          log = six_of(symmetric_log(matrix_of(d), floor));
+          log = six_numbers(symmetric_log(symmetric_matrix(d), floor));
         } else {
           log.fill(std::numeric_limits<double>::quiet_NaN());
         }

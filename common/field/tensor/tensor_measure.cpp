@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/math/symmetric3.h"
@@ -48,7 +49,7 @@ Vec3 triple_of(TensorMeasure measure, const SymmetricEigen& eigen) {
 
 }  // namespace
 
-std::string_view name_of(TensorMeasure measure) noexcept { return kNames[static_cast<std::size_t>(measure)]; }
+std::string_view name_of(TensorMeasure measure) noexcept { return kNames[as_size(measure)]; }
 
 TensorMeasure measure_from_name(std::string_view name) {
   std::string known;
@@ -66,7 +67,7 @@ int component_count(TensorMeasure measure) noexcept {
 std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice, TensorMeasure measure,
                                    int threads) {
   const DataArray& array = *image.find(choice.array, choice.association);
-  const auto components = static_cast<std::size_t>(component_count(measure));
+  const auto components = as_size(component_count(measure));
   std::vector<float> values(components * array.tuples, std::numeric_limits<float>::quiet_NaN());
   parallel_for(array.tuples, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = first; p < last; ++p) {

@@ -13,7 +13,6 @@
 #include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
 #include "common/haptics/workspace.h"
-#include "common/scene/seeds.h"
 #include "common/servo/station_poses.h"
 
 namespace palpate {
@@ -55,17 +54,17 @@ TrackerPose parse_pose(const std::string& text) {
   return pose;
 }
 
-WorkbenchGeometry bench_of(const Options& options) {
-  if (options.workbench.empty())
+WorkbenchGeometry bench_of(const Document& options) {
+  if (options.hand.workbench.empty())
     throw usage_error("--head needs the screen that it is before: try --workbench workbench.toml");
-  WorkbenchGeometry bench = read_workbench(options.workbench);
+  WorkbenchGeometry bench = read_workbench(options.hand.workbench);
   if (bench.screens.empty())
-    throw input_error({options.workbench.string(), "", "has no [screen]", "its corners in metres",
+    throw input_error({options.hand.workbench.string(), "", "has no [screen]", "its corners in metres",
                        "add [screen] with lower_left, lower_right and upper_left"});
   return bench;
 }
 
-std::size_t screen_of(const WorkbenchGeometry& bench, const Options& options) {
+std::size_t screen_of(const WorkbenchGeometry& bench, const Document& options) {
   const std::string& wanted = options.view.screen;
   if (wanted.empty()) return 0;
   std::string names;
@@ -74,14 +73,14 @@ std::size_t screen_of(const WorkbenchGeometry& bench, const Options& options) {
     if (name == wanted) return i;
     if (!name.empty()) names += (names.empty() ? "" : ", ") + name;
   }
-  throw usage_error("--screen " + wanted + ": " + options.workbench.string() +
+  throw usage_error("--screen " + wanted + ": " + options.hand.workbench.string() +
                     (names.empty() ? " names no screens" : " has " + names));
 }
 
-double separation_of(const Options& options) { return kMetres * options.view.eye_separation; }
+double separation_of(const Document& options) { return kMetres * options.view.eye_separation; }
 
 /// That of the command line, else that of the screen.
-StereoView stereo_on(const ScreenGeometry& screen, const Options& options) {
+StereoView stereo_on(const ScreenGeometry& screen, const Document& options) {
   StereoView stereo = stereo_of(options.view);
   if (stereo.mode == StereoMode::kNone) stereo.mode = screen.stereo;
   return stereo;
@@ -89,8 +88,8 @@ StereoView stereo_on(const ScreenGeometry& screen, const Options& options) {
 
 /// That of --size, else the screen's pixels, else its shape. With a picture beside or above the other both
 /// have the screen's.
-PictureSize size_on(const ScreenGeometry& screen, StereoMode mode, const Options& options) {
-  if (!options.size.empty()) return parse_size(options.size);
+PictureSize size_on(const ScreenGeometry& screen, StereoMode mode, const Document& options) {
+  if (!options.output.size.empty()) return parse_size(options.output.size);
   PictureSize size{screen.pixels[0], screen.pixels[1]};
   if (size.width == 0) {
     const double aspect = width(screen.corners) / height(screen.corners);
@@ -102,7 +101,7 @@ PictureSize size_on(const ScreenGeometry& screen, StereoMode mode, const Options
 }
 
 /// The eyes of the head before all screens, at the time of --head-time where it is a recording.
-Eyes eyes_of(const WorkbenchGeometry& bench, std::size_t screen, const Options& options) {
+Eyes eyes_of(const WorkbenchGeometry& bench, std::size_t screen, const Document& options) {
   const std::string& head = options.view.head;
   HeadTracker tracker(bench, bench.screens[screen].corners, separation_of(options));
   if (!head.starts_with(kHeadReplay)) return tracker.eyes_on(parse_pose(head));
@@ -127,12 +126,12 @@ Eyes eyes_of(const WorkbenchGeometry& bench, std::size_t screen, const Options& 
   return tracker.eyes(time, (bench.head.latency && tracker.present() ? tracker.sampled_at() : time) + ahead);
 }
 
-void check_before(const Eyes& eyes, const ScreenGeometry& screen, const Options& options) {
+void check_before(const Eyes& eyes, const ScreenGeometry& screen, const Document& options) {
   for (const Vec3& eye : eyes) {
     if (!(glm::dot(eye - center(screen.corners), axes(screen.corners)[2]) > 0.0)) {
       throw usage_error("--head " + options.view.head + ": an eye is not before the screen" +
                         (screen.name.empty() ? "" : " '" + screen.name + "'") + " of " +
-                        options.workbench.string());
+                        options.hand.workbench.string());
     }
   }
 }
@@ -149,12 +148,12 @@ void check_shape(const ScreenGeometry& screen, const ScreenPicture& picture) {
 
 }  // namespace
 
-std::vector<ScreenPicture> asked_pictures(const Options& options) {
+std::vector<ScreenPicture> asked_pictures(const Document& options) {
   if (options.view.head_time && !options.view.head.starts_with(kHeadReplay))
     throw usage_error("--head-time needs a recording of the head: try --head replay:head.csv");
   if (options.view.head.empty()) {
     if (!options.view.screen.empty()) throw usage_error("--screen needs --head: where the head is before it");
-    const PictureSize size = options.size.empty() ? kUsualSize : parse_size(options.size);
+    const PictureSize size = options.output.size.empty() ? kUsualSize : parse_size(options.output.size);
     return {{.name = {}, .size = size, .stereo = stereo_of(options.view), .screen = std::nullopt}};
   }
   const WorkbenchGeometry bench = bench_of(options);
@@ -185,15 +184,15 @@ void take_head(const ScreenPicture& picture, SceneView& view) {
   look_through(place(corners), {place(eyes[0]), place(eyes[1])}, view);
 }
 
-std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
+std::optional<BenchDisplayOptions> bench_display_of(const Document& options,
                                                     const ProbeSessionOptions& touch) {
   const ViewOptions& view = options.view;
-  if (options.workbench.empty()) {
+  if (options.hand.workbench.empty()) {
     if (!view.head.empty() || !view.screen.empty()) (void)bench_of(options);
     return std::nullopt;
   }
   std::string head = view.head;
-  if (head.empty()) head = read_workbench(options.workbench).head.source;
+  if (head.empty()) head = read_workbench(options.hand.workbench).head.source;
   // Of the file alone: at a desk there are no hands, and no head with them.
   const bool at_desk = view.head.empty() && head == kHeadOfHands && touch.hands.empty() && !touch.tracker;
   if (at_desk && view.screen.empty()) return std::nullopt;
@@ -207,10 +206,11 @@ std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
   const bool driver = std::isalpha(static_cast<unsigned char>(head.front())) != 0;
   const bool file = head == kHeadOfHands || head.starts_with(kHeadReplay);
   // The tracker of the hands is opened once, whatever it is called.
-  if (touch.tracker && (head == kHeadOfHands || (driver && !file && is_same_device(head, options.device)))) {
+  if (touch.tracker &&
+      (head == kHeadOfHands || (driver && !file && is_same_device(head, options.hand.device)))) {
     const int station = display.bench.interaction.head_station;
     if (station == InteractionGeometry::kNoStation) {
-      throw usage_error(options.workbench.string() + ": the head '" + head +
+      throw usage_error(options.hand.workbench.string() + ": the head '" + head +
                         "' on the tracker of the hands needs [interaction] head_station = N");
     }
     display.head = std::make_shared<StationPoses>(touch.tracker, station);

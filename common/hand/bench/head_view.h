@@ -11,7 +11,7 @@
 #include "common/hand/probe_session.h"
 #include "common/hand/technique/probe_mouse.h"
 #include "common/render/scene_view.h"
-#include "common/scene/options.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
@@ -34,7 +34,7 @@ struct ScreenPicture {
 /// refused before data is read: a head without a workbench with a screen, a pose that is none, a head behind
 /// a screen, a picture of another shape than its screen's.
 /// @throws Error.
-[[nodiscard]] std::vector<ScreenPicture> asked_pictures(const Options& options);
+[[nodiscard]] std::vector<ScreenPicture> asked_pictures(const Document& options);
 
 /// Puts the camera before the picture's screen, with the eyes of the head: the middle of `view.bounds` is
 /// shown at [interaction] middle, turned by its rotation, `gain` metres of the workspace for a metre there
@@ -44,7 +44,7 @@ void take_head(const ScreenPicture& picture, SceneView& view);
 /// The display of a window: none where neither `--head` nor the workbench's [head] names a head to be
 /// followed. @param touch with the hands of `--device`, recorded or live, for the head "hands".
 /// @throws Error (usage), (bad input).
-[[nodiscard]] std::optional<BenchDisplayOptions> bench_display_of(const Options& options,
+[[nodiscard]] std::optional<BenchDisplayOptions> bench_display_of(const Document& options,
                                                                   const ProbeSessionOptions& touch);
 
 }  // namespace palpate

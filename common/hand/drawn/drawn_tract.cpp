@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "common/load/write_lines.h"
+#include "common/load/write/write_lines.h"
 
 namespace palpate {
 namespace {

@@ -43,6 +43,8 @@ class KeptLines {
   void remove(std::size_t index);
   /// Takes back the last keep() or remove(); false where there is nothing to take back.
   bool undo();
+  /// How often that is possible.
+  [[nodiscard]] std::size_t undo_depth() const noexcept { return before_.size(); }
   void clear();
 
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }

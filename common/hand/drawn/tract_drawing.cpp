@@ -1,5 +1,6 @@
 #include "common/hand/drawn/tract_drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -54,6 +55,12 @@ bool TractDrawing::keep(KeptLines& kept) {
 void TractDrawing::remove(KeptLines& kept, std::size_t index) {
   list_edits_.push_back({.strokes = pen_.depth(), .took = false});
   kept.remove(index);
+}
+
+std::size_t TractDrawing::undo_depth() const noexcept {
+  // What gave tracts to the list is an act of the pen, too.
+  const auto took = std::ranges::count_if(list_edits_, [](const ListEdit& edit) { return edit.took; });
+  return pen_.depth() + list_edits_.size() - static_cast<std::size_t>(took);
 }
 
 bool TractDrawing::undo(KeptLines& kept) {

@@ -44,6 +44,8 @@ class TractDrawing {
   void remove(KeptLines& kept, std::size_t index);
   /// Takes back the last stroke, keep(), remove() or clear(); false where there is none.
   bool undo(KeptLines& kept);
+  /// How often that is possible.
+  [[nodiscard]] std::size_t undo_depth() const noexcept;
 
  private:
   /// A change of the kept lines: how far the pen's strokes went then, and whether it gave its tracts to them.

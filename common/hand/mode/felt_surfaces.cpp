@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 
 namespace palpate {
 namespace {

@@ -15,7 +15,7 @@
 #include "common/field/scalar_field.h"
 #include "common/field/value_histogram.h"
 #include "common/haptics/constraint/isosurface_settings.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
 

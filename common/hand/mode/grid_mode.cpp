@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/hand/mode/grid_landmarks.h"
 #include "common/haptics/constraint/grid_axis.h"
@@ -191,26 +190,35 @@ PlaneWidgetSettings plane_settings(const PlaneWords& words) {
   return settings;
 }
 
-std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings) {
-  std::vector<std::pair<std::string, std::string>> options{
-      {"grid-frame", text_of(settings.frame)},
-      {"grid-switch", std::string(name_of(settings.switch_at))},
-      {"grid-peaks", std::to_string(settings.peaks)},
-      {"grid-pull", exact_number(settings.threshold / kMetresPerMillimetre)},
-      {"grid-notch", exact_number(settings.notch / kMetresPerMillimetre)},
-      {"grid-teeth", exact_number(settings.teeth)}};
+GridWords grid_words(const GridAxisSettings& settings) {
   const Vec3& h = settings.spacing;
-  if (h.x > 0.0 && h.y > 0.0 && h.z > 0.0) options.emplace_back("grid-spacing", exact_text(h));
-  if (settings.marks.count > 0) options.emplace_back("grid-marks", text_of(settings.marks));
-  return options;
+  return {.frame = text_of(settings.frame),
+          .spacing = h.x > 0.0 && h.y > 0.0 && h.z > 0.0 ? exact_text(h) : std::string(),
+          .marks = settings.marks.count > 0 ? text_of(settings.marks) : std::string(),
+          .switch_at = std::string(name_of(settings.switch_at)),
+          .peaks = settings.peaks,
+          .pull = settings.threshold / kMetresPerMillimetre,
+          .notch = settings.notch / kMetresPerMillimetre,
+          .teeth = settings.teeth};
 }
 
-std::vector<std::pair<std::string, std::string>> plane_options(const PlaneWidgetSettings& settings) {
-  std::vector<std::pair<std::string, std::string>> options{
-      {"detent", exact_number(settings.detent)},
-      {"plane-sphere", exact_number(settings.radius / kMetresPerMillimetre)},
-      {"plane-reach", exact_number(settings.reach / kMetresPerMillimetre)}};
-  if (settings.poses.count > 0) options.emplace_back("planes", text_of(settings.poses));
+PlaneWords plane_words(const PlaneWidgetSettings& settings) {
+  return {.planes = settings.poses.count > 0 ? text_of(settings.poses) : std::string(),
+          .detent = settings.detent,
+          .sphere = settings.radius / kMetresPerMillimetre,
+          .reach = settings.reach / kMetresPerMillimetre};
+}
+
+std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings) {
+  const GridWords words = grid_words(settings);
+  std::vector<std::pair<std::string, std::string>> options{{"grid-frame", words.frame},
+                                                           {"grid-switch", words.switch_at},
+                                                           {"grid-peaks", std::to_string(words.peaks)},
+                                                           {"grid-pull", exact_number(words.pull)},
+                                                           {"grid-notch", exact_number(words.notch)},
+                                                           {"grid-teeth", exact_number(words.teeth)}};
+  if (!words.spacing.empty()) options.emplace_back("grid-spacing", words.spacing);
+  if (!words.marks.empty()) options.emplace_back("grid-marks", words.marks);
   return options;
 }
 

@@ -18,9 +18,10 @@ namespace palpate {
 [[nodiscard]] GridAxisSettings grid_settings(const GridWords& words);
 [[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneWords& words);
 
-/// The settings as options, names without dashes: the functions above read them back, lengths to rounding.
+/// The same as words, lengths to rounding.
+[[nodiscard]] GridWords grid_words(const GridAxisSettings& settings);
+[[nodiscard]] PlaneWords plane_words(const PlaneWidgetSettings& settings);
+/// Those of a grid as options, names without dashes.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings);
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> plane_options(
-    const PlaneWidgetSettings& settings);
 
 }  // namespace palpate

@@ -1,7 +1,7 @@
 // The mode `isosurface`, in a flow and in a volume.
 #include <utility>
 
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/mode/texture_link.h"
 #include "common/haptics/constraint/isosurface.h"

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "common/base/number_text.h"
 #include "common/base/text.h"
 #include "common/hand/mode/texture_link.h"
 #include "common/haptics/constraint/linear.h"
@@ -156,14 +155,21 @@ LinearSettings linear_settings(const LinearWords& words) {
   return settings;
 }
 
+LinearWords linear_words(const LinearSettings& settings) {
+  return {.reference = std::string(name_of(settings.reference)),
+          .axes = text_of_axes(settings, ',', [](const LinearAxis& axis) { return name_of(axis.rule); }),
+          .tau = text_of_curves(settings,
+                                [](const LinearAxis& axis) { return axis.tau.text(kMetresPerMillimetre); }),
+          .kappa = text_of_curves(settings, [](const LinearAxis& axis) { return axis.kappa.text(); }),
+          .measure = std::string(name_of(settings.measure)),
+          .friction = settings.friction};
+}
+
 std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings) {
-  return {{"reference", std::string(name_of(settings.reference))},
-          {"axes", text_of_axes(settings, ',', [](const LinearAxis& axis) { return name_of(axis.rule); })},
-          {"tau", text_of_curves(settings,
-                                 [](const LinearAxis& axis) { return axis.tau.text(kMetresPerMillimetre); })},
-          {"kappa", text_of_curves(settings, [](const LinearAxis& axis) { return axis.kappa.text(); })},
-          {"measure", std::string(name_of(settings.measure))},
-          {"friction", exact_number(settings.friction)}};
+  const LinearWords words = linear_words(settings);
+  return {
+      {"reference", words.reference}, {"axes", words.axes},       {"tau", words.tau},
+      {"kappa", words.kappa},         {"measure", words.measure}, {"friction", exact_number(words.friction)}};
 }
 
 }  // namespace palpate

@@ -15,6 +15,8 @@ namespace palpate {
 /// @throws Error (usage) that names the option, what it expects and what it found.
 [[nodiscard]] LinearSettings linear_settings(const LinearWords& words);
 
+/// The same as words.
+[[nodiscard]] LinearWords linear_words(const LinearSettings& settings);
 /// The settings as options, names without dashes: linear_settings() reads them back, thresholds to rounding.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings);
 

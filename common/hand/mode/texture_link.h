@@ -7,7 +7,7 @@
 
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/constraint/isosurface.h"
-#include "common/haptics/constraint/texture_settings.h"
+#include "common/haptics/constraint/link_settings.h"
 
 namespace palpate {
 

@@ -1,10 +1,8 @@
-/// Cutting planes that the hand moves, as the window knows them: what the servo tells of them, and the poses
-/// that an undo goes back to.
+/// Cutting planes that the hand moves, as the window knows them: what the servo tells of them.
 #pragma once
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "common/haptics/widget/plane_widget.h"
 
@@ -22,15 +20,9 @@ class HandPlanes {
   /// What the servo told last; none in other modes, and before it tells.
   [[nodiscard]] const std::optional<WidgetNews>& news() const noexcept { return news_; }
 
-  /// They are about to be put elsewhere: undo() goes back to where they are.
-  void remember();
-  /// Where the planes were before the last hold of the hand, or remember(); none where there is none.
-  [[nodiscard]] std::optional<PlanePoses> undo();
-
  private:
   std::shared_ptr<WidgetNewsBuffer> told_;
   std::optional<WidgetNews> news_;
-  std::vector<PlanePoses> before_;
 };
 
 }  // namespace palpate

@@ -59,7 +59,6 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noe
 
 std::optional<PlanePoses> CarriedPlanes::follow(const HandsIntent& intent,
                                                 const std::optional<WidgetNews>& planes) {
-  began_ = false;
   if (!intent.carried || !planes) {
     from_.reset();
     return std::nullopt;
@@ -67,7 +66,6 @@ std::optional<PlanePoses> CarriedPlanes::follow(const HandsIntent& intent,
   if (!from_) {
     from_ = planes;
     last_ = planes->poses;
-    began_ = true;
     return std::nullopt;
   }
   PlanePoses poses = from_->poses;

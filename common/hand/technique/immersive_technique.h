@@ -51,13 +51,10 @@ class CarriedPlanes {
   /// @param planes as the widget told last; none where there are none.
   [[nodiscard]] std::optional<PlanePoses> follow(const HandsIntent& intent,
                                                  const std::optional<WidgetNews>& planes);
-  /// Whether the last follow() took hold.
-  [[nodiscard]] bool began() const noexcept { return began_; }
 
  private:
   std::optional<WidgetNews> from_;  ///< when it took hold
   PlanePoses last_;
-  bool began_ = false;
 };
 
 }  // namespace palpate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/haptics/notch.h"
+#include "common/haptics/fade.h"
 
 namespace palpate {
 

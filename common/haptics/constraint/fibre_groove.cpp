@@ -10,8 +10,8 @@ namespace palpate {
 namespace {
 
 /// A motion below this is none [m].
-constexpr double kSettled = 1e-9;
-constexpr int kMostSteps = 24;
+constexpr double kGrooveSettled = 1e-9;
+constexpr int kGrooveSteps = 24;
 /// Longest step [m]: fibres turn, and a faster hand is followed in several.
 constexpr double kStride = 0.002;
 /// Sine of the angle between fibre and layer normal from which on the groove has its full depth.
@@ -27,7 +27,7 @@ void FibreGroove::update(const Vec3& probe, const UpdateBudget& budget, LinkUpda
   SearchWork work{.limit = budget.iterations};
   link.state = HoldState::kHeld;
   bool rests = false;
-  for (int step = 0; step < kMostSteps && !rests; ++step) {
+  for (int step = 0; step < kGrooveSteps && !rests; ++step) {
     const FibreSample here = walk_.sample();
     if (here.status != SampleStatus::kOk || here.normal == Vec3{0.0}) {
       walk_.jump(asked);
@@ -40,11 +40,11 @@ void FibreGroove::update(const Vec3& probe, const UpdateBudget& budget, LinkUpda
     const double certainty = fibre_certainty(here.gap) * fade(here.tangential / kLying);
     // One narrower than the proxy comes to rest is none: as far as the layer's proxy. So rounding has no say
     // in which way a fibre that stands on the layer lies in it.
-    if (spacing_ * certainty <= kSettled) {
+    if (spacing_ * certainty <= kGrooveSettled) {
       link.jacobian = Mat3{1.0} - glm::outerProduct(here.normal, here.normal);
       link.kappa = Vec3{0.0};
       const double length = glm::length(r) * to_metres;
-      if (length <= kSettled) rests = true;
+      if (length <= kGrooveSettled) rests = true;
       if (rests || !walk_.move(r * std::min(1.0, kStride / length), work)) break;
       continue;
     }
@@ -59,7 +59,7 @@ void FibreGroove::update(const Vec3& probe, const UpdateBudget& budget, LinkUpda
       if (!walk_.move(c * (across / to_metres), work)) break;
       continue;
     }
-    if (std::abs(along) <= kSettled) {
+    if (std::abs(along) <= kGrooveSettled) {
       rests = true;
       break;
     }

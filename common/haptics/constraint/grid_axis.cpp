@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
+#include "common/haptics/fade.h"
 #include "common/haptics/motion_rule.h"
-#include "common/haptics/notch.h"
 
 namespace palpate {
 namespace {
@@ -26,8 +27,8 @@ GridAxis::GridAxis(const Vec3& origin, const Mat3& axes, const Vec3& spacing,
     : origin_(origin), axes_(axes), spacing_(spacing) {
   PALPATE_CHECK(landmarks.size() <= kMaxLandmarks);
   for (const Landmark& landmark : landmarks) {
-    landmarks_[static_cast<std::size_t>(landmark_count_++)] = {
-        landmark.normal * axes_, landmark.offset - glm::dot(landmark.normal, origin_)};
+    landmarks_[as_size(landmark_count_++)] = {landmark.normal * axes_,
+                                              landmark.offset - glm::dot(landmark.normal, origin_)};
   }
 }
 
@@ -49,14 +50,14 @@ GridAxis::Notch GridAxis::notch_near(double u) const noexcept {
   };
   double at = 0.0;
   for (int i = 0; i < landmark_count_; ++i) {
-    if (!crossing(landmarks_[static_cast<std::size_t>(i)], at)) continue;
+    if (!crossing(landmarks_[as_size(i)], at)) continue;
     if (nearest.there && std::abs(at - u) >= std::abs(nearest.at - u)) continue;
     nearest.there = true;
     nearest.at = at;
   }
   if (!nearest.there) return nearest;
   for (int i = 0; i < landmark_count_; ++i) {
-    if (!crossing(landmarks_[static_cast<std::size_t>(i)], at) || at == nearest.at) continue;
+    if (!crossing(landmarks_[as_size(i)], at) || at == nearest.at) continue;
     second = std::min(second, std::abs(at - nearest.at));
   }
   nearest.reach = std::min(settings_.notch, 0.5 * second);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/index.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -57,7 +58,7 @@ struct GridMarks {
   bool operator==(const GridMarks&) const = default;
   [[nodiscard]] bool valid() const noexcept {
     for (int i = 0; i < count; ++i) {
-      if (!mark[static_cast<std::size_t>(i)].valid()) return false;
+      if (!mark[as_size(i)].valid()) return false;
     }
     return count >= 0 && count <= kMax;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/haptics/frame_along.h"
 
 namespace palpate {
@@ -23,7 +24,7 @@ void IsosurfaceConstraint::apply(const ChainSettings& settings) noexcept {
   const Isovalues& isovalues = wanted.isovalues.count > 0 ? wanted.isovalues : otherwise_;
   levels.count = isovalues.count;
   for (int l = 0; l < levels.count; ++l) {
-    const auto i = static_cast<std::size_t>(l);
+    const auto i = as_size(l);
     levels.value[i] = isovalues.value[i] * field_->value_scale();
   }
   const bool same = levels.count == levels_.count && levels.value == levels_.value;
@@ -32,7 +33,7 @@ void IsosurfaceConstraint::apply(const ChainSettings& settings) noexcept {
     held_ = false;
     begun_ = false;
   }
-  edited_ = held_ && levels.value[static_cast<std::size_t>(index_)] != point_.level;
+  edited_ = held_ && levels.value[as_size(index_)] != point_.level;
   const bool was_layer = hold_ == IsosurfaceHold::kLayer, layer = wanted.hold == IsosurfaceHold::kLayer;
   if (held_ && layer && !was_layer) begun_ = false;  // the path was not walked meanwhile
   if (held_ && was_layer && !layer)
@@ -85,7 +86,7 @@ bool IsosurfaceConstraint::roam(const Vec3& x, SearchWork& work, LinkUpdate& lin
   for (;;) {
     const int index = search_->advance(path_, x, levels_, work);
     if (index < 0) break;
-    const auto from = static_cast<std::int8_t>(-path_.side[static_cast<std::size_t>(index)]);
+    const auto from = static_cast<std::int8_t>(-path_.side[as_size(index)]);
     if (stops(from)) {
       hold(index, from, path_);
       return true;
@@ -106,7 +107,7 @@ bool IsosurfaceConstraint::snap(const Vec3& x, SearchWork& work, LinkUpdate& lin
   int caught = -1;
   SurfacePath found;
   for (int l = 0; l < levels_.count && !work.spent(); ++l) {
-    const double level = levels_.value[static_cast<std::size_t>(l)];
+    const double level = levels_.value[as_size(l)];
     const Vec3 towards = at.gradient * ((at.value < level ? 1.0 : -1.0) / slope);
     SurfacePath way{.at = x, .cell = path_.cell};
     if (search_->advance(way, x + nearest * towards, {{level}, 1}, work) < 0) continue;
@@ -126,14 +127,14 @@ void IsosurfaceConstraint::hold(int index, std::int8_t free_side, const SurfaceP
   edited_ = false;
   index_ = index;
   free_side_ = free_side;
-  point_ = {crossing.at, levels_.value[static_cast<std::size_t>(index)], crossing.cell};
+  point_ = {crossing.at, levels_.value[as_size(index)], crossing.cell};
 }
 
 /// Frees the probe; its path goes on from the proxy, on that side of the surface.
 void IsosurfaceConstraint::let_go(std::int8_t side) noexcept {
   held_ = false;
   path_ = {.at = point_.position, .cell = point_.cell};
-  path_.side[static_cast<std::size_t>(index_)] = side;
+  path_.side[as_size(index_)] = side;
 }
 
 /// Moves the proxy after `x`. False where the surface lets the probe go.
@@ -176,7 +177,7 @@ void IsosurfaceConstraint::change_layers(const Vec3& x, SearchWork& work, LinkUp
 void IsosurfaceConstraint::move_to_edited(SearchWork& work, LinkUpdate& link) noexcept {
   edited_ = false;
   if (!held_) return;
-  const double level = levels_.value[static_cast<std::size_t>(index_)];
+  const double level = levels_.value[as_size(index_)];
   const double slope = glm::length(fit_.gradient);
   link.jumped = true;
   SurfacePath way{.at = point_.position, .cell = point_.cell};

@@ -24,7 +24,7 @@
 
 #include "common/haptics/constraint.h"
 #include "common/haptics/workspace.h"
-#include "common/trace/isosurface.h"
+#include "common/trace/isosurface/isosurface.h"
 
 namespace palpate {
 

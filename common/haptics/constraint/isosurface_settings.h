@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 /// Which way an isosurface holds the probe.
@@ -19,7 +21,7 @@ enum class IsosurfaceHold : std::uint8_t {
 inline constexpr int kIsosurfaceHoldCount = 4;
 [[nodiscard]] constexpr std::string_view name_of(IsosurfaceHold hold) noexcept {  ///< "wall"
   constexpr std::array<std::string_view, kIsosurfaceHoldCount> kNames{"wall", "below", "above", "layer"};
-  return kNames[static_cast<std::size_t>(hold)];
+  return kNames[as_size(hold)];
 }
 
 /// A set of isovalues, data units.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/base/index.h"
 #include "common/haptics/constraint/isosurface.h"
 
 namespace palpate {
@@ -47,7 +48,7 @@ class LayerConstraint final : public Constraint {
   layers.count = kLayers;
   for (int i = 0; i < kLayers; ++i) {
     const double part = (i + 1.0) / (kLayers + 1);
-    layers.value[static_cast<std::size_t>(i)] = (1.0 - part) * depth.lowest() + part * depth.highest();
+    layers.value[as_size(i)] = (1.0 - part) * depth.lowest() + part * depth.highest();
   }
   return layers;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -110,7 +112,7 @@ void LinearConstraint::update(const Vec3& probe, const UpdateBudget& budget, Lin
   }
   link.proxy = proxy_;
   link.frame = axes_.axes;
-  for (int a = 0; a < 3; ++a) link.kappa[a] = holds[static_cast<std::size_t>(a)].kappa;
+  for (int a = 0; a < 3; ++a) link.kappa[a] = holds[as_size(a)].kappa;
   const bool certain = presence_ == 1.0 && axes_.certainty == 1.0;
   link.state = certain && link.residual <= kSettled ? HoldState::kHeld : HoldState::kFellBack;
 }

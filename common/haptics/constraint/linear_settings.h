@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/index.h"
 #include "common/haptics/axis_rule.h"
 #include "common/haptics/transfer_function.h"
 
@@ -24,7 +25,7 @@ inline constexpr int kLinearReferenceCount = 5;
 [[nodiscard]] constexpr std::string_view name_of(LinearReference reference) noexcept {  ///< "curvature"
   constexpr std::array<std::string_view, kLinearReferenceCount> kNames{"auto", "flow", "gradient",
                                                                        "curvature", "axes"};
-  return kNames[static_cast<std::size_t>(reference)];
+  return kNames[as_size(reference)];
 }
 /// Whether e_2 and e_3 may be turned about e_1 at will, so that both have to hold alike.
 [[nodiscard]] constexpr bool leaves_axes_open(LinearReference reference) noexcept {
@@ -45,7 +46,7 @@ enum class LinearMeasure : std::uint8_t {
 inline constexpr int kLinearMeasureCount = 3;
 [[nodiscard]] constexpr std::string_view name_of(LinearMeasure measure) noexcept {  ///< "gradient"
   constexpr std::array<std::string_view, kLinearMeasureCount> kNames{"value", "gradient", "speed"};
-  return kNames[static_cast<std::size_t>(measure)];
+  return kNames[as_size(measure)];
 }
 
 [[nodiscard]] constexpr bool needs_flow(LinearMeasure measure) noexcept {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/base/index.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -29,7 +30,7 @@ struct PlanePoses {
   bool operator==(const PlanePoses&) const = default;
   [[nodiscard]] bool valid() const noexcept {
     for (int i = 0; i < count; ++i) {
-      if (!pose[static_cast<std::size_t>(i)].valid()) return false;
+      if (!pose[as_size(i)].valid()) return false;
     }
     return count >= 0 && count <= kMax;
   }

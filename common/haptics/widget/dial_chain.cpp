@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/number_text.h"
 #include "common/base/text.h"
-#include "common/haptics/constraint/circle.h"
 #include "common/haptics/constraint/detent_marks.h"
-#include "common/haptics/constraint/polyline.h"
+#include "common/haptics/constraint/shape.h"
 
 namespace palpate {
 namespace {

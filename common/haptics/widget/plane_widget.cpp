@@ -8,10 +8,10 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/base/index.h"
 #include "common/haptics/chain_settings.h"
 #include "common/haptics/fade.h"
 #include "common/haptics/frame_along.h"
-#include "common/haptics/notch.h"
 
 namespace palpate {
 namespace {
@@ -20,8 +20,8 @@ using Quaternion = glm::dquat;
 
 constexpr double kDegrees = std::numbers::pi / 180.0;
 constexpr double kDetentReach = 3.0 * kDegrees;
-constexpr double kCore = 0.25;          // part of the radius within which the sphere lets go
-constexpr double kLeastPart = 0x1p-20;  // of the radius, below which there is no direction
+constexpr double kSphereCore = 0.25;          // part of the radius within which the sphere lets go
+constexpr double kLeastSpherePart = 0x1p-20;  // of the radius, below which there is no direction
 constexpr unsigned kSphereBit = 8;
 /// By which a force that is off goes on to what it shall be, a step [N]: 200 N/s, the slew limit of the
 /// devices here, at 10 kHz.
@@ -83,9 +83,9 @@ void PlaneWidget::apply(const ChainSettings& settings) noexcept {
   started_ = true;
   if (!edited) return;
   poses_ = settings_.poses;
-  if (poses_.count == 0) poses_.pose[static_cast<std::size_t>(poses_.count++)] = otherwise_;
+  if (poses_.count == 0) poses_.pose[as_size(poses_.count++)] = otherwise_;
   for (int i = 0; i < poses_.count; ++i) {
-    PlanePose& pose = poses_.pose[static_cast<std::size_t>(i)];
+    PlanePose& pose = poses_.pose[as_size(i)];
     pose.center *= scale_;
     set_turn(pose, quaternion(pose));
   }
@@ -105,14 +105,14 @@ void PlaneWidget::lose() noexcept {
 
 /// How near to the sphere it holds: its core never does, where the nearest place of it changes sides.
 double PlaneWidget::sphere_reach() const noexcept {
-  return std::min(settings_.reach, (1.0 - kCore) * settings_.radius);
+  return std::min(settings_.reach, (1.0 - kSphereCore) * settings_.radius);
 }
 
 /// What is within reach; a free hand takes the nearest plane, one at a plane stays there while it is in
 /// reach.
 WidgetEvent PlaneWidget::sense(const Vec3& x) noexcept {
   const auto distances = [&](int i) {
-    const PlanePose& pose = poses_.pose[static_cast<std::size_t>(i)];
+    const PlanePose& pose = poses_.pose[as_size(i)];
     const Vec3 away = x - pose.center;
     return std::pair{std::abs(glm::length(away) - settings_.radius),
                      std::abs(glm::dot(away, axes_of(pose)[2]))};
@@ -173,7 +173,7 @@ void PlaneWidget::hold_plane(int a, const Vec3& through, Vec3& x) noexcept {
 /// Link (2) with the proxy towards the unit vector `toward`, and takes `x` there.
 void PlaneWidget::hold_sphere(Vec3& x, const Vec3& toward, const Mat3& frame, const Vec3& kappa) noexcept {
   const Vec3& center = current().center;
-  const double away = std::max(glm::distance(x, center), kLeastPart * settings_.radius);
+  const double away = std::max(glm::distance(x, center), kLeastSpherePart * settings_.radius);
   LinkUpdate& link = next_link();
   x = center + settings_.radius * toward;
   link.proxy = x;
@@ -269,13 +269,13 @@ void PlaneWidget::rotate(const Vec3& x) noexcept {
   Vec3 toward = outward_;
   // Next to the centre nothing tells where to turn; two planes leave a line, on which there is nothing to
   // turn.
-  if (planes < 2 && away > kCore * settings_.radius) turn(at, about, toward, tangential);
+  if (planes < 2 && away > kSphereCore * settings_.radius) turn(at, about, toward, tangential);
   if (planes >= 2) {
     toward = unit_or(at - center, outward_);
     current().turn = grip_pose_.turn;
   }
   outward_ = toward;
-  const double core = fade(away / (kCore * settings_.radius));
+  const double core = fade(away / (kSphereCore * settings_.radius));
   const double held = notch_hold(away - settings_.radius, sphere_reach());
   hold_sphere(at, toward, frame_along(toward), {held, core * tangential, core * tangential});
 }
@@ -297,7 +297,7 @@ void PlaneWidget::update(const Vec3& probe) noexcept {
   } else {
     explore(probe);
   }
-  const Vec3 last = used_ > 0 ? links_[static_cast<std::size_t>(used_) - 1].proxy : probe;
+  const Vec3 last = used_ > 0 ? links_[as_size(used_) - 1].proxy : probe;
   while (used_ < kLinks) next_link().proxy = last;
   blend(probe);
   tell();

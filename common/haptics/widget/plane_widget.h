@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "common/base/index.h"
 #include "common/base/triple_buffer.h"
 #include "common/haptics/constraint.h"
 #include "common/haptics/constraint/plane_widget_settings.h"
@@ -59,17 +60,15 @@ class PlaneWidget {
   void lose() noexcept;
   /// One step: state, planes and links. @rt Safe.
   void update(const Vec3& probe) noexcept;
-  [[nodiscard]] const LinkUpdate& link(int i) const noexcept { return links_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const LinkUpdate& link(int i) const noexcept { return links_[as_size(i)]; }
 
   [[nodiscard]] WidgetState state() const noexcept { return state_; }
   [[nodiscard]] int count() const noexcept { return poses_.count; }
   /// Workspace.
-  [[nodiscard]] const PlanePose& pose(int i) const noexcept {
-    return poses_.pose[static_cast<std::size_t>(i)];
-  }
+  [[nodiscard]] const PlanePose& pose(int i) const noexcept { return poses_.pose[as_size(i)]; }
 
  private:
-  [[nodiscard]] PlanePose& current() noexcept { return poses_.pose[static_cast<std::size_t>(current_)]; }
+  [[nodiscard]] PlanePose& current() noexcept { return poses_.pose[as_size(current_)]; }
   [[nodiscard]] double sphere_reach() const noexcept;
   [[nodiscard]] WidgetEvent sense(const Vec3& x) noexcept;
   void go(WidgetEvent event, const Vec3& x) noexcept;
@@ -80,7 +79,7 @@ class PlaneWidget {
   void translate(const Vec3& x) noexcept;
   void rotate(const Vec3& x) noexcept;
   void turn(const Vec3& x, int about, Vec3& toward, double& tangential) noexcept;
-  [[nodiscard]] LinkUpdate& next_link() noexcept { return links_[static_cast<std::size_t>(used_++)]; }
+  [[nodiscard]] LinkUpdate& next_link() noexcept { return links_[as_size(used_++)]; }
   void blend(const Vec3& x) noexcept;
   void tell() noexcept;
 

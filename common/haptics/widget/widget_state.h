@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 enum class WidgetState : std::uint8_t {
@@ -20,7 +22,7 @@ inline constexpr int kWidgetStateCount = 5;
 [[nodiscard]] constexpr std::string_view name_of(WidgetState state) noexcept {  ///< "on_plane"
   constexpr std::array<std::string_view, kWidgetStateCount> kNames{"free", "on_plane", "on_sphere",
                                                                    "translate", "rotate"};
-  return kNames[static_cast<std::size_t>(state)];
+  return kNames[as_size(state)];
 }
 
 enum class WidgetEvent : std::uint8_t {
@@ -35,7 +37,7 @@ inline constexpr int kWidgetEventCount = 6;
 [[nodiscard]] constexpr std::string_view name_of(WidgetEvent event) noexcept {  ///< "near_plane"
   constexpr std::array<std::string_view, kWidgetEventCount> kNames{"near_plane", "near_sphere", "far",
                                                                    "press",      "release",     "lost"};
-  return kNames[static_cast<std::size_t>(event)];
+  return kNames[as_size(event)];
 }
 
 struct WidgetTransition {

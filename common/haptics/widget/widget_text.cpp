@@ -2,23 +2,17 @@
 
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <vector>
 
-#include "common/base/number_text.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/haptics/widget/plane_widget.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
 
 constexpr char kBetween = '/';
-
-std::string joined(std::initializer_list<double> numbers) {
-  std::string text;
-  for (const double value : numbers) (text += text.empty() ? "" : ",") += exact_number(value);
-  return text;
-}
 
 /// Numbers with commas between; none where a part is no finite number.
 std::vector<double> numbers(std::string_view text) {
@@ -29,10 +23,6 @@ std::vector<double> numbers(std::string_view text) {
     values.push_back(*value);
   }
   return values;
-}
-
-Vec3 vec_at(const std::vector<double>& v, std::size_t first) {
-  return {v[first], v[first + 1], v[first + 2]};
 }
 
 /// What follows `word` and a colon.
@@ -51,9 +41,9 @@ std::string text_of(const GridFrame& frame) {
     case GridFrame::Kind::kWorld:
       return "world";
     case GridFrame::Kind::kPlane:
-      return "plane:" + joined({a.x, a.y, a.z, frame.offset});
+      return "plane:" + exact_text({a.x, a.y, a.z, frame.offset});
     case GridFrame::Kind::kAxes:
-      return "axes:" + joined({a.x, a.y, a.z, b.x, b.y, b.z});
+      return "axes:" + exact_text({a.x, a.y, a.z, b.x, b.y, b.z});
   }
   return {};
 }
@@ -81,12 +71,12 @@ std::optional<std::string> read_text(std::string_view text, GridFrame& frame) {
 std::string text_of(const GridMarks& marks) {
   std::string text;
   for (int i = 0; i < marks.count; ++i) {
-    const GridMark& mark = marks.mark[static_cast<std::size_t>(i)];
+    const GridMark& mark = marks.mark[as_size(i)];
     if (i > 0) text += kBetween;
     if (mark.axis < 3) {
       (text += "xyz"[mark.axis]) += ":" + exact_number(mark.at);
     } else {
-      text += "plane:" + joined({mark.normal.x, mark.normal.y, mark.normal.z, mark.at});
+      text += "plane:" + exact_text({mark.normal.x, mark.normal.y, mark.normal.z, mark.at});
     }
   }
   return text;
@@ -103,7 +93,7 @@ std::optional<std::string> read_text(std::string_view text, GridMarks& marks) {
       if (v.size() == 4) mark = {3, vec_at(v, 0), v[3]};
     } else {
       for (int a = 0; a < 3; ++a) {
-        const auto along = after(word, std::string_view("xyz").substr(static_cast<std::size_t>(a), 1));
+        const auto along = after(word, std::string_view("xyz").substr(as_size(a), 1));
         const auto v = along ? numbers(*along) : std::vector<double>{};
         if (v.size() == 1) mark = {.axis = a, .at = v[0]};
       }
@@ -112,7 +102,7 @@ std::optional<std::string> read_text(std::string_view text, GridMarks& marks) {
       return "x:AT, y:AT, z:AT or plane:nx,ny,nz,d is expected, with '/' between; found '" +
              std::string(word) + "'";
     }
-    marks.mark[static_cast<std::size_t>(marks.count++)] = mark;
+    marks.mark[as_size(marks.count++)] = mark;
   }
   return std::nullopt;
 }
@@ -120,11 +110,11 @@ std::optional<std::string> read_text(std::string_view text, GridMarks& marks) {
 std::string text_of(const PlanePoses& poses) {
   std::string text;
   for (int i = 0; i < poses.count; ++i) {
-    const PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    const PlanePose& pose = poses.pose[as_size(i)];
     const Vec3& c = pose.center;
     const Vec4& q = pose.turn;
     if (i > 0) text += kBetween;
-    text += joined({c.x, c.y, c.z, q.x, q.y, q.z, q.w});
+    text += exact_text({c.x, c.y, c.z, q.x, q.y, q.z, q.w});
   }
   return text;
 }
@@ -150,7 +140,7 @@ std::optional<std::string> read_text(std::string_view text, PlanePoses& poses) {
              "between; found '" +
              std::string(word) + "'";
     }
-    poses.pose[static_cast<std::size_t>(poses.count++)] = pose;
+    poses.pose[as_size(poses.count++)] = pose;
   }
   return std::nullopt;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -12,7 +14,7 @@ void add_squares(PartError& sum, const std::array<double, N>& shares, double sha
                  const std::array<PartError, N>& errors) noexcept {
   const auto* const found = std::find(shares.begin(), shares.end(), share);
   if (found == shares.end()) return;
-  const PartError& error = errors[static_cast<std::size_t>(found - shares.begin())];
+  const PartError& error = errors[as_size(found - shares.begin())];
   sum.focus += error.focus * error.focus;
   sum.context += error.context * error.context;
 }

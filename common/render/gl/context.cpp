@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -32,8 +33,7 @@ EGLDisplay open_display() {
     EGLint count = 0;
     eglQueryDevicesEXT(kMaxDevices, devices.data(), &count);
     for (EGLint i = 0; i < count; ++i) {
-      EGLDisplay display =
-          eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr);
+      EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[as_size(i)], nullptr);
       if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
     }
   }

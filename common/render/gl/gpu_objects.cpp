@@ -8,6 +8,7 @@
 
 #include <epoxy/gl.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/render/gl/program.h"
 
@@ -32,7 +33,7 @@ std::string label_of(Kind kind, GLuint name) {
   std::array<char, 256> text{};
   GLsizei length = 0;
   glGetObjectLabel(identifier_of(kind), name, static_cast<GLsizei>(text.size()), &length, text.data());
-  return {text.data(), static_cast<std::size_t>(length)};
+  return {text.data(), as_size(length)};
 }
 
 template <typename Get>

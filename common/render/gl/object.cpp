@@ -20,6 +20,14 @@ GlVertexArray make_vertex_array() {
   return GlVertexArray(name);
 }
 
+void describe_attribute(std::uint32_t vertex_array, std::uint32_t location, int components,
+                        std::size_t offset, std::uint32_t binding) {
+  glEnableVertexArrayAttrib(vertex_array, location);
+  glVertexArrayAttribFormat(vertex_array, location, components, GL_FLOAT, GL_FALSE,
+                            static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(vertex_array, location, binding);
+}
+
 GlBuffer make_buffer(std::span<const std::byte> bytes) {
   GLuint name = 0;
   glCreateBuffers(1, &name);

@@ -56,6 +56,10 @@ using GlQuery = GlObject<detail::delete_query>;
 
 [[nodiscard]] GlVertexArray make_vertex_array();
 
+/// Attribute `location` of a vertex: `components` floats that stand `offset` bytes into what is bound at `binding`.
+void describe_attribute(std::uint32_t vertex_array, std::uint32_t location, int components,
+                        std::size_t offset, std::uint32_t binding = 0);
+
 /// A buffer with a copy of `bytes`; it may be empty.
 [[nodiscard]] GlBuffer make_buffer(std::span<const std::byte> bytes);
 

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/render/gl/gpu_objects.h"
 
 namespace palpate {
@@ -76,7 +77,7 @@ GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile
   if (done != GL_TRUE) {
     GLint size = 0;
     glGetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &size);
-    std::string log(static_cast<std::size_t>(std::max(size, 1)), '\0');
+    std::string log(as_size(std::max(size, 1)), '\0');
     glGetShaderInfoLog(shader.name(), size, nullptr, log.data());
     throw work_error("shader " + std::string(path) + " does not compile: " + readable(log.c_str(), source));
   }
@@ -93,7 +94,7 @@ GlProgram link(std::initializer_list<GLuint> shaders, const std::string& problem
   if (done != GL_TRUE) {
     GLint size = 0;
     glGetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
-    std::string log(static_cast<std::size_t>(std::max(size, 1)), '\0');
+    std::string log(as_size(std::max(size, 1)), '\0');
     glGetProgramInfoLog(program.name(), size, nullptr, log.data());
     throw work_error(problem + log.substr(0, log.find('\n')));
   }

@@ -9,6 +9,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/render/gl/gpu_objects.h"
 
 namespace palpate {
@@ -155,15 +156,14 @@ void RenderTarget::show(int left, int bottom, std::uint32_t framebuffer) const {
 Image RenderTarget::read() const { return read_framebuffer(resolved_.name(), width_, height_); }
 
 Image read_framebuffer(std::uint32_t framebuffer, int width, int height) {
-  const auto row = 4 * static_cast<std::size_t>(width);
-  Image image{width, height, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  const auto row = 4 * as_size(width);
+  Image image{width, height, std::vector<std::uint8_t>(row * as_size(height))};
   std::vector<std::uint8_t> upward(image.rgba.size());  // OpenGL counts rows from the bottom
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, upward.data());
   for (int y = 0; y < height; ++y) {
-    std::memcpy(image.rgba.data() + row * static_cast<std::size_t>(y),
-                upward.data() + row * static_cast<std::size_t>(height - 1 - y), row);
+    std::memcpy(image.rgba.data() + row * as_size(y), upward.data() + row * as_size(height - 1 - y), row);
   }
   // The picture stands for itself: no part of it shows what lies behind it.
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;

@@ -1,9 +1,14 @@
 #include "common/render/glyph/arrow_pass.h"
 
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include <epoxy/gl.h>
 
+#include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/render/gl/program.h"
-#include "common/render/glyph/arrow_mesh.h"
 
 namespace palpate {
 namespace {
@@ -13,13 +18,6 @@ constexpr GLint kOpacity = 0;
 constexpr GLuint kArrowsBinding = 0;
 // Facets about the axis: no corner shows at the sizes of glyphs.
 constexpr int kSides = 32;
-
-void describe(const GlVertexArray& array, GLuint location, GLint components, std::size_t offset) {
-  glEnableVertexArrayAttrib(array.name(), location);
-  glVertexArrayAttribFormat(array.name(), location, components, GL_FLOAT, GL_FALSE,
-                            static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array.name(), location, 0);
-}
 
 }  // namespace
 
@@ -32,10 +30,10 @@ void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity
     corner_count_ = mesh.size();
     vertex_array_ = make_vertex_array();
     glVertexArrayVertexBuffer(vertex_array_.name(), 0, mesh_.name(), 0, sizeof(ArrowVertex));
-    describe(vertex_array_, 0, 2, offsetof(ArrowVertex, circle));
-    describe(vertex_array_, 1, 2, offsetof(ArrowVertex, along));
-    describe(vertex_array_, 2, 2, offsetof(ArrowVertex, radial));
-    describe(vertex_array_, 3, 3, offsetof(ArrowVertex, facing));
+    describe_attribute(vertex_array_.name(), 0, 2, offsetof(ArrowVertex, circle));
+    describe_attribute(vertex_array_.name(), 1, 2, offsetof(ArrowVertex, along));
+    describe_attribute(vertex_array_.name(), 2, 2, offsetof(ArrowVertex, radial));
+    describe_attribute(vertex_array_.name(), 3, 3, offsetof(ArrowVertex, facing));
   }
   const GlBuffer instances = make_buffer(arrows);
   glUseProgram(program_.name());
@@ -46,6 +44,44 @@ void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity
     glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(corner_count_),
                           static_cast<GLsizei>(arrows.size()));
   });
+}
+
+namespace {
+
+// A band of the surface between two circles about the axis.
+struct Zone {
+  glm::vec2 along0, radial0, along1, radial1;
+  Vec3f facing;
+};
+
+const std::array<Zone, 4> kZones{{
+    {{0.0F, 0.0F}, {0.0F, 0.0F}, {0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 0.0F, 0.0F}},  // cap of the shaft
+    {{0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}},  // shaft
+    {{1.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}},  // neck of the head
+    {{1.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 1.0F}, {0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}},  // cone
+}};
+
+}  // namespace
+
+std::vector<ArrowVertex> make_arrow_mesh(int sides) {
+  PALPATE_CHECK(sides >= 3);
+  const auto circle = [sides](int i) {
+    // Side n is side 0 again, to the last bit: no crack.
+    const double phi = 2.0 * std::numbers::pi * (i % sides) / sides;
+    return glm::vec2(std::cos(phi), std::sin(phi));
+  };
+  std::vector<ArrowVertex> mesh;
+  mesh.reserve(kZones.size() * 6 * as_size(sides));
+  for (const Zone& zone : kZones) {
+    for (int i = 0; i < sides; ++i) {
+      const ArrowVertex a{circle(i), zone.along0, zone.radial0, zone.facing};
+      const ArrowVertex b{circle(i + 1), zone.along0, zone.radial0, zone.facing};
+      const ArrowVertex c{circle(i), zone.along1, zone.radial1, zone.facing};
+      const ArrowVertex d{circle(i + 1), zone.along1, zone.radial1, zone.facing};
+      mesh.insert(mesh.end(), {a, b, c, c, b, d});
+    }
+  }
+  return mesh;
 }
 
 }  // namespace palpate

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/math/symmetric3.h"
+#include "common/render/color/palette.h"
 #include "common/render/line/line_values.h"
-#include "common/render/palette.h"
 
 namespace palpate {
 namespace {

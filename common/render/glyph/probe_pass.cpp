@@ -5,9 +5,9 @@
 
 #include <epoxy/gl.h>
 
+#include "common/render/color/palette.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_values.h"
-#include "common/render/palette.h"
 
 namespace palpate {
 namespace {

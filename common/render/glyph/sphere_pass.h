@@ -5,7 +5,7 @@
 #include <span>
 
 #include "common/math/vec.h"
-#include "common/render/color_map.h"
+#include "common/render/color/color_map.h"
 #include "common/render/gl/object.h"
 #include "common/render/glyph/glyph_draw.h"
 

@@ -180,12 +180,6 @@ ConvexShape make_cylinder(const Vec3& from, const Vec3& to, double radius) {
   return shape;
 }
 
-ConvexShape make_half_space(const Vec3& point, const Vec3& outward) {
-  ConvexShape shape;
-  shape.half_spaces.push_back(half_space(point, outward));
-  return shape;
-}
-
 ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces) {
   PALPATE_CHECK(faces.size() <= kMostHalfSpaces);
   ConvexShape shape;

@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
-#include "common/field/color_transfer.h"
-#include "common/field/region_transfer.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -54,8 +54,6 @@ struct LineInterval {
 /// @param axes columns: from the centre to the middles of three faces, at right angles to each other.
 [[nodiscard]] ConvexShape make_box(const Vec3& center, const Mat3& axes);
 [[nodiscard]] ConvexShape make_cylinder(const Vec3& from, const Vec3& to, double radius);
-/// All that `outward` points away from, from `point` on.
-[[nodiscard]] ConvexShape make_half_space(const Vec3& point, const Vec3& outward);
 /// The tetrahedron, pyramid or other polyhedron that half-spaces enclose; normals need not be unit.
 [[nodiscard]] ConvexShape make_polyhedron(std::span<const ConvexShape::HalfSpace> faces);
 

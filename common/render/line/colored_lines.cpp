@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
+#include "common/render/color/palette.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_values.h"
-#include "common/render/palette.h"
 
 namespace palpate {
 namespace {
@@ -38,7 +39,7 @@ bool ColoredLines::update_colors(const SceneView& view) {
         std::any_of(values.begin(), values.end(), [&](double v) { return v < legend_.range.lower; });
     legend_.values_above =
         std::any_of(values.begin(), values.end(), [&](double v) { return v > legend_.range.upper; });
-    for (const Line& line : *view.lines) ++legend_.ends[static_cast<std::size_t>(line.end)];
+    for (const Line& line : *view.lines) ++legend_.ends[as_size(line.end)];
     lines_.set_values(map_coordinates(values, view.style, legend_.range));
   } else {
     legend_.range = view.style.range.value_or(ValueRange{});  // of surfaces alone

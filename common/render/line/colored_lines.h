@@ -6,7 +6,7 @@
 
 #include "common/geometry/line.h"
 #include "common/render/line/line_pass.h"
-#include "common/render/overlay.h"
+#include "common/render/overlay/overlay.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -20,7 +21,7 @@ std::size_t most_fragments() {
   constexpr std::size_t kMostBytes = std::size_t{1} << 29U;  // more takes other things' memory
   GLint64 bytes = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-  return (std::min(static_cast<std::size_t>(bytes), kMostBytes) - kCountBytes) / kFragmentBytes;
+  return (std::min(as_size(bytes), kMostBytes) - kCountBytes) / kFragmentBytes;
 }
 
 GlBuffer make_room(std::size_t bytes) {
@@ -45,7 +46,7 @@ void LineLayers::reserve(std::size_t fragments) {
 
 bool LineLayers::collect(int width, int height, const std::function<void()>& draw) {
   PALPATE_CHECK(width > 0 && height > 0);
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const std::size_t pixels = as_size(width) * as_size(height);
   if (pixels != pixels_) heads_ = make_room(sizeof(std::uint32_t) * pixels);
   pixels_ = pixels;
   constexpr std::size_t kFirstRoom = std::size_t{1} << 16U;

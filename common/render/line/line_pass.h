@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "common/render/color_tables.h"
+#include "common/render/color/color_tables.h"
 #include "common/render/gl/object.h"
 #include "common/render/line/line_geometry.h"
 

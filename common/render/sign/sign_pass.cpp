@@ -59,15 +59,9 @@ struct SignPass::State {
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     vertex_array = make_vertex_array();
-    const auto describe = [this](GLuint location, GLint components, std::size_t offset) {
-      glEnableVertexArrayAttrib(vertex_array.name(), location);
-      glVertexArrayAttribFormat(vertex_array.name(), location, components, GL_FLOAT, GL_FALSE,
-                                static_cast<GLuint>(offset));
-      glVertexArrayAttribBinding(vertex_array.name(), location, 0);
-    };
-    describe(0, 3, offsetof(SignVertex, place));
-    describe(1, 2, offsetof(SignVertex, u));
-    describe(2, 4, offsetof(SignVertex, color));
+    describe_attribute(vertex_array.name(), 0, 3, offsetof(SignVertex, place));
+    describe_attribute(vertex_array.name(), 1, 2, offsetof(SignVertex, u));
+    describe_attribute(vertex_array.name(), 2, 4, offsetof(SignVertex, color));
   }
 
   void add_shapes(const SignView& sign, const SceneFrame& frame, const Mat3& axes,

@@ -16,7 +16,7 @@
 #include <array>
 #include <optional>
 
-#include "common/geometry/stereo_mode.h"
+#include "common/geometry/screen.h"
 #include "common/math/vec.h"
 #include "common/render/camera.h"
 

@@ -51,12 +51,6 @@ void set_surface_scale(GLint location, const LineStyle& style, const ValueRange&
               static_cast<float>(one ? 1.0 : 1.0 / extent), logarithmic ? 1.0F : 0.0F);
 }
 
-void describe(const GlVertexArray& array, GLuint location, std::size_t offset) {
-  glEnableVertexArrayAttrib(array.name(), location);
-  glVertexArrayAttribFormat(array.name(), location, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
-  glVertexArrayAttribBinding(array.name(), location, 0);
-}
-
 }  // namespace
 
 void SurfacePass::update(const std::vector<SurfaceView>& surfaces, const SceneFrame& frame) {
@@ -85,8 +79,8 @@ void SurfacePass::update(const std::vector<SurfaceView>& surfaces, const SceneFr
                   .corners = 3 * triangles.size()};
     glVertexArrayVertexBuffer(made.vertex_array.name(), 0, made.vertices.name(), 0, sizeof(SurfaceVertex));
     glVertexArrayElementBuffer(made.vertex_array.name(), made.triangles.name());
-    describe(made.vertex_array, 0, offsetof(SurfaceVertex, position));
-    describe(made.vertex_array, 1, offsetof(SurfaceVertex, normal));
+    describe_attribute(made.vertex_array.name(), 0, 3, offsetof(SurfaceVertex, position));
+    describe_attribute(made.vertex_array.name(), 1, 3, offsetof(SurfaceVertex, normal));
     set_values(made);
     uploaded_.push_back(std::move(made));
   }
@@ -104,9 +98,7 @@ void SurfacePass::set_values(Uploaded& surface) {
     PALPATE_CHECK(values->size() == surface.view.mesh->points.size());
     buffer = make_buffer(std::span<const float>(*values));
     glVertexArrayVertexBuffer(array, binding, buffer.name(), 0, sizeof(float));
-    glEnableVertexArrayAttrib(array, location);
-    glVertexArrayAttribFormat(array, location, 1, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(array, location, binding);
+    describe_attribute(array, location, 1, 0, binding);
   };
   constexpr GLuint kValue = 2, kLensValue = 3;  // locations
   set(surface.view.values, kValue, kSurfaceValues, surface.values);

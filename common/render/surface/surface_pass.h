@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/render/camera.h"
-#include "common/render/color_tables.h"
+#include "common/render/color/color_tables.h"
 #include "common/render/gl/object.h"
 #include "common/render/line_style.h"
 #include "common/render/surface/surface_view.h"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "common/render/color_map.h"
-#include "common/trace/isosurface_mesh.h"
+#include "common/render/color/color_map.h"
+#include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
 

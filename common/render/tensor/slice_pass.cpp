@@ -11,6 +11,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/field/grid/grid_from_data.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
@@ -98,7 +99,7 @@ void SlicePass::upload_underlay(const VolumeImage& image) {
   const Index3 n = image.points;
   under_ = make_voxel_texture(layout.internal, n);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  std::vector<std::byte> layer(image.byte_count() / static_cast<std::size_t>(n.z));
+  std::vector<std::byte> layer(image.byte_count() / as_size(n.z));
   for (int z = 0; z < n.z; ++z) {
     image.copy({{0, 0, z}, {n.x, n.y, z + 1}}, layer.data());
     glTextureSubImage3D(under_.name(), 0, 0, 0, z, n.x, n.y, 1, GL_RED, layout.type, layer.data());
@@ -174,7 +175,7 @@ void SlicePass::draw(const TensorView& view, const SceneFrame& frame, const Pale
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   for (int axis = 0; axis < 3; ++axis) {
-    if (!view.slices[static_cast<std::size_t>(axis)]) continue;
+    if (!view.slices[as_size(axis)]) continue;
     glUniform1i(kAxis, axis);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, kCorners);
   }

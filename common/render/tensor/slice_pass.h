@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "common/render/camera.h"
+#include "common/render/color/palette.h"
 #include "common/render/gl/object.h"
-#include "common/render/palette.h"
 #include "common/render/tensor/tensor_view.h"
 
 namespace palpate {

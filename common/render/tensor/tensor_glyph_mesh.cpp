@@ -49,9 +49,7 @@ TensorGlyphMesh::Mesh TensorGlyphMesh::make_mesh(int bands) {
   const GLuint array = mesh.array.name();
   glVertexArrayVertexBuffer(array, 0, mesh.corners.name(), 0, sizeof(glm::vec4));
   glVertexArrayElementBuffer(array, mesh.indices.name());
-  glEnableVertexArrayAttrib(array, kAngles);
-  glVertexArrayAttribFormat(array, kAngles, 4, GL_FLOAT, GL_FALSE, 0);
-  glVertexArrayAttribBinding(array, kAngles, 0);
+  describe_attribute(array, kAngles, 4, 0);
   return mesh;
 }
 

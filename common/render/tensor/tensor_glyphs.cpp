@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/base/index.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/math/symmetric3.h"
 
@@ -29,7 +30,7 @@ TensorGlyph glyph_of(const SymmetricEigen& eigen, GlyphShape shape, TensorColor 
   std::array<Vec3f, 3> half{};
   for (int i = 0; i < 3; ++i) {
     const double share = std::max(kThinnest, eigen.values[i] / eigen.values[0]);
-    half[static_cast<std::size_t>(i)] = Vec3f(scale * share * eigen.vectors[i]);
+    half[as_size(i)] = Vec3f(scale * share * eigen.vectors[i]);
   }
   TensorGlyph glyph;
   glyph.center = Vec3f(frame.scene_from_data(center));
@@ -74,7 +75,7 @@ std::vector<TensorGlyph> make_slice_glyphs(const TensorView& view, const SceneFr
   const TensorVoxels& image = *view.image;
   const Vec3 cross = image.grid_coordinates(view.position);
   for (int axis = 0; axis < 3; ++axis) {
-    if (!view.slices[static_cast<std::size_t>(axis)] || !image.contains(cross)) continue;
+    if (!view.slices[as_size(axis)] || !image.contains(cross)) continue;
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const double reach =
         0.5 * std::min(stride[u] * glm::length(image.axes[u]), stride[v] * glm::length(image.axes[v]));

@@ -1,6 +1,6 @@
 #include "common/render/tensor/tensor_pass.h"
 
-#include "common/render/palette.h"
+#include "common/render/color/palette.h"
 
 namespace palpate {
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::optional<TensorPick> pick_slice(const TensorView& view, const Camera& camera, int width, int height,
@@ -22,7 +24,7 @@ std::optional<TensorPick> pick_slice(const TensorView& view, const Camera& camer
   std::optional<TensorPick> nearest;
   double nearest_t = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    if (!view.slices[static_cast<std::size_t>(axis)] || speed[axis] == 0.0) continue;
+    if (!view.slices[as_size(axis)] || speed[axis] == 0.0) continue;
     const double t = (cross[axis] - g0[axis]) / speed[axis];
     if (!(t < nearest_t) || (perspective && !(t > 0.0))) continue;
     Vec3 g = g0 + t * speed;

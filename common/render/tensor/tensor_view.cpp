@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/base/words.h"
+#include "common/base/index.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -13,8 +14,8 @@ constexpr std::array<std::string_view, kGlyphShapeCount> kShapes{"none", "ellips
 
 }  // namespace
 
-std::string_view name_of(TensorColor color) noexcept { return kColors[static_cast<std::size_t>(color)]; }
-std::string_view name_of(GlyphShape shape) noexcept { return kShapes[static_cast<std::size_t>(shape)]; }
+std::string_view name_of(TensorColor color) noexcept { return kColors[as_size(color)]; }
+std::string_view name_of(GlyphShape shape) noexcept { return kShapes[as_size(shape)]; }
 
 TensorColor tensor_color_from_name(std::string_view name) {
   return static_cast<TensorColor>(find_word(kColors, name, "colour"));
@@ -36,7 +37,7 @@ std::array<int, 3> slice_axes(const Mat3& axes) noexcept {
   do {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 step = glm::normalize(axes[order[static_cast<std::size_t>(axis)]]);
+      const Vec3 step = glm::normalize(axes[order[as_size(axis)]]);
       sum += std::abs(step[axis]);
     }
     if (sum > most) {

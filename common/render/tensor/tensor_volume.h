@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/tensor/tensor_voxels.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/grid_from_data.h"
 #include "common/field/tensor/diffusion_measures.h"
@@ -63,10 +64,9 @@ bool TensorVoxels::contains(const Vec3& g) const noexcept {
 
 bool TensorVoxels::shows(const Index3& voxel) const noexcept {
   if (directions.empty()) return false;
-  const auto row = static_cast<std::size_t>(points.x);
-  const auto line = static_cast<std::size_t>(voxel.y) +
-                    static_cast<std::size_t>(points.y) * static_cast<std::size_t>(voxel.z);
-  return directions[static_cast<std::size_t>(voxel.x) + row * line][3] != 0;
+  const auto row = as_size(points.x);
+  const auto line = as_size(voxel.y) + as_size(points.y) * as_size(voxel.z);
+  return directions[as_size(voxel.x) + row * line][3] != 0;
 }
 
 Box TensorVoxels::bounds() const noexcept { return box_around(*this, Index3{0}, points - 1); }
@@ -83,22 +83,22 @@ std::shared_ptr<const TensorVoxels> make_tensor_voxels(std::shared_ptr<const Ten
   image->origin = field->voxels()->origin;
   image->axes = field->voxels()->axes;
   const Index3 n = image->points;
-  const auto row = static_cast<std::size_t>(n.x);
-  const std::size_t rows = static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z);
+  const auto row = as_size(n.x);
+  const std::size_t rows = as_size(n.y) * as_size(n.z);
   image->directions.resize(row * rows);
   image->anisotropies.resize(row * rows);
   parallel_for(rows, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       for (int i = 0; i < n.x; ++i) {
-        const auto y = static_cast<int>(r % static_cast<std::size_t>(n.y));
-        const auto z = static_cast<int>(r / static_cast<std::size_t>(n.y));
+        const auto y = static_cast<int>(r % as_size(n.y));
+        const auto z = static_cast<int>(r / as_size(n.y));
         const TensorSample sample = field->voxel({i, y, z});
         if (sample.status != SampleStatus::kOk) continue;
         const SymmetricEigen eigen = symmetric_eigen(sample.value);
         if (!(eigen.values[0] > 0.0)) continue;
         const double anisotropy = fractional_anisotropy(eigen.values);
         const Vec3 color = anisotropy * Vec3(direction_color(eigen.vectors[0]));
-        const std::size_t voxel = r * row + static_cast<std::size_t>(i);
+        const std::size_t voxel = r * row + as_size(i);
         image->directions[voxel] = {byte_of(color.r), byte_of(color.g), byte_of(color.b), 255};
         image->anisotropies[voxel] = byte_of(anisotropy);
       }

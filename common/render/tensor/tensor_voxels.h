@@ -9,8 +9,8 @@
 
 #include "common/field/tensor/tensor_field.h"
 #include "common/math/vec.h"
-#include "common/render/color_map.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/color/color_map.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 

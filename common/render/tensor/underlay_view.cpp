@@ -3,7 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/base/words.h"
+#include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/field/grid/grid_from_data.h"
 
 namespace palpate {
@@ -13,7 +14,7 @@ constexpr std::array<std::string_view, kUnderlayBlendCount> kBlends{"anisotropy"
 
 }  // namespace
 
-std::string_view name_of(UnderlayBlend blend) noexcept { return kBlends[static_cast<std::size_t>(blend)]; }
+std::string_view name_of(UnderlayBlend blend) noexcept { return kBlends[as_size(blend)]; }
 
 UnderlayBlend underlay_blend_from_name(std::string_view name) {
   return static_cast<UnderlayBlend>(find_word(kBlends, name, "blend"));

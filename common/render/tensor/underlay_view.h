@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "common/field/value_histogram.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,5 +29,26 @@ struct TractBundle {
 
 /// @param lines not null.
 [[nodiscard]] std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines);
+
+/// 64 Mi points as they come; a third of them are left in a picture of the whole, all when it is enlarged: a
+/// gigabyte at most.
+inline constexpr std::size_t kTractPiecesOfRoom = (std::size_t{1} << 26U) / TractBundle::kPiecePoints;
+
+/// How many of its pieces are drawn at most; the first ones, which are an even sample of the lines.
+[[nodiscard]] std::size_t pieces_with_room(const TractBundle& bundle,
+                                           std::size_t room = kTractPiecesOfRoom) noexcept;
+/// "1200 of 3000 tracts are drawn, …", or empty where there is room for all of them.
+[[nodiscard]] std::string tracts_left_out(const TractBundle& bundle, std::size_t room = kTractPiecesOfRoom);
+
+/// Lines coloured by their direction.
+struct TractView {
+  std::shared_ptr<const TractBundle> bundle;  ///< not null
+  double width = 1.5;                         ///< at the focal point, in thousandths of the picture's height
+  double opacity = 1.0;                       ///< in (0, 1]
+  bool depth_cue = true;                      ///< farther lines fade into the background
+
+  bool operator==(const TractView&) const =
+      default;  ///< bundles count as the same where they are the same object
+};
 
 }  // namespace palpate

@@ -7,8 +7,8 @@
 
 #include "common/base/clock.h"
 #include "common/render/gl/program.h"
+#include "common/render/tract/tract_bundle.h"
 #include "common/render/tract/tract_points.h"
-#include "common/render/tract/tract_room.h"
 
 namespace palpate {
 namespace {

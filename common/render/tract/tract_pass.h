@@ -8,7 +8,7 @@
 
 #include "common/render/camera.h"
 #include "common/render/gl/object.h"
-#include "common/render/tract/tract_view.h"
+#include "common/render/tract/tract_bundle.h"
 
 namespace palpate {
 

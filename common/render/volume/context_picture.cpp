@@ -14,10 +14,10 @@
 #include "common/base/check.h"
 #include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
-#include "common/render/volume/coarse_image.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
-#include "common/render/volume/voxel_texture.h"
+#include "common/render/volume/voxels/coarse_image.h"
+#include "common/render/volume/voxels/voxel_texture.h"
 
 namespace palpate {
 namespace {

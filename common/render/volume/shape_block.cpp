@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
 #include "common/render/volume/volume_bindings.h"
 
@@ -50,7 +51,7 @@ std::vector<PartBlock> parts_of(const VolumeView& view) {
     std::size_t place = 0;
     if (!lens.cut && (lens.field > 0 || lens.transfer || lens.regions)) {
       const auto found = std::find(transfers.begin(), transfers.end(), transfer_of(view, lens));
-      place = static_cast<std::size_t>(found - transfers.begin());
+      place = as_size(found - transfers.begin());
     }
     parts.push_back(part_of(place, lens.samples_per_voxel, lens.shading,
                             lens.cut ? Content::kCutAway : content_of(lens.colored && lens.field == 0)));

@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
 #include "common/render/gl/framebuffer.h"
 #include "common/render/volume/volume_block.h"
@@ -67,7 +68,7 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   }
   margin_ = step_lengths(view).longest * power_of_two(-frame.exponent);
   for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
-  step_ = static_cast<std::size_t>((slabs + kSlabsAtOnce - 1) / kSlabsAtOnce);
+  step_ = as_size((slabs + kSlabsAtOnce - 1) / kSlabsAtOnce);
   kept_.resize(borders_.size());
   kept_.front() = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
   framebuffer_ = make_framebuffer();
@@ -120,7 +121,7 @@ std::size_t SlabCache::index_below(double offset) const {
   const double d =
       (offset - glm::dot(view_.cuts[cut_].kept.outward, frame_.center)) * power_of_two(-frame_.exponent);
   const auto above = std::upper_bound(borders_.begin(), borders_.end(), d - margin_);
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
+  return as_size(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
 }
 
 bool SlabCache::prepare(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {

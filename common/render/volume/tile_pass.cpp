@@ -7,10 +7,11 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
 #include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
-#include "common/render/volume/brick_map.h"
+#include "common/render/volume/voxels/brick_map.h"
 
 namespace palpate {
 namespace {
@@ -56,8 +57,8 @@ void draw_tiles(const TileGrid& grid) {
 
 std::vector<std::uint32_t> shell_bricks(const Index3& bricks, std::span<const std::uint8_t> distances) {
   PALPATE_CHECK(std::max({bricks.x, bricks.y, bricks.z}) <= 1024);
-  const auto nx = static_cast<std::size_t>(bricks.x), ny = static_cast<std::size_t>(bricks.y);
-  const std::size_t count = nx * ny * static_cast<std::size_t>(bricks.z);
+  const auto nx = as_size(bricks.x), ny = as_size(bricks.y);
+  const std::size_t count = nx * ny * as_size(bricks.z);
   PALPATE_CHECK(count > 0 && distances.size() % count == 0);
   std::vector<std::uint8_t> seen(count, 0);
   for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -67,8 +68,7 @@ std::vector<std::uint32_t> shell_bricks(const Index3& bricks, std::span<const st
   for (int z = 0; z < bricks.z; ++z) {
     for (int y = 0; y < bricks.y; ++y) {
       for (int x = 0; x < bricks.x; ++x) {
-        const std::size_t i = static_cast<std::size_t>(x) +
-                              nx * (static_cast<std::size_t>(y) + ny * static_cast<std::size_t>(z));
+        const std::size_t i = as_size(x) + nx * (as_size(y) + ny * as_size(z));
         if (seen[i] == 0) continue;
         const bool border =
             x == 0 || y == 0 || z == 0 || x + 1 == bricks.x || y + 1 == bricks.y || z + 1 == bricks.z;

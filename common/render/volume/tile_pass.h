@@ -15,7 +15,7 @@
 #include "common/render/camera.h"
 #include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 

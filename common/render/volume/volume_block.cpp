@@ -7,7 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/math/power_of_two.h"
-#include "common/render/volume/region_table.h"
+#include "common/render/volume/voxels/region_table.h"
 
 namespace palpate {
 namespace {

@@ -16,12 +16,13 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/volume/context_picture.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 #include "common/render/volume/kept_volume.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/shape_block.h"
@@ -116,7 +117,7 @@ struct VolumePass::State {
   bool kept_picture = false;  // by the last draw()
 
   const GlProgram& program_of(Reach reach) {
-    GlProgram& program = programs[static_cast<std::size_t>(reach)][static_cast<std::size_t>(variant)];
+    GlProgram& program = programs[as_size(reach)][as_size(variant)];
     if (!program) {
       program = compile_program(over_context(reach) ? "volume/context_tiles.vert" : "volume/volume.vert",
                                 shader_of(reach, variant), defines);

@@ -9,10 +9,11 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
+#include "common/render/color/palette.h"
 #include "common/render/frame_block.h"
 #include "common/render/gl/context.h"
 #include "common/render/gl/object.h"
-#include "common/render/palette.h"
 
 namespace palpate {
 
@@ -81,9 +82,7 @@ FloatImage VolumePicture::draw(const VolumeView& view, const Camera& camera,
   }
   s.update(view, camera);
   s.draw();
-  FloatImage image{
-      s.width, s.height,
-      std::vector<float>(4 * static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height))};
+  FloatImage image{s.width, s.height, std::vector<float>(4 * as_size(s.width) * as_size(s.height))};
   glReadPixels(0, 0, s.width, s.height, GL_RGBA, GL_FLOAT, image.rgba.data());
   return image;
 }
@@ -119,8 +118,7 @@ BrickShare VolumePicture::bricks() const { return state_->pass->bricks(); }
 VolumePass::Cost VolumePicture::cost() const { return state_->pass->cost(); }
 
 Rgba FloatImage::at(int x, int y) const {
-  const float* p = rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                      static_cast<std::size_t>(x));
+  const float* p = rgba.data() + 4 * (as_size(y) * as_size(width) + as_size(x));
   return {p[0], p[1], p[2], p[3]};
 }
 

@@ -12,11 +12,13 @@
 #include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/math/lattice.h"
 #include "common/render/gl/context.h"
-#include "common/render/volume/coarse_image.h"
-#include "common/render/volume/preintegration.h"
+#include "common/render/volume/table/preintegration.h"
 #include "common/render/volume/volume_bindings.h"
-#include "common/render/volume/voxel_texture.h"
+#include "common/render/volume/voxels/coarse_image.h"
+#include "common/render/volume/voxels/voxel_texture.h"
 
 namespace palpate {
 namespace {
@@ -249,7 +251,7 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
     const BrickLayout layout = brick_layout(*at.image, cells);
     if (at.needed.empty()) at.needed = needed_bricks(view, at.ranges, layout);
     std::vector<std::size_t> wanted = bricks_in_sight(view, at.needed, layout, sight);
-    const auto count = static_cast<std::size_t>(std::count(at.needed.begin(), at.needed.end(), true));
+    const auto count = as_size(std::count(at.needed.begin(), at.needed.end(), true));
     if (level == 0 && coarse) finer = {count, brick_index_bytes(layout)};
     const std::size_t beside = coarse ? coarse_places(count, layout) : 0;
     const auto fit = [&](std::size_t bricks) {
@@ -386,8 +388,7 @@ void VolumeTextures::allocate_tables(const VolumeView& view) {
   empty_bricks_ = make_texture(GL_TEXTURE_3D, "empty bricks");
   glTextureStorage3D(empty_bricks_.name(), 1, GL_R8UI, maps.x, maps.y, maps.z);
   set_sampling(empty_bricks_, GL_NEAREST, GL_CLAMP_TO_EDGE);
-  cost_.brick_bytes = static_cast<std::uint64_t>(maps.x) * static_cast<std::uint64_t>(maps.y) *
-                      static_cast<std::uint64_t>(maps.z);
+  cost_.brick_bytes = count_of(maps);
 }
 
 // What of `table_` meets `changed`, to the GPU: its columns from there on of the rows before, its rows, and
@@ -400,7 +401,7 @@ void VolumeTextures::upload_table(std::size_t lengths, const EntryRange& changed
   glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, n);
   const auto upload = [&](GLint x, GLint y, GLsizei columns, GLsizei rows) {
     if (columns == 0 || rows == 0) return;
-    const std::size_t from = 4 * (static_cast<std::size_t>(y) * entries + static_cast<std::size_t>(x));
+    const std::size_t from = 4 * (as_size(y) * entries + as_size(x));
     glTextureSubImage3D(tables_.name(), 0, x, y, first_layer, columns, rows, layers, GL_RGBA,
                         GL_UNSIGNED_SHORT, table_.data() + from);
   };
@@ -415,7 +416,7 @@ void VolumeTextures::upload_table(std::size_t lengths, const EntryRange& changed
 void VolumeTextures::fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries,
                                 EntryRange changed, int first_layer) {
   const std::size_t count = entries.size();
-  const auto lengths = static_cast<std::size_t>(view.table_lengths);
+  const auto lengths = as_size(view.table_lengths);
   if (!view.preintegrate) {
     table_.resize(4 * count * count * lengths);
     classify_fronts(entries, lengths, table_);
@@ -449,9 +450,8 @@ std::vector<std::uint8_t> VolumeTextures::update_preintegrated(const VolumeView&
                                                                std::vector<OpticalEntry>& before) {
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange values = table_places(view, place.field);
-  std::vector<OpticalEntry> optical =
-      optical_entries(transfer.colors, values.lower.x, values.upper.x,
-                      static_cast<std::size_t>(view.table_entries), key_.longest);
+  std::vector<OpticalEntry> optical = optical_entries(transfer.colors, values.lower.x, values.upper.x,
+                                                      as_size(view.table_entries), key_.longest);
   const std::optional<EntryRange> changed =
       before.empty() ? EntryRange{0, optical.size() - 1} : changed_entries(before, optical);
   if (changed) fill_table(view, optical, *changed, place.first_layer);
@@ -469,8 +469,7 @@ std::vector<std::uint8_t> VolumeTextures::update_regions(const VolumeView& view,
                                                          const TransferBlock& place) {
   const NumberRange numbers = table_range(view, place.field);
   const PlaceRange places = table_places(view, place.field);
-  const RegionTable table =
-      make_region_table(*transfer.regions, places, static_cast<std::size_t>(view.table_entries));
+  const RegionTable table = make_region_table(*transfer.regions, places, as_size(view.table_entries));
   glTextureSubImage3D(region_tables_.name(), 0, 0, 0, place.first_layer, view.table_entries,
                       static_cast<GLsizei>(kGradientEntries), 1, GL_RGBA, GL_FLOAT, table.entries.data());
   FieldBricks& bricks = place.field == 0 ? bricks_of_image_ : fields_.bricks(place.field);

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "common/render/gl/object.h"
-#include "common/render/volume/brick_demand.h"
-#include "common/render/volume/brick_map.h"
-#include "common/render/volume/field_voxels.h"
-#include "common/render/volume/gpu_preintegration.h"
-#include "common/render/volume/table_choice.h"
+#include "common/render/volume/table/gpu_preintegration.h"
+#include "common/render/volume/table/table_choice.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_view.h"
-#include "common/render/volume/voxel_bricks.h"
+#include "common/render/volume/voxels/brick_demand.h"
+#include "common/render/volume/voxels/brick_map.h"
+#include "common/render/volume/voxels/field_voxels.h"
+#include "common/render/volume/voxels/voxel_bricks.h"
 
 namespace palpate {
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "common/field/color_transfer.h"
-#include "common/field/region_transfer.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
 #include "common/render/lens/lens.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <span>
 
+#include "common/base/index.h"
 #include "common/field/field_grid.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/trace/tract/quad_kernel.h"
@@ -64,7 +65,7 @@ class UniformTensors {
     grid_.scale = TractScale::of(field).tensor;
     grid_.rotated = grid.frame.rotated;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
+      const auto a = as_size(axis);
       const Vec3& e = grid.frame.rotation[axis];
       grid_.axes[a] = {e.x, e.y, e.z};
       const int last = box.points()[axis] - 1;
@@ -73,8 +74,8 @@ class UniformTensors {
       grid_.top[a] = last;
       grid_.last_cell[a] = last - 1;
     }
-    grid_.step_y = std::size_t{6} * static_cast<std::size_t>(box.points().x);
-    grid_.step_z = grid_.step_y * static_cast<std::size_t>(box.points().y);
+    grid_.step_y = std::size_t{6} * as_size(box.points().x);
+    grid_.step_z = grid_.step_y * as_size(box.points().y);
   }
 
   void forget() noexcept {}
@@ -91,7 +92,7 @@ class UniformTensors {
       const int last = static_cast<int>(grid_.last_cell[a]);
       const int cell = static_cast<int>(u) < last ? static_cast<int>(u) : last;
       f[a] = u - cell;
-      corner += steps[a] * static_cast<std::size_t>(cell);
+      corner += steps[a] * as_size(cell);
     }
     std::array<double, 8> weights;
     corner_weights(grid_.scale, f[0], f[1], f[2],

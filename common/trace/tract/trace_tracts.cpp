@@ -15,6 +15,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/trace/tract/quad_tracer.h"
@@ -167,7 +168,7 @@ class Joiner {
       lines.starts.push_back(lines.points.size());
       result_.seeds.push_back(line.seed);
       result_.ends.push_back(line.ends);
-      for (const End end : line.ends) ++result_.end_counts[static_cast<std::size_t>(end)];
+      for (const End end : line.ends) ++result_.end_counts[as_size(end)];
     }
     if (!part.errors.empty())
       result_.error_max =

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/tensor/diffusion_measures.h"
@@ -123,7 +124,7 @@ std::string TractTurn::words() const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) text += ',';
     if (flipped[axis]) text += '-';
-    text += (of_image ? kImageAxes : kWorldAxes)[static_cast<std::size_t>(from[axis])];
+    text += (of_image ? kImageAxes : kWorldAxes)[as_size(from[axis])];
   }
   return text;
 }
@@ -197,7 +198,7 @@ TractFit fit_of_tracts(const TensorField& field, const Tractogram& lines, int th
   const auto best = std::max_element(sums.begin(), sums.end(),
                                      [](const Sum& a, const Sum& b) { return a.score < b.score; });
   if (!(best->score > 0.0)) return fit;
-  fit.best = turns[static_cast<std::size_t>(best - sums.begin())];
+  fit.best = turns[as_size(best - sums.begin())];
   fit.gain = as_is.score > 0.0 ? best->score / as_is.score : std::numeric_limits<double>::infinity();
   // Heads are nearly symmetric: of left and right exchanged, bundles fit nearly as well.
   constexpr double kClear = 1.1;

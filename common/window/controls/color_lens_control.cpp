@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/compose/lens_text.h"
 #include "common/hand/mode/felt_surfaces.h"
 #include "common/window/controls/pick_volume.h"
 
@@ -25,13 +26,18 @@ void place_lens(const SceneView& view, ColorLens& lens) {
   lens.center = view.bounds.center();
   double nearest = HUGE_VAL;
   for (const SurfaceView& surface : view.surfaces) {
-    if (!surface.lens_values) continue;
     for (const Vec3& x : surface.mesh->points) {
       const double away = glm::distance(x, viewer);
       if (away < nearest) lens.center = x;
       nearest = std::min(nearest, away);
     }
   }
+}
+
+void add_color_lens(const SceneView& view, HeartOptions& heart) {
+  ColorLens lens;
+  place_lens(view, lens);
+  heart.lens = sphere_text(lens.center, lens.radius);
 }
 
 std::string ColorLensControl::run(Command command, SceneView& view) {

@@ -8,6 +8,7 @@
 
 #include "common/field/scalar_field.h"
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/input_event.h"
 #include "common/window/keys.h"
@@ -23,6 +24,9 @@ struct ShownLayer {
 /// A ball about the point of the layer's triangles that is nearest to the viewer, a sixth of the longest side
 /// of the scene in radius.
 void place_lens(const SceneView& view, ColorLens& lens);
+
+/// Adds such a lens to the document, where it shows what the settings name.
+void add_color_lens(const SceneView& view, HeartOptions& heart);
 
 class ColorLensControl {
  public:

@@ -25,24 +25,25 @@ PlanePose moved_pose(const PlanePose& pose, const Rigid& motion) {
 }  // namespace
 
 std::optional<PickingHand> picking_hand(ProbeSession& touch, const Camera& seeing) {
-  const HandsIntent& intent = touch.intent();
+  const HandsIntent& intent = touch.hand().intent();
   const Vec3 viewer = eye(seeing);
   PickingHand hand;
   Ray ray;
   if (intent.pointing && intent.stylus) {
     hand = {.pose = *intent.stylus, .presses = intent.acts, .can_move = true, .carried = intent.carried};
     ray = *intent.pointing;
-  } else if (const auto tip = touch.device_tip(seeing); tip && *tip != viewer) {
+  } else if (const auto tip = touch.hand().device_tip(seeing); tip && *tip != viewer) {
     hand.pose.translation = *tip;
-    hand.presses = touch.device_presses();
+    hand.presses = touch.hand().device_presses();
     ray = {hand.pose.translation, glm::normalize(hand.pose.translation - viewer)};
   } else {
     return std::nullopt;
   }
-  const InteractionGeometry& interaction = touch.interaction();
-  hand.beam = interaction.through_aperture && ray.origin != viewer
-                  ? beam_of(Aperture{viewer, ray.origin, interaction.aperture / touch.metres_per_unit()})
-                  : beam_of(ray, kRayRadius / touch.metres_per_unit());
+  const InteractionGeometry& interaction = touch.hand().interaction();
+  hand.beam =
+      interaction.through_aperture && ray.origin != viewer
+          ? beam_of(Aperture{viewer, ray.origin, interaction.aperture / touch.data().workspace().scale()})
+          : beam_of(ray, kRayRadius / touch.data().workspace().scale());
   return hand;
 }
 
@@ -52,10 +53,10 @@ std::string PickControl::take_hold(const PickingHand& hand, const SceneView& vie
   switch (picked_->kind) {
     case PickKind::kLine: {
       held_.reset();
-      const auto kept = touch.keep_picked((*view.lines)[i]);
-      if (hand.can_move) touch.move(picked_->place);
-      return kept == ProbeSession::Keeping::kKept ? "kept " + name_of(*picked_)
-                                                  : name_of(*picked_) + " is kept";
+      const auto kept = touch.trail().keep_picked((*view.lines)[i]);
+      if (hand.can_move) touch.hand().move(picked_->place);
+      return kept == ProbeTrail::Keeping::kKept ? "kept " + name_of(*picked_)
+                                                : name_of(*picked_) + " is kept";
     }
     case PickKind::kLens:
       held_->shape = view.volume->lenses[i].shape;
@@ -65,7 +66,6 @@ std::string PickControl::take_hold(const PickingHand& hand, const SceneView& vie
     case PickKind::kPlane:
       if (touch.planes() && i < static_cast<std::size_t>(touch.planes()->poses.count)) {
         held_->poses = touch.planes()->poses;
-        touch.put_planes(*held_->poses);  // undo comes back to here
       } else {
         held_->kept = view.volume->cuts[i].kept;
       }
@@ -84,7 +84,7 @@ void PickControl::move_held(const PickingHand& hand, SceneView& view, ProbeSessi
   } else if (held_->poses) {
     PlanePoses poses = *held_->poses;
     poses.pose[i] = moved_pose(poses.pose[i], motion);
-    touch.begin_planes(poses);
+    touch.put_planes(poses);
   } else if (view.volume && i < view.volume->cuts.size()) {
     view.volume->cuts[i].kept = moved_plane(held_->kept, motion);
   }

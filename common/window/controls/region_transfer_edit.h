@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "common/field/region_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 
 namespace palpate {
 

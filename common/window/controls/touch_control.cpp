@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 #include "common/render/tensor/tensor_pick.h"
 #include "common/window/controls/pick_volume.h"
 #include "common/window/controls/plane_control.h"
@@ -64,9 +64,9 @@ void TouchControl::grab_at(const Vec3& place, double time) {
 }
 
 std::optional<Vec3> TouchControl::next_mark(const PictureArea& area, const SceneView& view) {
-  if (!marking_ || !view.volume || !session_.scalar() || !area.contains(x_, y_)) return std::nullopt;
-  if (marked_ != session_.scalar()) {
-    marked_ = session_.scalar();
+  if (!marking_ || !view.volume || !session_.data().scalar() || !area.contains(x_, y_)) return std::nullopt;
+  if (marked_ != session_.data().scalar()) {
+    marked_ = session_.data().scalar();
     threshold_ = otsu_threshold(*marked_);
   }
   return pick_volume(*view.volume, view.bounds, marked_, threshold_, view.camera, size_of(area),
@@ -83,7 +83,7 @@ bool TouchControl::mark_place(const PictureArea& area, const SceneView& view) {
 /// A press with the probe in the hand, wherever that is; else on a cutting plane, where its sphere and ring
 /// are in the picture.
 bool TouchControl::take_hold(const PictureArea& area, const SceneView& view, double time) {
-  if (!session_.takes_hold() || !session_.by_mouse()) return false;
+  if (!session_.hand().takes_hold() || !session_.hand().by_mouse()) return false;
   if (!grabbed_) {
     if (!session_.planes()) return false;
     const auto place = hold_of_planes(session_.planes()->poses, session_.sphere_radius(), view.camera,
@@ -92,7 +92,7 @@ bool TouchControl::take_hold(const PictureArea& area, const SceneView& view, dou
     grab_at(*place, time);
     grabbed_to_hold_ = true;
   }
-  session_.press(true);
+  session_.hand().press(true);
   holding_ = true;
   return true;
 }
@@ -105,7 +105,7 @@ std::optional<Vec3> TouchControl::end_of_tract(const PictureSize& size, const Pi
   double nearest = kOnEnd;
   std::optional<Vec3> found;
   if (session_.choice().stroke != StrokeUse::kAppend) return found;
-  for (const DrawnTract& tract : session_.drawn()) {
+  for (const DrawnTract& tract : session_.trail().drawn()) {
     for (const LinePoint* end : {&tract.line.points.front(), &tract.line.points.back()}) {
       const Vec3 shown = project(camera, end->position, size.width, size.height);
       const double away = std::hypot(shown.x - mouse.x, shown.y - mouse.y);
@@ -127,7 +127,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
     if (const auto pick = pick_slice(*view.tensors, view.camera, size.width, size.height, mouse.x, mouse.y))
       return pick->position;
   }
-  if (const FeltLevels felt = session_.felt_levels(); felt.field) {
+  if (const FeltLevels felt = session_.data().levels(); felt.field) {
     const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
     const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
     const Vec3 viewer =
@@ -144,10 +144,10 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
 void TouchControl::let_go() noexcept {
   grabbed_ = by_shift_ = by_button_ = waiting_ = holding_ = grabbed_to_hold_ = false;
   lock(std::nullopt);
-  session_.let_go();
+  session_.hand().let_go();
 }
 
-void TouchControl::lock(std::optional<int> axis) noexcept { session_.lead(AxisLock{axis}, {}, {}); }
+void TouchControl::lock(std::optional<int> axis) noexcept { session_.hand().lead(AxisLock{axis}, {}, {}); }
 
 bool TouchControl::handle(const InputEvent& event, const PictureArea& area, const SceneView& view,
                           double time, bool over_panel) {
@@ -162,14 +162,14 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       // Over a panel the mouse is on its way to something else: the probe waits where it is.
       if (over_panel || !area.contains(x_, y_)) return true;
       // A mouse that rested means the line that it rested on: on to the panel it may be led over others.
-      if (time - moved_ > kRest) session_.note_line();
+      if (time - moved_ > kRest) session_.trail().note_line();
       moved_ = time;
-      session_.lead(MouseDrag{dx, dy}, view.camera, size_of(area));
+      session_.hand().lead(MouseDrag{dx, dy}, view.camera, size_of(area));
       return true;
     }
     case InputKind::kWheel:
       if (!grabbed_ || over_panel || !area.contains(x_, y_)) return false;
-      session_.lead(WheelTurn{event.y}, view.camera, size_of(area));
+      session_.hand().lead(WheelTurn{event.y}, view.camera, size_of(area));
       return true;
     case InputKind::kPress:
       ++buttons_;
@@ -188,7 +188,7 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       buttons_ = std::max(0, buttons_ - 1);
       if (holding_ && event.button == MouseButton::kLeft) {
         holding_ = false;
-        session_.press(false);
+        session_.hand().press(false);
         if (grabbed_to_hold_) let_go();
         return true;
       }
@@ -234,7 +234,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
   };
   switch (command) {
     case Command::kGrab:
-      if (!session_.by_mouse() && !session_.replaying()) {
+      if (!session_.hand().by_mouse() && !session_.servo().replaying()) {
         return "the probe is moved by what was given as the device";
       }
       if (grabbed_) {
@@ -245,18 +245,19 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       if (!area.contains(x_, y_)) {
         waiting_ = !waiting_;
         if (!waiting_) return "let go";
-        return session_.has_tensors() ? "drag along a tract to draw it, or click to take the probe"
-               : session_.has_flow()  ? "click on a line to grab the probe there"
-                                      : "press on what is felt and drag along it, or click to take the probe";
+        return session_.data().has_tensors() ? "drag along a tract to draw it, or click to take the probe"
+               : session_.data().has_flow()
+                   ? "click on a line to grab the probe there"
+                   : "press on what is felt and drag along it, or click to take the probe";
       }
       grab(area, view, time);
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +
-             (session_.has_flow()      ? "K keeps the line, G lets go"
-              : session_.has_tensors() ? "K keeps the tract, G lets go"
-              : session_.takes_hold()  ? "its button takes hold, G lets go"
-                                       : "G lets go");
+             (session_.data().has_flow()      ? "K keeps the line, G lets go"
+              : session_.data().has_tensors() ? "K keeps the tract, G lets go"
+              : session_.hand().takes_hold()  ? "its button takes hold, G lets go"
+                                              : "G lets go");
     case Command::kForceOff:
-      session_.force_off();
+      session_.servo().force_off();
       return "force off; switch it on again in the panel";
     case Command::kLockX:
       return lock_or_free(0);
@@ -267,25 +268,24 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
     case Command::kKeepLine: {
       // From the panel's button: the line on which the hand rested before it went there.
       const bool here = area.contains(x_, y_);
-      const ProbeSession::Keeping kept = here ? session_.keep_line() : session_.keep_noted_line();
+      const ProbeTrail::Keeping kept =
+          here ? session_.trail().keep_line() : session_.trail().keep_noted_line();
       // What the hand draws on its way back from there would be no tract.
-      if (!here && grabbed_ && session_.has_tensors()) let_go();
+      if (!here && grabbed_ && session_.data().has_tensors()) let_go();
       switch (kept) {
-        case ProbeSession::Keeping::kNothing:
-          if (session_.has_tensors()) return "no tract is drawn: press G, then drag along one";
+        case ProbeTrail::Keeping::kNothing:
+          if (session_.data().has_tensors()) return "no tract is drawn: press G, then drag along one";
           return grabbed_ ? "no line is followed here: move the probe to where the lines are"
                           : "no line is followed: grab the probe (G) and move it on to one";
-        case ProbeSession::Keeping::kAlready:
+        case ProbeTrail::Keeping::kAlready:
           return "that line is kept already";
-        case ProbeSession::Keeping::kKept:
+        case ProbeTrail::Keeping::kKept:
           break;
       }
-      return (session_.has_tensors() ? "kept tract " : "kept line ") +
-             std::to_string(session_.kept().entries().back().number) + "; Ctrl+E saves all that are kept";
+      return (session_.data().has_tensors() ? "kept tract " : "kept line ") +
+             std::to_string(session_.trail().kept().entries().back().number) +
+             "; Ctrl+E saves all that are kept";
     }
-    case Command::kUndo:
-      if (marking_ && session_.notes().undo()) return "undone";
-      return session_.undo() ? "undone" : "nothing to undo";
     case Command::kLocalLines: {
       TouchChoice choice = session_.choice();
       choice.local = choice.local == SeedShape::kNone   ? SeedShape::kRake

@@ -37,7 +37,7 @@ class TouchControl {
   void mark(bool marking) noexcept { marking_ = marking; }
   /// The place of the volume under the mouse, which a click would mark; nothing while none would.
   [[nodiscard]] std::optional<Vec3> next_mark(const PictureArea& area, const SceneView& view);
-  [[nodiscard]] std::optional<int> locked_axis() const noexcept { return session_.intent().axis; }
+  [[nodiscard]] std::optional<int> locked_axis() const noexcept { return session_.hand().intent().axis; }
   void let_go() noexcept;
 
  private:

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 
 namespace palpate {
 

@@ -54,7 +54,7 @@ std::vector<SpaceItem> items_of(const SceneState& scene, const SceneView& view,
   const std::size_t steps = scene.info->times.size();
   if (steps > 1) {
     items.push_back(slider_for("Time step", MenuDial::kTime, {0.0, static_cast<double>(steps - 1), 1.0},
-                               static_cast<double>(scene.settings.time_step)));
+                               static_cast<double>(time_step_of(scene.document, scene.info->times))));
   }
   if (!scene.lines->empty()) {
     items.push_back(slider_for("Width", MenuDial::kWidth, {1.0, 15.0, 1.0}, view.style.width));
@@ -171,7 +171,7 @@ bool MenuControl::point(const Ray& ray, bool button) {
   return meets;
 }
 
-std::vector<Command> MenuControl::act(SceneSettings& settings, SceneView& view) {
+std::vector<Command> MenuControl::act(const SceneState& scene, Document& document, SceneView& view) {
   std::vector<Command> commands;
   for (const SpaceEvent& event : std::exchange(events_, {})) {
     if (event.kind == SpaceEvent::Kind::kChosen) {
@@ -181,7 +181,7 @@ std::vector<Command> MenuControl::act(SceneSettings& settings, SceneView& view) 
     } else if (event.id == id_of(MenuDial::kOpacity)) {
       view.style.opacity = event.value;
     } else if (event.id == id_of(MenuDial::kTime)) {
-      settings.time_step = static_cast<std::size_t>(event.value);
+      set_time_step(document, scene.info->times, static_cast<std::size_t>(event.value));
     } else if (event.id == id_of(MenuDial::kTurn)) {
       turn(view.camera, kDegree * (event.value - std::exchange(turned_, event.value)), 0.0);
     }

@@ -48,9 +48,9 @@ class MenuControl {
   /// menu then.
   bool point(const Ray& ray, bool button);
 
-  /// Carries out what was done since: sliders and knobs change `settings` and `view`. @return commands that
+  /// Carries out what was done since: sliders and knobs change `document` and `view`. @return commands that
   /// were chosen, oldest first.
-  [[nodiscard]] std::vector<Command> act(SceneSettings& settings, SceneView& view);
+  [[nodiscard]] std::vector<Command> act(const SceneState& scene, Document& document, SceneView& view);
   [[nodiscard]] std::optional<SignView> drawn() const;
 
  private:

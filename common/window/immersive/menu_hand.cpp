@@ -21,15 +21,15 @@ void MenuHand::lead_by_mouse(MenuControl& menu, ProbeSession& touch, const Camer
   if (!place) return;
   if (!std::exchange(led_, true)) {
     arrived_ = false;
-    back_ = touch.grabbed() ? std::optional(touch.intent().probe) : std::nullopt;
+    back_ = touch.hand().grabbed() ? std::optional(touch.hand().intent().probe) : std::nullopt;
     touch.hold_dial(menu.held_way());
     touch.grab(time, *place);
     return;
   }
-  touch.move(*place);
-  if (touch.has_arm() && touch.readout().held) {
+  touch.hand().move(*place);
+  if (touch.hand().has_arm() && touch.readout().held) {
     // The arm takes a while to come here, and to come along where a knob turns the view.
-    arrived_ = (arrived_ && touch.dial() == menu.held_way()) ||
+    arrived_ = (arrived_ && touch.hand().dial() == menu.held_way()) ||
                glm::distance(touch.readout().probe, *place) < menu.entry();
     if (arrived_) menu.follow_hand(camera, touch.readout().probe);
   }
@@ -39,21 +39,22 @@ void MenuHand::lead_by_mouse(MenuControl& menu, ProbeSession& touch, const Camer
 bool MenuHand::follow(MenuControl& menu, ProbeSession& touch, const Camera& camera, const PictureArea& area,
                       double time) {
   if (!touch.available()) return false;
-  if (const auto& pointing = touch.intent().pointing)
-    return menu.shown() && menu.point(*pointing, touch.intent().acts);
-  if (touch.by_mouse() && menu.held_by_mouse()) {
+  if (const auto& pointing = touch.hand().intent().pointing)
+    return menu.shown() && menu.point(*pointing, touch.hand().intent().acts);
+  if (touch.hand().by_mouse() && menu.held_by_mouse()) {
     lead_by_mouse(menu, touch, camera, area, time);
     return true;
   }
   if (std::exchange(led_, false)) {
     touch.hold_dial(std::nullopt);
-    touch.let_go();
+    touch.hand().let_go();
     if (back_) touch.grab(time, *back_);
     back_.reset();
   }
-  if (!touch.by_device()) return false;
-  const std::optional<Vec3> tip = touch.device_tip(camera);
-  const bool works = menu.shown() && tip && menu.point(ray_through(camera, *tip), touch.device_presses());
+  if (!touch.hand().by_device()) return false;
+  const std::optional<Vec3> tip = touch.hand().device_tip(camera);
+  const bool works =
+      menu.shown() && tip && menu.point(ray_through(camera, *tip), touch.hand().device_presses());
   const std::optional<Dial> way = tip ? menu.held_way() : std::nullopt;
   if (!way) {
     depth_.reset();

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "common/base/text.h"
+#include "common/window/panels/panel_parts.h"
 
 namespace palpate {
 namespace {
@@ -103,6 +104,7 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
   const ImVec2 size{std::max(ImGui::GetContentRegionAvail().x, 1.0F), kHeight};
   const Canvas canvas(ImGui::GetCursorScreenPos(), size, shown);
   ImGui::InvisibleButton("curve", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  note_control(labels.name.c_str());
   bool changed = edit(canvas, shown, function, dragged);
   const auto near = knot_near(function, canvas.knot(ImGui::GetIO().MousePos), kReach, shown);
   const bool hovered = ImGui::IsItemHovered();
@@ -119,7 +121,7 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
                         short_number(shown.high_measure).c_str());
     ImGui::SameLine();
     bool smooth = function.smooth();
-    if (ImGui::Checkbox("smooth", &smooth)) {
+    if (checkbox("smooth", &smooth)) {
       set_smooth(function, smooth);
       changed = true;
     }

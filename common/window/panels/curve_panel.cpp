@@ -21,11 +21,11 @@ constexpr bool needs_flow(AxisRule) noexcept { return false; }
 template <typename Enum>
 bool choose(const char* label, Enum& value, int count, bool has_flow) {
   bool changed = false;
-  if (!ImGui::BeginCombo(label, std::string(name_of(value)).c_str())) return false;
+  if (!begin_combo(label, std::string(name_of(value)).c_str())) return false;
   for (int i = 0; i < count; ++i) {
     const auto each = static_cast<Enum>(i);
     if (!has_flow && needs_flow(each)) continue;
-    if (!ImGui::Selectable(std::string(name_of(each)).c_str(), each == value)) continue;
+    if (!selectable(std::string(name_of(each)).c_str(), each == value)) continue;
     changed = !(each == value);
     value = each;
   }
@@ -47,9 +47,9 @@ ShownCurve choose_curve(const LinearSettings& settings) {
     return std::string(i % 2 == 0 ? "threshold of axis " : "stiffness of axis ") + axis;
   };
   stored = std::clamp(stored, 0, 2 * axes - 1);
-  if (ImGui::BeginCombo("curve", label(stored).c_str())) {
+  if (begin_combo("curve", label(stored).c_str())) {
     for (int i = 0; i < 2 * axes; ++i) {
-      if (ImGui::Selectable(label(i).c_str(), i == stored)) stored = i;
+      if (selectable(label(i).c_str(), i == stored)) stored = i;
     }
     ImGui::EndCombo();
   }
@@ -57,7 +57,7 @@ ShownCurve choose_curve(const LinearSettings& settings) {
 }
 
 void edit_linear(LinearSettings& settings, const ProbeSession& session) {
-  const bool has_flow = session.has_flow();
+  const bool has_flow = session.data().has_flow();
   if (choose("directions", settings.reference, kLinearReferenceCount, has_flow) &&
       leaves_axes_open(settings.reference)) {
     settings.axes[2] = settings.axes[1];
@@ -70,7 +70,7 @@ void edit_linear(LinearSettings& settings, const ProbeSession& session) {
   choose("measure", settings.measure, kLinearMeasureCount, has_flow);
   const ShownCurve shown = choose_curve(settings);
   LinearAxis& axis = settings.axes[shown.axis];
-  const auto [lowest, highest] = session.measure_range();
+  const auto [lowest, highest] = session.data().measure_range(settings.measure);
   CurveRange range{.low_measure = lowest, .high_measure = highest};
   const std::string measure(name_of(settings.measure));
   if (shown.kappa) {
@@ -82,8 +82,9 @@ void edit_linear(LinearSettings& settings, const ProbeSession& session) {
   }
   if (open) settings.axes[2] = settings.axes[1];
   constexpr double kNone = 0.0, kMost = 2.0;
-  ImGui::SliderScalar("friction", ImGuiDataType_Double, &settings.friction, &kNone, &kMost, "%.2f",
-                      ImGuiSliderFlags_AlwaysClamp);
+  slider_scalar("friction", ImGuiDataType_Double, &settings.friction, &kNone, &kMost, "%.2f",
+                ImGuiSliderFlags_AlwaysClamp);
+  explain("friction");
 }
 
 void edit_anisotropy(AnisotropySettings& settings) {
@@ -102,8 +103,9 @@ void edit_anisotropy(AnisotropySettings& settings) {
 void edit_texture(TextureSettings& settings, const HapticMode& mode, const ProbeSession& session) {
   // Noise of an image hardly exceeds a tenth of the range of its values.
   constexpr double kMostNoise = 0.1, kCoarsest = 0.005;
-  if (!mode.texture || !session.scalar() || session.has_flow()) return;
-  ImGui::Checkbox("noise as a texture", &settings.by_noise);
+  if (!mode.texture || !session.data().scalar() || session.data().has_flow()) return;
+  checkbox("noise as a texture", &settings.by_noise);
+  explain("noise-texture");
   if (session.measures_noise()) {
     ImGui::SameLine();
     ImGui::TextDisabled("measuring");
@@ -115,7 +117,7 @@ void edit_texture(TextureSettings& settings, const HapticMode& mode, const Probe
 
 void edit_curves(TouchChoice& choice, std::string_view mode, const ProbeSession& session) {
   if (mode == kLinearMode) edit_linear(choice.settings.linear, session);
-  if (session.has_tensors()) edit_anisotropy(choice.settings.anisotropy);
+  if (session.data().has_tensors()) edit_anisotropy(choice.settings.anisotropy);
   if (mode == kDensityMode) {
     draw_curve_editor({.name = "density", .measure = "value"}, {}, choice.settings.force_field.density);
   }

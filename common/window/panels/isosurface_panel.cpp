@@ -61,11 +61,11 @@ Isovalues edit_values(const FeltLevels& felt, const std::string& what) {
   for (int i = 0; i < isovalues.count; ++i) {
     double& value = isovalues.value[static_cast<std::size_t>(i)];
     ImGui::PushID(i);
-    ImGui::SliderScalar("##isovalue", ImGuiDataType_Double, &value, &lowest, &highest, "%.5g");
+    slider_scalar("##isovalue", ImGuiDataType_Double, &value, &lowest, &highest, "%.5g");
     ImGui::SameLine();
     if (isovalues.count > 1) {
-      if (ImGui::SmallButton("x")) removed = i;
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("remove this %s", what.c_str());
+      if (small_button("x")) removed = i;
+      hint("remove this %s", what.c_str());
     } else {
       ImGui::TextUnformatted("isovalue");
     }
@@ -73,25 +73,25 @@ Isovalues edit_values(const FeltLevels& felt, const std::string& what) {
     if (!std::isfinite(value)) value = felt.isovalues.value[static_cast<std::size_t>(i)];
   }
   if (removed >= 0) remove(isovalues, removed);
-  if (isovalues.count < Isovalues::kMax && ImGui::SmallButton(("+ " + what).c_str())) {
+  if (isovalues.count < Isovalues::kMax && small_button(("+ " + what).c_str())) {
     isovalues = with_another(isovalues, lowest, highest);
   }
   return isovalues;
 }
 
 void choose_hold(IsosurfaceSettings& settings) {
-  if (!ImGui::BeginCombo("holds as", std::string(name_of(settings.hold)).c_str())) return;
+  if (!begin_combo("holds as", std::string(name_of(settings.hold)).c_str())) return;
   for (int i = 0; i < kIsosurfaceHoldCount; ++i) {
     const auto hold = static_cast<IsosurfaceHold>(i);
-    if (ImGui::Selectable(std::string(name_of(hold)).c_str(), hold == settings.hold)) settings.hold = hold;
+    if (selectable(std::string(name_of(hold)).c_str(), hold == settings.hold)) settings.hold = hold;
   }
   ImGui::EndCombo();
 }
 
 bool distance_slider(const char* label, double& metres, double lower, double upper) {
   double millimetres = kMillimetres * metres;
-  if (!ImGui::SliderScalar(label, ImGuiDataType_Double, &millimetres, &lower, &upper, "%.1f mm",
-                           ImGuiSliderFlags_AlwaysClamp)) {
+  if (!slider_scalar(label, ImGuiDataType_Double, &millimetres, &lower, &upper, "%.1f mm",
+                     ImGuiSliderFlags_AlwaysClamp)) {
     return false;
   }
   metres = millimetres / kMillimetres;
@@ -130,17 +130,15 @@ void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, cons
   if (distance_slider("pop-through", settings.depth, kLeastMillimetres, kMostMillimetres)) {
     settings.snap_distance = std::min(settings.snap_distance, settings.depth);
   }
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("pop-through distance: stretch at which a %s lets the probe through to the next one",
-                      chosen ? "surface" : "layer");
+  hint("pop-through distance: stretch at which a %s lets the probe through to the next one",
+       chosen ? "surface" : "layer");
   if (!chosen || settings.hold == IsosurfaceHold::kLayer) {
     (void)distance_slider("snap-in", settings.snap_distance, 0.0, kMillimetres * settings.depth);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "snap-in distance: how near the probe comes to a layer before that holds it; 0: it "
-          "has to cross it");
+    hint(
+        "snap-in distance: how near the probe comes to a layer before that holds it; 0: it "
+        "has to cross it");
   }
-  if (flow) ImGui::Checkbox("along a streamline", &settings.along_streamline);
+  if (flow) checkbox("along a streamline", &settings.along_streamline);
   if (!made.problem.empty()) ImGui::TextWrapped("%s", made.problem.c_str());
 }
 

@@ -45,10 +45,10 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& lo
   Lens& lens = view.lenses[index];
   if (!view.fields.empty()) {
     const std::string now = lens.field == 0 ? context : view.fields[lens.field - 1].name;
-    if (ImGui::BeginCombo("shows", now.c_str())) {
+    if (begin_combo("shows", now.c_str())) {
       for (std::size_t field = 0; field <= view.fields.size(); ++field) {
         const std::string& name = field == 0 ? context : view.fields[field - 1].name;
-        if (!ImGui::Selectable(name.c_str(), lens.field == field) || field >= looks.size()) continue;
+        if (!selectable(name.c_str(), lens.field == field) || field >= looks.size()) continue;
         lens.field = field;
         take_look(lens, looks[field]);
       }
@@ -56,8 +56,7 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& lo
     }
   }
   const Lens& look = looks[std::min(lens.field, looks.size() - 1)];
-  if (ImGui::Checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer)
-    take_look(lens, look);
+  if (checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer) take_look(lens, look);
   if (lens.own_transfer) {
     EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
     if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
@@ -72,14 +71,14 @@ void draw_lens_size(Lens& lens, const Box& bounds) {
   constexpr ImGuiSliderFlags kFlags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetTreeNodeToLabelSpacing());
   if (lens.screen) {
-    ImGui::SliderScalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle,
-                        &kLargestCircle, "%.2f", kFlags);
+    slider_scalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle, &kLargestCircle,
+                  "%.2f", kFlags);
     ImGui::SameLine();
   } else if (const auto reach = reach_of(lens.shape)) {
     constexpr double kLeast = 1e-3, kMost = 1.0;  // diagonals
     const double least = kLeast * bounds.diagonal(), most = kMost * bounds.diagonal();
     double wanted = *reach;
-    if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g", kFlags))
+    if (slider_scalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g", kFlags))
       lens.shape = scaled(lens.shape, wanted / *reach);
     ImGui::SameLine();
   }
@@ -92,24 +91,23 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
     Lens enlarged = lens;
     enlarged.magnification = kMostEnlarged;
     if (magnifies(enlarged)) {
-      ImGui::SliderScalar("magnify", ImGuiDataType_Double, &lens.magnification, &kPlain, &kMostEnlarged,
-                          "%.1f x", ImGuiSliderFlags_AlwaysClamp);
+      slider_scalar("magnify", ImGuiDataType_Double, &lens.magnification, &kPlain, &kMostEnlarged, "%.1f x",
+                    ImGuiSliderFlags_AlwaysClamp);
     }
     constexpr double kHard = 0.0, kSoft = 1.0;
     Lens blending = lens;
     blending.transition = kSoft;
     if (coarser && has_transition(blending)) {
-      ImGui::SliderScalar("blend", ImGuiDataType_Double, &lens.transition, &kHard, &kSoft, "%.2f",
-                          ImGuiSliderFlags_AlwaysClamp);
-      if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("share of the way to the middle in which the coarser values outside go over");
+      slider_scalar("blend", ImGuiDataType_Double, &lens.transition, &kHard, &kSoft, "%.2f",
+                    ImGuiSliderFlags_AlwaysClamp);
+      hint("share of the way to the middle in which the coarser values outside go over");
     }
-    ImGui::SliderScalar("samples", ImGuiDataType_Double, &lens.samples_per_voxel, &kFewest, &kMost, "%.1f",
-                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    ImGui::Checkbox("shading", &lens.shading);
+    slider_scalar("samples", ImGuiDataType_Double, &lens.samples_per_voxel, &kFewest, &kMost, "%.1f",
+                  ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    checkbox("shading", &lens.shading);
     ImGui::SameLine();
   }
-  if (ImGui::Checkbox("cut away", &lens.cut) && !lens.cut) {
+  if (checkbox("cut away", &lens.cut) && !lens.cut) {
     lens.field = 0;
     take_look(lens, model);
   }
@@ -126,12 +124,10 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
     ImGui::SameLine();
   }
   LensWish wish = LensWish::kNone;
-  if (ImGui::SmallButton("move")) wish = LensWish::kMove;
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "with the mouse; wheel: its size, Ctrl and wheel: along the view, click: leave it there");
+  if (small_button("move")) wish = LensWish::kMove;
+  hint("with the mouse; wheel: its size, Ctrl and wheel: along the view, click: leave it there");
   ImGui::SameLine();
-  if (ImGui::SmallButton("remove")) wish = LensWish::kRemove;
+  if (small_button("remove")) wish = LensWish::kRemove;
   return wish;
 }
 
@@ -164,13 +160,11 @@ std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<L
     taken = view.lenses.size();
     view.lenses.push_back(std::move(lens));
   };
-  if (ImGui::SmallButton("+ lens")) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a ball that the mouse moves until it is clicked (L)");
+  if (small_button("+ lens")) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+  hint("a ball that the mouse moves until it is clicked (L)");
   ImGui::SameLine();
-  if (view.lenses.size() < kMostLenses && ImGui::SmallButton("+ on the screen")) add(new_screen_lens(model));
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "a circle that stays where it is when the volume is turned; the mouse moves it until it is clicked");
+  if (view.lenses.size() < kMostLenses && small_button("+ on the screen")) add(new_screen_lens(model));
+  hint("a circle that stays where it is when the volume is turned; the mouse moves it until it is clicked");
   return taken;
 }
 

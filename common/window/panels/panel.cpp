@@ -11,12 +11,8 @@
 
 #include <imgui.h>
 
-#include "common/window/panels/line_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/picture_panels.h"
-#include "common/window/panels/tensor_panel.h"
-#include "common/window/panels/time_panel.h"
-#include "common/window/panels/volume_panel.h"
 
 namespace palpate {
 namespace {
@@ -32,12 +28,12 @@ void draw_recent(const PanelState& state, PanelActions& actions) {
   const InputFiles& now = state.scene->info->files;
   const auto other = [&](const InputFiles& input) { return !(input == now); };
   if (std::none_of(state.recent.begin(), state.recent.end(), other)) return;
-  if (!ImGui::BeginCombo("##recent", "open recent")) return;
+  if (!begin_combo("##recent", "open recent")) return;
   for (const InputFiles& input : state.recent) {
     if (!other(input)) continue;
     ImGui::PushID(&input);
-    if (ImGui::Selectable(name_of(input).c_str())) actions.open = input;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.files.front().string().c_str());
+    if (selectable(name_of(input).c_str())) actions.open = input;
+    hint("%s", input.files.front().string().c_str());
     ImGui::PopID();
   }
   ImGui::EndCombo();
@@ -51,34 +47,17 @@ void draw_input(const SceneState& scene) {
   ImGui::PopStyleColor();
 }
 
-void draw_tensors(PanelState& state, const SceneState& scene, TensorView& tensors,
-                  std::optional<TractView>& tracts) {
-  const bool field = tensors.image->field != nullptr;
-  section(field ? "TENSORS" : "SLICES");
-  if (field) {
-    choose_word("field", state.settings.field, scene.info->fields);
-    draw_time(state, scene.info->times);
-  }
-  draw_tensor_panel(tensors, scene.info->anatomical);
-  section("UNDERLAY");
-  if (draw_underlay_panel(tensors, state.settings.underlay)) state.settings.underlay.clear();
-  section("TRACTS");
-  if (field) {
-    draw_tract_panel(state.tract_seeds, state.settings, tensors, tracts);
-  } else if (tracts) {
-    draw_tract_look(*tracts);
-  }
-}
-
 void draw_line_look(LineStyle& style) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
-  ImGui::SliderScalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
-                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  ImGui::SliderScalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
-                      ImGuiSliderFlags_AlwaysClamp);
-  ImGui::Checkbox("halos", &style.halo);
+  slider_scalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
+                ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  explain("line-width");
+  slider_scalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
+                ImGuiSliderFlags_AlwaysClamp);
+  explain("line-opacity");
+  checkbox("halos", &style.halo);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
-  ImGui::Checkbox("fade with depth", &style.depth_cue);
+  checkbox("fade with depth", &style.depth_cue);
 }
 
 void draw_look(SceneView& view, PanelActions& actions) {
@@ -88,13 +67,13 @@ void draw_look(SceneView& view, PanelActions& actions) {
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
-  ImGui::Checkbox("outline", &view.show_outline);
+  checkbox("outline", &view.show_outline);
   ImGui::SameLine(half);
-  ImGui::Checkbox("axes", &view.show_axes);
-  ImGui::Checkbox("colour bar", &view.show_color_bar);
+  checkbox("axes", &view.show_axes);
+  checkbox("colour bar", &view.show_color_bar);
   ImGui::SameLine(half);
-  if (ImGui::Checkbox("light", &light)) view.background = light ? Background::kLight : Background::kDark;
-  if (ImGui::Checkbox("perspective", &perspective)) {
+  if (checkbox("light", &light)) view.background = light ? Background::kLight : Background::kDark;
+  if (checkbox("perspective", &perspective)) {
     view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
   }
   ImGui::Spacing();
@@ -103,14 +82,14 @@ void draw_look(SceneView& view, PanelActions& actions) {
   constexpr std::array kLooks{std::pair{"x", Command::kLookAlongX}, std::pair{"y", Command::kLookAlongY},
                               std::pair{"z", Command::kLookAlongZ}};
   for (const auto& [axis, command] : kLooks) {
-    if (ImGui::Button(axis, ImVec2{(size.x - 2.0F * gap) / 3.0F, 0.0F})) actions.look = command;
+    if (button(axis, ImVec2{(size.x - 2.0F * gap) / 3.0F, 0.0F})) actions.look = command;
     ImGui::SameLine();
   }
   ImGui::TextUnformatted("look along");
-  actions.reset_camera |= ImGui::Button("Reset view", size);
+  actions.reset_camera |= button("Reset view", size);
   ImGui::SameLine();
-  actions.save_picture |= ImGui::Button("Save picture", size);
-  actions.save_session |= ImGui::Button("Save session", size);
+  actions.save_picture |= button("Save picture", size);
+  actions.save_session |= button("Save session", size);
 }
 
 void draw_job(const Progress& job, PanelActions& actions) {
@@ -125,7 +104,7 @@ void draw_job(const Progress& job, PanelActions& actions) {
     std::snprintf(text.data(), text.size(), "%s %.0f %%", stage.c_str(), 100.0 * fraction);
     ImGui::ProgressBar(static_cast<float>(fraction), {-FLT_MIN, 0.0F}, text.data());
   }
-  actions.cancel |= ImGui::Button("Cancel", {-FLT_MIN, 0.0F});
+  actions.cancel |= button("Cancel", {-FLT_MIN, 0.0F});
 }
 
 }  // namespace
@@ -140,8 +119,10 @@ WindowLayout layout(int width, int height, float text_height) {
   return result;
 }
 
-PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout) {
+PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, SceneView& view,
+                         const WindowLayout& layout) {
   PanelActions actions;
+  begin_controls();
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({static_cast<float>(layout.panel_width),
                             static_cast<float>(layout.picture.height + layout.status_height)});
@@ -155,23 +136,8 @@ PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout&
       section("TOUCH");
       actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
     }
-    if (state.scene->tensors && view.tensors) {
-      draw_tensors(state, *state.scene, *view.tensors, view.tracts);
-      if (view.volume) draw_anisotropy(state, *state.scene, *view.volume, actions);
-    } else if (view.tracts) {
-      section("TRACTS");
-      draw_tract_look(*view.tracts);
-    } else if (state.scene->is_volume_alone() && view.volume) {
-      draw_volume(state, *state.scene, *view.volume, actions);
-    } else {
-      if (state.scene->info->layers) {
-        draw_layer(state, *state.scene, view.camera);
-      } else {
-        draw_lines(state, *state.scene);
-      }
-      draw_color(state, *state.scene, view);
-      if (!state.scene->info->volumes.empty()) draw_flow_volume(state, *state.scene, view.volume, actions);
-    }
+    PanelContext on{state, *state.scene, view, actions};
+    for (const PanelPart& part : parts) part(on);
     draw_look(view, actions);
     for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
       for (const std::string& note : *notes) {

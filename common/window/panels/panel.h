@@ -1,7 +1,9 @@
 /// The panel at the left of the window, and the layout of its parts.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +17,6 @@
 #include "common/window/panels/region_panel.h"
 #include "common/window/panels/series_panel.h"
 #include "common/window/panels/touch_panel.h"
-#include "common/window/panels/tract_panel.h"
 #include "common/window/panels/transfer_panel.h"
 
 namespace palpate {
@@ -24,8 +25,8 @@ namespace palpate {
 struct PanelState {
   const SceneState* scene = nullptr;  ///< null until the first one is there
   const Progress* job = nullptr;      ///< null while none runs
-  SceneSettings settings;             ///< edited
-  SeedChoice seeds;                   ///< edited; goes into the settings
+  Document document;                  ///< edited
+  SeedChoice seeds;                   ///< edited; goes into the document
   PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
   bool message_is_error = false;
@@ -40,14 +41,23 @@ struct PanelState {
   RegionControl* region = nullptr;   ///< of a volume
   ProbeSession* touch = nullptr;     ///< null or not available(): no such part
   bool grabbed = false;
-  bool marking = false;                     ///< clicks mark places
-  TractSeedChoice tract_seeds;              ///< edited; goes into the settings when tracts are traced
-  std::optional<TensorPick> tensor;         ///< under the mouse
-  std::vector<InputFiles> recent;           ///< newest first
-  std::string replay_verdict;               ///< that was said
-  std::string lines_file = "followed.vtp";  ///< edited
+  bool marking = false;                                                  ///< clicks mark places
+  std::optional<TensorPick> tensor;                                      ///< under the mouse
+  std::vector<InputFiles> recent;                                        ///< newest first
+  std::string replay_verdict;                                            ///< that was said
+  std::string lines_file = "followed.vtp";                               ///< edited
   std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
   KeptHistogram histogram;                                               ///< of the volume
+
+  /// The line at the bottom, of something that went as it should, or that did not.
+  void say(std::string words) {
+    message = std::move(words);
+    message_is_error = false;
+  }
+  void fail(std::string words) {
+    message = std::move(words);
+    message_is_error = true;
+  }
 };
 
 /// What the user asked for in this frame.
@@ -66,6 +76,18 @@ struct PanelActions {
   std::optional<std::size_t> lens;  ///< that the mouse is to move
 };
 
+/// What a part of the panel shows and changes.
+struct PanelContext {
+  PanelState& state;
+  const SceneState& scene;
+  SceneView& view;
+  PanelActions& actions;
+};
+
+/// A part of the panel that a program puts between those that all have: heading and controls. It draws nothing
+/// where it has nothing to show.
+using PanelPart = std::function<void(PanelContext&)>;
+
 /// Parts of the window [pixels].
 struct WindowLayout {
   double panel_width = 0.0;
@@ -76,6 +98,8 @@ struct WindowLayout {
 [[nodiscard]] WindowLayout layout(int width, int height, float text_height);
 
 /// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
-[[nodiscard]] PanelActions draw_panels(PanelState& state, SceneView& view, const WindowLayout& layout);
+/// @param parts the program's, below input and touch.
+[[nodiscard]] PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, SceneView& view,
+                                       const WindowLayout& layout);
 
 }  // namespace palpate

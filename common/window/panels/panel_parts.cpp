@@ -1,10 +1,144 @@
 #include "common/window/panels/panel_parts.h"
 
 #include <cmath>
+#include <cstdarg>
+#include <utility>
+
+#include <imgui_stdlib.h>
 
 #include "common/base/text.h"
+#include "common/scene/document/setting.h"
 
 namespace palpate {
+namespace {
+
+/// Of the last frame, and of the one that is being drawn: one thread draws panels, as Dear ImGui has it.
+struct Drawn {
+  std::vector<DrawnControl> last, now;
+};
+Drawn& drawn() {
+  static Drawn all;
+  return all;
+}
+
+/// Where a control that has its label beside it is drawn next, without that.
+struct NextFrame {
+  ImVec2 corner = ImGui::GetCursorScreenPos(), size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
+
+  /// Notes it, and hands on what it returned.
+  [[nodiscard]] bool noted(const char* label, bool returned) const {
+    note_control(label, corner, size);
+    return returned;
+  }
+};
+
+/// Notes what was drawn last, and hands on what it returned.
+bool noted(const char* label, bool returned) {
+  note_control(label);
+  return returned;
+}
+
+}  // namespace
+
+void note_control(const char* label, const ImVec2& corner, const ImVec2& size) {
+  std::string name(label);
+  for (const char* end : {"##", "  ("}) {
+    if (const std::size_t at = name.find(end); at != std::string::npos && at > 0) name.resize(at);
+  }
+  drawn().now.push_back({std::move(name), corner.x, corner.y, size.x, size.y});
+}
+
+void note_control(const char* label) {
+  note_control(label, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+}
+
+const std::vector<DrawnControl>& drawn_controls() noexcept { return drawn().last; }
+
+void begin_controls() {
+  drawn().last = std::move(drawn().now);
+  drawn().now.clear();
+}
+
+bool button(const char* label, const ImVec2& size) { return noted(label, ImGui::Button(label, size)); }
+
+bool small_button(const char* label) { return noted(label, ImGui::SmallButton(label)); }
+
+bool checkbox(const char* label, bool* on) { return noted(label, ImGui::Checkbox(label, on)); }
+
+bool selectable(const char* label, bool selected, ImGuiSelectableFlags flags) {
+  return noted(label, ImGui::Selectable(label, selected, flags));
+}
+
+bool begin_combo(const char* label, const char* preview) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::BeginCombo(label, preview));
+}
+
+bool combo(const char* label, int* chosen, const char* const words[], int count) {
+  if (!begin_combo(label, words[*chosen])) return false;
+  bool changed = false;
+  for (int i = 0; i < count; ++i) {
+    if (!selectable(words[i], i == *chosen)) continue;
+    changed = i != *chosen;
+    *chosen = i;
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+bool slider_int(const char* label, int* value, int lower, int upper, const char* format,
+                ImGuiSliderFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::SliderInt(label, value, lower, upper, format, flags));
+}
+
+bool slider_scalar(const char* label, ImGuiDataType type, void* value, const void* lower, const void* upper,
+                   const char* format, ImGuiSliderFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::SliderScalar(label, type, value, lower, upper, format, flags));
+}
+
+bool input_text(const char* label, std::string* text, ImGuiInputTextFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::InputText(label, text, flags));
+}
+
+bool input_numbers(const char* label, double* values, int count, const char* format,
+                   ImGuiInputTextFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::InputScalarN(label, ImGuiDataType_Double, values, count, nullptr, nullptr,
+                                                format, flags));
+}
+
+bool drag_int(const char* label, int* values, int count, float speed, int lower, int upper,
+              ImGuiSliderFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::DragScalarN(label, ImGuiDataType_S32, values, count, speed, &lower, &upper,
+                                               "%d", flags | ImGuiSliderFlags_AlwaysClamp));
+}
+
+bool color_edit(const char* label, float color[3], ImGuiColorEditFlags flags) {
+  const NextFrame frame;
+  return frame.noted(label, ImGui::ColorEdit3(label, color, flags));
+}
+
+void hint(const char* format, ...) {
+  if (!ImGui::IsItemHovered()) return;
+  std::va_list values;
+  va_start(values, format);
+  ImGui::SetTooltipV(format, values);
+  va_end(values);
+}
+
+void explain(const char* setting_name) {
+  if (!ImGui::IsItemHovered()) return;
+  constexpr float kWidth = 28.0F;  // heights of the text
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kWidth * ImGui::GetFontSize());
+  ImGui::TextUnformatted(setting(setting_name).full_help().c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
 
 void section(const char* name) {
   ImGui::Spacing();
@@ -14,9 +148,9 @@ void section(const char* name) {
 
 bool choose_word(const char* label, std::string& chosen, const std::vector<std::string>& words) {
   bool changed = false;
-  if (ImGui::BeginCombo(label, chosen.c_str())) {
+  if (begin_combo(label, chosen.c_str())) {
     for (const std::string& word : words) {
-      if (ImGui::Selectable(word.c_str(), word == chosen) && word != chosen) {
+      if (selectable(word.c_str(), word == chosen) && word != chosen) {
         chosen = word;
         changed = true;
       }
@@ -28,8 +162,7 @@ bool choose_word(const char* label, std::string& chosen, const std::vector<std::
 
 bool decade_slider(const char* label, double& value, int lower, int upper) {
   int decade = static_cast<int>(std::lround(std::log10(value)));
-  if (!ImGui::SliderInt(label, &decade, lower, upper, short_number(value).c_str(),
-                        ImGuiSliderFlags_AlwaysClamp)) {
+  if (!slider_int(label, &decade, lower, upper, short_number(value).c_str(), ImGuiSliderFlags_AlwaysClamp)) {
     return false;
   }
   value = std::pow(10.0, decade);

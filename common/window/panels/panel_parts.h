@@ -1,6 +1,7 @@
 /// Small parts that panels share.
 #pragma once
 
+#include <cstdarg>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -8,6 +9,48 @@
 #include <imgui.h>
 
 namespace palpate {
+
+/// @name Controls
+/// Those of Dear ImGui under the same names, which are also noted by their labels: a script presses what is
+/// called so, wherever it is.
+/// @{
+bool button(const char* label, const ImVec2& size = {0.0F, 0.0F});
+bool small_button(const char* label);
+bool checkbox(const char* label, bool* on);
+bool selectable(const char* label, bool selected = false, ImGuiSelectableFlags flags = 0);
+bool begin_combo(const char* label, const char* preview);
+bool combo(const char* label, int* chosen, const char* const words[], int count);
+bool slider_int(const char* label, int* value, int lower, int upper, const char* format = "%d",
+                ImGuiSliderFlags flags = 0);
+bool slider_scalar(const char* label, ImGuiDataType type, void* value, const void* lower, const void* upper,
+                   const char* format, ImGuiSliderFlags flags = 0);
+bool input_text(const char* label, std::string* text, ImGuiInputTextFlags flags = 0);
+bool input_numbers(const char* label, double* values, int count, const char* format,
+                   ImGuiInputTextFlags flags = 0);
+bool drag_int(const char* label, int* values, int count, float speed, int lower, int upper,
+              ImGuiSliderFlags flags);
+bool color_edit(const char* label, float color[3], ImGuiColorEditFlags flags = 0);
+/// Notes what was drawn last, a canvas say, or what is drawn there.
+void note_control(const char* label);
+void note_control(const char* label, const ImVec2& corner, const ImVec2& size);
+
+/// A control that was drawn. The label is what is read of it: without its key, and without what follows "##"
+/// unless that is all of it. The place of sliders, lists and fields is without the label beside them.
+struct DrawnControl {
+  std::string label;
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  ///< in the window [pixels]
+};
+/// Those of the last frame that was complete, in the order in which they were drawn.
+[[nodiscard]] const std::vector<DrawnControl>& drawn_controls() noexcept;
+/// Begins a frame.
+void begin_controls();
+/// @}
+
+/// What the control that was drawn last is for, shown while the mouse is over it. printf's format.
+void hint(const char* format, ...) IM_FMTARGS(1);
+
+/// The same from the table of settings: its help, with range and default. @pre there is a setting of that name.
+void explain(const char* setting_name);
 
 /// Millimetres a metre: lengths of the workspace are shown in these.
 inline constexpr double kMillimetres = 1e3;
@@ -25,8 +68,8 @@ bool decade_slider(const char* label, double& value, int lower, int upper);
 /// A slider that never leaves [lower, upper], typed in or not. @return whether `value` changed.
 inline bool slider(const char* label, double& value, double lower, double upper, const char* format,
                    ImGuiSliderFlags flags = 0) {
-  return ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
-                             flags | ImGuiSliderFlags_AlwaysClamp);
+  return slider_scalar(label, ImGuiDataType_Double, &value, &lower, &upper, format,
+                       flags | ImGuiSliderFlags_AlwaysClamp);
 }
 
 /// Longer lists begin folded, and scroll in a window of their own.
@@ -35,6 +78,8 @@ inline constexpr std::size_t kShortList = 8;
 /// An arrow before what comes next in its row, which folds the rows that belong to it. By the ids that are
 /// pushed. @param at_first until the user has pressed it. @return whether these rows are to be drawn.
 inline bool draw_fold(bool at_first) {
+  note_control("##fold", ImGui::GetCursorScreenPos(),
+               {ImGui::GetTreeNodeToLabelSpacing(), ImGui::GetFrameHeight()});
   ImGui::SetNextItemOpen(at_first, ImGuiCond_Once);
   const bool open =
       ImGui::TreeNodeEx("##fold", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_FramePadding);
@@ -49,5 +94,35 @@ inline bool begin_list(const char* name, std::size_t count, float rows) {
   ImGui::BeginChild(name, {0.0F, rows * ImGui::GetFrameHeightWithSpacing()});
   return true;
 }
+
+/// Rows of a name and its value, in two columns that line up.
+class ReadoutRows {
+ public:
+  /// @param id tells tables of one frame apart.
+  explicit ReadoutRows(const char* id) : open_(ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) {}
+  ReadoutRows(const ReadoutRows&) = delete;
+  ReadoutRows& operator=(const ReadoutRows&) = delete;
+
+  /// The value as printf writes it.
+  void add(const char* name, const char* format, ...) IM_FMTARGS(3) {
+    if (!open_) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name);
+    ImGui::TableNextColumn();
+    std::va_list values;
+    va_start(values, format);
+    ImGui::TextV(format, values);
+    va_end(values);
+  }
+  /// Call it before the window ends.
+  void finish() {
+    if (open_) ImGui::EndTable();
+    open_ = false;
+  }
+
+ private:
+  bool open_;
+};
 
 }  // namespace palpate

@@ -7,8 +7,8 @@
 
 #include "common/base/text.h"
 #include "common/window/keys.h"
-#include "common/window/panels/readout_rows.h"
-#include "common/window/panels/tensor_panel.h"
+#include "common/window/panels/panel_parts.h"
+#include "common/window/panels/tensor_readout.h"
 
 namespace palpate {
 namespace {
@@ -115,7 +115,7 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
     ImGui::TextUnformatted(words.c_str());
   }
   ImGui::PopClipRect();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
+  hint("%s", words.c_str());
   ImGui::SameLine(right - frame_width);
   ImGui::TextDisabled("%s", frame.c_str());
   ImGui::End();
@@ -150,11 +150,11 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
     if (state.touch != nullptr && state.touch->planes()) {
       row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
       row("drag a plane's ring", "move the plane; along an axis on that alone");
-    } else if (state.touch != nullptr && state.touch->takes_hold()) {
+    } else if (state.touch != nullptr && state.touch->hand().takes_hold()) {
       row("drag with the probe",
           "on the grid: carry the view along it, or the face of a region that it is at");
     }
-    if (state.touch != nullptr && state.touch->scalar() && !state.touch->has_flow())
+    if (state.touch != nullptr && state.touch->data().scalar() && !state.touch->data().has_flow())
       row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");
     for (const KeyBinding& binding : key_bindings()) {
       if (*binding.name != '\0') row(binding.name, binding.what);

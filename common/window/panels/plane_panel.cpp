@@ -18,7 +18,7 @@ namespace {
 
 /// A number field that answers when the user is done with it.
 bool field(const char* label, double* values, int count) {
-  ImGui::InputScalarN(label, ImGuiDataType_Double, values, count, nullptr, nullptr, "%.6g");
+  input_numbers(label, values, count, "%.6g");
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
@@ -38,15 +38,15 @@ std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& se
     wanted = pose;
     wanted->center += (d - plane.w) * Vec3{plane};
   }
-  if (ImGui::SmallButton("flip")) wanted = turned_to(pose, -Vec3{plane});
+  if (small_button("flip")) wanted = turned_to(pose, -Vec3{plane});
   ImGui::SameLine();
-  if (ImGui::SmallButton("to view")) wanted = turned_to(pose, camera.axes[2]);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("faces the viewer, who looks at what it leaves");
+  if (small_button("to view")) wanted = turned_to(pose, camera.axes[2]);
+  hint("faces the viewer, who looks at what it leaves");
   ImGui::SameLine();
-  if (ImGui::SmallButton("gradient")) {
-    if (const auto steepest = session.gradient_at(pose.center)) wanted = turned_to(pose, *steepest);
+  if (small_button("gradient")) {
+    if (const auto steepest = session.data().gradient_at(pose.center)) wanted = turned_to(pose, *steepest);
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("across the steepest way of the values at its middle");
+  hint("across the steepest way of the values at its middle");
   return wanted;
 }
 
@@ -59,9 +59,9 @@ void offer_plane(const Annotation& marked, ProbeSession& session, std::vector<Cu
   const auto pose = pose_through({marked.points[0], marked.points[1], marked.points[2]});
   ImGui::SameLine();
   ImGui::BeginDisabled(!room || !pose);
-  const bool wanted = ImGui::SmallButton("+ plane");
+  const bool wanted = small_button("+ plane");
   ImGui::EndDisabled();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("through its first three points");
+  hint("through its first three points");
   if (!wanted) return;
   if (in_hand) {
     PlanePoses poses = session.planes()->poses;
@@ -85,7 +85,7 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     const bool unfolded = draw_fold(true);
     const std::string name = "plane " + std::to_string(i + 1);
     if (static_cast<std::size_t>(i) < cuts.size()) {
-      ImGui::Checkbox((name + " cuts").c_str(), &cuts[static_cast<std::size_t>(i)].on);
+      checkbox((name + " cuts").c_str(), &cuts[static_cast<std::size_t>(i)].on);
     } else {
       ImGui::TextUnformatted(name.c_str());
     }
@@ -98,7 +98,7 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     }
     if (poses.count > 1) {
       ImGui::SameLine();
-      if (ImGui::SmallButton("remove")) gone = i;
+      if (small_button("remove")) gone = i;
     }
     ImGui::PopID();
   }
@@ -112,12 +112,12 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
   }
   if (poses.count == PlanePoses::kMax) {
     ImGui::TextDisabled("%d planes: no more are possible", PlanePoses::kMax);
-  } else if (ImGui::SmallButton("+ plane")) {
+  } else if (small_button("+ plane")) {
     poses.pose[static_cast<std::size_t>(poses.count++)] =
         turned_to({.center = camera.focal_point}, camera.axes[2]);
     edited = true;
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("through what the view turns about, facing the viewer");
+  hint("through what the view turns about, facing the viewer");
   if (edited) session.put_planes(poses);
 }
 
@@ -132,16 +132,16 @@ void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first) {
       const std::size_t i = first + static_cast<std::size_t>(row);
       ImGui::PushID(row);
       CuttingPlane& cut = cuts[i];
-      ImGui::Checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
+      checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
       if (ImGui::IsItemHovered()) {
         const Vec3& n = cut.kept.outward;
         ImGui::SetTooltip("away what lies beyond %.4g x + %.4g y + %.4g z = %.6g", n.x, n.y, n.z,
                           cut.kept.offset);
       }
       ImGui::SameLine();
-      if (ImGui::SmallButton("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
+      if (small_button("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
       ImGui::SameLine();
-      if (ImGui::SmallButton("remove")) gone = i;
+      if (small_button("remove")) gone = i;
       ImGui::PopID();
     }
   }
@@ -151,33 +151,32 @@ void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first) {
 
 void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram) {
   PlaneImages& planes = volume.planes;
-  if (ImGui::Checkbox("image", &planes.shown) && planes.shown && !planes.window && histogram != nullptr)
+  if (checkbox("image", &planes.shown) && planes.shown && !planes.window && histogram != nullptr)
     planes.window = default_window(*histogram);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "the values on each plane; Ctrl and a drag on it: right widens the window, up raises "
-        "the level");
+  hint(
+      "the values on each plane; Ctrl and a drag on it: right widens the window, up raises "
+      "the level");
   const double lower = volume.image->lowest, upper = volume.image->highest, range = upper - lower;
   if (planes.shown && range > 0.0) {
     constexpr double kNarrowest = 1e-4;
     const double least = kNarrowest * range, most = 2.0 * range;
     ValueWindow window = window_of(volume);
-    bool edited = ImGui::SliderScalar("window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
-    edited |= ImGui::SliderScalar("level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
+    bool edited = slider_scalar("window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
+    edited |= slider_scalar("level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
     if (edited && window.width > 0.0) planes.window = window;
   }
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < planes.contours.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    ImGui::SliderScalar("##contour", ImGuiDataType_Double, &planes.contours[i], &lower, &upper, "%.5g");
+    slider_scalar("##contour", ImGuiDataType_Double, &planes.contours[i], &lower, &upper, "%.5g");
     ImGui::SameLine();
-    if (ImGui::SmallButton("x")) gone = i;
+    if (small_button("x")) gone = i;
     ImGui::SameLine();
     ImGui::TextUnformatted("line");
     ImGui::PopID();
   }
   if (gone) planes.contours.erase(planes.contours.begin() + static_cast<std::ptrdiff_t>(*gone));
-  if (planes.contours.size() < kMostContours && ImGui::SmallButton("+ line of equal value"))
+  if (planes.contours.size() < kMostContours && small_button("+ line of equal value"))
     planes.contours.push_back(window_of(volume).level);
 }
 
@@ -185,20 +184,19 @@ void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchAc
   AnnotationList& notes = session.notes();
   ImGui::Separator();
   const std::string now(name_of(notes.kind()));
-  if (ImGui::BeginCombo("annotation", now.c_str())) {
+  if (begin_combo("annotation", now.c_str())) {
     for (int i = 0; i < kAnnotationKindCount; ++i) {
       const auto kind = static_cast<AnnotationKind>(i);
       const std::string word(name_of(kind));
-      if (ImGui::Selectable(word.c_str(), kind == notes.kind())) notes.choose(kind);
+      if (selectable(word.c_str(), kind == notes.kind())) notes.choose(kind);
     }
     ImGui::EndCombo();
   }
-  actions.mark = ImGui::Button(marking ? "Stop marking" : "Mark by clicks");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("on a cut, else on the surface between object and background");
+  actions.mark = button(marking ? "Stop marking" : "Mark by clicks");
+  hint("on a cut, else on the surface between object and background");
   if (points_needed(notes.kind()).most == 0 && !notes.pending().empty()) {
     ImGui::SameLine();
-    if (ImGui::Button("Done")) notes.finish();
+    if (button("Done")) notes.finish();
   }
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < notes.entries().size(); ++i) {
@@ -214,34 +212,37 @@ void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchAc
     }
     offer_plane(each, session, volume.cuts);
     ImGui::SameLine();
-    if (ImGui::SmallButton("x")) gone = i;
+    if (small_button("x")) gone = i;
     ImGui::PopID();
   }
   if (gone) notes.remove(*gone);
   if (notes.entries().empty()) return;
-  if (ImGui::SmallButton("Save .csv")) actions.save_notes = ".csv";
+  if (small_button("Save .csv")) actions.save_notes = ".csv";
   ImGui::SameLine();
-  if (ImGui::SmallButton("Save .vtp")) actions.save_notes = ".vtp";
+  if (small_button("Save .vtp")) actions.save_notes = ".vtp";
 }
 
 void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session,
                std::vector<CuttingPlane>* cuts) {
-  if (mode != kGridMode || !session.scalar()) return;
+  if (mode != kGridMode || !session.data().scalar()) return;
   GridAxisSettings& grid = choice.settings.grid_axis;
   double pull = kMillimetres * grid.threshold, notch = kMillimetres * grid.notch;
   constexpr double kNearest = 0.5, kFarthest = 30.0, kNone = 0.0, kFull = 1.0;
-  if (ImGui::SliderScalar("pulls over at", ImGuiDataType_Double, &pull, &kNearest, &kFarthest, "%.1f mm",
-                          ImGuiSliderFlags_AlwaysClamp))
+  if (slider_scalar("pulls over at", ImGuiDataType_Double, &pull, &kNearest, &kFarthest, "%.1f mm",
+                    ImGuiSliderFlags_AlwaysClamp))
     grid.threshold = pull / kMillimetres;
-  if (ImGui::SliderScalar("landmarks reach", ImGuiDataType_Double, &notch, &kNone, &kFarthest, "%.1f mm",
-                          ImGuiSliderFlags_AlwaysClamp))
+  explain("grid-pull");
+  if (slider_scalar("landmarks reach", ImGuiDataType_Double, &notch, &kNone, &kFarthest, "%.1f mm",
+                    ImGuiSliderFlags_AlwaysClamp))
     grid.notch = notch / kMillimetres;
-  ImGui::SliderScalar("teeth", ImGuiDataType_Double, &grid.teeth, &kNone, &kFull, "%.2f",
-                      ImGuiSliderFlags_AlwaysClamp);
-  ImGui::SliderInt("peaks", &grid.peaks, 0, GridAxisSettings::kMostPeaks, "%d", ImGuiSliderFlags_AlwaysClamp);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("landmarks where the values along each axis pile up");
+  explain("grid-notch");
+  slider_scalar("teeth", ImGuiDataType_Double, &grid.teeth, &kNone, &kFull, "%.2f",
+                ImGuiSliderFlags_AlwaysClamp);
+  explain("grid-teeth");
+  slider_int("peaks", &grid.peaks, 0, GridAxisSettings::kMostPeaks, "%d", ImGuiSliderFlags_AlwaysClamp);
+  hint("landmarks where the values along each axis pile up");
   bool marks_alone = grid.switch_at == GridSwitch::kMarks;
-  if (ImGui::Checkbox("turn at landmarks alone", &marks_alone))
+  if (checkbox("turn at landmarks alone", &marks_alone))
     grid.switch_at = marks_alone ? GridSwitch::kMarks : GridSwitch::kNodes;
   const auto room_for = [&grid](std::size_t marks) {
     return static_cast<std::size_t>(grid.marks.count) + marks <= std::size_t{GridMarks::kMax};
@@ -249,16 +250,15 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   const auto add = [&grid](const GridMark& mark) {
     grid.marks.mark[static_cast<std::size_t>(grid.marks.count++)] = mark;
   };
-  const LocalFrame& local = session.scalar()->frame();
+  const LocalFrame& local = session.data().scalar()->frame();
   const Vec3 at = session.readout().proxy;
   // They stay in their places without a hand, so that nothing below moves when it comes.
   ImGui::BeginDisabled(!session.readout().held || !room_for(3));
-  if (ImGui::SmallButton("landmarks here")) {
+  if (small_button("landmarks here")) {
     for (const GridMark& mark : marks_at(grid.frame, local, at)) add(mark);
   }
   ImGui::EndDisabled();
-  if (cuts != nullptr && !cuts->empty() && room_for(cuts->size()) &&
-      ImGui::SmallButton("landmarks at cuts")) {
+  if (cuts != nullptr && !cuts->empty() && room_for(cuts->size()) && small_button("landmarks at cuts")) {
     for (const CuttingPlane& cut : *cuts) add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
   }
   if (cuts != nullptr) {
@@ -269,16 +269,16 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
       ImGui::SameLine();
       ImGui::PushID(a);
       constexpr std::array<const char*, 3> kNames{"1st", "2nd", "3rd"};
-      if (ImGui::SmallButton(kNames[static_cast<std::size_t>(a)]))
+      if (small_button(kNames[static_cast<std::size_t>(a)]))
         cuts->push_back({.kept = {axes[a], glm::dot(axes[a], at)}});
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("axis of the grid, at the proxy");
+      hint("axis of the grid, at the proxy");
       ImGui::PopID();
     }
     ImGui::EndDisabled();
   }
   if (grid.marks.count > 0) {
     ImGui::TextWrapped("%s", text_of(grid.marks).c_str());
-    if (ImGui::SmallButton("no landmarks")) grid.marks = {};
+    if (small_button("no landmarks")) grid.marks = {};
   }
 }
 

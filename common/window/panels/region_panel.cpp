@@ -5,25 +5,24 @@
 #include <imgui.h>
 
 #include "common/field/grid/image_resample.h"
+#include "common/window/panels/panel_parts.h"
 
 namespace palpate {
 
 RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   RegionActions actions;
   if (!region.box()) {
-    if (ImGui::SmallButton("+ box")) region.put(new_region(image.bounds()));
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "about the middle; drag the dots on its faces. With the probe grabbed, C puts corners, and in mode "
-          "grid a press takes hold of the face that the probe is at");
+    if (small_button("+ box")) region.put(new_region(image.bounds()));
+    hint(
+        "about the middle; drag the dots on its faces. With the probe grabbed, C puts corners, and in mode "
+        "grid a press takes hold of the face that the probe is at");
     return actions;
   }
   Box box = *region.box();
   constexpr std::array kAxes{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     std::array<double, 2> ends{box.lower[axis], box.upper[axis]};
-    const bool typed = ImGui::InputScalarN(kAxes[static_cast<std::size_t>(axis)], ImGuiDataType_Double,
-                                           ends.data(), 2, nullptr, nullptr, "%.6g");
+    const bool typed = input_numbers(kAxes[static_cast<std::size_t>(axis)], ends.data(), 2, "%.6g");
     if (!typed || !(ends[0] < ends[1])) continue;
     box.lower[axis] = ends[0];
     box.upper[axis] = ends[1];
@@ -41,10 +40,10 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   ImGui::TextUnformatted("crop to");
   for (const char* ending : kEndings) {
     ImGui::SameLine();
-    if (ImGui::SmallButton(ending)) actions.crop = ending;
+    if (small_button(ending)) actions.crop = ending;
   }
   ImGui::EndDisabled();
-  if (ImGui::SmallButton("remove")) region.put(std::nullopt);
+  if (small_button("remove")) region.put(std::nullopt);
   return actions;
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 #include "common/window/controls/region_control.h"
 
 namespace palpate {

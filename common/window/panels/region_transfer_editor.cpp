@@ -155,8 +155,7 @@ bool edit_look(RegionTransfer& transfer, int chosen) {
     region = transfer.regions()[index];
     changed = true;
   }
-  bool look =
-      ImGui::ColorEdit3("colour", &region.color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
+  bool look = color_edit("colour", &region.color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
   look = slider("opacity", region.opacity, 0.0, 1.0, "%.2f") || look;
   look = slider("soft border", region.soft, 0.0, 1.0, "%.2f") || look;
   if (!look) return changed;
@@ -179,6 +178,7 @@ bool draw_region_editor(const char* id, const PlaceHistogram& histogram, RegionT
   const PlaceCanvas canvas(ImGui::GetCursorScreenPos(), size, range);
   ImGui::InvisibleButton("regions", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  note_control(id);
   Drag drag{region, corner};
   bool changed = edit_regions(canvas, range, transfer, drag, chosen);
   region = drag.region;

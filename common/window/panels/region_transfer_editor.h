@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "common/render/volume/value_gradient.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "common/window/controls/region_transfer_edit.h"
 
 namespace palpate {

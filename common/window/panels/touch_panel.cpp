@@ -11,7 +11,6 @@
 #include <utility>
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include "common/base/text.h"
 #include "common/hand/servo_rows.h"
@@ -20,17 +19,16 @@
 #include "common/window/panels/isosurface_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/plane_panel.h"
-#include "common/window/panels/readout_rows.h"
-#include "common/window/panels/tensor_panel.h"
+#include "common/window/panels/tensor_readout.h"
 
 namespace palpate {
 namespace {
 
 void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
-  if (!ImGui::BeginCombo("mode", modes[choice.mode].name.c_str())) return;
+  if (!begin_combo("mode", modes[choice.mode].name.c_str())) return;
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    if (ImGui::Selectable(modes[i].name.c_str(), i == choice.mode)) choice.mode = i;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", modes[i].summary.c_str());
+    if (selectable(modes[i].name.c_str(), i == choice.mode)) choice.mode = i;
+    hint("%s", modes[i].summary.c_str());
   }
   ImGui::EndCombo();
 }
@@ -40,30 +38,36 @@ void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
                    kHeaviest = 20.0;
   ChainSettings& settings = choice.settings;
   slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
+  explain("stiffness");
   double release = kMillimetres * settings.streamline.release_distance,
          drag = kMillimetres * settings.drag.threshold;
   if (flow && slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
     settings.streamline.release_distance = release / kMillimetres;
+  if (flow) explain("release");
   if (flow && slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
+  if (flow) explain("drag");
   if (mode == "direct" || mode == "vortex") {
     slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
+    explain("field-force");
   }
   if (mode == "transverse" || mode == kDensityMode) {
     slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
+    explain("field-damping");
   }
   if (!flow) return;
   slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
-  ImGui::Checkbox("tick marks", &choice.ticks);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("felt at equal times along the line");
+  explain("speed-force");
+  checkbox("tick marks", &choice.ticks);
+  explain("ticks");
   if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
 }
 
 void choose_stroke(StrokeUse& use) {
   constexpr std::array<std::pair<StrokeUse, const char*>, 2> kUses{
       {{StrokeUse::kAppend, "goes on from an end"}, {StrokeUse::kReplace, "replaces the last"}}};
-  if (!ImGui::BeginCombo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second)) return;
+  if (!begin_combo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second)) return;
   for (const auto& [each, words] : kUses) {
-    if (ImGui::Selectable(words, each == use)) use = each;
+    if (selectable(words, each == use)) use = each;
   }
   ImGui::EndCombo();
 }
@@ -75,12 +79,12 @@ void choose_file(std::string& file, float width) {
   std::filesystem::path path(file);
   const std::string ending = path.extension().string();
   ImGui::SetNextItemWidth(width - ending_width - ImGui::GetStyle().ItemSpacing.x);
-  ImGui::InputText("##file", &file);
+  input_text("##file", &file);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ending_width);
-  if (ImGui::BeginCombo("##ending", ending.c_str())) {
+  if (begin_combo("##ending", ending.c_str())) {
     for (const char* each : kEndings) {
-      if (ImGui::Selectable(each, ending == each)) file = path.replace_extension(each).string();
+      if (selectable(each, ending == each)) file = path.replace_extension(each).string();
     }
     ImGui::EndCombo();
   }
@@ -88,18 +92,18 @@ void choose_file(std::string& file, float width) {
 
 /// @param surfaces words for those that are felt; null: none are.
 void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfaces) {
-  if (surfaces != nullptr) ImGui::Checkbox(surfaces, &choice.show_surface);
+  if (surfaces != nullptr) checkbox(surfaces, &choice.show_surface);
   if (!flow) {
-    ImGui::Checkbox("path", &choice.show_path);
+    checkbox("path", &choice.show_path);
     return;
   }
-  ImGui::Checkbox("stream balls", &choice.show_balls);
+  checkbox("stream balls", &choice.show_balls);
   ImGui::SameLine(half);
-  ImGui::Checkbox("path", &choice.show_path);
-  ImGui::Checkbox("fade the other lines", &choice.fade_rest);
+  checkbox("path", &choice.show_path);
+  checkbox("fade the other lines", &choice.fade_rest);
   constexpr std::array<const char*, 3> kShapes{"none", "rake", "plane"};
   int shape = static_cast<int>(choice.local);
-  if (ImGui::Combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {
+  if (combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {
     choice.local = static_cast<SeedShape>(shape);
   }
 }
@@ -107,10 +111,10 @@ void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfac
 /// Rows of its own height, however many are kept: nothing below them moves.
 void list_kept(ProbeSession& session) {
   constexpr float kRows = 3.0F;
-  const KeptLines& kept = session.kept();
+  const KeptLines& kept = session.trail().kept();
   ImGui::BeginChild("kept", {0.0F, kRows * ImGui::GetTextLineHeightWithSpacing()});
   if (kept.entries().empty())
-    ImGui::TextDisabled(session.has_tensors() ? "no tract is kept" : "no line is kept");
+    ImGui::TextDisabled(session.data().has_tensors() ? "no tract is kept" : "no line is kept");
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < kept.entries().size(); ++i) {
     const KeptLines::Entry& entry = kept.entries()[i];
@@ -121,14 +125,14 @@ void list_kept(ProbeSession& session) {
     ImGui::Text("length %s, up to %.2f N", short_number(entry.line->points.back().arc).c_str(),
                 entry.largest_force);
     ImGui::SameLine();
-    if (ImGui::SmallButton("x")) removed = i;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("delete (Ctrl+Z takes it back)");
+    if (small_button("x")) removed = i;
+    hint("delete (Ctrl+Z takes it back)");
     ImGui::PopID();
   }
   // The last stays in sight when one is added.
   if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0F);
   ImGui::EndChild();
-  if (removed) session.remove_kept(*removed);
+  if (removed) session.trail().remove_kept(*removed);
 }
 
 }  // namespace
@@ -142,57 +146,58 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   const ImVec2 size{half_width, 0.0F};
 
-  if (session.replaying()) {
-    const std::string verdict = session.replay_verdict();
+  if (session.servo().replaying()) {
+    const std::string verdict = session.servo().replay_verdict();
     ImGui::TextWrapped("%s", verdict.empty() ? "replaying" : verdict.c_str());
   }
-  const bool tensors = session.has_tensors();
+  const bool tensors = session.data().has_tensors();
   const char* grab = tensors ? "Draw tracts  (G)" : "Grab  (G)";
   const char* let_go = tensors ? "Stop drawing  (G)" : "Let go  (G)";
-  actions.grab = ImGui::Button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), size);
+  actions.grab = button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), size);
   ImGui::SameLine();
   if (session.readout().servo.armed) {
-    if (ImGui::Button("Force off  (F12)", size)) session.force_off();
-  } else if (ImGui::Button("Force on again", size)) {
-    session.arm();
+    if (button("Force off  (F12)", size)) session.servo().force_off();
+  } else if (button("Force on again", size)) {
+    session.servo().arm();
   }
   TouchChoice choice = session.choice();
   choose_mode(choice, session.modes());
-  edit_settings(choice, session.modes()[choice.mode].name, session.has_flow());
+  edit_settings(choice, session.modes()[choice.mode].name, session.data().has_flow());
   edit_curves(choice, session.modes()[choice.mode].name, session);
-  const FeltLevels felt = session.felt_levels();
-  edit_isosurfaces(choice.settings.isosurface, felt, session.surfaces(), session.surfaces_fraction(),
-                   session.modes()[choice.mode].name, session.has_flow());
+  const FeltLevels felt = session.data().levels();
+  edit_isosurfaces(choice.settings.isosurface, felt, session.data().surfaces(),
+                   session.data().surfaces_fraction(), session.modes()[choice.mode].name,
+                   session.data().has_flow());
   edit_texture(choice.settings.texture, session.modes()[choice.mode], session);
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
   const char* const surfaces = layers ? "show felt layers" : "show isosurface";
-  choose_looks(choice, half, session.has_flow(), felt.field ? surfaces : nullptr);
+  choose_looks(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr);
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
-  if (const std::string note = session.stiffness_note(); !note.empty())
+  if (const std::string note = session.limits().note(session.choice().settings); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 
-  if (session.has_flow() || tensors) {
-    actions.keep = ImGui::Button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
+  if (session.data().has_flow() || tensors) {
+    actions.keep = button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
     ImGui::SameLine();
   }
-  if (tensors || session.planes()) actions.undo = ImGui::Button("Undo  (Ctrl+Z)", size);
-  if (ImGui::Button(tensors ? "Clear drawing" : "Clear path", size)) session.clear_path();
-  if (session.scalar() && !session.has_flow() && view.volume)
+  if (tensors || session.planes()) actions.undo = button("Undo  (Ctrl+Z)", size);
+  if (button(tensors ? "Clear drawing" : "Clear path", size)) session.trail().clear_path();
+  if (session.data().scalar() && !session.data().has_flow() && view.volume)
     edit_notes(session, *view.volume, marking, actions);
-  if (!session.has_flow() && !tensors) return actions;
-  ImGui::BeginDisabled(session.kept().entries().empty() && session.drawn().empty());
+  if (!session.data().has_flow() && !tensors) return actions;
+  ImGui::BeginDisabled(session.trail().kept().entries().empty() && session.trail().drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
     ImGui::SameLine();
-    actions.save_lines = ImGui::Button("Save tracts", {-FLT_MIN, 0.0F});
+    actions.save_lines = button("Save tracts", {-FLT_MIN, 0.0F});
   } else {
     ImGui::SetNextItemWidth(half_width);
-    ImGui::InputText("##file", &file);
+    input_text("##file", &file);
     ImGui::SameLine();
-    actions.save_lines = ImGui::Button("Save lines", size);
+    actions.save_lines = button("Save lines", size);
   }
   ImGui::EndDisabled();
   list_kept(session);
@@ -223,14 +228,14 @@ float draw_probe_readout(const ProbeSession& session, const ValueHistogram* hist
   if (readout.sampled) {
     rows.add("value", "%.4g  %.4g  %.4g", readout.velocity.x, readout.velocity.y, readout.velocity.z);
     rows.add("speed", "%.4g", glm::length(readout.velocity));
-  } else if (session.has_flow()) {
+  } else if (session.data().has_flow()) {
     rows.add("value", "none here");
   }
-  if (readout.tensor && session.has_tensors()) {
+  if (readout.tensor && session.data().has_tensors()) {
     add_tensor_rows(*readout.tensor, rows);
   } else if (readout.tensor) {
     add_fibre_rows(*readout.tensor, rows);
-  } else if (session.has_tensors()) {
+  } else if (session.data().has_tensors()) {
     rows.add("tensor", "none here");
   }
   if (readout.scalar) {
@@ -256,7 +261,7 @@ void add_servo_rates(const ProbeSession& session, ReadoutRows& rows) {
   for (const ServoRow& row : servo_rows(session.readout().servo)) {
     rows.add(row.name.c_str(), "%s", row.value.c_str());
   }
-  if (const std::string limit = session.passive_limit(); !limit.empty()) {
+  if (const std::string limit = session.limits().text(session.choice().settings); !limit.empty()) {
     rows.add("stiffness", "%s", limit.c_str());
   }
 }

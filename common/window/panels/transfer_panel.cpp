@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include "common/base/text.h"
-#include "common/field/color_transfer_file.h"
-#include "common/field/region_transfer_file.h"
+#include "common/field/transfer/color_transfer.h"
+#include "common/field/transfer/region_transfer.h"
+#include "common/window/panels/panel_parts.h"
 #include "common/window/panels/region_transfer_editor.h"
 
 namespace palpate {
@@ -152,7 +152,7 @@ bool edit_color(ColorTransfer& transfer, int chosen) {
   const auto point = static_cast<std::size_t>(chosen);
   Vec3f color = transfer.points()[point].color;
   const std::string name = short_number(transfer.points()[point].value);
-  if (!ImGui::ColorEdit3(name.c_str(), &color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))
+  if (!color_edit(name.c_str(), &color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))
     return false;
   transfer = with_color(transfer, point, glm::clamp(color, 0.0F, 1.0F));
   return true;
@@ -204,22 +204,21 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
   const bool own = words.starts_with("points:") || words.starts_with("regions:");
   const std::string now = words.empty() ? automatic : own ? kOwnWords : words;
   ImGui::PushID(label);
-  if (ImGui::BeginCombo(label, now.c_str())) {
-    if (ImGui::Selectable(automatic, words.empty())) words.clear();
+  if (begin_combo(label, now.c_str())) {
+    if (selectable(automatic, words.empty())) words.clear();
     for (const std::string& name : preset_names()) {
-      if (ImGui::Selectable(name.c_str(), words == name)) words = name;
+      if (selectable(name.c_str(), words == name)) words = name;
     }
     ImGui::EndCombo();
   }
   if (edit_either(transfer, image, histograms, felt))
     words = transfer.regions ? region_words(*transfer.regions) : transfer_words(transfer.colors);
-  ImGui::InputText("##file", &file);
+  input_text("##file", &file);
   ImGui::SameLine();
-  if (ImGui::SmallButton("load") && !file.empty()) words = file;
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("a table value,red,green,blue,opacity, or regions of value and gradient");
+  if (small_button("load") && !file.empty()) words = file;
+  hint("a table value,red,green,blue,opacity, or regions of value and gradient");
   ImGui::SameLine();
-  const bool save = ImGui::SmallButton("save");
+  const bool save = small_button("save");
   ImGui::PopID();
   return save && (transfer.regions || !transfer.colors.points().empty());
 }
@@ -228,14 +227,14 @@ bool choose_own_transfer(const char* label, EditedTransfer& transfer,
                          const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms) {
   const EditedTransfer before = transfer;
   ImGui::PushID(label);
-  if (ImGui::BeginCombo(label, kOwnWords)) {
+  if (begin_combo(label, kOwnWords)) {
     const bool values = image->lowest <= image->highest;
     for (int i = 0; values && i < kColorPresetCount; ++i) {
       const auto preset = static_cast<ColorPreset>(i);
-      if (ImGui::Selectable(std::string(name_of(preset)).c_str()))
+      if (selectable(std::string(name_of(preset)).c_str()))
         transfer = {make_color_transfer(preset, image->lowest, image->highest), {}};
     }
-    if (values && ImGui::Selectable(kBoundariesName))
+    if (values && selectable(kBoundariesName))
       transfer = {{}, spread(boundary_regions(), histograms.places_of(image).range)};
     ImGui::EndCombo();
   }
@@ -255,6 +254,7 @@ bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHi
   const Canvas canvas(ImGui::GetCursorScreenPos(), size, span);
   ImGui::InvisibleButton("points", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  note_control(id);
   bool changed = edit(canvas, span, transfer, dragged, chosen);
   const bool hovered = ImGui::IsItemHovered();
   draw(canvas, span, histogram, transfer, chosen);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "common/field/region_transfer.h"
+#include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
-#include "common/render/volume/value_gradient.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/value_gradient.h"
+#include "common/render/volume/voxels/volume_image.h"
 #include "common/window/controls/transfer_edit.h"
 
 namespace palpate {

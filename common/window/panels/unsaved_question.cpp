@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include "common/window/panels/panel_parts.h"
+
 namespace palpate {
 namespace {
 
@@ -53,7 +55,7 @@ UnsavedQuestion::Answer UnsavedQuestion::draw() {
     ImGui::PopTextWrapPos();
     ImGui::Spacing();
     for (const Choice& choice : kChoices) {
-      if (ImGui::Button(choice.words, {kButtonWidth * ImGui::GetFontSize(), 0.0F})) answer = choice.answer;
+      if (button(choice.words, {kButtonWidth * ImGui::GetFontSize(), 0.0F})) answer = choice.answer;
       ImGui::SameLine();
     }
     if (answer != Answer::kNone) ImGui::CloseCurrentPopup();

@@ -1,20 +1,33 @@
-/// The parts of the panel about volumes: transfer functions, rays, cuts, region and lenses.
+/// The parts of the panel about a volume.
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/window/panels/panel.h"
 
 namespace palpate {
 
-/// A volume that is all there is.
-void draw_volume(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions);
+/// A program's part of the panel: of a volume that is all that is looked at.
+void draw_volume(PanelContext& on);
 
-/// Which scalar of a flow is a volume around its lines, and how. @param volume none where none is shown yet.
-void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<VolumeView>& volume,
-                      PanelActions& actions);
+/// Colours, rays, cuts and lenses of a volume.
+/// @param field name of what is seen around lenses. @param fields that there are. @param beside edited: those
+/// for lenses. @param felt value at the probe.
+void draw_volume_look(PanelState& state, const SceneState& scene, const std::string& field,
+                      const std::vector<std::string>& fields, std::vector<std::string>& beside,
+                      std::optional<double> felt, VolumeView& volume, PanelActions& actions);
 
-/// Of tensors, as a volume with them.
-void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions);
+/// How rays are cast.
+void draw_rays(VolumeView& volume);
+
+/// All scalars of the scene where the probe is.
+void draw_values_at_probe(const PanelState& state, const std::string& field, const VolumeView& volume);
+
+/// What lenses show that have nothing of their own; that of new ones where there are none.
+[[nodiscard]] EditedTransfer focus_of(const VolumeView& volume, const SceneState& scene);
+/// Has them show `focus`.
+void set_focus(VolumeView& volume, const EditedTransfer& focus);
 
 }  // namespace palpate

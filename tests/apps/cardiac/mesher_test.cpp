@@ -7,16 +7,16 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/cardiac/mesh_client.h"
 #include "apps/cardiac/mesher/border.h"
 #include "apps/cardiac/mesher/delaunay.h"
 #include "apps/cardiac/mesher/tetgen_filling.h"
 #include "apps/cardiac/mesher/wall_cells.h"
-#include "apps/cardiac/wall_mesh.h"
 #include "common/base/error.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/mesh_quality.h"
+#include "common/scene/wall/mesh_client.h"
+#include "common/scene/wall/wall_mesh.h"
 #include "loaders/cardiac/ex_element.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"

@@ -82,11 +82,11 @@ TEST(SlicesText, ReadsBackToTheSameSlices) {
 
 TEST(CheckTensorOptions, RefusesUnknownWordsBeforeAnythingIsRead) {
   EXPECT_NO_THROW(check_tensor_options({}));
-  Options color, glyphs, slices;
+  Document color, glyphs, slices;
   color.tensors.color = "speed";
   glyphs.tensors.glyphs = "cube";
   slices.tensors.slices = "1";
-  for (const Options& options : {color, glyphs, slices}) EXPECT_THROW(check_tensor_options(options), Error);
+  for (const Document& options : {color, glyphs, slices}) EXPECT_THROW(check_tensor_options(options), Error);
 }
 
 }  // namespace

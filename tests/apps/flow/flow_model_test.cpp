@@ -30,8 +30,8 @@ std::string image_file() {
   return text.str();
 }
 
-Options with_volume(const std::string& volume) {
-  Options options;
+Document with_volume(const std::string& volume) {
+  Document options;
   options.tracing.seeds = "grid:2,2,2";
   options.volume.scalar = volume;
   return options;
@@ -44,7 +44,7 @@ bool has_option(const Session& session, const std::string& name, const std::stri
 
 TEST(FlowModel, DrawsScalarsOfAnImageFromItsOwnPoints) {
   const TempFolder folder;
-  Options options = with_volume("mass,speed,heat");
+  Document options = with_volume("mass,speed,heat");
   options.input.files = {folder.write("flow.vtk", image_file())};
   FlowModel model(options, "flow");
   Progress progress;
@@ -69,7 +69,7 @@ TEST(FlowModel, DrawsScalarsOfAnImageFromItsOwnPoints) {
 }
 
 TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
-  Options options = with_volume("speed,vorticity");
+  Document options = with_volume("speed,vorticity");
   options.input.example = "abc";
   options.volume.resample = "20";
   FlowModel model(options, "flow");
@@ -80,24 +80,24 @@ TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
   EXPECT_EQ(first.volume_notes.size(), 2U);
   EXPECT_EQ(first.looks.size(), 2U);
 
-  SceneSettings settings = first.settings;
-  settings.transfer = "mr";
-  const SceneState recolored = model.update(settings, progress);
+  Document document = first.document;
+  document.volume.transfer = "mr";
+  const SceneState recolored = model.update(document, progress);
   EXPECT_EQ(recolored.volume->image, first.volume->image);
   EXPECT_NE(recolored.volume->transfer, first.volume->transfer);
   EXPECT_EQ(recolored.volume_notes, first.volume_notes);
 
-  settings.volumes = {"q"};
-  settings.resample = "9,8,7";
-  const SceneState other = model.update(settings, progress);
+  document.volume.scalar = "q";
+  document.volume.resample = "9,8,7";
+  const SceneState other = model.update(document, progress);
   EXPECT_EQ(other.lines, first.lines);
   EXPECT_EQ(other.volume->image->points, Index3(9, 8, 7));
   EXPECT_EQ(other.volume_label, "q");
 
-  settings.resample.clear();
-  EXPECT_THROW((void)model.update(settings, progress), Error) << "a formula is no image";
-  settings.volumes.clear();
-  const SceneState none = model.update(settings, progress);
+  document.volume.resample.clear();
+  EXPECT_THROW((void)model.update(document, progress), Error) << "a formula is no image";
+  document.volume.scalar.clear();
+  const SceneState none = model.update(document, progress);
   EXPECT_FALSE(none.volume);
   EXPECT_TRUE(none.volume_notes.empty());
   EXPECT_EQ(none.lines, first.lines);
@@ -105,7 +105,7 @@ TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
 
 TEST(FlowModel, KeepsTheVolumeInASession) {
   const TempFolder folder;
-  Options options = with_volume("speed,mass");
+  Document options = with_volume("speed,mass");
   options.input.files = {folder.write("flow.vtk", image_file())};
   options.volume.resample = "7";
   options.volume.transfer = "ct";
@@ -123,7 +123,9 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
   options.view.line_width = 2.5;
   options.view.line_opacity = 0.3;
   style_lines(options.view, view.style);
-  const Session session = load_session(model.save_session(state.settings, view, {}));
+  Document document = state.document;
+  model.keep(view, document);
+  const Session session = load_session(model.save_session(document));
   EXPECT_TRUE(has_option(session, "volume", "speed,mass"));
   EXPECT_TRUE(has_option(session, "resample", "7"));
   EXPECT_TRUE(has_option(session, "transfer-function", "ct"));

@@ -17,7 +17,7 @@
 
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/tensor_sampled.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_tractogram.h"
 #include "common/ode/tableau.h"
 #include "common/trace/tract/trace_tracts.h"
 #include "common/trace/tract/tract_walk.h"

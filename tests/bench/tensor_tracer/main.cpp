@@ -38,7 +38,7 @@
 #include "common/base/error.h"
 #include "common/field/tensor/foreground_mask.h"
 #include "common/field/tensor/tensor_fit.h"
-#include "common/load/write_tractogram.h"
+#include "common/load/write/write_tractogram.h"
 #include "common/ode/tableau.h"
 #include "common/trace/tract/trace_tracts.h"
 #include "common/trace/tract/tract_walk.h"

@@ -27,7 +27,7 @@
 #include "common/render/gl/context.h"
 #include "common/render/png.h"
 #include "common/render/scene_renderer.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate::bench {
 namespace {

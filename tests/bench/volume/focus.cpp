@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/volume_picture.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "common/base/clock.h"
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
 #include "tests/bench/volume/sample_views.h"

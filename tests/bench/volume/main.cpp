@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/png.h"

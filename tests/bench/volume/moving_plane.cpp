@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "common/base/clock.h"
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/render/camera.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/volume_picture.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/field/color_transfer.h"
+#include "common/field/transfer/color_transfer.h"
 #include "tests/bench/volume/vtk_side.h"
 
 namespace palpate::bench {

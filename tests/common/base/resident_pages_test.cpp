@@ -1,11 +1,11 @@
-#include "common/base/resident_pages.h"
-
 #include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
+
+#include "common/base/memory.h"
 
 namespace palpate {
 namespace {

@@ -117,18 +117,6 @@ TEST_F(HeadError, EffectOfAnOrientationErrorIsExact) {
   }
 }
 
-TEST_F(HeadError, LinearEffectOfAnOrientationErrorIsWrongToSecondOrder) {
-  const EyePair actual{{-0.0315, 0.6}, {0.0315, 0.6}};
-  const Vec2 at{0.1, -0.2};
-  const auto error = [&](double e) {
-    return orientation_error_effect(actual, at, e) - linear_orientation_error_effect(actual, at, e);
-  };
-  for (const int axis : {0, 1}) {
-    const double order = std::log2(std::abs(error(1e-4)[axis]) / std::abs(error(5e-5)[axis]));
-    EXPECT_NEAR(order, 2.0, 0.05) << axis;
-  }
-}
-
 // The diamond of figure 4.15: no error on the screen, and none across it on the bisector but along x.
 TEST_F(HeadError, VanishesOnTheScreen) {
   const EyePair actual = eyes();

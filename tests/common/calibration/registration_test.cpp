@@ -152,18 +152,19 @@ TEST(Coregistration, RobustLossesWithstandASensorThatJumped) {
   EXPECT_LT(off(Loss::kCauchy), 1.5e-3);
 }
 
-TEST(PoseFromMarkers, IsExactForAnyThreeAndRefusesALine) {
+TEST(AlignPoints, IsExactForThreePointsAndRefusesALine) {
   std::mt19937_64 random{4};
   const auto made = synthetic_apparatus(3, {});
   for (int i = 0; i < 100; ++i) {
     const Rigid pose{random_rotation(random), {0.1 * i, -0.3, 0.7}};
-    std::array<std::optional<Vec3>, kMaxMarkers> seen{};
+    std::vector<Vec3> model, measured;
     for (int k = 0; k < 3; ++k) {
       // Any three that are not two opposite ones and another in line: here never collinear.
       const auto m = static_cast<std::size_t>((i + 2 * k + k / 2) % 6);
-      seen[m] = pose * made.truth.markers[m];
+      model.push_back(made.truth.markers[m]);
+      measured.push_back(pose * model.back());
     }
-    const auto found = pose_from_markers(made.truth.markers, seen);
+    const auto found = align_points(model, measured);
     ASSERT_TRUE(found);
     EXPECT_LT(glm::distance(found->to_from_from.translation, pose.translation), 1e-12);
     EXPECT_LT(angle_between(found->to_from_from.rotation, pose.rotation), 1e-7);

@@ -11,16 +11,17 @@ namespace {
 
 Explorer sample_explorer() {
   Explorer explorer{.name = "flow", .summary = "to test"};
-  const auto nothing = [](const Options&, const VerbContext&) { return ExitCode::kDone; };
-  explorer.verbs.push_back({.name = "info", .summary = "s", .groups = {}, .examples = {}, .run = nothing});
+  const auto nothing = [](const Document&, const VerbContext&) { return ExitCode::kDone; };
+  explorer.verbs.push_back(
+      {.name = "info", .summary = "s", .groups = {Group::kInput}, .examples = {}, .run = nothing});
   explorer.verbs.push_back({.name = "trace",
                             .summary = "s",
-                            .groups = {.tracing = true, .out = true},
+                            .groups = {Group::kInput, Group::kLines, Group::kOut},
                             .examples = {},
                             .run = nothing});
   explorer.verbs.push_back({.name = "open",
                             .summary = "s",
-                            .groups = {.tracing = true, .view = true},
+                            .groups = {Group::kInput, Group::kLines, Group::kView},
                             .examples = {},
                             .run = nothing});
   return explorer;
@@ -125,8 +126,20 @@ TEST_F(SessionOnTheCommandLine, LeavesOutWhatTheVerbHasNoUseFor) {
 }
 
 TEST_F(SessionOnTheCommandLine, NamesAnOptionThatIsNone) {
-  EXPECT_EQ(refusal({"open", "--session", session("colour = \"red\"\n")}).front(), '3');
+  const std::string line = refusal({"open", "--session", session("colour = \"red\"\n")});
+  EXPECT_EQ(line.front(), '3');
+  EXPECT_NE(line.find("'color'"), std::string::npos) << line;
   EXPECT_EQ(refusal({"open", "--session", session("tolerance = \"tight\"\n")}).front(), '2');
+}
+
+TEST_F(SessionOnTheCommandLine, OfANewerProgramIsReadAsFarAsItIsKnown) {
+  const std::string file =
+      folder_.write("n.toml", "format = 99\nprogram = \"flow\"\n[scene]\nseeds = \"grid:2,2,2\"\nhue = 3\n")
+          .string();
+  const ParsedCommand parsed = parse({"open", "a.vtk", "--session", file});
+  EXPECT_EQ(parsed.options.tracing.seeds, "grid:2,2,2");
+  ASSERT_EQ(parsed.notes.size(), 1U);
+  EXPECT_NE(parsed.notes[0].find("'hue'"), std::string::npos) << parsed.notes[0];
 }
 
 }  // namespace

@@ -14,6 +14,13 @@
 namespace palpate {
 namespace {
 
+/// With ';' between, as a session has them.
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) (all += all.empty() ? "" : ";") += text;
+  return all;
+}
+
 Lens lens_of(const std::string& text) { return parse_lens(text).lens; }
 
 std::optional<std::string> words_of(const Lens& lens) { return lens_text(lens, VolumeView{}); }
@@ -48,9 +55,9 @@ TEST(LensText, GivesTheWordsBack) {
   }
   VolumeView view;
   view.lenses = {lens_of("sphere:1,2,3,4"), lens_of("halfspace:1,0,0,2,cut")};
-  EXPECT_EQ(lenses_text(view), "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
+  EXPECT_EQ(joined(lens_texts(view)), "sphere:1,2,3,4;halfspace:1,0,0,2,cut");
   view.cuts = {{.kept = {{0.0, 1.0, 0.0}, 3.0}, .on = false}};
-  EXPECT_EQ(lenses_text(view), "halfspace:0,1,0,3,cut,off;sphere:1,2,3,4;halfspace:1,0,0,2,cut");
+  EXPECT_EQ(joined(lens_texts(view)), "halfspace:0,1,0,3,cut,off;sphere:1,2,3,4;halfspace:1,0,0,2,cut");
   const Lens oblique = lens_of("cylinder:0.1,0.2,0.3,1,2,-3,0.7");
   const Lens again = lens_of(*words_of(oblique));
   EXPECT_NEAR(glm::distance(center_of(oblique.shape, {}), center_of(again.shape, {})), 0.0, 1e-14);
@@ -137,7 +144,7 @@ TEST(Lenses, ThatCutComeFirstAndShowNothingOfTheirOwn) {
   view.lenses = lenses;
   view.cuts = parts.cuts;
   view.shading = false;
-  EXPECT_EQ(lenses_text(view),
+  EXPECT_EQ(joined(lens_texts(view)),
             "halfspace:0,0,1,5,cut;halfspace:1,0,0,2,cut;halfspace:0,1,0,3,cut,off;sphere:0,0,0,2,cut;sphere:"
             "0,0,0,1");
   EXPECT_FALSE(lenses[0].transfer);
@@ -164,7 +171,7 @@ TEST(Lenses, OfFacesComeBackToTheBit) {
     const VolumeParts first = make_parts(options);
     view.cuts = first.cuts;
     view.lenses = first.lenses;
-    const std::string saved = lenses_text(view);
+    const std::string saved = joined(lens_texts(view));
     options.lenses = {saved.substr(0, saved.find(';')), saved.substr(saved.find(';') + 1)};
     const VolumeParts again = make_parts(options);
     ASSERT_EQ(again.cuts, first.cuts) << saved;
@@ -211,7 +218,7 @@ TEST(Lenses, KeepRaysOfTheirOwn) {
   EXPECT_EQ(view.lenses[0].magnification, 3.0);
   EXPECT_EQ(view.lenses[1].samples_per_voxel, 2.0);
   EXPECT_TRUE(view.lenses[1].shading);
-  EXPECT_EQ(lenses_text(view), "sphere:0,0,0,1,magnify=3,samples=8,shading=off;box:0,0,0,1,1,1");
+  EXPECT_EQ(joined(lens_texts(view)), "sphere:0,0,0,1,magnify=3,samples=8,shading=off;box:0,0,0,1,1,1");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "common/base/error.h"
 #include "common/compose/domain_outline.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {
@@ -74,7 +74,7 @@ TEST(Derived, MeasuresOfSampledFieldsTendToTheFormulas) {
     std::array<double, 2> error{};
     for (std::size_t level = 0; level < 2; ++level) {
       const int n = level == 0 ? 17 : 33;
-      const auto field = make_vector_field({sample_uniform(*formula, {n, n, n})}, choice, "test");
+      const auto field = make_vector_field({test::sample_uniform(*formula, {n, n, n})}, choice, "test");
       std::mt19937_64 random(6);
       CellHint hint;
       for (int i = 0; i < 1000; ++i) {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "tests/support/sample_meshes.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {
@@ -64,7 +64,8 @@ TEST(HexahedronDifference, FallsWithTheSquareOfTheCellSize) {
   std::array<double, 2> rms{};
   for (std::size_t level = 0; level < 2; ++level) {
     const int n = level == 0 ? 17 : 33;
-    rms[level] = difference_of(sample_curvilinear(*formula, {n, n, n}, 0.2, SampledType::kFloat64)).rms;
+    rms[level] =
+        difference_of(test::sample_curvilinear(*formula, {n, n, n}, 0.2, test::SampledType::kFloat64)).rms;
   }
   EXPECT_NEAR(std::log2(rms[0] / rms[1]), 2.0, 0.2);
 }
@@ -76,9 +77,9 @@ TEST(HexahedronDifference, IsStatedForCurvilinearDataAndNotForBoxes) {
       return line.find("trilinear hexahedra") != std::string::npos;
     });
   };
-  EXPECT_TRUE(states(*make_vector_field({sample_curvilinear(*formula, {6, 6, 6})}, kVelocity, "test")));
-  EXPECT_FALSE(states(*make_vector_field({sample_uniform(*formula, {6, 6, 6})}, kVelocity, "test")));
-  EXPECT_FALSE(states(*make_vector_field({sample_tetrahedra(*formula, {6, 6, 6})}, kVelocity, "test")));
+  EXPECT_TRUE(states(*make_vector_field({test::sample_curvilinear(*formula, {6, 6, 6})}, kVelocity, "test")));
+  EXPECT_FALSE(states(*make_vector_field({test::sample_uniform(*formula, {6, 6, 6})}, kVelocity, "test")));
+  EXPECT_FALSE(states(*make_vector_field({test::sample_tetrahedra(*formula, {6, 6, 6})}, kVelocity, "test")));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "common/field/vector_field.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::test {
 

@@ -9,8 +9,8 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "tests/support/sample_meshes.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {
@@ -53,8 +53,9 @@ DataSet with_scalar(DataSet block, bool use_double) {
 TEST(ScalarField, LinearFieldsAndTheirGradientsAreExactOnEveryGrid) {
   const auto formula = example("cavity");
   std::mt19937_64 random(1);
-  for (DataSet block : {sample_uniform(*formula, {6, 7, 8}), sample_curvilinear(*formula, {6, 7, 8}),
-                        sample_tetrahedra(*formula, {6, 7, 8})}) {
+  for (DataSet block :
+       {test::sample_uniform(*formula, {6, 7, 8}), test::sample_curvilinear(*formula, {6, 7, 8}),
+        test::sample_tetrahedra(*formula, {6, 7, 8})}) {
     block = with_scalar(std::move(block), true);
     const auto field = make_vector_field({block}, kVelocity, "test");
     const auto scalar = make_scalar_field(*field, {block}, {"t"}, "test");
@@ -87,7 +88,7 @@ TEST(ScalarField, JoinedBlocksBringTheirValuesAlong) {
 
 TEST(ScalarField, ComponentsAndMagnitudesOfVectorsAreScalars) {
   const auto formula = example("cavity");
-  const DataSet block = sample_uniform(*formula, {9, 9, 9}, SampledType::kFloat64);
+  const DataSet block = test::sample_uniform(*formula, {9, 9, 9}, test::SampledType::kFloat64);
   const auto field = make_vector_field({block}, kVelocity, "test");
   const auto z = make_scalar_field(*field, {block}, {"velocity", Association::kPoint, 2}, "test");
   const auto size =
@@ -99,7 +100,7 @@ TEST(ScalarField, ComponentsAndMagnitudesOfVectorsAreScalars) {
 }
 
 TEST(ScalarField, OutsideAndNaNSaySo) {
-  DataSet block = with_scalar(sample_uniform(*example("cavity"), {5, 5, 5}), false);
+  DataSet block = with_scalar(test::sample_uniform(*example("cavity"), {5, 5, 5}), false);
   std::vector<float> numbers;
   for (std::size_t i = 0; i < 125; ++i) numbers.push_back(static_cast<float>(block.arrays[1].at(i)));
   numbers[0] = std::numeric_limits<float>::quiet_NaN();
@@ -115,13 +116,13 @@ TEST(ScalarField, OutsideAndNaNSaySo) {
 }
 
 TEST(ScalarField, WrongRequestsAreRefused) {
-  const DataSet block = with_scalar(sample_uniform(*example("cavity"), {5, 5, 5}), false);
+  const DataSet block = with_scalar(test::sample_uniform(*example("cavity"), {5, 5, 5}), false);
   const auto field = make_vector_field({block}, kVelocity, "test");
   EXPECT_THROW((void)make_scalar_field(*field, {block}, {"none"}, "test"), Error);
   EXPECT_THROW((void)make_scalar_field(*field, {block}, {"t", Association::kCell}, "test"), Error);
   EXPECT_THROW((void)make_scalar_field(*field, {block}, {"t", Association::kPoint, 1}, "test"), Error);
   EXPECT_THROW((void)make_scalar_field(*field, {}, {"t"}, "test"), Error);
-  const DataSet other = with_scalar(sample_uniform(*example("cavity"), {5, 5, 6}), false);
+  const DataSet other = with_scalar(test::sample_uniform(*example("cavity"), {5, 5, 6}), false);
   EXPECT_THROW((void)make_scalar_field(*field, {other}, {"t"}, "test"), Error);
   const auto formula = make_vector_field(example("abc"));
   EXPECT_THROW((void)make_scalar_field(*formula, {block}, {"t"}, "test"), Error);
@@ -175,8 +176,8 @@ TEST(ScalarField, StandsAloneOnVolumesOfAnyType) {
 }
 
 TEST(ScalarField, LeavesOutBlocksWithoutTheArrayAndRefusesWhereNoneHasIt) {
-  const DataSet with = with_scalar(sample_uniform(*example("cavity"), {5, 5, 5}), false);
-  const DataSet without = sample_uniform(*example("cavity"), {5, 5, 5});
+  const DataSet with = with_scalar(test::sample_uniform(*example("cavity"), {5, 5, 5}), false);
+  const DataSet without = test::sample_uniform(*example("cavity"), {5, 5, 5});
   const auto field = make_scalar_field({without, with}, {"t"}, "test");
   ASSERT_NE(field->box_grid(), nullptr);
   EXPECT_NE(field->notes().lines.front().find("left out"), std::string::npos);
@@ -187,8 +188,8 @@ TEST(ScalarField, LeavesOutBlocksWithoutTheArrayAndRefusesWhereNoneHasIt) {
 // Local values and lengths differ by powers of two alone.
 TEST(ScalarField, ScalingByPowersOfTwoGivesTheSameBitsInFrameL) {
   const auto make = [](int length_exponent, int value_exponent) {
-    DataSet block =
-        with_scalar(sample_tetrahedra(*example("cavity"), {5, 5, 5}, 0.2, 1, SampledType::kFloat64), true);
+    DataSet block = with_scalar(
+        test::sample_tetrahedra(*example("cavity"), {5, 5, 5}, 0.2, 1, test::SampledType::kFloat64), true);
     auto& topology = std::get<UnstructuredTopology>(block.topology);
     const auto scaled = [](const DataArray& array, int exponent) {
       std::vector<double> values;
@@ -218,7 +219,7 @@ TEST(ScalarField, ScalingByPowersOfTwoGivesTheSameBitsInFrameL) {
 // The derivatives of the trilinear interpolant, against central differences, which are exact along an axis.
 TEST(ScalarField, JetsHoldTheDerivativesOfTheCellsInterpolant) {
   std::mt19937_64 random(3);
-  DataSet block = sample_rectilinear(*example("cavity"), {5, 6, 7});
+  DataSet block = test::sample_rectilinear(*example("cavity"), {5, 6, 7});
   std::vector<double> values;
   for (int i = 0; i < 5 * 6 * 7; ++i) values.push_back(unit(random));
   block.arrays = {make_array("t", Association::kPoint, 1, std::span<const double>(values))};
@@ -252,8 +253,8 @@ TEST(ScalarField, JetsHoldTheDerivativesOfTheCellsInterpolant) {
 TEST(ScalarField, SpeedIsThatOfTheFlow) {
   const auto formula = example("abc");
   const auto exact = make_speed_field(make_vector_field(formula, 3, -2));
-  const auto sampled = make_speed_field(
-      make_vector_field({sample_uniform(*formula, {9, 9, 9}, SampledType::kFloat64)}, kVelocity, "test"));
+  const auto sampled = make_speed_field(make_vector_field(
+      {test::sample_uniform(*formula, {9, 9, 9}, test::SampledType::kFloat64)}, kVelocity, "test"));
   const Vec3 node = formula->bounds().size() * 0.25;
   CellHint hint;
   EXPECT_DOUBLE_EQ(sampled->sample(node, hint).value, glm::length(formula->velocity(node)));

@@ -1,11 +1,10 @@
-#include "common/field/scalar_threshold.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/scalar_examples.h"
+#include "common/field/value_histogram.h"
 
 namespace palpate {
 namespace {

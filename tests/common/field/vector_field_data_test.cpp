@@ -20,8 +20,9 @@ using test::linear;
 
 TEST(VectorFieldData, ValuesAreSharedWhereTheDataAllows) {
   const auto formula = example("hill");
-  for (const DataSet& block : {sample_uniform(*formula, {6, 6, 6}), sample_curvilinear(*formula, {6, 6, 6}),
-                               sample_tetrahedra(*formula, {6, 6, 6})}) {
+  for (const DataSet& block :
+       {test::sample_uniform(*formula, {6, 6, 6}), test::sample_curvilinear(*formula, {6, 6, 6}),
+        test::sample_tetrahedra(*formula, {6, 6, 6})}) {
     const auto field = field_of(block);
     const auto values = std::get<std::span<const float>>(field->values().values);
     EXPECT_EQ(static_cast<const void*>(values.data()),
@@ -32,7 +33,8 @@ TEST(VectorFieldData, ValuesAreSharedWhereTheDataAllows) {
 
 TEST(VectorFieldData, NaNHolesAreBadDataAndCounted) {
   const auto formula = example("abc");
-  for (DataSet block : {sample_uniform(*formula, {9, 9, 9}), sample_curvilinear(*formula, {9, 9, 9}, 0.0)}) {
+  for (DataSet block :
+       {test::sample_uniform(*formula, {9, 9, 9}), test::sample_curvilinear(*formula, {9, 9, 9}, 0.0)}) {
     std::vector<float> numbers;
     for (std::size_t i = 0; i < block.arrays[0].tuples; ++i) {
       for (int c = 0; c < 3; ++c) numbers.push_back(static_cast<float>(block.arrays[0].at(i, c)));
@@ -57,7 +59,8 @@ TEST(VectorFieldData, BlankedPointsAreBadDataOnBoxesAndHolesInTetrahedra) {
   const auto formula = example("abc");
   const Vec3 h = formula->bounds().size() / 8.0;
   for (const bool box : {true, false}) {
-    DataSet block = box ? sample_uniform(*formula, {9, 9, 9}) : sample_curvilinear(*formula, {9, 9, 9}, 0.0);
+    DataSet block =
+        box ? test::sample_uniform(*formula, {9, 9, 9}) : test::sample_curvilinear(*formula, {9, 9, 9}, 0.0);
     block.visible.assign(729, 1);
     block.visible[4 + 9 * (4 + 9 * 4)] = 0;
     const auto field = field_of(block);
@@ -69,7 +72,7 @@ TEST(VectorFieldData, BlankedPointsAreBadDataOnBoxesAndHolesInTetrahedra) {
 }
 
 TEST(VectorFieldData, ComponentsMakeTheSameFieldAsTheArray) {
-  const DataSet block = sample_curvilinear(*example("hill"), {6, 7, 8});
+  const DataSet block = test::sample_curvilinear(*example("hill"), {6, 7, 8});
   DataSet parts = block;
   parts.arrays.clear();
   for (int c = 0; c < 3; ++c) {
@@ -89,7 +92,7 @@ TEST(VectorFieldData, ComponentsMakeTheSameFieldAsTheArray) {
 }
 
 TEST(VectorFieldData, MomentumIsDividedByDensity) {
-  DataSet block = sample_uniform(Linear(), {4, 4, 4}, SampledType::kFloat64);
+  DataSet block = test::sample_uniform(Linear(), {4, 4, 4}, test::SampledType::kFloat64);
   std::vector<double> density;
   std::vector<double> momentum;
   for (std::size_t i = 0; i < 64; ++i) {
@@ -125,7 +128,7 @@ DataSet with_cell_values(DataSet block, const std::vector<Vec3>& centres) {
 // intervals the wider weighs more.
 TEST(VectorFieldData, CellValuesComeToPointsByVolume) {
   const VectorChoice choice{VectorChoice::Kind::kArray, Association::kCell, {"velocity"}, "velocity"};
-  DataSet block = sample_uniform(Linear(), {5, 5, 5});
+  DataSet block = test::sample_uniform(Linear(), {5, 5, 5});
   const auto& grid = std::get<UniformTopology>(block.topology);
   std::vector<Vec3> centres;
   for (int k = 0; k < 4; ++k) {
@@ -178,7 +181,7 @@ std::string refusal(const std::vector<DataSet>& blocks, const VectorChoice& choi
 }
 
 TEST(VectorFieldData, BadDataSetsAreRefusedInOneLine) {
-  const DataSet good = sample_uniform(Linear(), {4, 4, 4});
+  const DataSet good = test::sample_uniform(Linear(), {4, 4, 4});
   DataSet flat = good;
   std::get<UniformTopology>(flat.topology).points = {16, 4, 1};
   EXPECT_NE(refusal({flat}).find("flat grid of 16 x 4 x 1"), std::string::npos);
@@ -212,7 +215,7 @@ TEST(VectorFieldData, BadDataSetsAreRefusedInOneLine) {
   std::get<UniformTopology>(coarse.topology).origin.x = 1e17;
   EXPECT_FALSE(refusal({coarse}).empty());
 
-  DataSet uneven = sample_rectilinear(Linear(), {4, 4, 4});
+  DataSet uneven = test::sample_rectilinear(Linear(), {4, 4, 4});
   std::get<RectilinearTopology>(uneven.topology).coordinates[2][1] = 9.0;
   EXPECT_FALSE(refusal({uneven}).empty());
 
@@ -221,7 +224,7 @@ TEST(VectorFieldData, BadDataSetsAreRefusedInOneLine) {
 }
 
 TEST(VectorFieldData, BlocksWithoutTheArrayAreLeftOutAndNoted) {
-  const DataSet good = sample_uniform(Linear(), {4, 4, 4});
+  const DataSet good = test::sample_uniform(Linear(), {4, 4, 4});
   DataSet other = good;
   other.name = "wall";
   other.arrays.clear();

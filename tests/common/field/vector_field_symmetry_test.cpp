@@ -52,11 +52,11 @@ DataSet scaled(const DataSet& block, int length, int speed) {
 
 TEST(VectorFieldSymmetry, PowersOfTwoGiveTheSameBits) {
   const auto formula = example("tornado");
-  for (const SampledType type : {SampledType::kFloat32, SampledType::kFloat64}) {
-    const std::vector<DataSet> blocks{sample_uniform(*formula, {9, 8, 10}, type),
-                                      sample_rectilinear(*formula, {9, 8, 10}, 3.0, type),
-                                      sample_curvilinear(*formula, {9, 8, 10}, 0.25, type),
-                                      sample_tetrahedra(*formula, {9, 8, 10}, 0.2, 1, type)};
+  for (const test::SampledType type : {test::SampledType::kFloat32, test::SampledType::kFloat64}) {
+    const std::vector<DataSet> blocks{test::sample_uniform(*formula, {9, 8, 10}, type),
+                                      test::sample_rectilinear(*formula, {9, 8, 10}, 3.0, type),
+                                      test::sample_curvilinear(*formula, {9, 8, 10}, 0.25, type),
+                                      test::sample_tetrahedra(*formula, {9, 8, 10}, 0.2, 1, type)};
     for (const DataSet& block : blocks) {
       const auto field = field_of(block);
       for (const auto& [length, speed] : {std::array{60, 0}, {0, 60}, {60, 60}, {-60, 60}, {60, -60}}) {
@@ -108,7 +108,7 @@ Mat3 rotation_about(const Vec3& axis, double angle) {
 
 TEST(VectorFieldSymmetry, RotatedImagesGiveTheRotatedField) {
   const auto formula = example("cavity");
-  const DataSet block = sample_uniform(*formula, {8, 9, 7}, SampledType::kFloat64);
+  const DataSet block = test::sample_uniform(*formula, {8, 9, 7}, test::SampledType::kFloat64);
   const auto field = field_of(block);
   const Mat3 rotation = rotation_about({1.0, 2.0, -0.5}, 0.7);
   const auto other = field_of(turned(block, rotation));
@@ -134,7 +134,7 @@ TEST(VectorFieldSymmetry, RotatedImagesGiveTheRotatedField) {
 /// The same field on a uniform grid whose axes are flipped and permuted in every way.
 TEST(VectorFieldSymmetry, FlippedAndPermutedAxesGiveTheSameFieldToRounding) {
   const auto formula = example("tornado");
-  const DataSet block = sample_uniform(*formula, {5, 6, 7});
+  const DataSet block = test::sample_uniform(*formula, {5, 6, 7});
   const auto& grid = std::get<UniformTopology>(block.topology);
   const auto field = field_of(block);
   std::array<int, 3> order{0, 1, 2};
@@ -188,7 +188,7 @@ TEST(VectorFieldSymmetry, FlippedAndPermutedAxesGiveTheSameFieldToRounding) {
 
 TEST(VectorFieldSymmetry, ShearedAxesAreSplitIntoTetrahedra) {
   const Linear formula;
-  DataSet block = sample_uniform(formula, {6, 6, 6}, SampledType::kFloat64);
+  DataSet block = test::sample_uniform(formula, {6, 6, 6}, test::SampledType::kFloat64);
   auto& grid = std::get<UniformTopology>(block.topology);
   grid.axes[1].x = 0.3 * grid.axes[0].x;
   std::vector<double> numbers;
@@ -211,7 +211,7 @@ TEST(VectorFieldSymmetry, ShearedAxesAreSplitIntoTetrahedra) {
 TEST(VectorFieldSymmetry, LocalUnitsAreNearOne) {
   const auto formula = example("abc");
   for (const int exponent : {-100, -3, 0, 7, 100}) {
-    const auto field = field_of(scaled(sample_curvilinear(*formula, {6, 6, 6}), exponent, -exponent));
+    const auto field = field_of(scaled(test::sample_curvilinear(*formula, {6, 6, 6}), exponent, -exponent));
     const double diagonal = field->diagonal() / field->frame().length_scale();
     EXPECT_GE(diagonal, 1.0);
     EXPECT_LT(diagonal, 2.0);
@@ -222,7 +222,7 @@ TEST(VectorFieldSymmetry, LocalUnitsAreNearOne) {
 }
 
 TEST(VectorFieldSymmetry, ADescendingAxisIsTheSameGrid) {
-  const DataSet block = sample_rectilinear(Linear(), {4, 5, 6}, 3.0, SampledType::kFloat64);
+  const DataSet block = test::sample_rectilinear(Linear(), {4, 5, 6}, 3.0, test::SampledType::kFloat64);
   DataSet other = block;
   auto& lines = std::get<RectilinearTopology>(other.topology).coordinates;
   std::ranges::reverse(lines[1]);

@@ -1,11 +1,11 @@
 // Lengths of lines worked by hand.
 
-#include "common/geometry/tractogram_lengths.h"
-
 #include <array>
 #include <numeric>
 
 #include <gtest/gtest.h>
+
+#include "common/geometry/tractogram.h"
 
 namespace palpate {
 namespace {

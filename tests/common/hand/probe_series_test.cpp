@@ -86,7 +86,7 @@ class ProbeSeriesTest : public ::testing::Test {
   }
 
   TempFolder folder_;
-  InputSpec input_;
+  InputOptions input_;
   ProbeSeries series_{[] {}};
 };
 

@@ -15,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/hand/mode/texture_link.h"
+#include "common/haptics/constraint/isotropic_drag.h"
 #include "common/servo/recording.h"
 #include "tests/common/hand/sample_modes.h"
 #include "tests/common/trace/helix_field.h"
@@ -58,10 +59,10 @@ class Hand {
   void grab(const Vec3& at) { session.grab(seconds(), at); }
   /// Moves as a hand does, a little each frame.
   void move_to(const Vec3& to) {
-    const Vec3 from = session.intent().probe;
+    const Vec3 from = session.hand().intent().probe;
     constexpr int kFrames = 40;
     for (int i = 1; i <= kFrames; ++i) {
-      session.move(from + (to - from) * (static_cast<double>(i) / kFrames));
+      session.hand().move(from + (to - from) * (static_cast<double>(i) / kFrames));
       frame();
     }
   }
@@ -80,9 +81,9 @@ class Hand {
 
 /// Keeps the followed line; whether there was one.
 bool keep(ProbeSession& session) {
-  const std::size_t before = session.kept().entries().size();
-  (void)session.keep_line();
-  return session.kept().entries().size() > before;
+  const std::size_t before = session.trail().kept().entries().size();
+  (void)session.trail().keep_line();
+  return session.trail().kept().entries().size() > before;
 }
 
 /// Distance of `x` from the helix through `seed`.
@@ -103,7 +104,7 @@ TEST(ProbeSession, WithoutModesThereIsNoTouch) {
   session.grab(0.0, kSeed);
   ProbeView view;
   session.update(0.0, Camera{}, ColorBy::kSpeed, view);
-  EXPECT_FALSE(session.grabbed());
+  EXPECT_FALSE(session.hand().grabbed());
   EXPECT_FALSE(session.readout().held);
   EXPECT_FALSE(keep(session));
   session.finish();
@@ -115,7 +116,7 @@ TEST(ProbeSession, HoldsTheProbeOnTheLineThatItIsPutOn) {
   EXPECT_FALSE(hand.session.readout().held);
   EXPECT_FALSE(is_finite(hand.view.probe)) << "no hand, nothing to draw";
   hand.grab(kSeed);
-  EXPECT_TRUE(hand.session.grabbed());
+  EXPECT_TRUE(hand.session.hand().grabbed());
   EXPECT_TRUE(hand.session.lively());
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
 
@@ -170,13 +171,13 @@ TEST(ProbeSession, LettingGoLeavesTheLineInThePictureAndToBeKept) {
   hand.grab(kSeed);
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   hand.move_to({0.75, 0.75, 0.2});
-  hand.session.let_go();
-  EXPECT_FALSE(hand.session.grabbed());
+  hand.session.hand().let_go();
+  EXPECT_FALSE(hand.session.hand().grabbed());
   ASSERT_TRUE(hand.wait_for([&] { return !hand.session.readout().held; }));
   EXPECT_FALSE(is_finite(hand.view.probe));
   EXPECT_TRUE(hand.view.followed) << "stays until the next line is caught";
   ASSERT_TRUE(keep(hand.session));
-  const KeptLines::Entry& kept = hand.session.kept().entries().front();
+  const KeptLines::Entry& kept = hand.session.trail().kept().entries().front();
   ASSERT_GT(kept.line->points.size(), 10U);
   ASSERT_EQ(kept.forces.size(), kept.line->points.size());
   for (const LinePoint& point : kept.line->points) EXPECT_LE(off_the_line(point.position), 7e-6);
@@ -189,13 +190,13 @@ TEST(ProbeSession, KeepsTheForcesOfTheHoldAtHandOnly) {
   hand.grab(kSeed);
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   hand.move_to({0.85, 0.85, 0.2});
-  hand.session.let_go();
+  hand.session.hand().let_go();
   ASSERT_TRUE(hand.wait_for([&] { return !hand.session.readout().held; }));
   const Vec3 other{0.0, -0.5, -1.0};
   hand.grab(other);
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   ASSERT_TRUE(keep(hand.session));
-  const KeptLines::Entry& kept = hand.session.kept().entries().front();
+  const KeptLines::Entry& kept = hand.session.trail().kept().entries().front();
   EXPECT_LE(off_the_line(kept.line->points[kept.line->points.size() / 2].position, other), 7e-6);
   EXPECT_LT(kept.largest_force, 1e-3) << "nothing of what was felt on the other line";
   for (std::size_t i = 0; i < kept.forces.size(); ++i) {
@@ -210,8 +211,8 @@ TEST(ProbeSession, AnotherFieldLetsGoAndForgets) {
   ASSERT_TRUE(keep(hand.session));
   ASSERT_TRUE(hand.wait_for([&] { return hand.view.followed != nullptr; }));
   hand.session.set_field({helix_flow(2.0 * kRise), field_key("helix", 1)});
-  EXPECT_FALSE(hand.session.grabbed());
-  EXPECT_TRUE(hand.session.kept().entries().empty());
+  EXPECT_FALSE(hand.session.hand().grabbed());
+  EXPECT_TRUE(hand.session.trail().kept().entries().empty());
   hand.frame();
   EXPECT_EQ(hand.view.followed, nullptr) << "a line of the other field";
   EXPECT_FALSE(keep(hand.session)) << "likewise";
@@ -227,12 +228,12 @@ TEST(ProbeSession, ForceGoesOffAndComesBack) {
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   hand.move_to({1.15, 0.0, 0.0});
   ASSERT_TRUE(hand.wait_for([&] { return hand.session.readout().force > 0.5; }));
-  hand.session.force_off();
+  hand.session.servo().force_off();
   ASSERT_TRUE(hand.wait_for([&] { return hand.session.readout().force == 0.0; }));
   ASSERT_TRUE(hand.wait_for([&] { return !hand.session.readout().servo.armed; }));
   EXPECT_EQ(hand.session.readout().cut, ForceCut::kSwitchedOff);
   EXPECT_EQ(hand.session.readout().state, HoldState::kHeld) << "the proxy goes on";
-  hand.session.arm();
+  hand.session.servo().arm();
   ASSERT_TRUE(hand.wait_for([&] { return hand.session.readout().force > 0.5; }));
 }
 
@@ -264,7 +265,7 @@ TEST(ProbeSession, ChoicesTakeEffectWhileTheHandIsOn) {
   hand.session.choose(choice);
   EXPECT_TRUE(hand.wait_for([&] { return readout.servo.hand.chain.links == 1; }));
   EXPECT_EQ(hand.view.followed, nullptr) << "this mode follows no line";
-  EXPECT_TRUE(hand.session.grabbed());
+  EXPECT_TRUE(hand.session.hand().grabbed());
 
   choice.mode = 0;
   choice.show_balls = false;
@@ -300,6 +301,7 @@ TEST(ProbeSession, NoiseIsMeasuredOnceAndFeltThen) {
            made.noise = std::move(noise);
            return made;
          }});
+    options.modes.back().texture = std::string(name) == "density";
   }
   ProbeSession session(std::move(options), [] {});
   NamedField open{.field = nullptr, .name = "blob"};
@@ -342,7 +344,7 @@ TEST(ProbeSession, ARecordedRunIsReplayedIdentically) {
     Hand hand(options);
     hand.grab(kSeed);
     ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
-    hand.session.record_event(7, "keydown 71 0");
+    hand.session.servo().record_event(7, "keydown 71 0");
     hand.move_to({0.9, 0.6, 0.2});
     TouchChoice choice = hand.session.choice();
     choice.settings.stiffness = 321.0;
@@ -350,11 +352,11 @@ TEST(ProbeSession, ARecordedRunIsReplayedIdentically) {
     choice.ticks = true;
     hand.session.choose(choice);
     hand.move_to({1.4, 0.6, 0.1});
-    hand.session.force_off();
+    hand.session.servo().force_off();
     hand.move_to({1.4, 0.9, 0.1});
-    hand.session.arm();
+    hand.session.servo().arm();
     hand.move_to({1.2, 0.9, 0.1});
-    hand.session.record_event(9, "keydown 75 0");
+    hand.session.servo().record_event(9, "keydown 75 0");
     hand.frame();
     hand.session.finish();
   }
@@ -366,16 +368,16 @@ TEST(ProbeSession, ARecordedRunIsReplayedIdentically) {
   EXPECT_EQ(options.replay->header.program, "test");
 
   Hand hand(options);
-  EXPECT_TRUE(hand.session.replaying());
-  EXPECT_EQ(hand.session.replay_verdict(), "");
+  EXPECT_TRUE(hand.session.servo().replaying());
+  EXPECT_EQ(hand.session.servo().replay_verdict(), "");
   hand.grab({0.0, 1.5, 0.0});
-  EXPECT_FALSE(hand.session.grabbed()) << "the hand is that of the recording";
+  EXPECT_FALSE(hand.session.hand().grabbed()) << "the hand is that of the recording";
   std::vector<std::string> events;
   ASSERT_TRUE(hand.wait_for([&] {
-    for (std::string& text : hand.session.due_events()) events.push_back(std::move(text));
-    return !hand.session.replay_verdict().empty();
+    for (std::string& text : hand.session.servo().due_events()) events.push_back(std::move(text));
+    return !hand.session.servo().replay_verdict().empty();
   }));
-  EXPECT_EQ(hand.session.replay_verdict(),
+  EXPECT_EQ(hand.session.servo().replay_verdict(),
             "identical: " + std::to_string(steps) + " of " + std::to_string(steps) + " steps");
   EXPECT_EQ(events, (std::vector<std::string>{"keydown 71 0", "keydown 75 0"}));
   EXPECT_TRUE(hand.view.followed) << "the line of the recording is drawn";
@@ -394,20 +396,20 @@ TEST(ProbeSession, KeepsAMouseOnTheSurfaceOfTheWorkbench) {
     hand.frame();
     const Vec3 n = camera.axes * Vec3{surface};
     const auto off = [&] {
-      return std::abs(glm::dot(n, hand.session.intent().probe - camera.focal_point) -
-                      surface.w / hand.session.metres_per_unit());
+      return std::abs(glm::dot(n, hand.session.hand().intent().probe - camera.focal_point) -
+                      surface.w / hand.session.data().workspace().scale());
     };
     hand.grab({0.3, 0.4, 0.5});
     EXPECT_LT(off(), 1e-14);
-    const Vec3 grabbed = hand.session.intent().probe;
-    hand.session.lead(WheelTurn{3.0}, camera, {300, 200});
+    const Vec3 grabbed = hand.session.hand().intent().probe;
+    hand.session.hand().lead(WheelTurn{3.0}, camera, {300, 200});
     EXPECT_LT(off(), 1e-14);
-    hand.session.lead(MouseDrag{40.0, -10.0}, camera, {300, 200});
+    hand.session.hand().lead(MouseDrag{40.0, -10.0}, camera, {300, 200});
     EXPECT_LT(off(), 1e-14);
-    EXPECT_GT(glm::distance(hand.session.intent().probe, grabbed), 0.1);
+    EXPECT_GT(glm::distance(hand.session.hand().intent().probe, grabbed), 0.1);
     EXPECT_TRUE(hand.wait_for([&] {
       return hand.session.readout().held &&
-             glm::distance(hand.session.readout().probe, hand.session.intent().probe) < 1e-9;
+             glm::distance(hand.session.readout().probe, hand.session.hand().intent().probe) < 1e-9;
     }));
     hand.session.finish();
   }

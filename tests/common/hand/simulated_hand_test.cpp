@@ -33,6 +33,10 @@ class SimulatedHand {
     return false;
   }
 
+  [[nodiscard]] std::string stiffness_note() const {
+    return session.limits().note(session.choice().settings);
+  }
+
   ProbeSession session;
 
  private:
@@ -53,10 +57,10 @@ TEST(SimulatedHand, WandersByItselfAndComesWhereTheMouseLeads) {
   const Vec3 start = hand.session.readout().probe;
   EXPECT_TRUE(hand.wait_for([&] { return glm::distance(hand.session.readout().probe, start) > 0.05; }));
   EXPECT_TRUE(hand.session.lively());
-  EXPECT_TRUE(hand.session.by_mouse());
+  EXPECT_TRUE(hand.session.hand().by_mouse());
   hand.session.grab(0.0, kSeed);
   EXPECT_TRUE(hand.wait_for([&] { return glm::distance(hand.session.readout().probe, kSeed) < kNear; }));
-  hand.session.let_go();
+  hand.session.hand().let_go();
   EXPECT_TRUE(
       hand.wait_for([&] { return glm::distance(hand.session.readout().probe, kSeed) > 2.0 * kNear; }));
   EXPECT_TRUE(hand.session.readout().held) << "the hand stays on the device";
@@ -65,19 +69,19 @@ TEST(SimulatedHand, WandersByItselfAndComesWhereTheMouseLeads) {
 
 TEST(SimulatedHand, WarnsOfAStiffnessThatTheDeviceCannotShow) {
   SimulatedHand hand(options_with(find_profile("premium3")));
-  EXPECT_EQ(hand.session.stiffness_note(), "") << "the default stiffness is at its bound";
+  EXPECT_EQ(hand.stiffness_note(), "") << "the default stiffness is at its bound";
   TouchChoice choice = hand.session.choice();
   choice.settings.stiffness = 201.0;
   hand.session.choose(choice);
-  EXPECT_NE(hand.session.stiffness_note().find("is above 200 N/m"), std::string::npos);
+  EXPECT_NE(hand.stiffness_note().find("is above 200 N/m"), std::string::npos);
   ProbeSessionOptions fast = options_with(find_profile("premium3"));
   fast.servo_rate = 2000.0;
   fast.choice.settings.stiffness = 201.0;
-  EXPECT_EQ(SimulatedHand(std::move(fast)).session.stiffness_note(), "");
+  EXPECT_EQ(SimulatedHand(std::move(fast)).stiffness_note(), "");
   ProbeSessionOptions mouse;
   mouse.modes = sample_modes();
   mouse.choice.settings.stiffness = 1e6;
-  EXPECT_EQ(SimulatedHand(std::move(mouse)).session.stiffness_note(), "") << "a mouse shows no force";
+  EXPECT_EQ(SimulatedHand(std::move(mouse)).stiffness_note(), "") << "a mouse shows no force";
 }
 
 TEST(SimulatedHand, FollowsAPathAndLetsGoAtItsEnd) {
@@ -85,7 +89,7 @@ TEST(SimulatedHand, FollowsAPathAndLetsGoAtItsEnd) {
   for (int n = 0; n < 800; ++n) options.path.push_back({0.001 * n, kSeed + Vec3{0.0, 0.0, 1e-3 * n}, 1});
   SimulatedHand hand(std::move(options));
   ASSERT_TRUE(hand.wait_for([&] { return hand.session.readout().held; }));
-  EXPECT_FALSE(hand.session.by_mouse());
+  EXPECT_FALSE(hand.session.hand().by_mouse());
   EXPECT_TRUE(hand.wait_for([&] { return hand.session.readout().probe.z > 2.0 * kNear; }));
   EXPECT_TRUE(hand.wait_for([&] { return !hand.session.readout().held; }));
   hand.session.finish();

@@ -85,25 +85,27 @@ TEST_F(TwoHandsSession, TheStylusIsTheProbeAndTheMouseIsNot) {
   EXPECT_TRUE(wait_for([&] {
     return session_.readout().held && std::abs(session_.readout().probe.x - x) < 1e-9;
   })) << session_.readout().probe.x;
-  EXPECT_FALSE(session_.by_mouse());
+  EXPECT_FALSE(session_.hand().by_mouse());
   session_.grab(time_, Vec3{0.9});
-  session_.lead(MouseDrag{100.0, 0.0}, {}, {300, 200});
-  EXPECT_NEAR(session_.intent().probe.x, x, 1e-9);
+  session_.hand().lead(MouseDrag{100.0, 0.0}, {}, {300, 200});
+  EXPECT_NEAR(session_.hand().intent().probe.x, x, 1e-9);
   // When the recording is over, so is the hand.
   go_on(1.2);
   EXPECT_TRUE(wait_for([&] { return !session_.readout().held; }));
 }
 
-TEST_F(TwoHandsSession, TheOtherHandCarriesThePlaneAndUndoTakesItBack) {
+TEST_F(TwoHandsSession, TheOtherHandCarriesThePlaneWhichIsRestoredFromTheDocument) {
   const Vec3 up{0.0, 0.0, 1.0};
   ASSERT_TRUE(plane_comes_to(up));
+  TouchOptions before;
+  session_.keep(before);
   go_on(0.45);
   EXPECT_TRUE(wait_for([&] { return axes_of(session_.planes()->poses.pose[0])[2] != up; })) << "on its way";
   EXPECT_FALSE(plane_is_at(kTurn * up));
   go_on(0.5);
   EXPECT_TRUE(plane_comes_to(kTurn * up));
-  EXPECT_TRUE(session_.undo());
-  EXPECT_TRUE(plane_comes_to(up)) << "one hold, one step back";
+  session_.restore(before);
+  EXPECT_TRUE(plane_comes_to(up));
 }
 
 }  // namespace

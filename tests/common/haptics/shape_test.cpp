@@ -1,13 +1,11 @@
 // Shapes of widgets: when they hold, and what is left of it at their middle, ends and bends.
 
+#include "common/haptics/constraint/shape.h"
+
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "common/haptics/constraint/circle.h"
-#include "common/haptics/constraint/polyline.h"
-#include "common/haptics/constraint/sphere.h"
 
 namespace palpate {
 namespace {

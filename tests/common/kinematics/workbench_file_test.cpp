@@ -197,7 +197,7 @@ TEST_F(WorkbenchFileTest, ReadsTheOneOfTheDocuments) {
   EXPECT_EQ(bench.interaction.enabling_device, "pedal");
   EXPECT_EQ(bench.device_options.size(), 1U);
   // The keys of the header that says what there is are in it.
-  std::ifstream header(source_folder() / "common/calibration/workbench_file.h");
+  std::ifstream header(source_folder() / "common/kinematics/workbench_file.h");
   std::stringstream all;
   all << header.rdbuf();
   std::ifstream document(source_folder() / "docs/workbench.toml");

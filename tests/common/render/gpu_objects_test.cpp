@@ -19,6 +19,7 @@
 #include "common/render/scene_renderer.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/common/render/sample_scenes.h"
+#include "tests/support/sparse_numbers.h"
 
 namespace palpate::test {
 namespace {

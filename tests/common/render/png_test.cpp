@@ -9,6 +9,7 @@
 #include <stb_image.h>
 
 #include "common/base/error.h"
+#include "tests/support/png_texts.h"
 
 namespace palpate {
 namespace {
@@ -48,13 +49,13 @@ TEST(Png, TextChunkHasTheStandardsLayout) {
 TEST(Png, TextsAreReadBack) {
   const std::vector<PngText> texts{{"Software", "flow (Palpate) 0.1.0"},
                                    {"Comment", "flow render 'Strömung.vtk' --out b.png"}};
-  const auto found = png_texts(encode_png(gradient(), texts));
+  const auto found = test::png_texts(encode_png(gradient(), texts));
   ASSERT_EQ(found.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(found[i].keyword, texts[i].keyword);
     EXPECT_EQ(found[i].text, texts[i].text);
   }
-  EXPECT_TRUE(png_texts({1, 2, 3}).empty());
+  EXPECT_TRUE(test::png_texts({1, 2, 3}).empty());
 }
 
 TEST(Png, FileThatCannotBeWrittenIsNamedAndLeavesNothing) {

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/render/probe_view.h"
+#include "tests/support/path_view.h"
 
 namespace palpate {
 namespace {
@@ -51,11 +52,11 @@ TEST(ProbePath, RestingHandAddsNothing) {
 TEST(ProbePath, IsMadeFromTheColumnsOfALog) {
   const std::array positions{Vec3(0.0), Vec3(1.0), Vec3(NAN), Vec3(2.0)};
   const std::array forces{0.0, 1.0, 2.0, 3.0};
-  const PathView view = make_path_view(positions, forces);
+  const PathView view = test::make_path_view(positions, forces);
   EXPECT_EQ(view.count, 3U);
   ASSERT_EQ(view.points->size(), 3U);
   EXPECT_EQ(view.points->forces()[2], 3.0);
-  EXPECT_THROW((void)make_path_view(positions, std::array{1.0}), Error);
+  EXPECT_THROW((void)test::make_path_view(positions, std::array{1.0}), Error);
 }
 
 }  // namespace

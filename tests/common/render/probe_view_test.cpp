@@ -10,22 +10,6 @@
 namespace palpate {
 namespace {
 
-TEST(ProbeView, TensionIsTheShareOfTheCap) {
-  ProbeView view;
-  view.force_cap = 2.0;
-  view.force = 0.5;
-  EXPECT_EQ(tension(view), 0.25);
-  view.force = 9.0;
-  EXPECT_EQ(tension(view), 1.0);
-  for (const double force : {0.0, -1.0, std::nan("")}) {
-    view.force = force;
-    EXPECT_EQ(tension(view), 0.0);
-  }
-  view.force = 1.0;
-  view.force_cap = 0.0;
-  EXPECT_EQ(tension(view), 0.0);
-}
-
 TEST(ProbeView, ForcesSpreadUpToTheCapUnlessSaidOtherwise) {
   ProbeView view;
   view.force_cap = 3.0;

@@ -15,6 +15,7 @@
 #include "tests/common/render/sample_probe.h"
 #include "tests/common/render/sample_scenes.h"
 #include "tests/common/render/volume/sample_volumes.h"
+#include "tests/support/lab_color.h"
 
 namespace palpate {
 namespace {
@@ -86,8 +87,8 @@ TEST(RenderImage, ColoursFollowTheMap) {
   // Light changes brightness, not hue: compare hue angles in CIELAB.
   for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     const auto pixel = test::at(image, -0.9 + 1.8 * t, 0.0);
-    const Vec3 found = lab_from_srgb(Vec3(pixel[0], pixel[1], pixel[2]) / 255.0);
-    const Vec3 expected = lab_from_srgb(Vec3(map_color(ColorMap::kSequential, t)));
+    const Vec3 found = test::lab_from_srgb(Vec3(pixel[0], pixel[1], pixel[2]) / 255.0);
+    const Vec3 expected = test::lab_from_srgb(Vec3(map_color(ColorMap::kSequential, t)));
     const double turned =
         std::remainder(std::atan2(found.z, found.y) - std::atan2(expected.z, expected.y), 6.283185307);
     EXPECT_LT(std::abs(turned), 0.25) << t;

@@ -8,6 +8,7 @@
 
 #include "common/render/scene_view.h"
 #include "tests/common/render/sample_scenes.h"
+#include "tests/support/path_view.h"
 
 namespace palpate::test {
 

@@ -7,7 +7,7 @@
 namespace palpate::test {
 namespace {
 
-ExitCode code_of(const InputSpec& spec) {
+ExitCode code_of(const InputOptions& spec) {
   try {
     (void)Input::open(spec);
   } catch (const Error& error) {

@@ -9,7 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
+#include "tests/support/sampled.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

@@ -91,7 +91,7 @@ TEST(Session, RefusesOtherFilesWithThePlace) {
   };
   EXPECT_NE(refused("format = 1\n[scene\n").find("line 2"), std::string::npos);
   EXPECT_EQ(refused("").front(), '3');
-  EXPECT_EQ(refused("format = 2\n[scene]\n").front(), '3');
+  EXPECT_EQ(refused("format = 0\n[scene]\n").front(), '3');
   EXPECT_EQ(refused("format = 1\n").front(), '3');
   EXPECT_NE(refused("format = 1\n[scene]\ntolerance = 3\n").find("'tolerance'"), std::string::npos);
   EXPECT_EQ(refused("format = 1\n[[input]]\nbytes = 3\n[scene]\n").front(), '3');

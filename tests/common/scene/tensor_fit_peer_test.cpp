@@ -16,7 +16,7 @@ namespace palpate::test {
 namespace {
 
 TensorImage image_of(const std::filesystem::path& file, const TensorWords& words) {
-  InputSpec spec;
+  InputOptions spec;
   spec.files = {file};
   spec.kind = FieldKind::kTensor;
   spec.tensor = words;

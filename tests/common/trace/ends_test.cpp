@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/field/analytic/sampled.h"
 #include "common/trace/trace.h"
 #include "tests/common/trace/linear_fields.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/field/analytic/analytic_field.h"
-#include "common/field/analytic/sampled.h"
 #include "common/field/vector_field.h"
+#include "tests/support/sampled.h"
 
 namespace palpate::test {
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/render/gl/context.h"
-#include "common/render/volume/image_error.h"
+#include "common/render/volume/estimate/image_error.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
 namespace palpate::test {

@@ -100,7 +100,7 @@ TEST_F(TouchWindowTest, LinesAreKeptTakenBackAndSaved) {
   const WindowResult kept = run();
   ASSERT_TRUE(kept.view.probe->kept);
   EXPECT_EQ(kept.view.probe->kept->size(), 2U);
-  EXPECT_EQ(kept.settings.time_step, 0U) << "Space keeps, and does not play, while the probe is held";
+  EXPECT_EQ(kept.document.input.time, "") << "Space keeps, and does not play, while the probe is held";
   EXPECT_NE(kept.message.find("kept line 2"), std::string::npos);
   key('E', kModifierControl);
   const WindowResult saved = run();
@@ -128,8 +128,7 @@ TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {
 }
 
 TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentThere) {
-  constexpr double kKeepX = 72.0, kKeepY = 98.0 + 26.0 * 10;  // as in touch_panel_test.cpp
-  constexpr int kRested = 60;                                 // frames, half a second
+  constexpr int kRested = 60;  // frames, half a second
   grab();
   last_ += kRested;
   const auto script = options_.script;
@@ -143,7 +142,9 @@ TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentTher
   constexpr int kSteps = 24;
   const int begin = last_ + 1;
   for (int i = 1; i <= kSteps; ++i) move_by(begin + i, -240.0 * i / kSteps, 60.0 * i / kSteps);
-  click(last_ + 1, kKeepX, kKeepY);
+  at_control(last_ + 1, {.kind = InputKind::kMove}, "Keep line");
+  at(last_ + 1, {.kind = InputKind::kPress});
+  at(last_ + 2, {.kind = InputKind::kRelease});
   const WindowResult result = run();
   EXPECT_NE(result.message.find("kept line 1"), std::string::npos) << result.message;
   ASSERT_EQ(result.view.probe->kept->size(), 1U);

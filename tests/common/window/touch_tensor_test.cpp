@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/dtmri/dtmri_panels.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/symmetric3.h"
@@ -15,20 +16,20 @@ namespace {
 /// A bundle along x, seen from above.
 class BundleModel final : public WindowModel {
  public:
-  SceneState start(Progress&) override { return make({.field = kField}); }
-  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
-  SceneState update(const SceneSettings& settings, Progress&) override { return make(settings); }
-  std::string save_session(const SceneSettings&, const SceneView&,
-                           const std::vector<std::pair<std::string, std::string>>& touch) override {
-    std::string all;
-    for (const auto& [name, value] : touch) all += " " + name + "=" + value;
-    return all;
+  SceneState start(Progress&) override {
+    Document document;
+    document.input.field = kField;
+    return make(document);
   }
+  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
+  SceneState update(const Document& document, Progress&) override { return make(document); }
+  void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
+  std::string save_session(const Document& document) override { return settings_text(document); }
 
  private:
   static constexpr const char* kField = "D";
 
-  static SceneState make(const SceneSettings& settings) {
+  static SceneState make(const Document& document) {
     static const auto voxels = sampled_tensors(centred_lattice(Index3{21}, Mat3{4.0}), [](const Vec3&) {
       return linear_tensor({1.0, 0.0, 0.0});
     });
@@ -36,7 +37,7 @@ class BundleModel final : public WindowModel {
     info->name = "bundle";
     info->fields = {kField};
     info->bounds = voxels->bounds();
-    SceneState scene{.info = info, .settings = settings};
+    SceneState scene{.info = info, .document = document};
     scene.lines = std::make_shared<const std::vector<Line>>();
     scene.tensors = TensorView{.image = voxels, .position = info->bounds.center()};
     scene.tensors->slices = {false, false, true};
@@ -44,22 +45,16 @@ class BundleModel final : public WindowModel {
   }
 };
 
-/// Buttons of the panel [pixels].
-constexpr double kLeftButton = 72.0, kRightButton = 205.0, kFirstRow = 98.0, kKeepRow = 355.0,
-                 kClearRow = 381.0;
-/// The first box of the slices, below what is kept.
-constexpr double kSliceBox = 21.0, kSliceRow = 551.0;
-
 class TouchTensor : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
+    options_.panels = dtmri_panels();
     options_.touch.modes = modes_of(FieldKind::kTensor);
     options_.angles = {.azimuth = 0.0, .elevation = 90.0};
   }
   WindowResult run() { return run_model(model_); }
-  void press(double x, double y) { click(next(), x, y); }
-  void draw_button() { press(kLeftButton, kFirstRow); }
+  void draw_button() { press("Draw tracts"); }
   /// A stroke with the button down, from one place to another [pixels from the middle].
   void stroke(double from_x, double from_y, double to_x, double to_y) {
     constexpr int kSteps = 24;
@@ -140,8 +135,8 @@ TEST_F(TouchTensor, StrokesAreTakenBackOneByOneAndReplaced) {
 TEST_F(TouchTensor, TheButtonsKeepUndoAndSave) {
   draw_button();
   stroke(-100.0, 0.0, 100.0, 0.0);
-  press(kLeftButton, kKeepRow);
-  press(kRightButton, kKeepRow);  // not kept any more, but still drawn
+  press("Keep tract");
+  press("Undo");  // not kept any more, but still drawn
   key('E', kModifierControl);
   const WindowResult result = run();
   EXPECT_EQ(kept(result), 1U) << "saving keeps what is drawn";
@@ -162,7 +157,7 @@ TEST_F(TouchTensor, AStrokeGoesOnFromAnEndThatIsSeenBehindTheSlice) {
 }
 
 TEST_F(TouchTensor, ThePanelStaysInPlaceHoweverManyTractsAreKept) {
-  press(kSliceBox, kSliceRow);
+  press("##shown");
   EXPECT_TRUE(run().view.tensors->slices[0]) << "where the box is without tracts";
   options_.script.clear();
   last_ = 0;
@@ -170,9 +165,9 @@ TEST_F(TouchTensor, ThePanelStaysInPlaceHoweverManyTractsAreKept) {
   constexpr int kMany = 4;
   for (int i = 0; i < kMany; ++i) {
     stroke(-40.0, 30.0 * i, 40.0, 30.0 * i);
-    press(kLeftButton, kKeepRow);
+    press("Keep tract");
   }
-  press(kSliceBox, kSliceRow);
+  press("##shown");
   const WindowResult result = run();
   EXPECT_EQ(kept(result), static_cast<std::size_t>(kMany));
   EXPECT_TRUE(result.view.tensors->slices[0]);
@@ -271,7 +266,7 @@ TEST(SavedFiles, NeverLoseASavedTract) {
 TEST_F(TouchTensor, AClearedDrawingComesBack) {
   draw_button();
   stroke(-100.0, 0.0, 100.0, 0.0);
-  press(kLeftButton, kClearRow);
+  press("Clear drawing");
   key('Z', kModifierControl);  // that, and not the stroke
   key('K');
   EXPECT_EQ(kept(run()), 1U);
@@ -283,7 +278,7 @@ TEST_F(TouchTensor, TheSessionHoldsWhatTheProgramTakes) {
   const std::string saved = run().message;
   EXPECT_NE(saved.find("mode=anisotropy-point"), std::string::npos) << saved;
   EXPECT_NE(saved.find("anisotropy-curve=0:0,1:8"), std::string::npos) << saved;
-  EXPECT_NE(saved.find("stroke=append"), std::string::npos) << saved;
+  EXPECT_EQ(saved.find("stroke="), std::string::npos) << "as a new document has it: " << saved;
   EXPECT_EQ(saved.find("release="), std::string::npos) << saved;
 }
 

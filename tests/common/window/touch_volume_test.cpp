@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "common/base/text.h"
 #include "common/field/analytic/volume_examples.h"
-#include "common/field/scalar_threshold.h"
+#include "common/field/value_histogram.h"
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/scene/seeds.h"
+#include "common/window/panels/volume_panel.h"
 #include "tests/common/window/touch_window.h"
 
 namespace palpate::test {
@@ -15,18 +16,18 @@ namespace {
 /// Three joined blobs.
 class BlobModel final : public WindowModel {
  public:
-  SceneState start(Progress&) override { return make({.field = kVolumeArray}); }
-  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
-  SceneState update(const SceneSettings& settings, Progress&) override { return make(settings); }
-  std::string save_session(const SceneSettings&, const SceneView&,
-                           const std::vector<std::pair<std::string, std::string>>& touch) override {
-    std::string all;
-    for (const auto& [name, value] : touch) all += " " + name + "=" + value;
-    return all;
+  SceneState start(Progress&) override {
+    Document document;
+    document.input.field = kVolumeArray;
+    return make(document);
   }
+  SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
+  SceneState update(const Document& document, Progress&) override { return make(document); }
+  void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
+  std::string save_session(const Document& document) override { return settings_text(document); }
 
  private:
-  static SceneState make(const SceneSettings& settings) {
+  static SceneState make(const Document& document) {
     static const DataSet data = volume_example("blob");
     static const auto image = make_volume_image(data, kVolumeArray, "blob");
     static const auto field = make_scalar_field({data}, {kVolumeArray, Association::kPoint, 0}, "blob", 1);
@@ -34,7 +35,7 @@ class BlobModel final : public WindowModel {
     info->name = "blob";
     info->fields = {kVolumeArray};
     info->bounds = image->bounds();
-    SceneState scene{.info = info, .settings = settings};
+    SceneState scene{.info = info, .document = document};
     scene.lines = std::make_shared<const std::vector<Line>>();
     scene.felt_scalar = field;
     scene.volume =
@@ -45,19 +46,11 @@ class BlobModel final : public WindowModel {
   }
 };
 
-/// Controls of isosurfaces [pixels].
-constexpr double kIsovalueY = 213.0, kSliderRight = 160.0, kAddX = 50.0, kAddY = 237.0;
-
-/// Cuts across the axes of the grid [pixels].
-constexpr double kCutX = 95.0, kCutY = 322.0;
-
-/// A plane of the widget, and what stands below it when it is folded [pixels].
-constexpr double kFoldX = 24.0, kFoldY = 202.0, kAddPlaneX = 40.0, kAddPlaneY = 225.0;
-
 class TouchVolume : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
+    options_.panels = {draw_volume};
     options_.touch.modes = modes_of(FieldKind::kScalar);
     options_.touch.choice.mode = mode_of("isosurface");
   }
@@ -114,7 +107,7 @@ TEST_F(TouchVolume, TheHandBeginsOnTheSurfaceThatIsDrawn) {
 }
 
 TEST_F(TouchVolume, AnotherIsovalueMovesTheSurface) {
-  click(next(), kSliderRight, kIsovalueY);
+  press("##isovalue", 0, kMost);
   const WindowResult result = run();
   ASSERT_EQ(result.view.surfaces.size(), 1U);
   ASSERT_TRUE(result.view.surfaces[0].mesh);
@@ -124,7 +117,7 @@ TEST_F(TouchVolume, AnotherIsovalueMovesTheSurface) {
 }
 
 TEST_F(TouchVolume, SurfacesAreAddedAndSaved) {
-  click(next(), kAddX, kAddY);
+  press("+ isosurface");
   last_ += 3 * kPause;
   EXPECT_EQ(run().view.surfaces.size(), 2U);
   key('S', kModifierControl);
@@ -147,10 +140,11 @@ TEST_F(TouchVolume, AnotherModeIsFeltAfterItsKey) {
 
 TEST_F(TouchVolume, TheSessionHoldsWhatIsFelt) {
   options_.touch.choice.mode = mode_of("density");
+  options_.touch.choice.settings.stiffness = 300.0;
   key('S', kModifierControl);
   const std::string saved = run().message;
   EXPECT_NE(saved.find("mode=density"), std::string::npos) << saved;
-  EXPECT_NE(saved.find("stiffness=200"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("stiffness=300"), std::string::npos) << saved;
 }
 
 TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
@@ -179,11 +173,11 @@ TEST_F(TouchVolume, ADragOnTheSphereTurnsThePlaneAndCutsTheVolume) {
   EXPECT_EQ(undone.message, "undone");
 }
 
-// The arrow before a plane folds its numbers: what stands below comes up to where it is pressed then.
+// The arrow before a plane folds its numbers; there is room for another one below.
 TEST_F(TouchVolume, APlaneFoldsInThePanel) {
   options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
-  click(next(), kFoldX, kFoldY);
-  click(next(), kAddPlaneX, kAddPlaneY);
+  press("##fold");
+  press("+ plane");
   last_ += kPause;
   const WindowResult result = run();
   ASSERT_TRUE(result.view.volume);
@@ -205,7 +199,7 @@ TEST_F(TouchVolume, TheNoiseIsFeltWhenItIsMeasured) {
 TEST_F(TouchVolume, AButtonCutsAcrossAnAxisOfTheGridAtTheProxy) {
   options_.touch.choice.mode = mode_of(kGridMode);
   grab();
-  click(next(), kCutX, kCutY);
+  press("1st");
   last_ += kPause;
   const WindowResult result = run();
   ASSERT_TRUE(result.view.volume);
@@ -242,18 +236,12 @@ TEST_F(TouchVolume, TheHandOnAGridDragsAFaceOfTheRegion) {
   EXPECT_EQ(undone.region->upper, box.upper);
 }
 
-/// Annotations in mode isosurface [pixels]: the list of their kinds, an angle in it, and with one angle made
-/// the plane through it.
-constexpr double kKindX = 60.0, kKindY = 417.0, kAngleX = 33.0, kAngleY = 484.0, kMarkX = 60.0,
-                 kMarkY = 443.0, kPlaneX = 158.0, kPlaneY = 466.0;
-
 TEST_F(TouchVolume, APlaneGoesThroughThreePointsThatTheMouseMarks) {
-  click(next(), kKindX, kKindY);
-  click(next(), kAngleX, kAngleY);
-  click(next(), kMarkX, kMarkY);
+  choose("annotation", "angle");
+  press("Mark by clicks");
   for (const auto& [dx, dy] : {std::pair(0.0, 0.0), std::pair(30.0, 5.0), std::pair(5.0, 30.0)})
     click(next(), middle_x_ + dx, middle_y_ + dy);
-  click(next(), kPlaneX, kPlaneY);
+  press("+ plane");
   key('S', kModifierControl);
   const WindowResult result = run();
   ASSERT_TRUE(result.view.volume);

@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/compose/view_keep.h"
+#include "common/scene/document/setting.h"
 #include "common/servo/recording.h"
 #include "common/trace/trace.h"
 #include "common/window/panels/panel.h"
@@ -25,41 +27,55 @@
 
 namespace palpate::test {
 
+/// Places across a slider, for its least and its greatest value.
+inline constexpr double kLeast = 0.04, kMost = 0.96;
+
 inline constexpr int kEscape = 256, kF12 = 301, kShift = 340;
+
+/// What differs from a new document: " name=value" each.
+inline std::string settings_text(const Document& document) {
+  std::string all;
+  for (const Setting& row : settings()) {
+    if (!is_default(row, document)) all += " " + std::string(row.name) + "=" + value_text(row, document);
+  }
+  return all;
+}
 
 /// Helices about the z axis, as another flow in each of two fields and three time steps.
 class HelixModel final : public WindowModel {
  public:
-  SceneState start(Progress&) override { return make({.field = "velocity"}); }
+  SceneState start(Progress&) override {
+    Document document;
+    document.input.field = "velocity";
+    return make(document);
+  }
   SceneState open(const InputFiles&, Progress&) override { return make({}); }
-  SceneState update(const SceneSettings& settings, Progress&) override {
+  SceneState update(const Document& document, Progress&) override {
     ++updated;
-    return make(settings);
+    return make(document);
   }
-  std::string save_session(const SceneSettings&, const SceneView&,
-                           const std::vector<std::pair<std::string, std::string>>&) override {
-    return "a file";
-  }
+  void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
+  std::string save_session(const Document&) override { return "a file"; }
 
   std::atomic<int> updated{0};
 
  private:
-  SceneState make(SceneSettings settings) {
+  SceneState make(Document document) {
     auto info = std::make_shared<SceneInfo>();
     info->name = "helices";
     info->fields = {"velocity", "another"};
     info->integrators = {"dp54"};
     info->times = {0.0, 1.0, 2.0};
-    const double rise = settings.field == "another" ? 0.5 : 0.25;
-    const double wanted = rise + 0.1 * static_cast<double>(settings.time_step);
+    const double rise = document.input.field == "another" ? 0.5 : 0.25;
+    const double wanted = rise + 0.1 * static_cast<double>(time_step_of(document, info->times));
     if (wanted != rise_) flow_ = helix_flow(wanted);
     rise_ = wanted;
     SceneState scene{.probed = flow_};
     info->bounds = scene.probed->bounds();
     scene.info = info;
-    settings.integrator = "dp54";
-    settings.seeds = "random:12";
-    scene.settings = std::move(settings);
+    document.tracing.integrator = "dp54";
+    document.tracing.seeds = "random:12";
+    scene.document = std::move(document);
     std::vector<Vec3> seeds;
     for (int i = 0; i < 12; ++i) seeds.push_back({0.3 + 0.12 * i, 0.0, -1.5 + 0.25 * i});
     TraceOptions options{.backward = true, .max_length = 12.0, .threads = 1};
@@ -107,7 +123,9 @@ class TouchWindowTest : public ::testing::Test {
       frame_times_.push_back(std::chrono::duration<double, std::milli>(now.time_since_epoch()).count());
       return false;
     };
-    return run_window(model, options_);
+    WindowResult result = run_window(model, options_);
+    EXPECT_EQ(result.missing, std::vector<std::string>()) << "controls that no panel had";
+    return result;
   }
   void at(int frame, InputEvent event) {
     options_.script.push_back({frame, std::move(event)});
@@ -124,6 +142,21 @@ class TouchWindowTest : public ::testing::Test {
     move(frame, x, y);
     at(frame + 1, {.kind = InputKind::kPress});
     at(frame + 3, {.kind = InputKind::kRelease});
+  }
+  /// A click on a control of the panel, by its label: wherever that is drawn then.
+  void press(const std::string& control, int which = 0, double across = 0.5) {
+    at_control(next(), {.kind = InputKind::kPress}, control, which, across);
+    at(last_ + 2, {.kind = InputKind::kRelease});
+  }
+  /// Of a list, by the words in it.
+  void choose(const std::string& list, const std::string& words) {
+    press(list);
+    press(words);
+  }
+  void at_control(int frame, InputEvent event, const std::string& control, int which = 0, double across = 0.5,
+                  double down = 0.5) {
+    options_.script.push_back({frame, std::move(event), control, which, across, down});
+    last_ = std::max(last_, frame);
   }
   /// Grabs the probe at the middle of the picture; at rest it is held by the line there.
   void grab() {

@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "common/compose/view_keep.h"
 #include "common/field/analytic/volume_examples.h"
-#include "common/field/color_transfer_file.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/window/controls/region_control.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/picture_panels.h"
+#include "common/window/panels/volume_panel.h"
 #include "common/window/window.h"
 
 namespace palpate {
@@ -20,25 +22,26 @@ namespace {
 class VolumeModel : public WindowModel {
  public:
   SceneState start(Progress&) override {
-    SceneSettings settings;
-    settings.field = "scalars";
-    return make(settings);
+    Document document;
+    document.input.field = "scalars";
+    return make(document);
   }
   SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
-  SceneState update(const SceneSettings& settings, Progress&) override {
+  SceneState update(const Document& document, Progress&) override {
     ++updated;
-    return make(settings);
+    return make(document);
   }
-  std::string save_session(const SceneSettings&, const SceneView& view,
-                           const std::vector<std::pair<std::string, std::string>>& set) override {
-    set_saved = set;
-    samples_saved = view.volume ? view.volume->samples_per_voxel : 0.0;
+  void keep(const SceneView& view, Document& document) const override {
+    keep_camera(view, document);
+    if (view.volume) keep_volume(*view.volume, document);
+  }
+  std::string save_session(const Document& document) override {
+    saved = document;
     return "voxel.toml";
   }
 
   std::atomic<int> updated{0};
-  std::atomic<double> samples_saved{0.0};
-  std::vector<std::pair<std::string, std::string>> set_saved;
+  Document saved;
 
   static Box bounds() { return image()->bounds(); }
 
@@ -47,7 +50,7 @@ class VolumeModel : public WindowModel {
     static const auto voxel = make_volume_image(volume_example("voxel"), kVolumeArray, "voxel");
     return voxel;
   }
-  static SceneState make(const SceneSettings& settings) {
+  static SceneState make(const Document& document) {
     auto info = std::make_shared<SceneInfo>();
     info->name = "voxel";
     info->fields = {"scalars", "others"};
@@ -55,12 +58,12 @@ class VolumeModel : public WindowModel {
     info->anatomical = true;
     SceneState scene;
     scene.info = info;
-    scene.settings = settings;
+    scene.document = document;
     scene.lines = std::make_shared<const std::vector<Line>>();
     scene.volume =
         VolumeView{.image = image(),
                    .transfer = make_color_transfer(ColorPreset::kDensity, image()->lowest, image()->highest)};
-    scene.volume_label = settings.field;
+    scene.volume_label = document.input.field;
     return scene;
   }
 };
@@ -73,6 +76,7 @@ class VolumeWindow : public ::testing::Test {
     options_.height = 480;
     options_.frames = 8;
     options_.program = "grid";
+    options_.panels = {draw_volume};
     options_.view.camera.projection = Projection::kOrthographic;
     if (const char* folder = std::getenv("PALPATE_PICTURES")) {
       options_.screenshot =
@@ -109,7 +113,7 @@ TEST_F(VolumeWindow, SavesTheViewOfTheVolume) {
   options_.script.push_back({2, {.kind = InputKind::kKeyDown, .key = 'S', .modifiers = kModifierControl}});
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(result.message, "saved voxel.toml");
-  EXPECT_EQ(model_.samples_saved, VolumeView{}.samples_per_voxel);
+  EXPECT_EQ(model_.saved.volume.samples, VolumeView{}.samples_per_voxel);
 }
 
 TEST_F(VolumeWindow, PutsALensUnderTheMouseThatTheWheelMakesLarger) {
@@ -160,8 +164,7 @@ TEST_F(VolumeWindow, DragsAFaceOfTheRegionSavesItAndTakesItBack) {
   EXPECT_NEAR(dragged.region->upper.x, wanted, 1e-9 * bounds.diagonal());
   EXPECT_EQ(dragged.region->lower, box.lower);
   EXPECT_EQ(dragged.view.camera.axes, camera.axes);  // it has not turned the view
-  const std::pair<std::string, std::string> saved{"box", box_text(*dragged.region)};
-  EXPECT_NE(std::ranges::find(model_.set_saved, saved), model_.set_saved.end());
+  EXPECT_EQ(model_.saved.slice.box, box_text(*dragged.region));
   options_.script.push_back({12, {.kind = InputKind::kKeyDown, .key = 'Z', .modifiers = kModifierControl}});
   const WindowResult undone = run_window(model_, options_);
   ASSERT_TRUE(undone.region);
@@ -171,17 +174,20 @@ TEST_F(VolumeWindow, DragsAFaceOfTheRegionSavesItAndTakesItBack) {
 // The fourth of the preset's points, dragged up in the editor: an own function, which the model is asked for.
 TEST_F(VolumeWindow, EditsTheTransferFunctionOverTheHistogram) {
   options_.frames = 20;
-  options_.script = {{3, {.kind = InputKind::kMove, .x = 166.0, .y = 242.0}},
+  const ColorTransfer preset = make_color_transfer(ColorPreset::kDensity, 0.0, 255.0);
+  const ColorPoint& fourth = preset.points()[3];
+  const double across = fourth.value / 255.0, down = 1.0 - fourth.opacity;
+  options_.script = {{3, {.kind = InputKind::kMove}, "points", 0, across, down},
                      {5, {.kind = InputKind::kPress}},
-                     {6, {.kind = InputKind::kMove, .x = 168.0, .y = 220.0}},
-                     {7, {.kind = InputKind::kMove, .x = 170.0, .y = 190.0}},
+                     {6, {.kind = InputKind::kMove}, "points", 0, across + 0.01, 0.5 * down},
+                     {7, {.kind = InputKind::kMove}, "points", 0, across + 0.02, 0.1},
                      {9, {.kind = InputKind::kRelease}}};
   const WindowResult result = run_window(model_, options_);
-  EXPECT_TRUE(result.settings.transfer.starts_with("points:")) << result.settings.transfer;
+  EXPECT_TRUE(result.document.volume.transfer.starts_with("points:")) << result.document.volume.transfer;
   EXPECT_GT(model_.updated, 0);
-  const auto edited = transfer_from_words(result.settings.transfer);
+  const auto edited = transfer_from_words(result.document.volume.transfer);
   ASSERT_TRUE(edited);
-  const ColorTransfer preset = make_color_transfer(ColorPreset::kDensity, 0.0, 255.0);
+  EXPECT_TRUE(result.missing.empty());
   ASSERT_EQ(edited->points().size(), preset.points().size());
   EXPECT_GT(edited->points()[3].opacity, preset.points()[3].opacity + 0.3);
   EXPECT_EQ(edited->points()[2], preset.points()[2]);

@@ -9,10 +9,12 @@
 #include <stb_image.h>
 
 #include "common/base/error.h"
+#include "common/compose/view_keep.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/window/panels/panel.h"
 #include "tests/common/render/sample_scenes.h"
+#include "tests/support/png_texts.h"
 
 namespace palpate {
 namespace {
@@ -23,9 +25,9 @@ constexpr int kEnter = 257;
 class FakeModel : public WindowModel {
  public:
   SceneState start(Progress&) override {
-    SceneSettings settings;
-    settings.color_array = first_array;
-    return make("whirlwind", settings);
+    Document document;
+    document.view.color = first_array.empty() ? "speed" : first_array;
+    return make("whirlwind", document);
   }
   SceneState open(const InputFiles& input, Progress&) override {
     const auto& files = input.files;
@@ -35,12 +37,12 @@ class FakeModel : public WindowModel {
     }
     return make(files.front().string(), {});
   }
-  SceneState update(const SceneSettings& settings, Progress&) override {
+  SceneState update(const Document& document, Progress&) override {
     ++updated;
-    return make("whirlwind", settings);
+    return make("whirlwind", document);
   }
-  std::string save_session(const SceneSettings&, const SceneView&,
-                           const std::vector<std::pair<std::string, std::string>>&) override {
+  void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
+  std::string save_session(const Document&) override {
     ++saved;
     return "whirlwind.toml";
   }
@@ -49,7 +51,7 @@ class FakeModel : public WindowModel {
   std::string first_array;
 
  private:
-  static SceneState make(const std::string& name, SceneSettings settings) {
+  static SceneState make(const std::string& name, Document document) {
     const SceneView view = test::whirlwind(1.0, 40);
     auto info = std::make_shared<SceneInfo>();
     info->name = name;
@@ -60,17 +62,17 @@ class FakeModel : public WindowModel {
     info->bounds = view.bounds;
     SceneState scene;
     scene.info = info;
-    scene.settings = std::move(settings);
-    if (scene.settings.field.empty()) scene.settings.field = "velocity";
-    if (scene.settings.integrator.empty()) scene.settings.integrator = "dp54";
-    if (scene.settings.seeds.empty()) scene.settings.seeds = "random:40";
+    if (document.input.field.empty()) document.input.field = "velocity";
+    if (document.tracing.integrator.empty()) document.tracing.integrator = "dp54";
+    if (document.tracing.seeds.empty()) document.tracing.seeds = "random:40";
     scene.lines = view.lines;
-    if (!scene.settings.color_array.empty()) {
-      LineArray array{.name = scene.settings.color_array, .unit = {}, .values = {}};
+    if (!document.view.color.empty() && document.view.color != "speed") {
+      LineArray array{.name = document.view.color, .unit = {}, .values = {}};
       for (const Line& line : *view.lines)
         array.values.resize(array.values.size() + line.points.size(), 1.0F);
       scene.color_array = std::make_shared<const LineArray>(std::move(array));
     }
+    scene.document = std::move(document);
     for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
     scene.seeds = 42;
     scene.outside_seeds = 2;
@@ -112,7 +114,7 @@ class WindowTest : public ::testing::Test {
 TEST_F(WindowTest, ShowsTheSceneAndClosesAfterItsFrames) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(result.frames, 12);
-  EXPECT_EQ(result.settings.seeds, "random:40");
+  EXPECT_EQ(result.document.tracing.seeds, "random:40");
   EXPECT_GT(result.median_frame_ms, 0.0);
 }
 
@@ -167,7 +169,7 @@ TEST_F(WindowTest, FileThatCannotBeOpenedGivesALineAndTheSceneStays) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(model_.opened, 1);
   EXPECT_NE(result.message.find("bad.vtk"), std::string::npos) << result.message;
-  EXPECT_EQ(result.settings.field, "velocity");
+  EXPECT_EQ(result.document.input.field, "velocity");
   EXPECT_EQ(result.frames, 12);
 }
 
@@ -192,7 +194,7 @@ TEST_F(WindowTest, SpacePlaysTheTimeSteps) {
   key(2, ' ');
   const WindowResult result = run_window(model_, options_);
   EXPECT_GT(model_.updated, 2);
-  EXPECT_LT(result.settings.time_step, 3U);
+  EXPECT_NE(result.document.input.time, "");
 }
 
 Image read_picture(const std::filesystem::path& path) {
@@ -227,13 +229,35 @@ TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
   EXPECT_EQ(different, 0);
 }
 
+// Edits of any part, in the order of acts: the view is turned, then lines are traced backward; both are taken
+// back, and restored.
+TEST_F(WindowTest, EditsAreTakenBackAndRestoredInTheirOrder) {
+  options_.frames = 60;
+  move(2, 600, 300);
+  press(3, MouseButton::kLeft);
+  for (int i = 0; i < 8; ++i) move(4 + i, 610 + 10 * i, 300);
+  release(12, MouseButton::kLeft);
+  key(20, 'Z', kModifierControl);
+  const Camera first = make_camera({Vec3(-1.0), Vec3(1.0)}, {}, 1.0);
+  const WindowResult undone = run_window(model_, options_);
+  EXPECT_EQ(undone.message, "undone");
+  EXPECT_LT(glm::distance(first.axes[2], undone.view.camera.axes[2]), 1e-9) << "a drag is one edit";
+  key(30, 'Z', kModifierControl | kModifierShift);
+  const WindowResult restored = run_window(model_, options_);
+  EXPECT_EQ(restored.message, "restored");
+  EXPECT_GT(glm::distance(first.axes[2], restored.view.camera.axes[2]), 0.3);
+  key(40, 'Z', kModifierControl);
+  key(50, 'Z', kModifierControl);
+  EXPECT_EQ(run_window(model_, options_).message, "nothing to undo");
+}
+
 TEST_F(WindowTest, ArrayOfTheDataColoursTheLines) {
   model_.first_array = "temperature";
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(result.view.style.color_by, ColorBy::kArray);
   ASSERT_TRUE(result.view.style.array);
   EXPECT_EQ(result.view.style.array->name, "temperature");
-  EXPECT_EQ(result.settings.color_array, "temperature");
+  EXPECT_EQ(result.document.view.color, "temperature");
 }
 
 TEST_F(WindowTest, QuitEndsIt) {
@@ -247,7 +271,7 @@ TEST_F(WindowTest, ScreenshotSaysHowItWasMade) {
   (void)run_window(model_, options_);
   std::ifstream file(options_.screenshot, std::ios::binary);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-  const auto texts = png_texts(bytes);
+  const auto texts = test::png_texts(bytes);
   ASSERT_EQ(texts.size(), 2U);
   EXPECT_EQ(texts[1].text, "flow --example tornado");
   std::filesystem::remove(options_.screenshot);

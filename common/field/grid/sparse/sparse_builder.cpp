@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/field/grid/sparse/nano_tree.h"
+#include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
@@ -44,9 +46,7 @@ SparseBuilder::SparseBuilder(const Index3& shift, const Index3& points, float ba
     count *= static_cast<std::uint64_t>(points[axis]);
   }
   ones_.push_back(background);
-  contents_.assign(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) *
-                       static_cast<std::size_t>(blocks_.z),
-                   kOne);
+  contents_.assign(count_of(blocks_), kOne);
 }
 
 SparseBuilder::Content SparseBuilder::content_of(float number) {
@@ -55,16 +55,11 @@ SparseBuilder::Content SparseBuilder::content_of(float number) {
   return kOne - static_cast<Content>(ones_.size() - 1);
 }
 
-float SparseBuilder::number_of(Content content) const {
-  return ones_[static_cast<std::size_t>(kOne - content)];
-}
+float SparseBuilder::number_of(Content content) const { return ones_[as_size(kOne - content)]; }
 
 SparseBuilder::Content SparseBuilder::at(const Index3& b) const noexcept {
   if (b.x >= blocks_.x || b.y >= blocks_.y || b.z >= blocks_.z) return kOne;
-  return contents_[static_cast<std::size_t>(b.x) +
-                   static_cast<std::size_t>(blocks_.x) *
-                       (static_cast<std::size_t>(b.y) +
-                        static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(b.z))];
+  return contents_[index_in(blocks_, b)];
 }
 
 SparseBuilder::Content SparseBuilder::common(const Index3& first, int side) const noexcept {
@@ -83,21 +78,14 @@ SparseBuilder::Content SparseBuilder::common(const Index3& first, int side) cons
 
 void SparseBuilder::put(const Index3& b, float number) {
   PALPATE_CHECK(glm::all(glm::greaterThanEqual(b, Index3(0))) && glm::all(glm::lessThan(b, blocks_)));
-  contents_[static_cast<std::size_t>(b.x) +
-            static_cast<std::size_t>(blocks_.x) *
-                (static_cast<std::size_t>(b.y) +
-                 static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(b.z))] = content_of(number);
+  contents_[index_in(blocks_, b)] = content_of(number);
 }
 
 void SparseBuilder::put(const Index3& b, std::span<const float, kBlockVoxels> numbers) {
   put(b, numbers.front());
   if (std::all_of(numbers.begin(), numbers.end(), [&](float n) { return same_bits(n, numbers.front()); }))
     return;
-  contents_[static_cast<std::size_t>(b.x) +
-            static_cast<std::size_t>(blocks_.x) *
-                (static_cast<std::size_t>(b.y) +
-                 static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(b.z))] =
-      static_cast<Content>(leaves_.size());
+  contents_[index_in(blocks_, b)] = static_cast<Content>(leaves_.size());
   std::copy(numbers.begin(), numbers.end(), leaves_.emplace_back().begin());
 }
 
@@ -184,27 +172,6 @@ std::shared_ptr<const SparseNumbers> SparseBuilder::finish() {
   leaves_.clear();
   return std::make_shared<const SparseNumbers>(std::as_bytes(std::span(std::as_const(*chunks))).first(end),
                                                chunks, shift_, points_);
-}
-
-std::shared_ptr<const SparseNumbers> make_sparse(std::span<const float> numbers, const Index3& points,
-                                                 float background, const Index3& shift) {
-  SparseBuilder builder(shift, points, background);
-  std::array<float, kBlockVoxels> block{};
-  for_each_index(builder.blocks(), [&](const Index3& b) {
-    block.fill(background);
-    const Index3 first = glm::max(kBlockSide * b - shift, Index3(0)),
-                 end = glm::min(kBlockSide * (b + 1) - shift, points);
-    for_each_index(end - first, [&](const Index3& at) {
-      const Index3 p = first + at;
-      block[block_offset(p + shift)] =
-          numbers[static_cast<std::size_t>(p.x) +
-                  static_cast<std::size_t>(points.x) *
-                      (static_cast<std::size_t>(p.y) +
-                       static_cast<std::size_t>(points.y) * static_cast<std::size_t>(p.z))];
-    });
-    builder.put(b, block);
-  });
-  return builder.finish();
 }
 
 }  // namespace palpate

@@ -45,10 +45,4 @@ class SparseBuilder {
   std::deque<std::array<float, kBlockVoxels>> leaves_;
 };
 
-/// The numbers of the points of a box, x fastest, most of which are `background`, as sparse ones.
-/// @pre numbers.size() is the number of points. @throws as SparseBuilder.
-[[nodiscard]] std::shared_ptr<const SparseNumbers> make_sparse(std::span<const float> numbers,
-                                                               const Index3& points, float background,
-                                                               const Index3& shift = Index3(0));
-
 }  // namespace palpate

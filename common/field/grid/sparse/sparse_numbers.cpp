@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/field/grid/sparse/nano_tree.h"
 
 namespace palpate {
@@ -135,7 +136,7 @@ SparseNumbers::SparseNumbers(std::span<const std::byte> bytes, std::shared_ptr<c
     : bytes_(bytes), owner_(std::move(owner)), shift_(shift), points_(points), size_(1), root_(nullptr) {
   for (int axis = 0; axis < 3; ++axis) {
     if (shift[axis] < 0 || shift[axis] >= kBlockSide) refuse("a sparse grid is shifted by more than a block");
-    const auto n = static_cast<std::size_t>(points[axis]);
+    const auto n = as_size(points[axis]);
     if (points[axis] < 1 || n > kMostSparsePoints / size_) refuse("a sparse grid has no sensible size");
     size_ *= n;
   }
@@ -164,7 +165,7 @@ SparseBlock SparseNumbers::block(const Index3& b) const noexcept {
 }
 
 float SparseNumbers::operator[](std::size_t index) const noexcept {
-  const auto x = static_cast<std::size_t>(points_.x), y = static_cast<std::size_t>(points_.y);
+  const auto x = as_size(points_.x), y = as_size(points_.y);
   const Index3 v =
       Index3(static_cast<int>(index % x), static_cast<int>(index / x % y), static_cast<int>(index / x / y)) +
       shift_;
@@ -173,8 +174,8 @@ float SparseNumbers::operator[](std::size_t index) const noexcept {
 
 void SparseNumbers::copy(const PointBox& box, float* to) const noexcept {
   const Index3 size = box.end - box.first;
-  const auto row = static_cast<std::size_t>(size.x);
-  const std::size_t slice = row * static_cast<std::size_t>(size.y);
+  const auto row = as_size(size.x);
+  const std::size_t slice = row * as_size(size.y);
   const Index3 first = box.first + shift_, last = box.end + shift_ - 1;
   for (int bz = first.z / kBlockSide; bz <= last.z / kBlockSide; ++bz) {
     for (int by = first.y / kBlockSide; by <= last.y / kBlockSide; ++by) {
@@ -185,9 +186,8 @@ void SparseNumbers::copy(const PointBox& box, float* to) const noexcept {
                      end = glm::min(kBlockSide * b + (kBlockSide - 1), last);
         for (int z = start.z; z <= end.z; ++z) {
           for (int y = start.y; y <= end.y; ++y) {
-            float* out = to + static_cast<std::size_t>(start.x - first.x) +
-                         row * static_cast<std::size_t>(y - first.y) +
-                         slice * static_cast<std::size_t>(z - first.z);
+            float* out =
+                to + as_size(start.x - first.x) + row * as_size(y - first.y) + slice * as_size(z - first.z);
             for (int x = start.x; x <= end.x; ++x) *out++ = from.at({x, y, z});
           }
         }

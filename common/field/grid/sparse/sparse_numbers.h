@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "common/base/index.h"
+#include "common/math/lattice.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -23,8 +25,7 @@ inline constexpr std::uint64_t kMostSparsePoints = std::uint64_t{1} << 34U;  ///
 /// Place of a voxel in its block, z fastest.
 [[nodiscard]] constexpr std::size_t block_offset(const Index3& v) noexcept {
   constexpr int kMask = kBlockSide - 1;
-  const auto x = static_cast<std::size_t>(v.x & kMask), y = static_cast<std::size_t>(v.y & kMask),
-             z = static_cast<std::size_t>(v.z & kMask);
+  const auto x = as_size(v.x & kMask), y = as_size(v.y & kMask), z = as_size(v.z & kMask);
   return (x * kBlockSide + y) * kBlockSide + z;
 }
 
@@ -44,8 +45,7 @@ struct PointBox {
 
   [[nodiscard]] std::uint64_t count() const noexcept {
     const Index3 n = end - first;
-    return static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) *
-           static_cast<std::uint64_t>(n.z);
+    return count_of(n);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 
 namespace palpate {
@@ -37,7 +38,7 @@ void visit_layer(const SparseNumbers& numbers, int bz, F f) {
 // What add(part, number, count) gathers for each layer of blocks.
 template <typename Part, typename Add>
 std::vector<Part> gather_layers(const SparseNumbers& numbers, const Part& empty, int threads, Add add) {
-  std::vector<Part> parts(static_cast<std::size_t>(numbers.blocks().z), empty);
+  std::vector<Part> parts(as_size(numbers.blocks().z), empty);
   parallel_for(parts.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t layer = first; layer < last; ++layer) {
       visit_layer(numbers, static_cast<int>(layer),

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/excitation_front.h"
+
 namespace palpate {
 namespace {
 
@@ -35,7 +37,7 @@ struct Bar {
                                     double step) const {
     std::vector<double> u;
     for (const Vec3& x : points)
-      u.push_back(1.0 / (1.0 + std::exp((x.x - kStart) / tissue.front_width(diffusivity))));
+      u.push_back(1.0 / (1.0 + std::exp((x.x - kStart) / test::front_width(tissue, diffusivity))));
     return {points, tets, std::vector<Vec3>(tets.size(), fibre), tissue, std::move(u), step};
   }
 };
@@ -47,7 +49,8 @@ double front_error(int cells, double step, double time) {
   const Bar bar(cells);
   ExcitationWave wave = bar.wave(tissue, {0.0, 1.0, 0.0}, tissue.d_across, step);
   while (wave.time() < time - 0.5 * step) wave.advance();
-  const double width = tissue.front_width(tissue.d_across), speed = tissue.front_speed(tissue.d_across);
+  const double width = test::front_width(tissue, tissue.d_across),
+               speed = test::front_speed(tissue, tissue.d_across);
   double worst = 0.0;
   for (std::size_t p = 0; p < bar.points.size(); ++p) {
     const double exact = 1.0 / (1.0 + std::exp((bar.points[p].x - kStart - speed * time) / width));
@@ -102,7 +105,7 @@ TEST(Excitation, FrontsRunFasterAlongFibresByTheRootOfTheDiffusivities) {
                across = speed({0.0, 1.0, 0.0}, tissue.d_across);
   EXPECT_NEAR(along / across, std::sqrt(tissue.d_along / tissue.d_across), 0.02);
   // Recovery, which lags, slows the front a little.
-  EXPECT_NEAR(across, tissue.front_speed(tissue.d_across), 0.05 * across);
+  EXPECT_NEAR(across, test::front_speed(tissue, tissue.d_across), 0.05 * across);
   EXPECT_NEAR(speed(Vec3{std::nan("")}, tissue.d_across), across, 1e-5) << "without fibres as across them";
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/scalar_field.h"
+#include "tests/support/torus_scalar.h"
 
 namespace palpate {
 namespace {
@@ -15,7 +16,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 // Central differences have an error of h^2/6 times third derivatives, and of rounding over h.
 TEST(ScalarExamples, JetsAreTheDerivatives) {
   std::mt19937_64 random(1);
-  for (const auto& scalar : {sphere_scalar(), torus_scalar(), marschner_lobb_scalar()}) {
+  for (const auto& scalar : {sphere_scalar(), test::torus_scalar(), marschner_lobb_scalar()}) {
     const Box box = scalar->bounds();
     constexpr double kStep = 1e-5;
     for (int i = 0; i < 200; ++i) {
@@ -37,7 +38,7 @@ TEST(ScalarExamples, JetsAreTheDerivatives) {
 
 TEST(ScalarExamples, HaveTheSurfacesThatTheyAreNamedAfter) {
   EXPECT_DOUBLE_EQ(sphere_scalar()->value({0.6, 0.0, 0.8}), 1.0);
-  EXPECT_DOUBLE_EQ(torus_scalar()->value({0.6, 0.8, 0.25}), 0.0625);
+  EXPECT_DOUBLE_EQ(test::torus_scalar()->value({0.6, 0.8, 0.25}), 0.0625);
   // Marschner and Lobb 1994, at the origin: (1 + alpha (1 + cos(2 pi f_M))) / (2 (1 + alpha)).
   EXPECT_NEAR(marschner_lobb_scalar()->value(Vec3{0.0}), 1.5 / 2.5, 1e-12);
 }

@@ -7,9 +7,9 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "tests/support/mesh_check.h"
 #include "tests/support/sample_meshes.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {
@@ -47,7 +47,7 @@ void expect_unit_cube(const SplitMesh& mesh) {
 }
 
 TEST(CellSplit, StructuredBlockGivesFiveTetrahedraAHexahedron) {
-  const DataSet block = sample_curvilinear(*example("cavity"), {6, 5, 7});
+  const DataSet block = test::sample_curvilinear(*example("cavity"), {6, 5, 7});
   const SplitMesh mesh = split(block);
   EXPECT_EQ(mesh.tets.size(), 5U * 5 * 4 * 6);
   EXPECT_EQ(mesh.merged_points, 0U);
@@ -131,7 +131,7 @@ TEST(CellSplit, PointsFartherApartThanTheToleranceStayApart) {
 
 // Pieces of a parallel run hold cells of their neighbours too.
 TEST(CellSplit, RepeatedCellsCountOnce) {
-  const DataSet block = sample_tetrahedra(*example("cavity"), {5, 5, 5});
+  const DataSet block = test::sample_tetrahedra(*example("cavity"), {5, 5, 5});
   const std::vector<DataSet> blocks{block, block};
   const SplitMesh mesh = split_into_tetrahedra(blocks, "test");
   EXPECT_EQ(mesh.repeated_tets, 5U * 64);
@@ -166,7 +166,7 @@ TEST(CellSplit, LeftHandedBlocksAreTurnedWithoutComplaint) {
 }
 
 TEST(CellSplit, OneInvertedTetrahedronIsCountedAndTurned) {
-  DataSet block = sample_tetrahedra(*example("cavity"), {4, 4, 4});
+  DataSet block = test::sample_tetrahedra(*example("cavity"), {4, 4, 4});
   auto& topology = std::get<UnstructuredTopology>(block.topology);
   std::swap(topology.connectivity[40], topology.connectivity[41]);
   const SplitMesh mesh = split(block);
@@ -175,7 +175,7 @@ TEST(CellSplit, OneInvertedTetrahedronIsCountedAndTurned) {
 }
 
 TEST(CellSplit, TenNodeTetrahedraBecomeEightLinearOnes) {
-  const DataSet linear = sample_tetrahedra(*example("cavity"), {4, 4, 4});
+  const DataSet linear = test::sample_tetrahedra(*example("cavity"), {4, 4, 4});
   const SplitMesh mesh = split(test::quadratic_tetrahedra(linear, still));
   EXPECT_EQ(mesh.tets.size(), 8U * 5 * 27);
   EXPECT_EQ(mesh.refined_cells, 5U * 27);
@@ -183,7 +183,7 @@ TEST(CellSplit, TenNodeTetrahedraBecomeEightLinearOnes) {
 }
 
 TEST(CellSplit, TenNodeTetrahedraBesideOtherCellsKeepTheirCornersAlone) {
-  const DataSet linear = sample_tetrahedra(*example("cavity"), {4, 4, 4});
+  const DataSet linear = test::sample_tetrahedra(*example("cavity"), {4, 4, 4});
   const std::vector<DataSet> blocks{test::quadratic_tetrahedra(linear, still), linear};
   const SplitMesh mesh = split_into_tetrahedra(blocks, "test");
   EXPECT_EQ(mesh.corner_cells, 5U * 27);
@@ -192,7 +192,7 @@ TEST(CellSplit, TenNodeTetrahedraBesideOtherCellsKeepTheirCornersAlone) {
 }
 
 TEST(CellSplit, BlankedPointsTakeTheirCellsAlong) {
-  DataSet block = sample_curvilinear(*example("cavity"), {5, 5, 5});
+  DataSet block = test::sample_curvilinear(*example("cavity"), {5, 5, 5});
   block.visible.assign(125, 1);
   block.visible[62] = 0;  // the middle
   const SplitMesh mesh = split(block);

@@ -9,10 +9,10 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
-#include "common/field/analytic/sampled.h"
 #include "common/field/grid/cell_split.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/sample_meshes.h"
+#include "tests/support/sampled.h"
 
 namespace palpate {
 namespace {
@@ -149,7 +149,7 @@ TEST(TetMesh, OutsideAndNaNBelongToNoCell) {
 
 // An L of cubes: the straight way from one arm to the other leaves the mesh.
 TEST(TetMesh, NonConvexMeshesAreSearchedBeyondTheirGaps) {
-  DataSet block = sample_curvilinear(*example("cavity"), {9, 9, 9}, 0.2);
+  DataSet block = test::sample_curvilinear(*example("cavity"), {9, 9, 9}, 0.2);
   block.visible.assign(9U * 9 * 9, 1);
   for (int k = 0; k < 9; ++k) {
     for (int j = 0; j < 9; ++j) {
@@ -321,7 +321,7 @@ TEST(TetMesh, SinglePrecisionCoordinatesGiveTheSameBits) {
 }
 
 TEST(TetMesh, TheNumberOfThreadsChangesNothing) {
-  const DataSet block = sample_tetrahedra(*example("cavity"), {24, 24, 24});
+  const DataSet block = test::sample_tetrahedra(*example("cavity"), {24, 24, 24});
   SplitMesh split = split_into_tetrahedra(std::span(&block, 1), "test");
   const TetMesh one(split.points, split.tets, 1);
   const TetMesh two(split.points, split.tets, 2);

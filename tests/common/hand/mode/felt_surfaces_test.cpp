@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/scalar_examples.h"
+#include "tests/support/torus_scalar.h"
 
 namespace palpate {
 namespace {
@@ -53,7 +54,7 @@ TEST(FeltSurfaces, TheLatestRequestWins) {
   const auto sphere = make_scalar_field(sphere_scalar());
   for (int i = 1; i <= 20; ++i) surfaces.request({sphere, {{0.05 * i}, 1}});
   ASSERT_TRUE(wait_for([&] { return has_levels(surfaces, {0.05 * 20}); }));
-  const auto torus = make_scalar_field(torus_scalar());
+  const auto torus = make_scalar_field(test::torus_scalar());
   surfaces.request({torus, {{0.16}, 1}});
   EXPECT_TRUE(surfaces.made().meshes.empty()) << "nothing of the other field";
   EXPECT_TRUE(wait_for([&] { return has_levels(surfaces, {0.16}); }));

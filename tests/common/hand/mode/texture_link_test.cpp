@@ -5,7 +5,7 @@
 #include "common/base/error.h"
 #include "common/field/analytic/scalar_examples.h"
 #include "common/field/analytic/volume_examples.h"
-#include "common/hand/touch_choice.h"
+#include "common/hand/touch_options.h"
 #include "common/haptics/constraint/isotropic_drag.h"
 
 namespace palpate::test {
@@ -15,12 +15,10 @@ TEST(TextureWords, ComeBackFromTheOptionsOfASession) {
   for (const char* words : {"off", "on", "0:0,0.1:1", "0.25", "0.001:0,0.01:0.1,0.5:3,smooth"}) {
     TouchChoice choice;
     choice.settings.texture = texture_settings(words);
-    std::string saved = "off";  // left out
-    for (const auto& [name, value] : touch_options_of(choice, "density", false)) {
-      if (name == "noise-texture") saved = value;
-    }
-    EXPECT_EQ(saved, words);
-    EXPECT_EQ(texture_settings(saved), choice.settings.texture);
+    TouchOptions saved;
+    keep_touch(choice, "density", saved);
+    EXPECT_EQ(saved.noise_texture, words);
+    EXPECT_EQ(texture_settings(saved.noise_texture), choice.settings.texture);
   }
   for (const char* words : {"", "yes", "0.1:-1", "0.1:1,0.1:2", "nan"})
     EXPECT_THROW((void)texture_settings(words), Error) << words;

@@ -125,7 +125,6 @@ TEST(ImmersiveTechnique, TheOtherHandCarriesAPlaneRigidly) {
     (void)hands.take(now, {});
     const Rigid grip{geometry.interaction.rotation * now.other->orientation, Vec3{0.0}};
     EXPECT_FALSE(carried.follow(hands.intent(), news)) << "nothing has moved";
-    EXPECT_TRUE(carried.began());
     const Vec3 start = now.other->position;
     PlanePoses last = news.poses;
     for (int n = 0; n < 20; ++n) {
@@ -133,7 +132,6 @@ TEST(ImmersiveTechnique, TheOtherHandCarriesAPlaneRigidly) {
       (void)hands.take(now, {});
       const auto poses = carried.follow(hands.intent(), news);
       ASSERT_TRUE(poses);
-      EXPECT_FALSE(carried.began());
       last = *poses;
       const PlanePose& moved = last.pose[static_cast<std::size_t>(news.current)];
       ASSERT_TRUE(moved.valid());

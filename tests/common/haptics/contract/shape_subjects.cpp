@@ -5,12 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/haptics/constraint/circle.h"
 #include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/grid_axis.h"
 #include "common/haptics/constraint/half_space.h"
-#include "common/haptics/constraint/polyline.h"
-#include "common/haptics/constraint/sphere.h"
+#include "common/haptics/constraint/shape.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 
 namespace palpate::test {

@@ -1,5 +1,3 @@
-#include "common/render/glyph/arrow_mesh.h"
-
 #include <array>
 #include <cmath>
 #include <map>
@@ -7,6 +5,8 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "common/render/glyph/arrow_pass.h"
 
 namespace palpate {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/render/palette.h"
+#include "common/render/color/palette.h"
 #include "tests/common/render/sample_probe.h"
 
 namespace palpate {

@@ -12,6 +12,8 @@
 #include "common/render/scene_renderer.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/sample_probe.h"
+#include "tests/support/lab_color.h"
+#include "tests/support/path_view.h"
 
 namespace palpate {
 namespace {
@@ -246,12 +248,12 @@ TEST(ProbePicture, PathIsColouredByForce) {
     positions.emplace_back(-0.9 + 0.18 * i, 0.0, 0.0);
     forces.push_back(0.4 * i);
   }
-  view.probe->path = make_path_view(positions, forces);
+  view.probe->path = test::make_path_view(positions, forces);
   const Image image = render_image(view, kSize, kSize).image;
   for (const double t : {0.1, 0.5, 0.9}) {
     const auto pixel = test::at(image, -0.9 + 1.8 * t, 0.0);
-    const Vec3 found = lab_from_srgb(Vec3(pixel[0], pixel[1], pixel[2]) / 255.0);
-    const Vec3 expected = lab_from_srgb(Vec3(map_color(ColorMap::kTension, t)));
+    const Vec3 found = test::lab_from_srgb(Vec3(pixel[0], pixel[1], pixel[2]) / 255.0);
+    const Vec3 expected = test::lab_from_srgb(Vec3(map_color(ColorMap::kTension, t)));
     EXPECT_NEAR(std::atan2(found.z, found.y), std::atan2(expected.z, expected.y), 0.15) << t;
   }
 }
@@ -289,7 +291,8 @@ TEST(ProbePicture, LinesAlongOneCurveAreSeenInTheirOrder) {
   followed->points = points;
   probe.followed = followed;
   // The path is there for one half, yellow: as much red as green, and the followed line is grey beside it.
-  probe.path = make_path_view(std::array{points[0], 0.5 * (points[0] + points[1])}, std::array{0.0, 0.0});
+  probe.path =
+      test::make_path_view(std::array{points[0], 0.5 * (points[0] + points[1])}, std::array{0.0, 0.0});
   view.probe = probe;
   const Image image = render_image(view, kSize, kSize).image;
   for (const auto& [t, yellow] :
@@ -306,7 +309,7 @@ TEST(ProbePicture, PathHasNoBridgeAcrossAGap) {
   view.probe->style.path_width = 40.0;
   std::vector<Vec3> positions{
       {-0.8, 0.0, 0.0}, {-0.4, 0.0, 0.0}, Vec3(NAN), {0.4, 0.0, 0.0}, {0.8, 0.0, 0.0}};
-  view.probe->path = make_path_view(positions, std::vector<double>(positions.size(), 0.5));
+  view.probe->path = test::make_path_view(positions, std::vector<double>(positions.size(), 0.5));
   const Image image = render_image(view, kSize, kSize).image;
   EXPECT_TRUE(test::is_background(test::at(image, 0.0, 0.0)));
   EXPECT_FALSE(test::is_background(test::at(image, -0.6, 0.0)));
@@ -344,7 +347,7 @@ TEST(ProbePicture, NewtonsNumbersAndTheSecondBarLeaveTheirMarks) {
 
   view.show_color_bar = true;
   EXPECT_EQ(lit(150, kSize, 100, kSize), 0);
-  view.probe->path = make_path_view(std::array{Vec3(0.0), Vec3(0.01, 0.0, 0.0)}, std::array{0.0, 1.0});
+  view.probe->path = test::make_path_view(std::array{Vec3(0.0), Vec3(0.01, 0.0, 0.0)}, std::array{0.0, 1.0});
   EXPECT_GT(lit(150, kSize, 100, kSize), 300);
 }
 

@@ -15,6 +15,7 @@
 #include "common/render/volume/volume_picture.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/common/render/reference_agreement.h"
+#include "tests/support/half_space.h"
 #include "tests/support/reference_ray.h"
 
 namespace palpate::test {

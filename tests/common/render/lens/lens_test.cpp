@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/half_space.h"
+
 namespace palpate {
 namespace {
 
@@ -27,7 +29,7 @@ std::vector<NamedShape> shapes() {
   return {{"sphere", make_sphere({0.1, -0.2, 0.3}, 0.7)},
           {"box", make_box({0.2, 0.0, -0.1}, turned)},
           {"cylinder", make_cylinder({-0.5, 0.1, 0.0}, {0.4, 0.3, 0.6}, 0.3)},
-          {"half-space", make_half_space({0.1, 0.0, 0.0}, {1.0, 2.0, -0.5})},
+          {"half-space", test::make_half_space({0.1, 0.0, 0.0}, {1.0, 2.0, -0.5})},
           {"polyhedron", tetrahedron()}};
 }
 
@@ -93,7 +95,7 @@ TEST(Magnification, NeedsBoundsAndRoom) {
   EXPECT_TRUE(can(make_sphere({1.0, 2.0, 3.0}, 1e-6)));
   EXPECT_TRUE(can(make_box({1.0, 2.0, 3.0}, Mat3(0.5))));
   EXPECT_TRUE(can(make_cylinder(Vec3(1.0), Vec3(2.0), 0.1)));
-  EXPECT_FALSE(can(make_half_space(Vec3(0.0), {0.0, 0.0, 1.0})));
+  EXPECT_FALSE(can(test::make_half_space(Vec3(0.0), {0.0, 0.0, 1.0})));
   EXPECT_FALSE(can(make_sphere(Vec3(0.0), 0.0)));
   EXPECT_FALSE(can(make_box(Vec3(0.0), Mat3(0.0))));
   std::vector<ConvexShape::HalfSpace> corner{

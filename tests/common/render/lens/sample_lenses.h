@@ -8,6 +8,7 @@
 #include "common/render/camera.h"
 #include "common/render/lens/lens.h"
 #include "tests/common/render/volume/sample_volumes.h"
+#include "tests/support/half_space.h"
 
 namespace palpate::test {
 

@@ -8,6 +8,7 @@
 
 #include "common/field/analytic/scalar_examples.h"
 #include "tests/common/render/picture_checks.h"
+#include "tests/support/torus_scalar.h"
 
 namespace palpate::test {
 namespace {

@@ -13,6 +13,7 @@
 #include "common/render/scene_renderer.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/tensor/sample_tensors.h"
+#include "tests/support/half_space.h"
 
 namespace palpate::test {
 namespace {

@@ -12,7 +12,6 @@
 
 #include "common/render/tract/tract_points.h"
 #include "common/render/tract/tract_progress.h"
-#include "common/render/tract/tract_room.h"
 
 namespace palpate::test {
 namespace {

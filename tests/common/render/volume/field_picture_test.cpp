@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/common/render/reference_agreement.h"
 

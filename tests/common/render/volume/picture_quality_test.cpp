@@ -12,8 +12,8 @@
 #include "common/render/budget/frame_quality.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
-#include "common/render/volume/image_error.h"
-#include "common/render/volume/saving_estimate.h"
+#include "common/render/volume/estimate/image_error.h"
+#include "common/render/volume/estimate/saving_estimate.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/common/render/volume/sample_volumes.h"
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "common/math/power_of_two.h"
-#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "tests/common/render/lens/sample_lenses.h"
 #include "tests/common/render/reference_agreement.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "common/field/data_set.h"
-#include "common/render/volume/volume_image.h"
 #include "common/render/volume/volume_view.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate::test {
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/volume_examples.h"
-#include "common/render/volume/volume_image.h"
+#include "common/render/volume/voxels/volume_image.h"
 #include "tests/common/render/picture_checks.h"
 
 namespace palpate::test {

@@ -10,11 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "common/field/grid/sparse/sparse_builder.h"
-#include "common/render/volume/brick_map.h"
-#include "common/render/volume/coarse_image.h"
-#include "common/render/volume/value_gradient.h"
 #include "common/render/volume/volume_picture.h"
+#include "common/render/volume/voxels/brick_map.h"
+#include "common/render/volume/voxels/coarse_image.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "tests/common/render/lens/sample_lenses.h"
+#include "tests/support/sparse_numbers.h"
 
 namespace palpate::test {
 namespace {

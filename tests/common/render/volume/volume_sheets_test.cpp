@@ -14,12 +14,14 @@
 #include "common/field/scalar_choice.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
-#include "common/render/volume/value_gradient.h"
+#include "common/render/volume/voxels/value_gradient.h"
 #include "common/scene/input.h"
 #include "common/scene/volume_source.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/volume/sample_volumes.h"
+#include "tests/support/half_space.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/sparse_numbers.h"
 
 namespace palpate::test {
 namespace {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/half_space.h"
+
 namespace palpate {
 namespace {
 
@@ -114,7 +116,7 @@ TEST_F(LensControlTest, TheWheelChangesItsSizeAndWithCtrlItsDepth) {
 
 TEST_F(LensControlTest, KeysChangeItsSizeAndAHalfSpaceMovesAlongItsNormal) {
   EXPECT_NE(run(Command::kLensLarger).find("L begins one"), std::string::npos);
-  view_.lenses.push_back({.shape = make_half_space(Vec3(0.2, 0.0, 0.0), Vec3(1.0, 0.0, 0.0))});
+  view_.lenses.push_back({.shape = test::make_half_space(Vec3(0.2, 0.0, 0.0), Vec3(1.0, 0.0, 0.0))});
   const ConvexShape before = view_.lenses[0].shape;
   (void)run(Command::kLensLarger);
   EXPECT_EQ(view_.lenses[0].shape, before);

@@ -102,12 +102,12 @@ TEST_F(PickControlTest, ALineThatIsPickedIsKeptOnceAndAStylusGoesOnFromThere) {
   PickingHand hand = hand_at({0.62, 0.3, 3.0}, true);
   hand.can_move = true;
   EXPECT_EQ(follow(hand), "kept line 1");
-  ASSERT_EQ(session_->kept().entries().size(), 1U);
-  EXPECT_LT(glm::distance(session_->intent().probe, {0.6, 0.3, 0.0}), 1e-12);
+  ASSERT_EQ(session_->trail().kept().entries().size(), 1U);
+  EXPECT_LT(glm::distance(session_->hand().intent().probe, {0.6, 0.3, 0.0}), 1e-12);
   EXPECT_EQ(follow(hand), std::nullopt) << "once a press";
   (void)follow(std::nullopt);
   EXPECT_EQ(follow(hand), "line 1 is kept");
-  EXPECT_EQ(session_->kept().entries().size(), 1U);
+  EXPECT_EQ(session_->trail().kept().entries().size(), 1U);
 }
 
 // A tracked stylus in a session with cutting planes: far from them it points at the sphere of one, which then
@@ -136,6 +136,7 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
   double time = 1.0;
   bool held = false;
   Vec3 before{0.0};
+  TouchOptions kept;
   const auto center = [&] { return session_->planes()->poses.pose[0].center; };
   for (int i = 0; i < 5000 && time < 4.0; ++i) {
     (void)hands.follow(menu, *session_, view_, view_.camera, {0.0, 0.0, 300.0, 200.0}, time);
@@ -145,6 +146,7 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
       ASSERT_TRUE(hands.picked());
       EXPECT_EQ(hands.picked()->kind, PickKind::kHandle);
       before = center();
+      session_->keep(kept);
     }
     // Time goes on once the servo tells of planes.
     if (session_->planes()) time += 0.002;
@@ -157,7 +159,7 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_LT(glm::distance(center(), before + Vec3{0.0, 0.0, 0.02 / scale}), 1e-9);
-  EXPECT_TRUE(session_->undo());
+  session_->restore(kept);
   for (int i = 0; i < 2000 && glm::distance(center(), before) > 1e-9; ++i) {
     session_->update(time, view_.camera, ColorBy::kSpeed, probe);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -38,11 +38,11 @@ class MenuControlTest : public testing::Test {
   }
   bool press() { return menu_.handle({.kind = InputKind::kPress}, kArea, view_.camera); }
   bool release() { return menu_.handle({.kind = InputKind::kRelease}, kArea, view_.camera); }
-  std::vector<Command> act() { return menu_.act(settings_, view_); }
+  std::vector<Command> act() { return menu_.act(scene_, document_, view_); }
 
   SceneState scene_;
   SceneView view_;
-  SceneSettings settings_;
+  Document document_;
   MenuControl menu_;
 };
 
@@ -70,7 +70,7 @@ TEST_F(MenuControlTest, SetsStepWidthAndTurn) {
   move_to(left + length / 3.0, 4.0 + 1.05, view_.camera);  // step 1 of 0 to 3
   EXPECT_TRUE(press());
   EXPECT_TRUE(act().empty());
-  EXPECT_EQ(settings_.time_step, 1U);
+  EXPECT_EQ(time_step_of(document_, scene_.info->times), 1U);
   EXPECT_TRUE(release());
   move_to(left, 5.5 + 1.05, view_.camera);  // the least width
   EXPECT_TRUE(press());

@@ -76,7 +76,7 @@ class MenuHandTest : public testing::Test {
     options.choice.settings.stiffness = kStiffness;
     session_ = std::make_unique<ProbeSession>(std::move(options), [] {});
     session_->set_field({helix_flow(0.25), field_key("helix", 0)});
-    scale_ = session_->metres_per_unit();
+    scale_ = session_->data().workspace().scale();
     auto info = std::make_shared<SceneInfo>();
     info->times = {0.0, 0.5, 1.0, 1.5};
     scene_.info = info;
@@ -87,9 +87,9 @@ class MenuHandTest : public testing::Test {
   }
 
   void frame() {
-    menu_.place(view_.camera, kArea, session_->device_reach());
+    menu_.place(view_.camera, kArea, session_->hand().device_reach());
     (void)hands_.follow(menu_, *session_, view_, view_.camera, kArea, now());
-    (void)menu_.act(settings_, view_);
+    (void)menu_.act(scene_, document_, view_);
     session_->update(now(), view_.camera, ColorBy::kSpeed, probe_);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -117,7 +117,7 @@ class MenuHandTest : public testing::Test {
   HandInSpace hands_;
   SceneState scene_;
   SceneView view_;
-  SceneSettings settings_;
+  Document document_;
   ProbeView probe_;
   double scale_ = 1.0;
 };
@@ -142,10 +142,10 @@ TEST_F(MenuHandTest, ADeviceFeelsTheDetentsOfASliderAndSetsItsValue) {
            glm::distance(session_->readout().probe,
                          eye(view_.camera) + kDepth * (at(slider(0.0), kDown) - eye(view_.camera))) < 1e-9;
   }));
-  EXPECT_FALSE(session_->dial());
+  EXPECT_FALSE(session_->hand().dial());
   link->say(seen_there(slider(0.0), kDown, kDepth), true);
-  ASSERT_TRUE(wait_for([&] { return session_->dial().has_value(); }));
-  EXPECT_EQ(session_->dial()->detents, 4);
+  ASSERT_TRUE(wait_for([&] { return session_->hand().dial().has_value(); }));
+  EXPECT_EQ(session_->hand().dial()->detents, 4);
 
   const double apart =
       glm::distance(seen_there(slider(1.0), kDown, kDepth), seen_there(slider(0.0), kDown, kDepth));
@@ -162,17 +162,18 @@ TEST_F(MenuHandTest, ADeviceFeelsTheDetentsOfASliderAndSetsItsValue) {
       return glm::distance(link->told(), Vec3{expected, 0.0, 0.0}) < 1e-3;
     })) << value
         << ": " << link->told().x << " " << link->told().y << " " << link->told().z << " for " << expected;
-    EXPECT_TRUE(wait_for([&] { return settings_.time_step == static_cast<std::size_t>(std::round(value)); }))
-        << value;
+    EXPECT_TRUE(wait_for([&] {
+      return time_step_of(document_, scene_.info->times) == static_cast<std::size_t>(std::round(value));
+    })) << value;
   }
   // Off the way by 2 mm upwards.
   link->say(seen_there(slider(2.0), kDown, kDepth) + Vec3{0.0, 0.002, 0.0}, true);
   EXPECT_TRUE(wait_for([&] { return std::abs(link->told().y + 0.002 * kStiffness) < 1e-3; }));
   // It lets go: no dial, and the mode is felt again, from zero force.
-  EXPECT_TRUE(wait_for([&] { return settings_.time_step == 2U; }));
+  EXPECT_TRUE(wait_for([&] { return time_step_of(document_, scene_.info->times) == 2U; }));
   link->say(seen_there(slider(2.0), kDown, kDepth), false);
-  EXPECT_TRUE(wait_for([&] { return !session_->dial(); }));
-  EXPECT_EQ(settings_.time_step, 2U);
+  EXPECT_TRUE(wait_for([&] { return !session_->hand().dial(); }));
+  EXPECT_EQ(time_step_of(document_, scene_.info->times), 2U);
   session_->finish();
 
   // The recording holds what was felt: played back, each proxy and force to the bit.
@@ -206,8 +207,8 @@ TEST_F(MenuHandTest, ADeviceTurnsAKnobFromWhereItTakesIt) {
   link->say(rim(kTaken), false);
   ASSERT_TRUE(wait_for([&] { return session_->readout().held; }));
   link->say(rim(kTaken), true);
-  ASSERT_TRUE(wait_for([&] { return session_->dial().has_value(); }));
-  EXPECT_EQ(session_->dial()->detents, 24);
+  ASSERT_TRUE(wait_for([&] { return session_->hand().dial().has_value(); }));
+  EXPECT_EQ(session_->hand().dial()->detents, 24);
   EXPECT_TRUE(wait_for([&] { return session_->readout().held && glm::length(link->told()) < 1e-3; }));
   const Camera before = view_.camera;
   for (double degrees = 2.0; degrees <= 20.0; degrees += 2.0) {
@@ -231,10 +232,10 @@ TEST_F(MenuHandTest, AMouseLeadsTheHandAlongASlider) {
     options.limits.force_cap = 8.0;
     menu_ = {};
     hands_ = {};
-    settings_ = {};
+    document_ = {};
     open(std::move(options));
     const auto mouse_to = [&](double value) {
-      menu_.place(view_.camera, kArea, session_->device_reach());
+      menu_.place(view_.camera, kArea, session_->hand().device_reach());
       const Vec3 shown = project(view_.camera, at(slider(value), kDown), static_cast<int>(kArea.width),
                                  static_cast<int>(kArea.height));
       (void)menu_.handle({.kind = InputKind::kMove, .x = shown.x, .y = shown.y}, kArea, view_.camera);
@@ -246,18 +247,20 @@ TEST_F(MenuHandTest, AMouseLeadsTheHandAlongASlider) {
     mouse_to(0.0);
     ASSERT_TRUE(menu_.handle({.kind = InputKind::kPress}, kArea, view_.camera));
     ASSERT_TRUE(wait_for([&] {
-      return session_->dial() && session_->readout().held &&
+      return session_->hand().dial() && session_->readout().held &&
              glm::distance(session_->readout().probe, at(slider(0.0), kDown)) < 0.5 * menu_.entry();
     }));
     mouse_to(1.35);
-    EXPECT_TRUE(wait_for([&] { return settings_.time_step == 1 && session_->readout().force > 0.02; }));
+    EXPECT_TRUE(wait_for([&] {
+      return time_step_of(document_, scene_.info->times) == 1 && session_->readout().force > 0.02;
+    }));
     mouse_to(2.9);
-    EXPECT_TRUE(wait_for([&] { return settings_.time_step == 3; }));
+    EXPECT_TRUE(wait_for([&] { return time_step_of(document_, scene_.info->times) == 3; }));
     ASSERT_TRUE(menu_.handle({.kind = InputKind::kRelease}, kArea, view_.camera));
-    EXPECT_TRUE(wait_for([&] { return !session_->dial(); }));
-    EXPECT_EQ(settings_.time_step, 3U);
-    EXPECT_TRUE(session_->grabbed());
-    EXPECT_EQ(session_->intent().probe, before) << "the probe is back in the hand where it was";
+    EXPECT_TRUE(wait_for([&] { return !session_->hand().dial(); }));
+    EXPECT_EQ(time_step_of(document_, scene_.info->times), 3U);
+    EXPECT_TRUE(session_->hand().grabbed());
+    EXPECT_EQ(session_->hand().intent().probe, before) << "the probe is back in the hand where it was";
     session_->finish();
   }
 }

@@ -5,55 +5,38 @@
 
 #include <stb_image.h>
 
+#include "apps/flow/flow_panels.h"
 #include "tests/common/window/touch_window.h"
 
 namespace palpate::test {
 namespace {
 
-/// Where the controls are [pixels]: rows of equal height below the heading.
-constexpr double row(int i) { return 98.0 + 26.0 * i; }
-constexpr int kFirstButtons = 0, kMode = 1, kStiffness = 2, kRelease = 3, kDrag = 4, kSpeedForce = 5,
-              kTicks = 6, kBallsAndPath = 7, kFade = 8, kAbout = 9, kKeepAndClear = 10;
-constexpr double kLeft = 72.0, kRight = 205.0;      // of two buttons
-constexpr double kLeastOf = 14.0, kMostOf = 166.0;  // ends of a slider
-constexpr double kBox = 20.0, kSecondBox = 139.0;   // check boxes
-constexpr double kFileY = row(kKeepAndClear + 1);
-constexpr double kKeptY = 407.0, kDeleteX = 218.0;  // of the first line that is kept
-/// The items of a drop-down below it.
-constexpr double item(int of_row, int i) { return row(of_row) + 26.0 + 20.0 * i; }
-
 class TouchPanelTest : public TouchWindowTest {
  protected:
-  void press(double x, double y) {
-    const int frame = next();
-    click(frame, x, y);
-  }
-  void choose(int of_row, int i) {
-    press(kLeft, row(of_row));
-    press(kLeft, item(of_row, i));
-  }
+  /// The mode that follows nothing.
+  void choose_other_mode() { choose("mode", options_.touch.modes[1].name); }
 };
 
 TEST_F(TouchPanelTest, GrabLetsAClickIntoThePictureTakeTheProbeThere) {
-  press(kLeft, row(kFirstButtons));
-  press(middle_x_, middle_y_);
+  press("Grab");
+  click(next(), middle_x_, middle_y_);
   last_ += kPause;
   const WindowResult held = run();
   EXPECT_TRUE(held.probe.held);
   EXPECT_EQ(held.probe.state, HoldState::kHeld);
-  press(kLeft, row(kFirstButtons));
+  press("Let go");
   EXPECT_FALSE(run().probe.held);
 }
 
 TEST_F(TouchPanelTest, ForceGoesOffAndOnAgain) {
-  press(kRight, row(kFirstButtons));
+  press("Force off");
   EXPECT_FALSE(run().probe.servo.armed);
-  press(kRight, row(kFirstButtons));
+  press("Force on again");
   EXPECT_TRUE(run().probe.servo.armed);
 }
 
 TEST_F(TouchPanelTest, TheModeIsChosen) {
-  choose(kMode, 1);
+  choose_other_mode();
   grab();
   const WindowResult result = run();
   EXPECT_TRUE(result.probe.held);
@@ -61,7 +44,7 @@ TEST_F(TouchPanelTest, TheModeIsChosen) {
 }
 
 TEST_F(TouchPanelTest, StiffnessIsForceOverStretch) {
-  press(kLeastOf, row(kStiffness));
+  press("stiffness", 0, kLeast);
   grab();
   lead_to(20.0, 0.0);
   const WindowResult result = run();
@@ -77,22 +60,22 @@ TEST_F(TouchPanelTest, ALineThatLetsGoLaterIsStretchedFarther) {
   options_.script.clear();
   last_ = 1;
   from_x_ = from_y_ = 0.0;
-  press(kMostOf, row(kRelease));
+  press("lets go at", 0, kMost);
   grab();
   lead_to(0.0, 30.0);
   EXPECT_GT(run().probe.stretch, 12.0);
 }
 
 TEST_F(TouchPanelTest, DragIsHowFarTheProxyLagsBehind) {
-  choose(kMode, 1);
+  choose_other_mode();
   grab();
   lead_to(100.0, 0.0);
   EXPECT_NEAR(run().probe.stretch, 4.0, 1e-6);
   options_.script.clear();
   last_ = 1;
   from_x_ = from_y_ = 0.0;
-  choose(kMode, 1);
-  press(kLeastOf, row(kDrag));
+  choose_other_mode();
+  press("drag", 0, kLeast);
   grab();
   lead_to(100.0, 0.0);
   EXPECT_NEAR(run().probe.stretch, 0.0, 1e-6);
@@ -103,21 +86,20 @@ TEST_F(TouchPanelTest, SpeedIsFeltAsAForceAlongTheLine) {
   EXPECT_LT(run().probe.force, 0.01) << "on the line";
   options_.script.clear();
   last_ = 1;
-  press(kMostOf, row(kSpeedForce));
+  press("speed force", 0, kMost);
   grab();
   EXPECT_GT(run().probe.force, 0.2);
 }
 
 TEST_F(TouchPanelTest, TickMarksAreASecondLink) {
-  press(kBox, row(kTicks));
+  press("tick marks");
   grab();
   EXPECT_EQ(run().probe.servo.hand.chain.links, 2);
 }
 
 TEST_F(TouchPanelTest, AClickCountsThoughTheMouseIsElsewhereBeforeTheNextFrame) {
   const int frame = next();
-  move(frame, kBox, row(kTicks));
-  at(frame, {.kind = InputKind::kPress});
+  at_control(frame, {.kind = InputKind::kPress}, "tick marks");
   at(frame, {.kind = InputKind::kRelease});
   move_by(frame, 0.0, 0.0);
   grab();
@@ -133,8 +115,8 @@ TEST_F(TouchPanelTest, BallsAndPathAreSwitchedOff) {
   options_.script.clear();
   last_ = 1;
   from_x_ = from_y_ = 0.0;
-  press(kBox, row(kBallsAndPath));
-  press(kSecondBox, row(kBallsAndPath));
+  press("stream balls");
+  press("path");
   grab();
   lead_to(40.0, 0.0);
   const WindowResult without = run();
@@ -157,14 +139,14 @@ TEST_F(TouchPanelTest, OtherLinesFadeWhileTheProbeIsHeldUnlessToldNotTo) {
   const double faded = brightness();
   options_.script.clear();
   last_ = 1;
-  press(kBox, row(kFade));
+  press("fade the other lines");
   grab();
   EXPECT_GT(brightness(), 1.01 * faded);
 }
 
 TEST_F(TouchPanelTest, LinesAboutTheProbeAreChosen) {
   for (const SeedShape shape : {SeedShape::kRake, SeedShape::kPlane}) {
-    choose(kAbout, static_cast<int>(shape));
+    choose("about it", shape == SeedShape::kRake ? "rake" : "plane");
     grab();
     last_ += 2 * kPause;
     const WindowResult result = run();
@@ -179,25 +161,25 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
   grab();
   lead_to(30.0, 10.0);
   key('G');
-  press(kLeft, row(kKeepAndClear));
+  press("Keep line");
   const WindowResult kept = run();
   ASSERT_TRUE(kept.view.probe->kept);
   EXPECT_EQ(kept.view.probe->kept->size(), 1U);
   const auto script = options_.script;
   const int last = last_;
 
-  press(kDeleteX, kKeptY);
+  press("x");
   EXPECT_TRUE(run().view.probe->kept->empty());
 
   options_.script = script;
   last_ = last;
-  press(kRight, kFileY);
+  press("Save lines");
   EXPECT_NE(run().message.find("saved"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder_.path("followed.vtp")));
 
   options_.script = script;
   last_ = last;
-  press(kLeft, kFileY);
+  press("##file");
   key('A', kModifierControl);
   int frame = next();
   for (const char letter : std::string("ok.csv")) {
@@ -206,7 +188,7 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
     key_up(frame + 1, letter == '.' ? '.' : letter - 'a' + 'A');
     frame += 2;
   }
-  press(kRight, kFileY);
+  press("Save lines");
   const WindowResult saved = run();
   EXPECT_NE(saved.message.find("ok.csv"), std::string::npos) << saved.message;
   EXPECT_NE(read_file(folder_.path("ok.csv")).find("force"), std::string::npos);
@@ -214,14 +196,14 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
 }
 
 TEST_F(TouchPanelTest, OtherLinesOfTheSameFieldLeaveTheProbeInTheHand) {
-  constexpr double kTolerance = 680.0;  // among the lines' controls, below the end of a small window
+  options_.panels = flow_panels();
   middle_y_ += 0.5 * (760 - options_.height);
   options_.height = 760;
   grab();
-  press(kLeastOf, kTolerance);
+  press("tolerance", 0, kLeast);
   const WindowResult traced = run();
   EXPECT_GT(model_.updated, 0);
-  EXPECT_EQ(traced.settings.tolerance, 1e-12);
+  EXPECT_EQ(traced.document.tracing.tolerance, 1e-12);
   EXPECT_TRUE(traced.probe.held);
 }
 
@@ -230,7 +212,7 @@ TEST_F(TouchPanelTest, ThePathIsCleared) {
   lead_to(80.0, 0.0);
   key('G');
   EXPECT_GT(run().view.probe->path.count, 20U);
-  press(kRight, row(kKeepAndClear));
+  press("Clear path");
   EXPECT_LT(run().view.probe->path.count, 2U);
 }
 

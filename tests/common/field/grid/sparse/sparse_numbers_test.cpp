@@ -17,6 +17,7 @@
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/scalar_field.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/sparse_numbers.h"
 
 namespace palpate {
 namespace {
@@ -78,7 +79,7 @@ TEST(SparseNumbers, AreThoseOfTheDenseArrayHoweverTheyAreRead) {
   for (const Index3& n : {Index3(33, 29, 41), Index3(8, 24, 16), Index3(1, 40, 3)}) {
     for (const Index3& shift : {Index3(0), Index3(5, 0, 7), Index3(7)}) {
       const std::vector<float> dense = sample_numbers(n);
-      const auto sparse = make_sparse(dense, n, kBackground, shift);
+      const auto sparse = test::make_sparse(dense, n, kBackground, shift);
       ASSERT_EQ(sparse->size(), dense.size());
       SparseReader reader(*sparse);
       for (std::size_t i = 0; i < dense.size(); ++i) ASSERT_TRUE(same((*sparse)[i], dense[i])) << i;
@@ -124,7 +125,7 @@ TEST(SparseNumbers, RangesAndHistogramsAreThoseOfTheDenseArray) {
   const std::vector<float> dense = sample_numbers(n);
   // What lies beyond the box must not count: a shift leaves background there, which the dense numbers have,
   // too.
-  const auto sparse = make_sparse(dense, n, kBackground, {3, 0, 6});
+  const auto sparse = test::make_sparse(dense, n, kBackground, {3, 0, 6});
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (const float v : dense) {
     if (!std::isfinite(v)) continue;
@@ -147,13 +148,13 @@ TEST(SparseNumbers, RangesAndHistogramsAreThoseOfTheDenseArray) {
 TEST(SparseNumbers, AreMappedOneByOne) {
   const Index3 n(33, 29, 41);
   const std::vector<float> dense = sample_numbers(n);
-  const auto mapped = make_sparse(dense, n, kBackground)->mapped([](float v) { return 2.0F * v; });
+  const auto mapped = test::make_sparse(dense, n, kBackground)->mapped([](float v) { return 2.0F * v; });
   for (std::size_t i = 0; i < dense.size(); ++i) ASSERT_TRUE(same((*mapped)[i], 2.0F * dense[i]));
 }
 
 TEST(SparseNumbers, WhatIsDamagedIsRefusedOrReadWithinItsMemory) {
   const Index3 n(33, 29, 41);
-  const auto whole = make_sparse(sample_numbers(n), n, kBackground);
+  const auto whole = test::make_sparse(sample_numbers(n), n, kBackground);
   const std::size_t size = whole->bytes().size();
   const auto open = [&](const std::vector<SparseChunk>& chunks, std::size_t bytes, const Index3& points) {
     const auto kept = std::make_shared<std::vector<SparseChunk>>(chunks);
@@ -196,7 +197,7 @@ TEST(SparseField, SamplesAndDerivativesAreThoseOfTheDenseOne) {
       {block_of(make_array("s", Association::kPoint, 1, std::span<const float>(numbers)), n)}, choice,
       "dense");
   const auto sparse = make_scalar_field(
-      {block_of(sparse_array(make_sparse(numbers, n, kBackground, {2, 5, 0})), n)}, choice, "sparse");
+      {block_of(sparse_array(test::make_sparse(numbers, n, kBackground, {2, 5, 0})), n)}, choice, "sparse");
   ASSERT_NE(std::get_if<SparseSpan>(&sparse->values().values), nullptr) << "was made dense";
   EXPECT_EQ(sparse->lowest(), dense->lowest());
   EXPECT_EQ(sparse->highest(), dense->highest());

@@ -1,0 +1,88 @@
+#include "apps/cardiac/cardiac_panels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <imgui.h>
+
+#include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/heart_scene.h"
+#include "common/base/text.h"
+#include "common/math/vec_text.h"
+#include "common/window/controls/color_lens_control.h"
+#include "common/window/panels/color_panel.h"
+#include "common/window/panels/panel_parts.h"
+#include "common/window/panels/seed_panel.h"
+#include "common/window/panels/time_panel.h"
+
+namespace palpate {
+namespace {
+
+/// The plane across the middle of `bounds` whose nearer side is left out.
+CutPlane facing(const Camera& camera, const Box& bounds) {
+  return {camera.axes[2], glm::dot(camera.axes[2], 0.5 * (bounds.lower + bounds.upper))};
+}
+
+/// Where it is cut, whether it is turned to the viewer again, and how deep.
+void draw_cut(std::string& text, const Box& bounds, const Camera& camera) {
+  std::optional<CutPlane> cut = parse_cut(text);
+  bool on = cut.has_value();
+  if (checkbox("cut away", &on)) {
+    cut.reset();
+    if (on) cut = facing(camera, bounds);
+  }
+  hint("what lies before a plane is left out of the picture");
+  if (cut) {
+    ImGui::SameLine();
+    if (small_button("face me")) cut = facing(camera, bounds);
+    // All of the box lies between these.
+    const double middle = glm::dot(cut->normal, 0.5 * (bounds.lower + bounds.upper));
+    const double reach = 0.5 * glm::dot(glm::abs(cut->normal), bounds.upper - bounds.lower);
+    (void)slider("cut at", cut->distance, middle - reach, middle + reach, "%.4g");
+  }
+  text = cut ? exact_text(cut->normal) + "," + exact_number(cut->distance) : std::string();
+}
+
+/// What the layer shows inside a lens.
+void choose_lens(HeartOptions& heart, const SceneInfo& info, const SceneView& view) {
+  constexpr const char* kNothing = "nothing";
+  if (!begin_combo("inside lens (L)", heart.lens.empty() ? kNothing : heart.lens_angle.c_str())) return;
+  if (selectable(kNothing, heart.lens.empty())) heart.lens.clear();
+  for (const std::string& name : info.color_arrays) {
+    if (!selectable(name.c_str(), !heart.lens.empty() && name == heart.lens_angle)) continue;
+    heart.lens_angle = name;
+    if (heart.lens.empty()) add_color_lens(view, heart);
+  }
+  ImGui::EndCombo();
+}
+
+/// Which layer is shown, where its fibres start, and where it is cut away: facing the view.
+void draw_layer(PanelContext& on) {
+  section("LAYER");
+  HeartOptions& heart = on.state.document.heart;
+  const SceneInfo& info = *on.scene.info;
+  choose_word("field", on.state.document.input.field, info.fields);
+  draw_time(on.state, info.times);
+  double depth = layer_of(heart).value_or(kViewLayer);
+  if (slider("depth", depth, info.layers->lower, info.layers->upper, "%.2f"))
+    heart.layer = exact_number(depth);
+  explain("layer");
+  draw_seeds(on.state, false);
+  draw_cut(heart.cut, info.bounds, on.view.camera);
+  choose_plotted(on.state, info);
+  double spacing = heart.contours;
+  if (input_numbers("contour spacing", &spacing, 1, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue) &&
+      std::isfinite(spacing)) {
+    heart.contours = std::max(spacing, 0.0);
+  }
+  explain("contour-spacing");
+  choose_lens(heart, info, on.view);
+}
+
+}  // namespace
+
+std::vector<PanelPart> cardiac_panels() { return {draw_layer, draw_layer_colors}; }
+
+}  // namespace palpate

@@ -1,0 +1,221 @@
+#include "apps/dtmri/dtmri_panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <imgui.h>
+
+#include "common/base/text.h"
+#include "common/window/panels/lens_panel.h"
+#include "common/window/panels/panel_parts.h"
+#include "common/window/panels/region_transfer_editor.h"
+#include "common/window/panels/time_panel.h"
+#include "common/window/panels/volume_panel.h"
+
+namespace palpate {
+namespace {
+
+/// Where tracts start, as the panel edits it.
+struct TractSeedChoice {
+  bool at_crosshair = true;      ///< in a ball about it; else wherever FA is above `least_fa`
+  std::optional<double> radius;  ///< of the ball [data units]; none: three voxels
+  double least_fa = 0.4;
+};
+
+// A drop-down of an enumeration with `count` members.
+template <typename Enum>
+void choose(const char* label, Enum& chosen, int count) {
+  if (!begin_combo(label, std::string(name_of(chosen)).c_str())) return;
+  for (int i = 0; i < count; ++i) {
+    const auto member = static_cast<Enum>(i);
+    if (selectable(std::string(name_of(member)).c_str(), member == chosen)) chosen = member;
+  }
+  ImGui::EndCombo();
+}
+
+// Where the slice across axis 0, 1 or 2 of the data lies, voxel by voxel.
+void draw_slice(TensorView& view, std::size_t axis, const char* name) {
+  const TensorVoxels& voxels = *view.image;
+  const int own = slice_axes(voxels.axes)[axis];
+  ImGui::PushID(static_cast<int>(axis));
+  checkbox("##shown", &view.slices[static_cast<std::size_t>(own)]);
+  ImGui::SameLine();
+  const int last = voxels.points[own] - 1;
+  // Sliders rise with the data's coordinate, whichever way the voxels are counted.
+  const bool forwards = voxels.axes[own][static_cast<int>(axis)] > 0.0;
+  const int now = static_cast<int>(std::lround(voxels.grid_coordinates(view.position)[own]));
+  int place = forwards ? now : last - now;
+  const std::string text = short_number(std::round(10.0 * view.position[static_cast<int>(axis)]) / 10.0);
+  if (slider_int(name, &place, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
+    const int wanted = forwards ? place : last - place;
+    view.position = moved_position(voxels, view.position, own, wanted - now);
+  }
+  ImGui::PopID();
+}
+
+void draw_tensor_panel(TensorView& view, bool anatomical) {
+  static constexpr std::array<const char*, 3> kPatient{"sagittal", "coronal", "axial"};
+  static constexpr std::array<const char*, 3> kPlain{"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) draw_slice(view, axis, (anatomical ? kPatient : kPlain)[axis]);
+  checkbox("crosshair", &view.crosshair);
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  checkbox("smooth", &view.smooth);
+  if (!view.image->field) return;  // a lattice alone
+  choose("colour", view.color, kTensorColorCount);
+  choose("glyphs", view.glyphs, kGlyphShapeCount);
+  if (view.glyphs == GlyphShape::kNone) return;
+  constexpr double kLeast = 0.0, kMost = 1.0, kClose = 8.0, kFar = 100.0;
+  slider_scalar("from FA", ImGuiDataType_Double, &view.glyph_least_fa, &kLeast, &kMost, "%.2f",
+                ImGuiSliderFlags_AlwaysClamp);
+  slider_scalar("spacing", ImGuiDataType_Double, &view.glyph_spacing, &kClose, &kFar, "%.0f",
+                ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool draw_underlay_panel(TensorView& view, const std::string& file) {
+  if (!view.underlay) {
+    ImGui::TextDisabled("none: drop an image on the window");
+    return false;
+  }
+  UnderlayView& underlay = *view.underlay;
+  ImGui::TextWrapped("%s", std::filesystem::path(file).filename().string().c_str());
+  const double span = underlay.image->highest - underlay.image->lowest;
+  if (span > 0.0) {
+    constexpr double kNarrowest = 1e-3, kWidest = 2.0;  // of the values
+    const double narrow = kNarrowest * span, wide = kWidest * span;
+    slider_scalar("window", ImGuiDataType_Double, &underlay.window.width, &narrow, &wide, "%.4g",
+                  ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    slider_scalar("level", ImGuiDataType_Double, &underlay.window.level, &underlay.image->lowest,
+                  &underlay.image->highest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (!view.image->field) return false;  // there is nothing to blend with, and no slice without it
+  choose("colours over it", underlay.blend, kUnderlayBlendCount);
+  return button("Remove underlay");
+}
+
+constexpr int kMostSeedsPerVoxel = 64;
+
+/// The shortest edge of a voxel [data units].
+double shortest_edge(const TensorVoxels& voxels) {
+  const Mat3& a = voxels.axes;
+  return std::min({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
+}
+
+double radius_of(const TractSeedChoice& choice, const TensorVoxels& voxels) {
+  constexpr double kVoxels = 3.0;
+  return choice.radius.value_or(kVoxels * shortest_edge(voxels));
+}
+
+/// `choice` as --seeds says it.
+std::string tract_seed_words(const TractSeedChoice& choice, const TensorView& tensors) {
+  if (!choice.at_crosshair) return "fa:" + short_number(choice.least_fa);
+  const Vec3& x = tensors.position;
+  return "sphere:" + short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z) + "," +
+         short_number(radius_of(choice, *tensors.image));
+}
+
+void draw_tract_look(TractView& look) {
+  constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
+  slider("width", look.width, kThin, kThick, "%.1f", ImGuiSliderFlags_Logarithmic);
+  slider("opacity", look.opacity, kFaint, kFull, "%.2f");
+}
+
+void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorView& tensors,
+                      std::optional<TractView>& look) {
+  constexpr std::array<const char*, 2> kWhere{"a ball at the crosshair", "all of high FA"};
+  int where = choice.at_crosshair ? 0 : 1;
+  if (combo("start in", &where, kWhere.data(), static_cast<int>(kWhere.size())))
+    choice.at_crosshair = where == 0;
+  if (choice.at_crosshair) {
+    constexpr double kLeast = 0.5, kMost = 30.0;  // voxels
+    const double edge = shortest_edge(*tensors.image);
+    double radius = radius_of(choice, *tensors.image);
+    if (slider("radius", radius, kLeast * edge, kMost * edge, "%.3g", ImGuiSliderFlags_Logarithmic))
+      choice.radius = radius;
+  } else {
+    slider("FA above", choice.least_fa, 0.0, 1.0, "%.2f");
+  }
+  // Tracts that are shown are traced again with these.
+  slider_int("per voxel", &document.tracts.seeds_per_voxel, 1, kMostSeedsPerVoxel, "%d",
+             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  explain("seeds-per-voxel");
+  slider("end at FA", document.tracts.cutoff, 0.0, 1.0, "%.2f");
+  explain("cutoff");
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
+  if (button("Trace", size)) {
+    document.tracts.seeds = tract_seed_words(choice, tensors);
+    document.tract_look.file.clear();
+  }
+  ImGui::SameLine();
+  if (button("Remove", size)) {
+    document.tracts.seeds.clear();
+    document.tract_look.file.clear();
+  }
+  // Always there, so that nothing below moves when tracts come and go.
+  TractView none;
+  ImGui::BeginDisabled(!look);
+  draw_tract_look(look ? *look : none);
+  ImGui::EndDisabled();
+}
+
+void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& choice, TensorView& tensors,
+                  std::optional<TractView>& tracts) {
+  const bool field = tensors.image->field != nullptr;
+  section(field ? "TENSORS" : "SLICES");
+  if (field) {
+    choose_word("field", state.document.input.field, scene.info->fields);
+    draw_time(state, scene.info->times);
+  }
+  draw_tensor_panel(tensors, scene.info->anatomical);
+  section("UNDERLAY");
+  if (draw_underlay_panel(tensors, state.document.tensors.underlay)) state.document.tensors.underlay.clear();
+  section("TRACTS");
+  if (field) {
+    draw_tract_panel(choice, state.document, tensors, tracts);
+  } else if (tracts) {
+    draw_tract_look(*tracts);
+  }
+}
+
+void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions) {
+  section("ANISOTROPY AS A VOLUME");
+  checkbox("volume", &volume.shown);
+  ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
+  checkbox("in colour", &volume.colored);
+  const ValueHistogram* const histogram = state.histogram.of(volume.image);
+  constexpr ValueSpan kAnisotropies{0.0, 1.0};
+  if (volume.regions) {
+    (void)draw_region_editor("anisotropy", state.histogram.places_of(volume.image), *volume.regions);
+  } else {
+    (void)draw_transfer_editor("anisotropy", kAnisotropies, histogram, volume.transfer);
+  }
+  draw_rays(volume);
+  actions.lens = draw_lens_panel(volume, scene.looks, "FA", scene.info->bounds, state.histogram);
+  if (volume.lenses.empty()) return;
+  EditedTransfer focus = focus_of(volume, scene);
+  ImGui::TextDisabled("inside lenses");
+  const bool changed =
+      focus.regions ? draw_region_editor("focus", state.histogram.places_of(volume.image), *focus.regions)
+                    : draw_transfer_editor("focus", kAnisotropies, histogram, focus.colors);
+  if (changed) set_focus(volume, focus);
+}
+
+}  // namespace
+
+std::vector<PanelPart> dtmri_panels() {
+  return {[choice = TractSeedChoice()](PanelContext& on) mutable {
+    if (on.scene.tensors && on.view.tensors) {
+      draw_tensors(on.state, on.scene, choice, *on.view.tensors, on.view.tracts);
+      if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
+    } else if (on.view.tracts) {
+      section("TRACTS");
+      draw_tract_look(*on.view.tracts);
+    }
+  }};
+}
+
+}  // namespace palpate

@@ -1,0 +1,21 @@
+/// What a picture says of its document: mouse, hands and panels change a view directly, and these write what
+/// they did back, as the settings say it. One function a subject; each is the inverse of what composes that
+/// subject (line_view.h, volume_scene.h, lens_text.h, plane_image_text.h), so that a view composed of the
+/// document again is the same.
+#pragma once
+
+#include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
+
+namespace palpate {
+
+/// Direction, zoom for a picture of kSessionAspect, focal point, and how the camera projects.
+void keep_camera(const SceneView& view, Document& document);
+
+/// How lines are drawn, but for what colours them.
+void keep_lines(const LineStyle& style, Document& document);
+
+/// The lenses and cuts of a volume, how its rays are cast, and what is drawn on its planes.
+void keep_volume(const VolumeView& volume, Document& document);
+
+}  // namespace palpate

@@ -1,0 +1,29 @@
+/// The module of the 5DT Data Glove.
+#include <memory>
+#include <string>
+
+#include "common/device/driver/dataglove/dataglove_link.h"
+#include "common/device/driver/transport/libusb_transport.h"
+#include "common/device/driver/transport/usb_module.h"
+
+namespace palpate {
+namespace {
+
+DriverModule* dataglove_module(std::string& error) noexcept {
+  std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+  if (!bus) return nullptr;
+  static LinkModule module = usb_module(
+      std::move(bus),
+      [](UsbTransport& transport, const DriverOptions& options) {
+        expect_no_options("dataglove", options);
+        return std::make_unique<DataGloveLink>(transport);
+      },
+      "");
+  return &module;
+}
+
+}  // namespace
+}  // namespace palpate
+
+extern "C" [[gnu::visibility("default")]] const palpate::DriverEntry palpate_driver_entry;
+const palpate::DriverEntry palpate_driver_entry{palpate::driver_build(), palpate::dataglove_module};

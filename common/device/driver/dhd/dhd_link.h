@@ -1,0 +1,81 @@
+/// A link to a device of Force Dimension (omega, delta, sigma, lambda), worked through its maker's library.
+///
+/// Every round sends a force, then asks for position and buttons, a thousand times a second. The
+/// device's own watchdog, where its library has one, takes the force away 20 ms after the last command: a
+/// call that never comes back leaves no force.
+///
+/// The last command on any fault is zero. A device that switched its force off by itself gets force again
+/// once none was asked for (ForceRearm). Where the calls of the library fail it is closed and looked for
+/// again.
+#pragma once
+
+#include <string>
+
+#include "common/device/driver/arm_settings.h"
+#include "common/device/driver/dhd/dhd_library.h"
+#include "common/device/driver/link_clock.h"
+#include "common/device/driver_link.h"
+
+namespace palpate {
+
+struct DhdSettings {
+  ArmSettings arm;
+  std::string file;  ///< of the library; empty: by its usual names
+  int serial = 0;    ///< of the device; 0: the first one
+
+  static constexpr const char* kAxes = "yzx";  ///< its y points right, z up, x towards the user
+  DhdSettings();
+};
+
+/// The options of `--device dhd:NAME=VALUE,…`. @throws Error (usage).
+[[nodiscard]] DhdSettings dhd_settings(const DriverOptions& options);
+[[nodiscard]] std::string dhd_help();
+
+class DhdLink final : public DriverLink {
+ public:
+  static constexpr double kPeriod = 0.001;  ///< [s] between two rounds, at least
+  static constexpr int kMostMisses = 5;     ///< calls in a row that may fail or make no sense
+  static constexpr int kLastZeros = 3;
+  static constexpr unsigned char kWatchdog = 160;  ///< of 1/8 ms: 20 ms
+
+  /// @pre settings.arm.valid(). `clock` outlives this.
+  DhdLink(const DhdFunctions& dhd, LinkClock& clock, const DhdSettings& settings);
+  ~DhdLink() override;
+
+  bool round(const Vec3& force) noexcept override;
+  [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
+  [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
+  [[nodiscard]] std::string advice() const override;
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  [[nodiscard]] std::string place() const override;
+
+ private:
+  void search() noexcept;
+  bool exchange(const Vec3& force) noexcept;
+  /// Reads what the device says of itself; false: the call failed.
+  bool look() noexcept;
+  bool take_sample(double now) noexcept;
+  bool show(const Vec3& force) noexcept;
+  void give_up() noexcept;
+  void close() noexcept;
+
+  DhdFunctions dhd_;
+  LinkClock& clock_;
+  DhdSettings settings_;
+  DeviceLimits limits_;
+  LinkStatus status_;
+  DeviceAtoms atoms_;
+
+  bool open_ = false;
+  char id_ = 0;
+  std::string name_;  ///< "omega.3"
+  double cap_ = 0.0;  ///< [N] of the device that is open
+  DhdFunctions::Status state_{};
+  double looked_ = -1.0;  ///< [s]
+  double round_ = 0.0;    ///< [s] when the last one began
+  bool off_ = false;      ///< it has switched its force off
+  ForceRearm rearm_;
+  int misses_ = 0;  ///< in a row
+};
+
+}  // namespace palpate

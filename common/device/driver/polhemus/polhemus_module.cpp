@@ -1,0 +1,29 @@
+/// The module of the Polhemus trackers.
+#include <memory>
+#include <string>
+
+#include "common/device/driver/polhemus/polhemus_link.h"
+#include "common/device/driver/transport/libusb_transport.h"
+#include "common/device/driver/transport/usb_module.h"
+
+namespace palpate {
+namespace {
+
+DriverModule* polhemus_module(std::string& error) noexcept {
+  std::unique_ptr<UsbTransport> bus = make_libusb_transport(error);
+  if (!bus) return nullptr;
+  static LinkModule module = usb_module(
+      std::move(bus),
+      [](UsbTransport& transport, const DriverOptions& options) {
+        const PolhemusSettings settings = polhemus_settings(options);
+        return std::make_unique<PolhemusLink>(polhemus_port(settings, transport), settings);
+      },
+      polhemus_help());
+  return &module;
+}
+
+}  // namespace
+}  // namespace palpate
+
+extern "C" [[gnu::visibility("default")]] const palpate::DriverEntry palpate_driver_entry;
+const palpate::DriverEntry palpate_driver_entry{palpate::driver_build(), palpate::polhemus_module};

@@ -1,0 +1,200 @@
+#include "common/hand/probe_trail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/hand/probe_picture.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+constexpr double kPathSpacing = 2e-4;  // diagonals
+constexpr std::size_t kMostFelt = 1U << 20U;
+
+bool is_on_line(const HandStep& step) {
+  return step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
+}
+
+/// Of the path through tensors: up to the most that their thresholds let the hand feel, which may be little
+/// of what the device could show.
+std::optional<ValueRange> tension_range(const ChainSettings& settings, double force_cap) {
+  const double most = std::min(force_cap, settings.stiffness * settings.anisotropy.tau.highest());
+  return most > 0.0 ? std::optional(ValueRange{0.0, most}) : std::nullopt;
+}
+
+}  // namespace
+
+void ProbeTrail::open_data() {
+  hints_ = {};
+  readout_ = {};
+  drawing_.reset();
+  if (data_.has_tensors()) drawing_.emplace(data_.field().tensor);
+  clear_path();
+  kept_.clear();
+  last_drawn_.reset();
+}
+
+void ProbeTrail::follow(const HapticChain& made) {
+  curve_.reset();
+  if (made.followed) curve_.emplace(made.followed);
+  follows_surface_ = made.surfaces_of != nullptr;
+  felt_.clear();
+}
+
+void ProbeTrail::clear_path() {
+  if (drawing_) {
+    drawing_->clear();
+    path_ = drawing_->path();
+    return;
+  }
+  path_ = std::make_shared<ProbePath>(data_.empty() ? 0.0 : kPathSpacing * data_.field().diagonal());
+}
+
+void ProbeTrail::take(const HandStep& step, bool on_dial, StrokeUse stroke) {
+  if (step.present) read_step(step);
+  if (!step.present || on_dial) {
+    path_->append(Vec3{kNotThere}, 0.0);
+    if (drawing_) drawing_->let_go();
+    held_before_ = false;
+    if (!step.present) readout_.held = readout_.acts = false;
+    return;
+  }
+  const bool on_line = is_on_line(step);
+  if (step.chain.jumped) {
+    path_->append(Vec3{kNotThere}, 0.0);
+    other_line_ = true;
+  }
+  if (on_line && other_line_) {
+    felt_.clear();
+    other_line_ = false;
+    // A line is popped over to when the next one holds; a surface is behind when it lets go.
+    if (held_before_ && data_.has_flow() && !follows_surface_) ++readout_.popped;
+  }
+  if (follows_surface_ && step.state == HoldState::kReleased) ++readout_.popped;
+  held_before_ = held_before_ || on_line;
+  draw_path(step, on_line, stroke);
+}
+
+void ProbeTrail::read_step(const HandStep& step) {
+  const Workspace workspace = data_.workspace();
+  // What the hand is pulled by is the last proxy; those before it lie on the way. A flow's line is followed
+  // by the first one, which a drag leaves behind; on a heart's layer the groove is what is followed.
+  const auto last = static_cast<std::size_t>(std::max(step.chain.links, 1)) - 1;
+  const std::size_t shown = data_.has_wall() ? last : 0;
+  readout_.held = true;
+  readout_.acts = (step.buttons & 1U) != 0;
+  readout_.state = step.state;
+  readout_.cut = step.cut;
+  readout_.probe = workspace.data_from_workspace(step.probe);
+  readout_.proxy =
+      workspace.data_from_workspace(step.chain.links > 0 ? step.chain.proxies[shown] : step.probe);
+  readout_.links = link_proxies(step.chain, workspace);
+  readout_.residual = step.chain.residual / workspace.scale();
+  readout_.force = glm::length(step.force);
+  constexpr double kMillimetres = 1e3;
+  readout_.stretch =
+      step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;
+}
+
+/// The path, a tract or the forces along the line go on to the proxy.
+void ProbeTrail::draw_path(const HandStep& step, bool on_line, StrokeUse stroke) {
+  const Vec3& proxy = readout_.proxy;
+  const double force = readout_.force;
+  if (drawing_) drawing_->draw(step, proxy, force, stroke);
+  if (drawing_ && drawing_->redrawn()) path_ = drawing_->path();
+  if (!drawing_ || !drawing_->joining()) path_->append(on_line ? proxy : Vec3{kNotThere}, force);
+  if (!on_line) return;
+  const double spacing = kPathSpacing * data_.field().diagonal();
+  if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
+    if (felt_.size() < kMostFelt) felt_.push_back({proxy, force});
+  } else {
+    felt_.back().force = force;
+  }
+}
+
+void ProbeTrail::update(bool show_balls, ColorBy color_by) {
+  if (curve_) {
+    const std::shared_ptr<const FollowedLine> before = curve_->drawn();
+    curve_->update(show_balls ? ball_interval(*data_.field().field, data_.workspace()) : 0.0, color_by);
+    growing_ = curve_->drawn() != before;
+    // What is let go stays in the picture until the next line is caught.
+    if (curve_->drawn()) last_drawn_ = curve_->drawn();
+  }
+  if (readout_.held) read_data(data_.field(), data_.noise().get(), hints_, readout_);
+}
+
+void ProbeTrail::describe(const TouchChoice& choice, double force_cap, bool on_dial, ProbeView& view) const {
+  view.probe = readout_.held ? readout_.probe : Vec3{kNotThere};
+  view.proxy = readout_.held ? readout_.proxy : Vec3{kNotThere};
+  view.links.clear();
+  if (readout_.held && !on_dial) view.links = readout_.links;
+  view.force = readout_.force;
+  view.force_cap = force_cap;
+  view.velocity = readout_.held && readout_.sampled ? readout_.velocity : Vec3{0.0};
+  view.tensor = readout_.held ? readout_.tensor : std::nullopt;
+  // A hand outside the data follows nothing.
+  const bool outside = readout_.held && readout_.state == HoldState::kOutside;
+  view.followed = curve_ && !outside ? last_drawn_ : nullptr;
+  const std::optional<ValueRange> tension =
+      data_.has_tensors() ? tension_range(choice.settings, force_cap) : std::nullopt;
+  view.path = choice.show_path ? PathView{path_, path_->size(), tension} : PathView{};
+  view.seeds = data_.lines();
+  view.kept = kept_.drawn();
+}
+
+void ProbeTrail::note_line() {
+  noted_.reset();
+  if (drawing_ && readout_.held) drawing_->note();
+  if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
+  noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), felt_)};
+}
+
+void ProbeTrail::forget_note() {
+  noted_.reset();
+  if (drawing_) drawing_->forget_note();
+}
+
+ProbeTrail::Keeping ProbeTrail::keep_line() {
+  if (drawing_) {
+    if (!drawing_->keep(kept_)) return Keeping::kNothing;
+    path_ = drawing_->path();
+    return Keeping::kKept;
+  }
+  if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
+  return keep(curve_->line(), forces_along(curve_->line(), felt_));
+}
+
+ProbeTrail::Keeping ProbeTrail::keep_noted_line() {
+  if (drawing_ && readout_.held) drawing_->cut_to_note();
+  return noted_ && readout_.held ? keep(noted_->line, noted_->forces) : keep_line();
+}
+
+ProbeTrail::Keeping ProbeTrail::keep(const Line& line, std::vector<double> forces) {
+  if (kept_.ends_with(line, forces)) return Keeping::kAlready;
+  kept_.keep(line, std::move(forces));
+  return Keeping::kKept;
+}
+
+void ProbeTrail::remove_kept(std::size_t index) {
+  if (drawing_) {
+    drawing_->remove(kept_, index);
+  } else {
+    kept_.remove(index);
+  }
+}
+
+std::size_t ProbeTrail::undo_depth() const noexcept {
+  return drawing_ ? drawing_->undo_depth() : kept_.undo_depth();
+}
+
+bool ProbeTrail::undo() {
+  if (!drawing_) return kept_.undo();
+  if (!drawing_->undo(kept_)) return false;
+  path_ = drawing_->path();
+  return true;
+}
+
+}  // namespace palpate

@@ -1,0 +1,35 @@
+#include "common/trace/exact/exact_mesh.h"
+
+#include <span>
+#include <variant>
+
+#include "common/base/parallel.h"
+#include "common/field/grid/tet_mesh.h"
+
+namespace palpate {
+
+const ExactMesh& ExactMesh::of(const VectorField& field, int threads) {
+  return field.prepared().get<ExactMesh>([&] { return std::make_shared<const ExactMesh>(field, threads); });
+}
+
+ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_mesh()) {
+  const std::span<const Vec3> points = mesh_->points();
+  vertices_ = std::make_unique_for_overwrite<PackedVertex[]>(points.size());
+  const PointVectors& values = field.values();
+  std::visit(
+      [&](const auto& stored) {
+        parallel_for(points.size(), threads, [&](std::size_t first, std::size_t last) {
+          for (std::size_t i = first; i < last; ++i) {
+            const Vec3 v = values.scale * Vec3{stored[3 * i], stored[3 * i + 1], stored[3 * i + 2]};
+            vertices_[i] = {.x = {points[i].x, points[i].y, points[i].z, 0.0}, .v = {v.x, v.y, v.z, 0.0}};
+          }
+        });
+      },
+      values.values);
+  static_assert(sizeof(TetMesh::Tet) == sizeof(std::uint32_t[4]));
+  view_ = {.vertices = vertices_.get(),
+           .cells = reinterpret_cast<const std::uint32_t(*)[4]>(mesh_->cells().data()),
+           .neighbors = reinterpret_cast<const std::int32_t(*)[4]>(mesh_->neighbors().data())};
+}
+
+}  // namespace palpate

@@ -1,0 +1,243 @@
+#include "common/trace/exact/exact_walk.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "common/base/index.h"
+#include "common/trace/walk/tet_crossing.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+// Coordinates are stored with 2^-53 of their size; that much is uncertain of every point.
+constexpr double kRoundingOfPoint = 2.0;
+
+}  // namespace
+
+ExactWalk::ExactWalk(const ExactMesh& mesh, double rest_distance, TraceDirection direction,
+                     const ExactKernel& kernel)
+    : mesh_(&mesh),
+      kernel_(kernel),
+      rest_distance_(rest_distance),
+      sign_(direction == TraceDirection::kForward ? 1.0 : -1.0) {}
+
+void ExactWalk::enter_cell() {
+  finite_ = kernel_.load(cell_, mesh_->vertices(), mesh_->mesh().cells()[as_size(cell_index_)].data(), sign_);
+  loaded_ = true;
+}
+
+bool ExactWalk::start(const Vec3& seed) {
+  TetPoint found;
+  if (!mesh_->mesh().locate(seed, kNoCell, found)) return false;
+  cell_index_ = found.cell;
+  entry_ = -1;
+  exit_face_ = -1;
+  pieces_in_cell_ = 0;
+  standing_ = 0;
+  ignored_face_ = -1;
+  leave_robust();
+  robust_pieces_ = long_cells_ = 0;
+  has_piece_ = false;
+  b_ = Pack4{std::max(found.b[0], 0.0), std::max(found.b[1], 0.0), std::max(found.b[2], 0.0),
+             std::max(found.b[3], 0.0)};
+  enter_cell();
+  w_ = rate(cell_, b_);
+  const Vec3 v = velocity(cell_, w_).xyz();
+  const double speed = finite_ ? glm::length(v) : 0.0;
+  direction_ = speed > 0.0 ? v / speed : Vec3{0.0};
+  const double rounding = kUlp * (cell_.size + glm::length(seed));
+  error_.start(direction_, rounding);
+  end_ = LinePoint{.position = seed, .time = 0.0, .arc = 0.0, .speed = speed, .error = rounding};
+  begin_ = end_;
+  return true;
+}
+
+std::optional<End> ExactWalk::advance() {
+  has_piece_ = false;
+  work_ = 1;
+  if (exit_face_ >= 0) {
+    const int face = exit_face_;
+    exit_face_ = -1;
+    if (const std::optional<End> ended = cross(face)) return ended;
+  }
+  for (;;) {
+    if (!loaded_) {
+      enter_cell();
+      w_ = rate(cell_, b_);
+    }
+    if (!finite_) return End::kBadData;
+    if (robust_.modes) return robust_piece(robust_);
+    if (long_.modes) return robust_piece(long_);
+    switch (fast_piece()) {
+      case PieceOutcome::kPiece:
+        return std::nullopt;
+      case PieceOutcome::kStandstill:
+        return End::kStagnation;
+      case PieceOutcome::kRobust:
+        enter_robust();
+        break;
+      case PieceOutcome::kCross: {
+        const int face = exit_face_;
+        exit_face_ = -1;
+        if (const std::optional<End> ended = cross_standing(face)) return ended;
+        break;
+      }
+    }
+  }
+}
+
+/// Crosses a face without having moved: on a vertex or an edge, where several cells meet. The cells around it
+/// are walked through, and if that does not come to an end soon, the one that lies ahead is looked up.
+std::optional<End> ExactWalk::cross_standing(int face) {
+  constexpr int kWalk = 8;
+  constexpr double kAhead = 1e-8;  // of the cell: beyond rounding, well within the next cell
+  if (++standing_ > kMaxStandingSteps) return End::kStagnation;
+  if (standing_ % kWalk != 0) return cross(face);
+  const Vec3 x = position(cell_, b_).xyz();
+  TetPoint ahead;
+  const double distance = kAhead * cell_.size;
+  if (!mesh_->mesh().locate(x + distance * direction_, cell_index_, ahead)) return cross(face);
+  leave_robust();
+  ignored_face_ = -1;
+  pieces_in_cell_ = 0;
+  settle(ahead.cell, x);
+  return std::nullopt;
+}
+
+PieceOutcome ExactWalk::fast_piece() {
+  if (pieces_in_cell_ >= kMaxPiecesInCell) return PieceOutcome::kRobust;
+  if (pieces_in_cell_ == 0) {
+    rate_at_entry_ = max_abs(w_);
+  } else if (max_abs(w_) < kSlowed * rate_at_entry_) {
+    return PieceOutcome::kRobust;
+  }
+  b_.store(piece_.b);
+  w_.store(piece_.w);
+  piece_.speed = end_.speed;
+  piece_.cell = cell_index_;
+  piece_.entry = entry_;
+  piece_.face = -1;
+  const PieceOutcome outcome = kernel_.advance(cell_, mesh_->view(), piece_);
+  exit_face_ = piece_.face;
+  if (outcome == PieceOutcome::kPiece) {
+    piece_path_ = Path::kFast;
+    close_piece(Pack4::load(piece_.b_end), Pack4::load(piece_.w_end), piece_.time, piece_.arc,
+                kRoundingPerCell * kUlp * cell_.size * (1.0 + piece_.theta));
+  }
+  return outcome;
+}
+
+void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error) {
+  begin_ = end_;
+  const Vec3 before = direction_;
+  b_ = max(b, Pack4{});
+  w_ = w;
+  entry_ = -1;
+  ++pieces_in_cell_;
+  standing_ = 0;
+  const Vec3 v = velocity(cell_, w).xyz();
+  const double speed = glm::length(v);
+  if (speed > 0.0) direction_ = v * (1.0 / speed);
+  turn_cosine_ = glm::dot(before, direction_);
+
+  // (1) of error_transport.h by two terms; on the robust path the modes carry it.
+  if (piece_path_ == Path::kFast) {
+    const Vec3& e = error_.vector();
+    const Pack4 first = time * apply(cell_, along(cell_, Pack4{e, 0.0}));
+    Pack4 change = velocity(cell_, first);
+    constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which the second term is left out
+    if (dot3(change, change) > kSmall * glm::dot(e, e)) {
+      change += velocity(cell_, (0.5 * time) * apply(cell_, first));
+    }
+    error_.set(e + change.xyz());
+  }
+  error_.add(local_error);
+  end_.position = position(cell_, b_).xyz();
+  end_.time = begin_.time + time;
+  end_.arc = begin_.arc + arc;
+  end_.speed = speed;
+  const double of_point = std::abs(end_.position.x) + std::abs(end_.position.y) + std::abs(end_.position.z);
+  end_.error = error_.across(direction_) + kRoundingOfPoint * kUlp * of_point;
+  has_piece_ = true;
+}
+
+std::optional<End> ExactWalk::cross(int face) {
+  const TetMesh& mesh = mesh_->mesh();
+  const CellIndex from = cell_index_;
+  const CellIndex next = neighbors(from)[as_size(face)];
+  if (next == kNoCell) return End::kLeftDomain;
+  leave_robust();
+  ignored_face_ = -1;
+  pieces_in_cell_ = 0;
+  loaded_ = false;
+  if (mesh.zero_volume(next)) {
+    const Vec3 x = position(cell_, b_).xyz();
+    const CellIndex beyond = sound_cell_beyond(mesh, next, from, x);
+    if (beyond == kNoCell) return End::kLeftDomain;
+    settle(beyond, x);
+    return std::nullopt;
+  }
+  // The three shared vertices keep their coordinates under the neighbour's numbering; its own vertex,
+  // opposite to the face of entry, is the one that none of them matches.
+  TetMesh::Tet here = mesh.cells()[as_size(from)];
+  here[as_size(face)] = kNoVertex;
+  const std::uint32_t* const there = mesh.cells()[as_size(next)].data();
+  Pack4 shared;
+  unsigned matched = 0;
+  for (int k = 0; k < 4; ++k) {
+    const Mask4 same = equal(there, here[as_size(k)]);
+    matched |= bits(same);
+    shared += select(same, Pack4::all(b_[k]), Pack4{});
+  }
+  // Rounding must not let the sum drift over thousands of cells: 1/sum to first order.
+  const double sum = (b_[0] + b_[1]) + (b_[2] + b_[3]);
+  b_ = (2.0 - sum) * shared;
+  cell_index_ = next;
+  entry_ = std::countr_one(matched);
+  return std::nullopt;
+}
+
+void ExactWalk::settle(CellIndex cell, const Vec3& x) {
+  const Vec4 b = mesh_->mesh().barycentric(cell, x);
+  double kept[4];
+  double sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    kept[i] = std::max(b[i], 0.0);
+    sum += kept[i];
+  }
+  b_ = (1.0 / sum) * Pack4{kept[0], kept[1], kept[2], kept[3]};
+  cell_index_ = cell;
+  entry_ = -1;
+  loaded_ = false;
+}
+
+LinePoint ExactWalk::at(double theta) const {
+  if (theta <= 0.0) return begin_;
+  if (theta >= 1.0) return end_;
+  LinePoint point = begin_;
+  const double h = theta * piece_.time;
+  Pack4 b, speeds;
+  if (piece_path_ != Path::kFast) {
+    const RobustFlow flow = robust_flow_to(h);
+    b = flow.b;
+    speeds = flow.speed;
+  } else {
+    Course begin{.b = Pack4::load(piece_.b), .w = Pack4::load(piece_.w), .a = {}, .j = {}};
+    begin.a = apply(cell_, begin.w);
+    begin.j = apply(cell_, begin.a);
+    const Flow at_h = flow(cell_, begin, h, pair_count(h * cell_.norm));
+    b = at_h.b;
+    speeds = sqrt(at_h.squared_speed);
+  }
+  point.position = position(cell_, b).xyz();
+  point.time += h;
+  point.arc += arc_length(begin_.speed, speeds, h).length;
+  point.speed = speeds[3];
+  point.error += theta * (end_.error - begin_.error);
+  return point;
+}
+
+}  // namespace palpate

@@ -1,0 +1,109 @@
+/// Follows a line through a tetrahedral mesh, one exact piece at a time. No allocation on the fast path.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "common/base/index.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/trace/exact/affine_modes.h"
+#include "common/trace/exact/exact_kernel.h"
+#include "common/trace/exact/exact_mesh.h"
+#include "common/trace/walk/error_transport.h"
+#include "common/trace/walk/line_walk.h"
+
+namespace palpate {
+
+class ExactWalk final : public LineWalk {
+ public:
+  /// @param rest_distance how near a fixed point counts as having reached it, frame L.
+  /// @param kernel outlives this.
+  ExactWalk(const ExactMesh& mesh, double rest_distance, TraceDirection direction,
+            const ExactKernel& kernel = exact_kernel());
+
+  [[nodiscard]] bool start(const Vec3& seed) override;
+  [[nodiscard]] std::optional<End> advance() override;
+  [[nodiscard]] LinePoint at(double theta) const override;
+  /// Pieces that took the robust path, and cells that took it in long double, for reports.
+  [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
+  [[nodiscard]] std::int64_t long_cells() const noexcept { return long_cells_; }
+
+ private:
+  static constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  /// Rounding of one cell's gather, series and hand-over, in units of 2^-52 of the cell's size.
+  static constexpr double kRoundingPerCell = 16.0;
+  static constexpr int kMaxPiecesInCell = 64;  ///< after that the robust path takes the cell
+  /// A line that slows to this part of its rate at the entry of a cell may be coming to rest there: the
+  /// robust path is to judge it before rounding drowns the rate.
+  static constexpr double kSlowed = 1.0 / 64;
+  static constexpr int kMaxStandingSteps =
+      256;  ///< crossings without progress: more than cells meet at a point
+
+  enum class Path : std::uint8_t { kFast, kRobust, kLong };
+
+  /// A cell solved by its modes.
+  template <class Real>
+  struct Robust {
+    std::optional<AffineModes<Real>> modes;
+    Real time = 0;         ///< since the modes began
+    Real step = 0;         ///< of the last piece
+    Real piece_start = 0;  ///< its beginning
+  };
+  struct RobustFlow {
+    Pack4 b, w;
+    std::array<Pack4, 4> velocity;  ///< at the inner nodes of the rule for the arc length, and at the end
+    Pack4 speed;                    ///< there
+  };
+
+  void enter_cell();
+  [[nodiscard]] const TetMesh::Neighbors& neighbors(CellIndex cell) const {
+    return mesh_->mesh().neighbors()[as_size(cell)];
+  }
+  [[nodiscard]] PieceOutcome fast_piece();
+  template <class Real>
+  [[nodiscard]] std::optional<End> robust_piece(Robust<Real>& robust);
+  /// From `start` to `stop` = start + h, times of the modes.
+  template <class Real>
+  [[nodiscard]] RobustFlow robust_flow(const AffineModes<Real>& modes, Real start, Real h, Real stop) const;
+  [[nodiscard]] RobustFlow robust_flow_to(double h) const;  ///< from the beginning of the last piece
+  [[nodiscard]] std::optional<End> cross(int face);
+  [[nodiscard]] std::optional<End> cross_standing(int face);
+  void settle(CellIndex cell, const Vec3& x);
+  void close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error);
+  void enter_robust();
+  template <class Real>
+  void solve(Robust<Real>& robust);
+  /// The next cell, or the same one from another point, begins on the fast path.
+  void leave_robust() {
+    robust_.modes.reset();
+    long_.modes.reset();
+  }
+
+  const ExactMesh* mesh_;
+  const ExactKernel& kernel_;
+  double rest_distance_;
+  double sign_;
+
+  AffineCell cell_;
+  CellIndex cell_index_ = kNoCell;
+  bool loaded_ = false, finite_ = true;
+  Pack4 b_, w_;
+  int entry_ = -1;
+  int exit_face_ = -1;  ///< face by which the last piece left, not yet crossed
+  int pieces_in_cell_ = 0;
+  double rate_at_entry_ = 0.0;
+  int standing_ = 0;
+  int ignored_face_ = -1;
+
+  Robust<double> robust_;     ///< tried first
+  Robust<long double> long_;  ///< where doubles are not certain
+
+  ExactPiece piece_;  ///< the last one; of a robust one only the time
+  Path piece_path_ = Path::kFast;
+
+  ErrorTransport error_;
+  std::int64_t robust_pieces_ = 0, long_cells_ = 0;
+};
+
+}  // namespace palpate

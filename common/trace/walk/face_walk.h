@@ -1,0 +1,393 @@
+/// Follows a line by a general method, cell by cell.
+///
+/// The interpolant is smooth inside a cell and only continuous across faces, so no step spans a face: a step
+/// that would leave the cell is taken with the cell's own formula (which goes on past the face) and aimed at
+/// the crossing that a parabola predicts; from its end the face is reached by the third-order series in
+/// arc length with exact slope and curvature, over the small part of the step that is left (near_). So every
+/// method keeps its order on data that is only C0. The slope at the end is the first slope in the next cell.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "common/base/index.h"
+#include "common/ode/root.h"
+#include "common/ode/step_control.h"
+#include "common/trace/polynomial_root.h"
+#include "common/trace/walk/domain.h"
+#include "common/trace/walk/error_ellipse.h"
+#include "common/trace/walk/error_transport.h"
+#include "common/trace/walk/line_walk.h"
+#include "common/trace/walk/method.h"
+
+namespace palpate {
+
+template <class Domain, class Method>
+class FaceWalk final : public LineWalk {
+ public:
+  FaceWalk(const Domain& domain, const WalkSettings& settings)
+      : domain_(domain),
+        settings_(settings),
+        inverse_tolerance_(1.0 / settings.tolerance),
+        control_(Method::kPower) {
+    // What the series over the last bit neglects falls with the fourth power of its part of the step.
+    near_ = Method::kAdaptive ? std::min(0.12, 2.0 * std::sqrt(std::sqrt(settings.tolerance))) : 0.02;
+  }
+
+  [[nodiscard]] bool start(const Vec3& seed) override {
+    if (!domain_.locate(seed)) return false;
+    has_piece_ = false;
+    entry_ = -1;
+    pending_face_ = -1;
+    standing_ = 0;
+    control_ = StepControl(Method::kPower);
+    y_ = Pack4{seed, 0.0};
+    k_ = slope(y_);
+    const bool moves = std::isfinite(k_[3]);
+    direction_ = moves ? k_.xyz() : Vec3{0.0};
+    h_ = Method::kAdaptive ? std::min(0.25 * domain_.size(), settings_.largest_step) : settings_.fixed_step;
+    const double rounding = kUlp * (domain_.size() + magnitude(seed));
+    error_.start(direction_, rounding);
+    end_ = LinePoint{
+        .position = seed, .time = 0.0, .arc = 0.0, .speed = moves ? 1.0 / k_[3] : 0.0, .error = rounding};
+    begin_ = end_;
+    fresh_ = true;
+    return true;
+  }
+
+  [[nodiscard]] std::optional<End> advance() override {
+    has_piece_ = false;
+    for (;;) {
+      if (pending_face_ >= 0) {
+        const int face = pending_face_;
+        pending_face_ = -1;
+        if (!domain_.cross(face, y_, entry_)) return End::kLeftDomain;
+        fresh_ = true;
+      }
+      if (domain_.bad()) return End::kBadData;
+      if (!std::isfinite(k_[3])) return End::kStagnation;
+      if (fresh_) {
+        bend_ = curvature(domain_.gradient(y_), k_);
+        fresh_ = false;
+      }
+      // The flow slows down towards a zero that lies within the distance asked for.
+      if (slowing_ > 0.0 && 1.0 <= slowing_ * k_[3] * settings_.rest_distance) return End::kStagnation;
+      const double standing = kStanding * domain_.size();
+      const Crossing crossing = domain_.predict(y_, k_, bend_, entry_, std::max(h_, standing));
+      if (crossing.face >= 0 && crossing.distance <= standing && standing_ < kMaxStanding) {
+        ++standing_;
+        pending_face_ = crossing.face;
+        continue;
+      }
+      return take_step(crossing);
+    }
+  }
+
+  [[nodiscard]] LinePoint at(double theta) const override {
+    if (theta <= 0.0) return begin_;
+    if (theta >= 1.0) return end_;
+    LinePoint point = begin_;
+    const double arc = theta * (end_.arc - begin_.arc);
+    if (!dense_known_) {
+      dense_ = method_.dense();
+      dense_known_ = true;
+    }
+    const Pack4 y = dense_value(piece_start_, dense_, arc / method_.step());
+    point.position = y.xyz();
+    point.time = y[3];
+    point.arc += arc;
+    point.speed = glm::length(domain_.velocity(y).xyz());
+    // The dense output is off too, most in the middle of the step. Along a curve of constant fourth
+    // derivative the Hermite cubic of rk34 is off by 2.4 times the local error of its step.
+    constexpr double kDense = 2.4;
+    const double middle = 4.0 * theta * (1.0 - theta);
+    point.error += theta * (end_.error - begin_.error) + kDense * middle * middle * local_;
+    return point;
+  }
+  [[nodiscard]] double theta_at_arc(double arc) const override {
+    const double length = end_.arc - begin_.arc;
+    return length > 0.0 ? std::clamp((arc - begin_.arc) / length, 0.0, 1.0) : 0.0;
+  }
+
+ private:
+  static constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  static constexpr double kStanding = 1e-13;  ///< of the cell: closer to a face counts as on it
+  static constexpr int kMaxStanding = 64;     ///< crossings without progress
+  static constexpr int kMaxAttempts = 80;
+  static constexpr int kMaxReaimed = 12;  ///< new aims at another face within a step
+  static constexpr int kMaxMissed = 16;   ///< aims at a face within a step that did not come near it
+
+  static double magnitude(const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
+
+  /// v/|v| and 1/|v|.
+  [[nodiscard]] Pack4 slope(const Pack4& y) const {
+    Pack4 v = domain_.velocity(y);
+    const double square = v.lo[0] * v.lo[0] + v.lo[1] * v.lo[1] + v.hi[0] * v.hi[0];
+    v.hi[1] = 1.0;
+    return v / Pack4::all(std::sqrt(square));
+  }
+
+  /// Derivative of slope() along the line; notes how fast the flow slows down.
+  [[nodiscard]] Pack4 curvature(const FlowGradient& gradient, const Pack4& k) {
+    const Pack4 change = gradient.along(k);
+    const double inverse_speed = k[3];
+    const double along = change.lo[0] * k.lo[0] + change.lo[1] * k.lo[1] + change.hi[0] * k.hi[0];
+    slowing_ = -along;
+    Pack4 bend = inverse_speed * (change - along * k);
+    bend.hi[1] = -along * inverse_speed * inverse_speed;
+    return bend;
+  }
+
+  /// Jacobian of slope(), rows first, for the stiff method.
+  [[nodiscard]] SmallLu<4>::Matrix slope_jacobian(const Pack4& y, const Pack4& k) const {
+    const Mat3 j = domain_.gradient(y).matrix();
+    const Vec3 n = k.xyz();
+    const Vec3 along = n * j;  // n^T J
+    SmallLu<4>::Matrix m{};
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        m[as_size(row)][as_size(column)] = k[3] * (j[column][row] - n[row] * along[column]);
+      }
+    }
+    for (int column = 0; column < 3; ++column) m[3][as_size(column)] = -k[3] * k[3] * along[column];
+    return m;
+  }
+
+  /// How far rounding of the position and of the interpolation turns the direction: the velocity is a sum of
+  /// terms as large as the Jacobian times the coordinates and the cell, which cancel near a zero.
+  [[nodiscard]] double slope_rounding() const {
+    const Mat3 j = domain_.gradient(y_).matrix();
+    const double rate = std::sqrt(glm::dot(j[0], j[0]) + glm::dot(j[1], j[1]) + glm::dot(j[2], j[2]));
+    constexpr double kRoundings = 8.0;  // of coordinates and of each term
+    return kRoundings * kUlp * rate * (magnitude(y_.xyz()) + domain_.size()) * k_[3];
+  }
+
+  /// The first part of the last attempt's step at which the curve leaves the cell; above 1 where it does not.
+  [[nodiscard]] Crossing first_exit() const {
+    const auto q = method_.dense();
+    constexpr std::size_t kDegree = std::tuple_size_v<std::decay_t<decltype(q)>>;
+    Crossing first{.face = -1, .distance = 2.0};
+    for (int face = 0; face < Domain::face_count(); ++face) {
+      std::array<double, kDegree + 1> a{};
+      a[0] = face == entry_ ? 0.0 : std::max(0.0, domain_.face_value(face, y_));
+      for (std::size_t j = 0; j < kDegree; ++j) a[j + 1] = domain_.face_rate(face, q[j]);
+      constexpr double kResolution = 1.0 / 1024;
+      const double theta = first_fall<kDegree>(a, kResolution);
+      if (theta < first.distance) first = {face, theta};
+    }
+    return first;
+  }
+
+  /// The face, other than `reached`, that lies farthest back along the line from a point outside it.
+  [[nodiscard]] Crossing behind(const Pack4& y, const Pack4& k, int reached) const {
+    Crossing farthest{.face = -1, .distance = 0.0};
+    for (int face = 0; face < Domain::face_count(); ++face) {
+      if (face == reached) continue;
+      const double value = domain_.face_value(face, y), rate = domain_.face_rate(face, k);
+      if (value < 0.0 && rate < 0.0 && value / rate > farthest.distance) farthest = {face, value / rate};
+    }
+    return farthest;
+  }
+
+  [[nodiscard]] std::optional<End> take_step(const Crossing& predicted) {
+    const auto f = [this](const Pack4& y) { return slope(y); };
+    const auto jacobian = [this](const Pack4& y, const Pack4& k) { return slope_jacobian(y, k); };
+    int face = predicted.distance <= h_ ? predicted.face : -1;
+    double h = face >= 0 ? predicted.distance : std::min(h_, settings_.largest_step);
+    int reaimed = 0, missed = 0;
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+      const double smallest = 4.0 * kUlp * (magnitude(y_.xyz()) + domain_.size());
+      if (!(h > smallest)) return standing_cross(face);
+      // Divisions that need not wait for the step.
+      const double speed = 1.0 / k_[3], per_length = 1.0 / h;
+      const bool sound = method_.attempt(f, jacobian, y_, k_, h);
+      const Pack4& k1 = method_.last_slope();
+      double local = 0.0;
+      StepControl::Verdict verdict{.accepted = true, .factor = 1.0};
+      {
+        const Pack4 e = method_.error();
+        local = std::sqrt(e.lo[0] * e.lo[0] + e.lo[1] * e.lo[1] + e.hi[0] * e.hi[0]);
+        if constexpr (Method::kAdaptive) {
+          // The error in time counts as the way that it stands for.
+          const double time_error = std::abs(e.hi[1]) * speed;
+          const double error = std::max(local, time_error) * per_length;
+          double ratio = error * inverse_tolerance_;
+          // Next to a zero the direction is rounding: no step is short enough for an error below that.
+          if (ratio > 1.0) ratio = error / (settings_.tolerance + slope_rounding());
+          constexpr double kFarBelow = 0.1;
+          if (face >= 0 && ratio <= kFarBelow && sound) {
+            verdict = {true, h_ > h ? 1.0 : 2.0};  // cut short by a face: nothing to learn for the next step
+          } else {
+            verdict = control_.judge(sound ? ratio : HUGE_VAL);
+          }
+        } else if (!sound || !std::isfinite(local)) {
+          return End::kStagnation;
+        }
+      }
+      if (!verdict.accepted || !std::isfinite(k1[3])) {
+        if (!Method::kAdaptive) return End::kStagnation;
+        h *= verdict.accepted ? StepControl::kSmallest : verdict.factor;
+        h_ = h;
+        face = -1;
+        continue;
+      }
+
+      // Where did it end? Positions between are judged by the control points of the cubic through both ends.
+      const Pack4& y1 = method_.end();
+      Pack4 y_end = y1, k_end = k1;
+      double length = h;
+      if (face >= 0) {
+        gradient_ = domain_.gradient(y1);
+        const Pack4 bend1 = curvature(gradient_, k1);
+        const Pack4 third = per_length * (bend1 - bend_);
+        const double rate = domain_.face_rate(face, k1);
+        const double value = domain_.face_value(face, y1);
+        // On the face as far as rounding can tell: to aim again, at a face that is only touched, would not
+        // end.
+        double delta = 0.0;
+        if (std::abs(value) > domain_.face_rounding(face, y1)) {
+          delta = -value / rate;
+          delta = -value / (rate + 0.5 * delta * domain_.face_rate(face, bend1));
+        }
+        if (!(rate < 0.0) || !(std::abs(delta) <= near_ * h)) {
+          // Aim again, at what the curve itself says.
+          const Crossing exit =
+              rate < 0.0 && std::abs(delta) < 0.5 * h ? Crossing{face, 1.0 + delta / h} : first_exit();
+          if (exit.distance > 1.0 && !(rate < 0.0)) {
+            face = -1;  // the prediction was wrong: the curve turns back before the face
+          } else {
+            if (++missed > kMaxMissed) {
+              // A face that is only touched, as far as rounding can tell, is no aim: nearer to it first.
+              face = -1;
+              h *= 0.5;
+              continue;
+            }
+            const double theta = std::clamp(exit.distance, 0.01, 1.5);
+            if (theta * h > h_ && Method::kAdaptive == false) {
+              face = -1;
+              h = h_;
+              continue;
+            }
+            h *= theta;
+            face = exit.face >= 0 ? exit.face : face;
+            continue;
+          }
+        } else {
+          const double half = 0.5 * delta * delta;
+          y_end = y1 + delta * k1 + half * bend1 + (half * delta * (1.0 / 3.0)) * third;
+          k_end = k1 + delta * bend1 + half * third;
+          length = h + delta;
+        }
+      }
+      // The end may lie behind another face that was crossed shortly before: aim at that one.
+      if (!domain_.inside(y_end, face)) {
+        const Crossing earlier = behind(y_end, k_end, face);
+        if (earlier.face >= 0 && earlier.distance < 0.5 * length && ++reaimed < kMaxReaimed) {
+          face = earlier.face;
+          h = length - earlier.distance;
+          continue;
+        }
+      }
+      const Pack4 p1 = y_ + (length * (1.0 / 3.0)) * k_;
+      const Pack4 p2 = y_end - (length * (1.0 / 3.0)) * k_end;
+      if (!(domain_.inside(p1, face) && domain_.inside(p2, face) && domain_.inside(y_end, face))) {
+        const Crossing exit = first_exit();
+        const bool same = face >= 0 && exit.face == face && exit.distance > 1.0 - 2.0 * near_;
+        if (exit.distance < 1.0 && !same && ++reaimed < kMaxReaimed) {
+          h *= std::max(exit.distance, 0.01);
+          face = exit.face;
+          continue;
+        }
+      }
+
+      if constexpr (!Method::kAdaptive) {
+        // A fixed step that turns back on itself has passed over a point of rest.
+        constexpr double kReversed = -0.5;
+        if (glm::dot(k_.xyz(), k_end.xyz()) < kReversed) return End::kStagnation;
+      }
+      accept(y_end, k_end, length, local, face);
+      if constexpr (Method::kAdaptive) {
+        const double proposed = verdict.factor * h;
+        h_ = verdict.factor >= 1.0 && face >= 0 ? std::max(h_, proposed) : proposed;
+        h_ = std::min(h_, settings_.largest_step);
+      }
+      return std::nullopt;
+    }
+    return End::kStagnation;
+  }
+
+  /// The step has shrunk to rounding: on a face, cross it; else the direction has no limit here, which is
+  /// what a point of rest looks like.
+  [[nodiscard]] std::optional<End> standing_cross(int face) {
+    if (face >= 0 && standing_ < kMaxStanding) {
+      ++standing_;
+      pending_face_ = face;
+      return advance();
+    }
+    return End::kStagnation;
+  }
+
+  void accept(const Pack4& y_end, const Pack4& k_end, double length, double local, int face) {
+    begin_ = end_;
+    piece_start_ = y_;
+    dense_known_ = false;
+    const Vec3 n = k_end.xyz();
+    const double inverse_speed = k_end[3];
+    // Of a piece to a face, that at the end of the step will do.
+    if (face < 0) gradient_ = domain_.gradient(y_end);
+    const auto apply = [&](const Vec3& d) {
+      const Vec3 moved = gradient_.along(Pack4{d, 0.0}).xyz();
+      return inverse_speed * (moved - glm::dot(n, moved) * n);
+    };
+    const auto matrix = [&] { return Mat3{apply({1, 0, 0}), apply({0, 1, 0}), apply({0, 0, 1})}; };
+    error_.advance(apply, matrix, length);
+    local_ = local;
+    if constexpr (Method::kEstimatesKept) {
+      error_.add(local + kUlp * domain_.size(), n);
+    } else {
+      error_.add(local + kUlp * domain_.size());
+    }
+    y_ = y_end;
+    k_ = k_end;
+    pending_face_ = face;
+    entry_ = -1;
+    standing_ = 0;
+    if (face < 0) bend_ = curvature(gradient_, k_);
+    turn_cosine_ = glm::dot(direction_, n);
+    direction_ = n;
+    end_.position = y_.xyz();
+    end_.time = y_[3];
+    end_.arc = begin_.arc + length;
+    end_.speed = 1.0 / inverse_speed;
+    end_.error = error_.across(n) + 2.0 * kUlp * magnitude(end_.position);
+    has_piece_ = true;
+  }
+
+  Domain domain_;
+  WalkSettings settings_;
+  double inverse_tolerance_;
+  Method method_;
+  StepControl control_;
+  /// An estimate of the error of the very solution that is kept has nothing in reserve: no direction that
+  /// the error may take can be left out then. That of a lower order exceeds the error of the solution kept.
+  std::conditional_t<Method::kEstimatesKept, ErrorEllipse, ErrorTransport> error_;
+  double near_ = 0.05;
+  Pack4 y_, k_, bend_, piece_start_;
+  mutable decltype(std::declval<const Method&>().dense()) dense_;  ///< of the last piece, once asked for
+  mutable bool dense_known_ = false;
+  FlowGradient gradient_;  ///< at the end of the last step, in its cell
+  double local_ = 0.0;     ///< error of the last piece alone
+  double slowing_ = 0.0;   ///< -n . J n, positive where the flow slows down
+  double h_ = 0.0;
+  int entry_ = -1;
+  int pending_face_ = -1;  ///< reached by the last piece, not yet crossed
+  int standing_ = 0;
+  bool fresh_ = true;
+};
+
+}  // namespace palpate

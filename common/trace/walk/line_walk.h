@@ -1,0 +1,52 @@
+/// A line being followed, one piece at a time. Each advance() does a bounded amount of work, so that a line
+/// can be grown by a few pieces a tick.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "common/geometry/line.h"
+#include "common/trace/line_builder.h"
+
+namespace palpate {
+
+class LineWalk : public DensePiece {
+ public:
+  virtual ~LineWalk() = default;
+
+  /// Puts the walk on a seed (frame L). False where it lies in no cell.
+  [[nodiscard]] virtual bool start(const Vec3& seed) = 0;
+
+  /// Follows the line by one piece. Returns why it ends there, if it does; has_piece() tells whether there is
+  /// a (last) piece.
+  [[nodiscard]] virtual std::optional<End> advance() = 0;
+
+  /// The piece of the last advance(): at(theta) is defined on it.
+  [[nodiscard]] bool has_piece() const noexcept { return has_piece_; }
+  [[nodiscard]] const LinePoint& begin() const noexcept { return begin_; }
+  [[nodiscard]] const LinePoint& end() const noexcept { return end_; }
+  /// Unit tangent at end(); the last one known where the flow rests.
+  [[nodiscard]] const Vec3& direction() const noexcept { return direction_; }
+  /// Cosine of the angle between the first and the last tangent of the piece.
+  [[nodiscard]] double turn_cosine() const noexcept { return turn_cosine_; }
+  /// What the last advance() cost, in units of an ordinary piece, roughly: for those who ration pieces.
+  [[nodiscard]] int work() const noexcept { return work_; }
+
+ protected:
+  LineWalk() = default;
+  LinePoint begin_, end_;
+  Vec3 direction_{0.0};
+  double turn_cosine_ = 1.0;
+  int work_ = 1;
+  bool has_piece_ = false;
+};
+
+/// Frame L.
+struct WalkSettings {
+  double tolerance = 1e-6;      ///< local error per arc length
+  double fixed_step = 0.0;      ///< of Euler and RK4
+  double rest_distance = 1e-6;  ///< how near a fixed point counts as having reached it
+  double largest_step = HUGE_VAL;
+};
+
+}  // namespace palpate

@@ -1,0 +1,23 @@
+#include "common/window/hand_news.h"
+
+namespace palpate {
+
+void HandNews::follow(const ProbeSession& touch, PanelState& state) {
+  const ProbeReadout& hand = touch.readout();
+  if (hand.popped != popped_) {
+    if (hand.popped > popped_)
+      state.say(touch.data().levels().field ? "popped through to the other side"
+                                            : "popped over to the next line");
+    popped_ = hand.popped;
+  }
+  if (hand.fault != fault_) {
+    fault_ = hand.fault;
+    state.fail(fault_);
+  }
+  if (hand.device != device_) {
+    device_ = hand.device;
+    state.say(device_.empty() ? "the device is ready" : device_);
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,47 @@
+#include "common/window/scene_jobs.h"
+
+#include <utility>
+
+#include <GLFW/glfw3.h>
+
+#include "common/window/glfw_window.h"
+
+namespace palpate {
+namespace {
+
+// A job that answers within this time is waited for before the next one starts; a slower one is
+// cancelled when the document changes again [s].
+constexpr double kPatience = 0.4;
+
+}  // namespace
+
+SceneJobs::SceneJobs(WindowModel& model) : model_(model), job_([] { glfwPostEmptyEvent(); }) {
+  require_glfw();
+  job_.start([&model](Progress& progress) { return model.start(progress); });
+}
+
+const Progress* SceneJobs::shown_progress(bool playing) const {
+  const bool slow = !playing && job_.seconds() > kPatience;
+  const bool update = kind_ == Kind::kUpdate || kind_ == Kind::kRestore;
+  return running() && (!update || slow) ? &job_.progress() : nullptr;
+}
+
+void SceneJobs::start_next(const Document& wanted) {
+  if (running()) return;
+  if (to_open_) {
+    kind_ = Kind::kOpen;
+    job_.start([this, files = *std::exchange(to_open_, {})](Progress& progress) {
+      return model_.open(files, progress);
+    });
+  } else if (restore_ || !same_scene(wanted, requested_)) {
+    requested_ = wanted;
+    kind_ = std::exchange(restore_, false) ? Kind::kRestore : Kind::kUpdate;
+    job_.start([this, document = wanted](Progress& progress) { return model_.update(document, progress); });
+  }
+}
+
+void SceneJobs::give_way() {
+  if (running() && kind_ == Kind::kUpdate && job_.seconds() > kPatience) job_.cancel();
+}
+
+}  // namespace palpate

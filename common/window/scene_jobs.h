@@ -1,0 +1,58 @@
+/// The long work behind a window: opening inputs and making scenes of them, one job at a time on a thread of
+/// its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "common/window/background_job.h"
+
+namespace palpate {
+
+class SceneJobs {
+ public:
+  /// A restored document is one that was taken back, or restored after that.
+  enum class Kind : std::uint8_t { kStart, kOpen, kUpdate, kRestore };
+
+  /// Begins to read what the model was made for: before there is a window, which takes its own while.
+  /// `model` outlives this.
+  explicit SceneJobs(WindowModel& model);
+
+  [[nodiscard]] bool running() const noexcept { return job_.running(); }
+  /// Of the job that runs, or ended last.
+  [[nodiscard]] Kind kind() const noexcept { return kind_; }
+  /// What is shown of the job that runs: of an update only when it is slow, and not while time steps play,
+  /// since a bar that comes and goes would move the panel under the mouse. Null: nothing.
+  [[nodiscard]] const Progress* shown_progress(bool playing) const;
+  /// What the job came to, once it has ended.
+  [[nodiscard]] std::optional<BackgroundJob::Outcome> take() { return job_.take(); }
+
+  /// Opens other files as soon as nothing runs.
+  void open(InputFiles files) { to_open_ = std::move(files); }
+  /// Starts what is next, where nothing runs: opening files, else an update where `wanted` makes another scene
+  /// than what was requested.
+  void start_next(const Document& wanted);
+  /// Of the last job.
+  [[nodiscard]] const Document& requested() const noexcept { return requested_; }
+  /// The scene that is shown is of this one: nothing is to be updated for it.
+  void settle(const Document& document) { requested_ = document; }
+  /// The next job makes the scene of a restored document, whatever was requested.
+  void restore() noexcept { restore_ = true; }
+  /// Whether that is still to come.
+  [[nodiscard]] bool restoring() const noexcept { return restore_ || (running() && kind_ == Kind::kRestore); }
+
+  void cancel() noexcept { job_.cancel(); }
+  /// The document has changed: a slow update, whose answer is no longer wanted, makes way for the next.
+  void give_way();
+
+ private:
+  WindowModel& model_;
+  Kind kind_ = Kind::kStart;
+  Document requested_;
+  bool restore_ = false;
+  std::optional<InputFiles> to_open_;
+  BackgroundJob job_;  // last: its thread uses the model
+};
+
+}  // namespace palpate

@@ -1,0 +1,312 @@
+#include "lab/data/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "lab/data/line_error.h"
+#include "lab/data/made_data.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kMadeLimit = 1e-9;  // of the diagonal: what cell-exact lines promise on linear fields
+constexpr int kScalingExponent = 60;
+constexpr double kExtreme = 1e30;
+
+using FieldPtr = std::shared_ptr<const VectorField>;
+
+FieldPtr made_field(DataSet data) {
+  const VectorChoice choice{.arrays = {"velocity"}, .label = "velocity"};
+  std::vector<DataSet> blocks;
+  blocks.push_back(std::move(data));
+  return make_vector_field(blocks, choice, "made data");
+}
+
+StabilityCase make_case(std::string name, double measured, double limit, std::string unit,
+                        std::string meaning) {
+  return {{std::move(name), measured, limit, measured <= limit}, std::move(unit), std::move(meaning)};
+}
+
+// Linear fields v = R L R^T x with L = diag(l) and a fixed rotation R: x(t) = R exp(L t) R^T x_0.
+
+/// Axes that are aligned with no edge of the mesh.
+Mat3 oblique_axes() {
+  const Vec3 a = glm::normalize(Vec3{2.0, 1.0, -1.5});
+  const Vec3 b = glm::normalize(glm::cross(a, Vec3{0.3, -1.0, 0.7}));
+  return {a, b, glm::cross(a, b)};
+}
+
+Vec3 linear_velocity(const Vec3& eigenvalues, const Vec3& x) {
+  const Mat3 r = oblique_axes();
+  return r * (eigenvalues * (glm::transpose(r) * x));
+}
+
+Vec3 linear_solution(const Vec3& eigenvalues, const Vec3& x0, double t) {
+  const Mat3 r = oblique_axes();
+  return r * (glm::exp(eigenvalues * t) * (glm::transpose(r) * x0));
+}
+
+std::vector<Vec3> seeds_within(double half_size) {
+  std::vector<Vec3> seeds;
+  for (int i = 0; i < 27; ++i) {
+    const Index3 place{i % 3, i / 3 % 3, i / 9};
+    const Vec3 u = Vec3(place) - 1.0;
+    seeds.push_back(half_size * (u + Vec3{0.11, -0.07, 0.05}));
+  }
+  return seeds;
+}
+
+/// Largest distance of any point from where the closed form is at that point's time.
+double distance_from_solution(const std::vector<Line>& lines, const std::vector<Vec3>& seeds,
+                              const Vec3& eigenvalues) {
+  double worst = 0.0;
+  for (const Line& line : lines) {
+    for (const LinePoint& p : line.points) {
+      worst =
+          std::max(worst, glm::distance(p.position, linear_solution(eigenvalues, seeds[line.seed], p.time)));
+    }
+  }
+  return worst;
+}
+
+StabilityCase linear_case(const std::string& name, const std::string& meaning, const Vec3& eigenvalues,
+                          const std::vector<double>& z) {
+  const auto even = even_coordinates(5);
+  const FieldPtr field = made_field(
+      tetrahedral_data(even, even, z, [&](const Vec3& x) { return linear_velocity(eigenvalues, x); }));
+  const auto seeds = seeds_within(0.4);
+  const TraceResult result = trace_lines(*field, seeds, {.threads = 1});
+  const double error = result.lines.size() == seeds.size()
+                           ? distance_from_solution(result.lines, seeds, eigenvalues) / field->diagonal()
+                           : HUGE_VAL;
+  return make_case(name, error, kMadeLimit, "of the diagonal", meaning);
+}
+
+StabilityCase sink_case() {
+  const Vec3 fixed_point{0.123, -0.234, 0.345};
+  const auto even = even_coordinates(5);
+  const FieldPtr field =
+      made_field(tetrahedral_data(even, even, even, [&](const Vec3& x) { return fixed_point - x; }));
+  const TraceResult result = trace_lines(*field, seeds_within(0.8), {.threads = 1});
+  double worst = result.lines.empty() ? HUGE_VAL : 0.0;
+  for (const Line& line : result.lines) {
+    const double distance = glm::distance(line.points.back().position, fixed_point);
+    worst = std::max(worst, line.end == End::kStagnation ? distance : HUGE_VAL);
+  }
+  return make_case("stagnation", worst / field->diagonal(), 1e-6, "of the diagonal",
+                   "every line of a sink ends as stagnation, this close to the fixed point");
+}
+
+StabilityCase orbit_case() {
+  const Box box{Vec3{-1.0}, Vec3{1.0}};
+  const FieldPtr field = made_field(uniform_data(9, box, [](const Vec3& x) { return Vec3{-x.y, x.x, 0.0}; }));
+  constexpr double kRadius = 0.6;
+  const std::vector<Vec3> seeds{{kRadius, 0.0, 0.1}};
+  TraceOptions options{.max_length = 2.0 * std::numbers::pi * kRadius, .threads = 1};
+  const TraceResult turn = trace_lines(*field, seeds, options);
+  options.max_length = 0.0;
+  const TraceResult endless = trace_lines(*field, seeds, options);
+  const bool closes = !turn.lines.empty() && !endless.lines.empty() && endless.lines[0].end == End::kLoop;
+  const double gap = closes ? glm::distance(turn.lines[0].points.back().position, seeds[0]) : HUGE_VAL;
+  const double diagonals = 2.0 * std::numbers::pi * kRadius / field->diagonal();
+  return make_case("closed orbit", gap / field->diagonal(), options.tolerance * diagonals, "of the diagonal",
+                   "one turn of a rotation returns to its seed, and the line that goes on ends as a loop");
+}
+
+// Cases on the data at hand.
+
+class DataCases {
+ public:
+  DataCases(const StabilityRequest& request, Progress* progress) : request_(request), progress_(progress) {
+    options_ = request.trace;
+    options_.threads = std::max(1, options_.threads);
+    // The plain field in doubles too: quotients such as momentum / density round differently in floats.
+    field_ = scaled(1.0, 1.0);
+    base_ = trace_lines(*field_, request.seeds, options_);
+  }
+
+  void add_to(std::vector<StabilityCase>& cases) const {
+    if (base_.lines.empty()) return;
+    const double power = std::ldexp(1.0, kScalingExponent);
+    cases.push_back(scaling_case("lengths times 2^60", power, 1.0));
+    cases.push_back(scaling_case("speeds times 2^60", 1.0, power));
+    cases.push_back(scaling_case("lengths times 2^-60, speeds times 2^60", 1.0 / power, power));
+    cases.push_back(extreme_case("speeds times 1e30", kExtreme));
+    cases.push_back(extreme_case("speeds times 1e-30", 1.0 / kExtreme));
+    if (request_.choice.association == Association::kPoint) cases.push_back(hole_case());
+    cases.push_back(reversed_case());
+  }
+
+ private:
+  FieldPtr altered(const std::function<DataSet(const DataSet&)>& change) const {
+    if (progress_) progress_->check();
+    std::vector<DataSet> blocks;
+    for (const DataSet& block : request_.blocks) blocks.push_back(change(block));
+    return make_vector_field(blocks, request_.choice, request_.file);
+  }
+
+  /// Data that is scaled both ways: momentum and density scale alike, so only the quotient would not change.
+  FieldPtr scaled(double length, double speed) const {
+    const bool quotient = request_.choice.kind == VectorChoice::Kind::kMomentumOverDensity;
+    const std::string density = quotient ? request_.choice.arrays.back() : std::string();
+    return altered([&](const DataSet& block) {
+      DataSet copy = scaled_data(block, length, speed);
+      for (std::size_t a = 0; a < copy.arrays.size(); ++a) {
+        if (quotient && copy.arrays[a].name == density) copy.arrays[a] = block.arrays[a];
+      }
+      return copy;
+    });
+  }
+
+  TraceOptions scaled_options(double length, double speed) const {
+    TraceOptions options = options_;
+    options.max_length *= length;
+    options.step *= length;
+    options.max_time *= length / speed;
+    return options;
+  }
+
+  std::vector<Vec3> scaled_seeds(double length) const {
+    std::vector<Vec3> seeds = request_.seeds;
+    for (Vec3& seed : seeds) seed *= length;
+    return seeds;
+  }
+
+  StabilityCase scaling_case(const std::string& name, double length, double speed) const {
+    const TraceResult result =
+        trace_lines(*scaled(length, speed), scaled_seeds(length), scaled_options(length, speed), progress_);
+    double different = result.lines.size() == base_.lines.size() ? 0.0 : HUGE_VAL;
+    for (std::size_t l = 0; l < std::min(result.lines.size(), base_.lines.size()); ++l) {
+      const Line& line = result.lines[l];
+      const Line& base = base_.lines[l];
+      if (line.end != base.end || line.points.size() != base.points.size()) {
+        different += static_cast<double>(base.points.size());
+        continue;
+      }
+      for (std::size_t p = 0; p < line.points.size(); ++p) {
+        different += line.points[p].position == base.points[p].position * length ? 0.0 : 1.0;
+      }
+    }
+    return make_case(name, different, 0.0, "points",
+                     "points of the lines whose bits differ after scaling back");
+  }
+
+  StabilityCase extreme_case(const std::string& name, double speed) const {
+    TraceOptions options = scaled_options(1.0, speed);
+    options.step = comparison_spacing();
+    TraceOptions base_options = options_;
+    base_options.step = options.step;
+    const TraceResult result = trace_lines(*scaled(1.0, speed), request_.seeds, options, progress_);
+    const TraceResult base = trace_lines(*field_, request_.seeds, base_options, progress_);
+    const LineComparison c = compare_lines(result.lines, base.lines, options.step, field_->diagonal());
+    const double error = result.lines.size() == base.lines.size() ? c.p95 : HUGE_VAL;
+    return make_case(name, error, options_.tolerance, "of the diagonal",
+                     "distance from the lines of the data as it is (95 % of lines)");
+  }
+
+  double comparison_spacing() const { return field_->diagonal() / 16.0; }
+
+  StabilityCase hole_case() const {
+    // A hole that some line is sure to meet: around the middle of the line with the most points.
+    const auto longest =
+        std::max_element(base_.lines.begin(), base_.lines.end(),
+                         [](const Line& a, const Line& b) { return a.points.size() < b.points.size(); });
+    const Vec3 center = longest->points[longest->points.size() / 2].position;
+    const double radius = 0.05 * field_->diagonal();
+    const FieldPtr field = altered([&](const DataSet& block) { return holed_data(block, center, radius); });
+    const TraceResult result = trace_lines(*field, request_.seeds, options_, progress_);
+    double bad_numbers = 0.0;
+    for (const Line& line : result.lines) {
+      for (const LinePoint& p : line.points) {
+        const bool finite =
+            is_finite(p.position) && std::isfinite(p.time) && std::isfinite(p.arc) && std::isfinite(p.error);
+        bad_numbers += finite ? 0.0 : 1.0;
+      }
+    }
+    StabilityCase row = make_case("NaN hole", bad_numbers, 0.0, "points",
+                                  "points whose place, time, length or error is not finite; " +
+                                      counted(result.ends[static_cast<std::size_t>(End::kBadData)], "line") +
+                                      " ended at the hole by bad_data");
+    row.row.holds = row.row.holds && result.ends[static_cast<std::size_t>(End::kBadData)] > 0;
+    return row;
+  }
+
+  /// Equation 6.15 of the reference: advection backward undoes advection forward. The error made on the way
+  /// out is amplified on the way back as the flow itself stretches a small offset.
+  StabilityCase reversed_case() const {
+    constexpr double kOffset =
+        1e-5;  // of the diagonal: beyond the error of the lines, within linear stretching
+    constexpr double kMostStretched = 0.01;  // of the diagonal
+    std::vector<double> ratios;
+    std::size_t chaotic = 0;
+    for (const Line& line : base_.lines) {
+      if (progress_) progress_->check();
+      const LinePoint& turn = line.points[2 * line.points.size() / 3];
+      if (ends_inside(line, field_->diagonal()) || !(turn.arc > 0.01 * field_->diagonal())) continue;
+      TraceOptions back = options_;
+      back.forward = line.direction == TraceDirection::kBackward;
+      back.backward = !back.forward;
+      back.max_length = turn.arc;
+      back.max_time = 0.0;
+      back.step = 0.0;
+      // The seed's way back and that of three points beside it.
+      std::vector<Vec3> starts{turn.position};
+      for (int axis = 0; axis < 3; ++axis) {
+        starts.push_back(turn.position);
+        starts.back()[axis] += kOffset * field_->diagonal();
+      }
+      const TraceResult result = trace_lines(*field_, starts, back);
+      if (result.lines.size() != starts.size()) continue;
+      const Vec3 returned = result.lines[0].points.back().position;
+      double amplification = 1.0;
+      double most_stretched = 0.0;
+      for (std::size_t s = 1; s < starts.size(); ++s) {
+        const double stretched = glm::distance(returned, result.lines[s].points.back().position);
+        most_stretched = std::max(most_stretched, stretched);
+        amplification = std::max(amplification, stretched / (kOffset * field_->diagonal()));
+      }
+      // Offsets that grow beyond the flow's own structures no longer measure a linear amplification.
+      if (most_stretched > kMostStretched * field_->diagonal()) {
+        ++chaotic;
+        continue;
+      }
+      const double allowed = 2.0 * options_.tolerance * turn.arc * amplification;
+      ratios.push_back(glm::distance(returned, request_.seeds[line.seed]) / allowed);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    const double p95 = ratios.empty() ? 0.0 : ratios[std::min(ratios.size() - 1, ratios.size() * 95 / 100)];
+    return make_case("reversed line", p95, 1.0, "of tolerance x amplification",
+                     "traced back from two thirds of their length, " + counted(ratios.size(), "line") +
+                         " return to their seeds (95 % of lines); left out: " + std::to_string(chaotic) +
+                         " that amplify an offset of 1e-5 to 1 % of the diagonal");
+  }
+
+  const StabilityRequest& request_;
+  Progress* progress_;
+  TraceOptions options_;
+  FieldPtr field_;
+  TraceResult base_;
+};
+
+}  // namespace
+
+std::vector<StabilityCase> run_stability(const StabilityRequest& request, Progress* progress) {
+  if (progress) progress->begin("stability", 0);
+  std::vector<StabilityCase> cases;
+  const auto even = even_coordinates(5);
+  cases.push_back(linear_case(
+      "stiff saddle", "eigenvalues -10000, 1 and -0.5, oblique to the mesh; distance from the closed form",
+      Vec3{-1e4, 1.0, -0.5}, even));
+  cases.push_back(sink_case());
+  cases.push_back(linear_case("slivers",
+                              "layers of tetrahedra a million times wider than thick; the same measure",
+                              Vec3{1.0, -0.7, 0.4}, {-1.0, -1e-6, 0.0, 1e-6, 1.0}));
+  cases.push_back(orbit_case());
+  if (!request.blocks.empty()) DataCases(request, progress).add_to(cases);
+  return cases;
+}
+
+}  // namespace palpate

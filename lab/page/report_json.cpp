@@ -1,0 +1,84 @@
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "lab/page/report.h"
+
+namespace palpate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity; null says "not reached".
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json comparison(const LineComparison& c) {
+  return {{"median", number(c.median)},     {"p95", number(c.p95)},
+          {"max", number(c.max)},           {"lines_compared", c.compared},
+          {"lines_ending_inside", c.sinks}, {"lines_with_different_ends", c.different_ends}};
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json rows = Json::array(), measurements = Json::array();
+  std::vector<WorkPrecision> measured = work_precision_rows(report.sweep);
+  for (WorkPrecision& row : work_precision_rows(report.constraint)) measured.push_back(std::move(row));
+  for (const ReportSection& section : report.sections) {
+    measured.insert(measured.end(), section.work_precision.begin(), section.work_precision.end());
+    for (const Measurement& m : section.measurements) {
+      measurements.push_back({{"subject", m.subject},
+                              {"method", m.method},
+                              {"parameter", m.parameter},
+                              {"quantity", m.quantity},
+                              {"value", number(m.value)}});
+    }
+  }
+  for (const WorkPrecision& row : measured) {
+    rows.push_back({{"subject", row.subject},
+                    {"method", row.method},
+                    {"parameter", row.parameter},
+                    {"error", number(row.error)},
+                    {"error_kind", row.error_kind},
+                    {"seconds", row.seconds}});
+  }
+  Json cases = Json::array();
+  for (const StabilityCase& c : report.stability) {
+    cases.push_back({{"case", c.row.name},
+                     {"measured", number(c.row.measured)},
+                     {"limit", c.row.limit},
+                     {"holds", c.row.holds},
+                     {"unit", c.unit},
+                     {"meaning", c.meaning}});
+  }
+  const Machine& machine = report.machine;
+  Json root{{"machine",
+             {{"processor", machine.processor},
+              {"cores", machine.cores},
+              {"memory_bytes", machine.memory_bytes},
+              {"system", machine.system},
+              {"build", machine.build},
+              {"version", machine.version}}},
+            {"command_line", report.command_line},
+            {"scene", report.scene}};
+  if (const Sweep& sweep = report.sweep; !sweep.rows.empty()) {
+    root["reference"] = {{"method", sweep.reference},
+                         {"independent_method", sweep.second},
+                         {"agreement", comparison(sweep.agreement)}};
+    root["threads"] = sweep.threads;
+    root["seeds"] = sweep.seeds;
+    root["seeds_outside"] = sweep.seeds_outside;
+    root["lines_compared"] = sweep.reference_lines.size();
+    root["lines_ending_inside"] = sweep.lines_inside;
+    root["max_length"] = sweep.max_length;
+  }
+  root["work_precision"] = rows;
+  root["measurements"] = measurements;
+  root["stability"] = cases;
+  root["seconds"] = report.seconds;
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace palpate

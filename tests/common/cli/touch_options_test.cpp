@@ -1,0 +1,99 @@
+// Constants that no chain can use are refused, each in one line that names its option.
+
+#include "common/hand/touch_options.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/cli/command_line.h"
+#include "common/haptics/proxy_chain.h"
+
+namespace palpate::test {
+namespace {
+
+ParsedCommand parse(const std::vector<std::string>& arguments) {
+  Explorer explorer{.name = "flow", .summary = "to test"};
+  explorer.verbs.push_back({.name = "probe",
+                            .summary = "s",
+                            .groups = {Group::kInput, Group::kTouch},
+                            .examples = {},
+                            .run = [](const Document&, const VerbContext&) { return ExitCode::kDone; }});
+  return parse_command_line(explorer, arguments);
+}
+
+/// What the user is told; empty where the settings of a chain come of it.
+std::string refusal(const std::string& option, const std::string& value) {
+  try {
+    const ParsedCommand parsed = parse({"probe", "--example", "abc", option, value});
+    EXPECT_TRUE(touch_settings(parsed.options.touch).valid()) << option << ' ' << value;
+    (void)touch_limits(parsed.options.touch);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage) << option << ' ' << value;
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TouchOptions, RefuseWhatNoChainCanUse) {
+  struct Bad {
+    std::string option;
+    std::vector<std::string> values;
+  };
+  for (const auto& [option, values] : {Bad{"--stiffness", {"-1", "nan", "inf"}},
+                                       {"--damping", {"-1", "nan", "inf"}},
+                                       {"--passivity", {"maybe", "2"}},
+                                       {"--release", {"-1", "0", "nan", "inf"}},
+                                       {"--drag", {"-1", "nan", "inf"}},
+                                       {"--ticks", {"-1", "nan", "inf", "often"}},
+                                       {"--tick-stiffness", {"-0.5", "1.5", "nan"}},
+                                       {"--speed-force", {"nan", "inf"}},
+                                       {"--field-force", {"nan", "inf"}},
+                                       {"--field-damping", {"-1", "nan", "inf"}},
+                                       {"--density-curve", {"1:0,0:1", "0:0,1:2", "0:nan", "steep"}},
+                                       {"--reference", {"tensor"}},
+                                       {"--axes", {"free", "free,drag,stick"}},
+                                       {"--tau", {"-1", "nan", "0:1,0:2", "1/2"}},
+                                       {"--kappa", {"-0.5", "1.5", "nan", "1:0,0:1"}},
+                                       {"--measure", {"colour"}},
+                                       {"--friction", {"-1", "nan", "inf"}},
+                                       {"--force-cap", {"-1", "0", "nan", "inf"}},
+                                       {"--slew-cap", {"-1", "0", "nan", "inf"}},
+                                       {"--workspace-scale", {"-1", "nan", "inf"}}}) {
+    for (const std::string& value : values) {
+      const std::string line = refusal(option, value);
+      EXPECT_NE(line.find(option), std::string::npos) << option << ' ' << value << ": '" << line << "'";
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+  }
+}
+
+TEST(TouchOptions, TakeWhatAChainCanUse) {
+  EXPECT_EQ(refusal("--stiffness", "0"), "");
+  EXPECT_EQ(refusal("--drag", "0"), "");
+  EXPECT_EQ(refusal("--ticks", "auto"), "");
+  EXPECT_EQ(refusal("--tick-stiffness", "1"), "");
+  EXPECT_EQ(refusal("--speed-force", "-0.5"), "");
+  EXPECT_EQ(refusal("--field-force", "-0.5"), "");
+  EXPECT_EQ(refusal("--field-damping", "0"), "");
+  EXPECT_EQ(refusal("--axes", "fixed,free,free"), "");
+  EXPECT_EQ(refusal("--tau", "0:0,0.4:2,smooth"), "");
+  EXPECT_EQ(refusal("--kappa", "0"), "");
+  EXPECT_EQ(refusal("--density-curve", "0:0,0.4:0,0.6:1,smooth"), "");
+}
+
+TEST(TouchOptions, SayFromHowManyLinksAChainIsControlled) {
+  const auto links = [](const char* word) {
+    return touch_settings(parse({"probe", "--example", "abc", "--passivity", word}).options.touch)
+        .passivity.from_links;
+  };
+  EXPECT_EQ(touch_settings(parse({"probe", "--example", "abc"}).options.touch).passivity.from_links, 2.0);
+  EXPECT_EQ(links("auto"), 2.0);
+  EXPECT_EQ(links("on"), 1.0);
+  EXPECT_GT(links("off"), ChainStep::kMaxLinks);
+}
+
+}  // namespace
+}  // namespace palpate::test
