@@ -38,6 +38,17 @@ double random_number(const Range& range, std::mt19937& random) {
   return std::uniform_real_distribution<double>(lower + 1e-3 * (upper - lower), upper)(random);
 }
 
+/// A whole number of type T within `range`. A range without ends reaches 100 above T's least value.
+template <typename T>
+std::string whole_number(const Range& range, std::mt19937& random) {
+  constexpr long long kSpan = 100;
+  const long long lower =
+      std::isfinite(range.lower) ? static_cast<long long>(std::ceil(range.lower)) + (range.above ? 1 : 0) : 0;
+  const long long upper =
+      std::isfinite(range.upper) ? static_cast<long long>(std::floor(range.upper)) : lower + kSpan;
+  return std::to_string(static_cast<T>(std::uniform_int_distribution<long long>(lower, upper)(random)));
+}
+
 /// Text of a value that the row allows and that is not its default.
 std::string random_text(const Setting& row, std::mt19937& random) {
   if (!row.words.empty()) {
@@ -52,8 +63,7 @@ std::string random_text(const Setting& row, std::mt19937& random) {
         if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
           return exact_number(random_number(row.range, random));
         if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-          return std::to_string(static_cast<T>(std::ceil(random_number(row.range, random) + 1.0)) -
-                                (std::isfinite(row.range.upper) ? 1 : 0));
+          return whole_number<T>(row.range, random);
         std::string text = "-\"w\" \\" + std::to_string(random() % 1000);
         if (row.several()) text += ";x" + std::to_string(random() % 1000);
         return text;
