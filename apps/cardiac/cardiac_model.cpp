@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/usual_look.h"
 #include "common/base/text.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/view_keep.h"
@@ -94,7 +94,7 @@ CardiacContent CardiacModel::read(Input& input, const Document& document, Progre
 }
 
 void CardiacModel::complete(Document& document, Input& input, Progress& progress) const {
-  (void)choose_usual_look(input, document, &progress);
+  (void)choose_default_appearance(input, document, &progress);
   if (document.tracing.seeds.empty()) document.tracing.seeds = kViewFibres;
   if (document.heart.layer.empty()) document.heart.layer = exact_number(kViewLayer);
 }
@@ -105,10 +105,10 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   const ScalarField& depth = *heart->heart().layer;
   const int threads = document.common.threads;
   SceneState state = begin_state(input, document);
-  state.felt_scalar = heart->heart().layer;
-  state.felt_tensor = heart->heart().fibres;
+  state.haptic_scalar = heart->heart().layer;
+  state.haptic_tensor = heart->heart().fibres;
   LayerGeometry layer;
-  if (before != nullptr && before->felt_tensor == state.felt_tensor &&
+  if (before != nullptr && before->haptic_tensor == state.haptic_tensor &&
       same_layer(before->document, document)) {
     layer.lines = before->lines;
     layer.mesh = before->surfaces.front().mesh;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/series_range.h"
-#include "apps/cardiac/usual_look.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

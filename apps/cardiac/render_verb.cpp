@@ -2,8 +2,8 @@
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
+#include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/heart_scene.h"
-#include "apps/cardiac/usual_look.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/picture.h"
@@ -35,7 +35,7 @@ void check(const Document& options) {
 
 DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
   Document options = given;
-  const std::string chosen = choose_usual_look(input, options, &context.progress);
+  const std::string chosen = choose_default_appearance(input, options, &context.progress);
   if (!chosen.empty()) context.console.note(chosen);
   const auto heart = load_layered_heart(input, HeartOptions(), options.common.threads, &context.progress);
   LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);

@@ -66,8 +66,8 @@ std::string summary_text(const SeriesSummary& summary) {
   std::string text = summary.input + ": " + summary.value + " at " + counted(summary.places.size(), "place") +
                      ", " + counted(summary.times.size(), "time") +
                      (summary.output.empty() ? "\n" : " -> " + summary.output + "\n");
-  constexpr std::size_t kMostTold = 20;
-  for (std::size_t p = 0; p < std::min(summary.places.size(), kMostTold); ++p) {
+  constexpr std::size_t kMostReported = 20;
+  for (std::size_t p = 0; p < std::min(summary.places.size(), kMostReported); ++p) {
     std::size_t least = summary.times.size(), most = least, known = 0;
     const auto value = [&](std::size_t t) { return summary.values[t * summary.places.size() + p]; };
     for (std::size_t t = 0; t < summary.times.size(); ++t) {
@@ -82,8 +82,8 @@ std::string summary_text(const SeriesSummary& summary) {
                 : "from " + short_number(value(least)) + " at " + short_number(summary.times[least]) +
                       " to " + short_number(value(most)) + " at " + short_number(summary.times[most]) + "\n";
   }
-  if (summary.places.size() > kMostTold)
-    text += "  and " + counted(summary.places.size() - kMostTold, "other place") + '\n';
+  if (summary.places.size() > kMostReported)
+    text += "  and " + counted(summary.places.size() - kMostReported, "other place") + '\n';
   return text;
 }
 

@@ -26,7 +26,7 @@ std::shared_ptr<const SceneInfo> info_of(const Input& input, const SceneView& vi
 /// Whether both trace or read the same tracts.
 bool same_tracts(const Document& a, const Document& b) {
   return a.input.field == b.input.field && a.input.time == b.input.time &&
-         a.tract_look.file == b.tract_look.file && a.tracts == b.tracts;
+         a.tract_appearance.file == b.tract_appearance.file && a.tracts == b.tracts;
 }
 
 /// Tracts of a file, or traced from seeds: those of `before` where these are the same.
@@ -34,16 +34,17 @@ bool same_tracts(const Document& a, const Document& b) {
 void show_tracts(const Document& document, const SceneState* before, const Document& shown,
                  Progress& progress, SceneState& state) {
   const auto show = [&](const std::shared_ptr<const TractBundle>& bundle) {
-    state.tracts = TractView{
-        .bundle = bundle, .width = document.tract_look.width, .opacity = document.tract_look.opacity};
+    state.tracts = TractView{.bundle = bundle,
+                             .width = document.tract_appearance.width,
+                             .opacity = document.tract_appearance.opacity};
   };
-  if (document.tracts.seeds.empty() && document.tract_look.file.empty()) return;
+  if (document.tracts.seeds.empty() && document.tract_appearance.file.empty()) return;
   if (before != nullptr && before->tracts && same_tracts(document, shown)) {
     show(before->tracts->bundle);
     state.seeds = before->seeds;
     state.seconds_trace = before->seconds_trace;
   } else if (document.tracts.seeds.empty()) {
-    const ViewTracts read = read_view_tracts({.file = document.tract_look.file}, &progress);
+    const ViewTracts read = read_view_tracts({.file = document.tract_appearance.file}, &progress);
     show(read.bundle);
     if (!read.left_out.empty()) state.notes.push_back(read.left_out);
   } else if (!state.tensors) {
@@ -126,7 +127,7 @@ std::optional<Document> DtmriModel::join(const InputFiles& files, const Document
   Document with = now;
   switch (role_of(input)) {
     case FileRole::kTracts:
-      with.tract_look.file = std::filesystem::absolute(files.files.front()).string();
+      with.tract_appearance.file = std::filesystem::absolute(files.files.front()).string();
       with.tracts.seeds.clear();
       return with;
     case FileRole::kScalar:
@@ -142,8 +143,8 @@ std::optional<Document> DtmriModel::join(const InputFiles& files, const Document
 void DtmriModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
   if (view.tracts) {
-    document.tract_look.width = view.tracts->width;
-    document.tract_look.opacity = view.tracts->opacity;
+    document.tract_appearance.width = view.tracts->width;
+    document.tract_appearance.opacity = view.tracts->opacity;
   }
   if (view.tensors) {
     TensorOptions& kept = document.tensors;
@@ -160,13 +161,13 @@ void DtmriModel::keep(const SceneView& view, Document& document) const {
   }
   if (!view.volume) return;
   const VolumeView& volume = *view.volume;
-  keep_volume(volume, document);
+  cache_volume(volume, document);
   document.tensors.volume = !volume.shown ? "none" : volume.colored ? "direction" : "fa";
-  document.volume.transfer = volume.regions ? region_words(*volume.regions) : transfer_words(volume.transfer);
+  document.volume.transfer = volume.regions ? region_text(*volume.regions) : transfer_text(volume.transfer);
   const auto lens = std::find_if(volume.lenses.begin(), volume.lenses.end(),
                                  [](const Lens& one) { return (one.transfer || one.regions) && !one.cut; });
   if (lens != volume.lenses.end())
-    document.volume.focus = lens->regions ? region_words(*lens->regions) : transfer_words(*lens->transfer);
+    document.volume.focus = lens->regions ? region_text(*lens->regions) : transfer_text(*lens->transfer);
 }
 
 }  // namespace palpate

@@ -110,14 +110,14 @@ double radius_of(const TractSeedChoice& choice, const TensorVoxels& voxels) {
 }
 
 /// `choice` as --seeds says it.
-std::string tract_seed_words(const TractSeedChoice& choice, const TensorView& tensors) {
+std::string tract_seed_text(const TractSeedChoice& choice, const TensorView& tensors) {
   if (!choice.at_crosshair) return "fa:" + short_number(choice.least_fa);
   const Vec3& x = tensors.position;
   return "sphere:" + short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z) + "," +
          short_number(radius_of(choice, *tensors.image));
 }
 
-void draw_tract_look(TractView& look) {
+void draw_tract_appearance(TractView& look) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
   slider("width", look.width, kThin, kThick, "%.1f", ImGuiSliderFlags_Logarithmic);
   slider("opacity", look.opacity, kFaint, kFull, "%.2f");
@@ -147,18 +147,18 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
   if (button("Trace", size)) {
-    document.tracts.seeds = tract_seed_words(choice, tensors);
-    document.tract_look.file.clear();
+    document.tracts.seeds = tract_seed_text(choice, tensors);
+    document.tract_appearance.file.clear();
   }
   ImGui::SameLine();
   if (button("Remove", size)) {
     document.tracts.seeds.clear();
-    document.tract_look.file.clear();
+    document.tract_appearance.file.clear();
   }
   // Always there, so that nothing below moves when tracts come and go.
   TractView none;
   ImGui::BeginDisabled(!look);
-  draw_tract_look(look ? *look : none);
+  draw_tract_appearance(look ? *look : none);
   ImGui::EndDisabled();
 }
 
@@ -177,7 +177,7 @@ void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& c
   if (field) {
     draw_tract_panel(choice, state.document, tensors, tracts);
   } else if (tracts) {
-    draw_tract_look(*tracts);
+    draw_tract_appearance(*tracts);
   }
 }
 
@@ -213,7 +213,7 @@ std::vector<PanelPart> dtmri_panels() {
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
     } else if (on.view.tracts) {
       section("TRACTS");
-      draw_tract_look(*on.view.tracts);
+      draw_tract_appearance(*on.view.tracts);
     }
   }};
 }

@@ -25,7 +25,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
        .check =
            [](const Document& options) {
              check_tensor_options(options);
-             check_view_tracts(options.tracts, options.tract_look);
+             check_view_tracts(options.tracts, options.tract_appearance);
            },
        .use = [](const Input& input, const Document&) { return SceneUse{.field = !input.fields().empty()}; },
        .model = [](const Document& options,

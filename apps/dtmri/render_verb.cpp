@@ -22,7 +22,8 @@ SceneUse use_of(const Document& options, const Input& input) {
 
 ViewTracts tracts_of(const Document& options, const VerbContext& context,
                      const std::optional<TensorView>& tensors) {
-  if (!options.tract_look.file.empty()) return read_view_tracts(options.tract_look, &context.progress);
+  if (!options.tract_appearance.file.empty())
+    return read_view_tracts(options.tract_appearance, &context.progress);
   ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
   return tracts;
@@ -42,15 +43,16 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
     parts.tensors = make_tensor_view(std::move(voxels), options.tensors);
   }
   drawn.measured = measured_costs(input, nullptr);
-  if (!options.tract_look.file.empty() || !options.tracts.seeds.empty()) {
+  if (!options.tract_appearance.file.empty() || !options.tracts.seeds.empty()) {
     const ViewTracts tracts = tracts_of(options, context, parts.tensors);
     if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
     drawn.lines = tracts.bundle->order.size();
     drawn.points = tracts.bundle->lines->points.size();
     drawn.seconds_trace = tracts.seconds;
     drawn.what += (drawn.what.empty() ? "" : ", ") + counted(drawn.lines, "tract");
-    parts.tracts = TractView{
-        .bundle = tracts.bundle, .width = options.tract_look.width, .opacity = options.tract_look.opacity};
+    parts.tracts = TractView{.bundle = tracts.bundle,
+                             .width = options.tract_appearance.width,
+                             .opacity = options.tract_appearance.opacity};
   }
   if (!options.tensors.underlay.empty()) {
     const Underlay underlay = load_underlay(options.tensors.underlay, &context.progress);
@@ -73,7 +75,7 @@ Verb tensor_render_verb(std::vector<UsageExample> examples) {
             const PictureMaker maker{.check =
                                          [](const Document& given) {
                                            check_tensor_options(given);
-                                           check_view_tracts(given.tracts, given.tract_look);
+                                           check_view_tracts(given.tracts, given.tract_appearance);
                                          },
                                      .use = use_of,
                                      .make = make_scene};

@@ -23,7 +23,7 @@ Document with_input_role(Document options, const Input& input) {
     throw usage_error(option + ": " + input.title() + " takes this place already; leave one of them out");
   };
   FileRole kind = role_of(input);
-  if (kind == FileRole::kScalar && options.tract_look.file.empty()) kind = FileRole::kTensors;
+  if (kind == FileRole::kScalar && options.tract_appearance.file.empty()) kind = FileRole::kTensors;
   if (kind == FileRole::kTensors) {
     (void)input.tensor_source();  // what it lacks, and an unknown --field
     return options;
@@ -32,8 +32,8 @@ Document with_input_role(Document options, const Input& input) {
     throw usage_error("--seeds: " + input.title() + " has no tensors to trace tracts through");
   const std::string file = input.spec().files.front().string();
   if (kind == FileRole::kTracts) {
-    if (!options.tract_look.file.empty()) refuse("--tracts");
-    options.tract_look.file = file;
+    if (!options.tract_appearance.file.empty()) refuse("--tracts");
+    options.tract_appearance.file = file;
   } else {
     if (!options.tensors.underlay.empty()) refuse("--underlay");
     options.tensors.underlay = file;

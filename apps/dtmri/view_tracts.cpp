@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-void check_view_tracts(const TractTracingOptions& options, const TractLook& look) {
+void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look) {
   if (!look.file.empty() && !options.seeds.empty())
     throw usage_error("give either --tracts, a file, or --seeds, to trace some; not both");
   TractTracingOptions numbers = options;
@@ -22,7 +22,7 @@ void check_view_tracts(const TractTracingOptions& options, const TractLook& look
   (void)tract_options(numbers, 1);
 }
 
-ViewTracts read_view_tracts(const TractLook& look, Progress* progress) {
+ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress) {
   TractogramFile file = read_tractogram(look.file, progress);
   ViewTracts tracts;
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(file.lines)));

@@ -21,10 +21,10 @@ struct ViewTracts {
 };
 
 /// Checks what can be checked before anything is read. @throws Error (usage).
-void check_view_tracts(const TractTracingOptions& options, const TractLook& look);
+void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look);
 
 /// The lines of a tractogram. @throws Error (bad input): not readable, or no line in it; Cancelled.
-[[nodiscard]] ViewTracts read_view_tracts(const TractLook& look, Progress* progress);
+[[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress);
 
 /// Traces through `voxels` as the verb `trace` does. @pre options.seeds is not empty.
 /// @throws Error (usage), (bad input) as tract_options() and tract_seeds(); Cancelled.

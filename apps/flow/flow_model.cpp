@@ -2,7 +2,7 @@
 
 #include "common/base/text.h"
 #include "common/compose/domain_outline.h"
-#include "common/compose/felt_scalar.h"
+#include "common/compose/haptic_scalar.h"
 #include "common/compose/line_color.h"
 #include "common/compose/line_view.h"
 #include "common/compose/resampled_volume.h"
@@ -57,8 +57,8 @@ SceneState trace(const Input& input, const FlowContent& content, const Document&
   state.info = content.info;
   state.lines = std::make_shared<const std::vector<Line>>(std::move(result.lines));
   state.probed = content.field;
-  state.felt_scalar = content.felt;
-  state.felt_scalar_key = scalar_key(document.touch.scalar);
+  state.haptic_scalar = content.felt;
+  state.haptic_scalar_key = scalar_key(document.touch.scalar);
   state.ends = result.ends;
   state.seeds = seeds.size();
   state.outside_seeds = result.outside_seeds.size();
@@ -97,7 +97,7 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
   TangibleVolume voxels;
   if (same) {
     voxels.image = before->volume->image;
-    voxels.beside = before->volume->fields;
+    voxels.secondary = before->volume->fields;
     state.volume_notes = before->volume_notes;
   } else {
     FlowVolume volume =
@@ -112,7 +112,7 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
     view.transfer = before->volume->transfer;
     view.regions = before->volume->regions;
   }
-  state.looks = lens_looks(view, asked.focus, document.common.threads);
+  state.looks = lens_appearances(view, asked.focus, document.common.threads);
   state.volume_label = names.front();
   state.volume = std::move(view);
 }
@@ -134,7 +134,7 @@ FlowContent FlowModel::read(Input& input, const Document& document, Progress& pr
   content.field = input.load_field(threads, &progress);
   content.info = info_of(input, *content.field);
   if (!document.touch.scalar.empty())
-    content.felt = felt_scalar(document.touch.scalar, input, content.field, threads, &progress);
+    content.felt = haptic_scalar(document.touch.scalar, input, content.field, threads, &progress);
   return content;
 }
 
@@ -165,7 +165,7 @@ std::string FlowModel::measured() const {
 void FlowModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
   keep_lines(view.style, document);
-  if (view.volume) keep_volume(*view.volume, document);
+  if (view.volume) cache_volume(*view.volume, document);
 }
 
 }  // namespace palpate

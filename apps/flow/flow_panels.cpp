@@ -108,8 +108,8 @@ void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<
   checkbox("shown", &volume->shown);
   draw_values_at_probe(state, scene.volume_label, *volume);
   std::vector<std::string> beside(volumes.begin() + 1, volumes.end());
-  draw_volume_look(state, scene, volumes.front(), scene.info->volumes, beside, seen_at_probe(state, *volume),
-                   *volume, actions);
+  draw_volume_appearance(state, scene, volumes.front(), scene.info->volumes, beside,
+                         seen_at_probe(state, *volume), *volume, actions);
   volumes.resize(1);
   volumes.insert(volumes.end(), beside.begin(), beside.end());
   settings.scalar = joined(volumes);

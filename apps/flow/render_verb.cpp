@@ -6,13 +6,13 @@
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
-#include "common/compose/felt_scalar.h"
+#include "common/compose/haptic_scalar.h"
 #include "common/compose/line_color.h"
 #include "common/compose/line_view.h"
 #include "common/compose/resampled_volume.h"
 #include "common/compose/trace_options.h"
 #include "common/compose/volume_fields.h"
-#include "common/hand/felt_surface_view.h"
+#include "common/hand/haptic_surface_view.h"
 #include "common/hand/probe_picture.h"
 #include "common/hand/touch_options.h"
 #include "common/scene/plan.h"
@@ -97,10 +97,10 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const bool surfaces = wants_surfaces(options, mode.name);
   std::shared_ptr<const ScalarField> scalar;
   if (surfaces || (!options.hand.path.empty() && !options.touch.scalar.empty())) {
-    scalar = felt_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
+    scalar = haptic_scalar(options.touch.scalar, input, field, options.common.threads, &context.progress);
   }
   if (surfaces) {
-    const std::string note = show_felt_surfaces(drawn.view, *scalar, options.touch, &context.progress);
+    const std::string note = show_haptic_surfaces(drawn.view, *scalar, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
   if (!options.hand.path.empty()) {

@@ -29,7 +29,7 @@ ExitCode run_annotate(const Document& options, const VerbContext& context) {
       if (sample.status != SampleStatus::kOk) ++summary.outside;
       summary.values.push_back(sample.status == SampleStatus::kOk ? sample.value : std::nan(""));
     }
-    const std::string measure = measure_words(each, unit);
+    const std::string measure = measure_text(each, unit);
     context.console.print(std::string(name_of(each.kind)) + (measure.empty() ? "" : " " + measure) +
                           (each.label.empty() ? "" : "  " + each.label) + "\n");
   }

@@ -60,7 +60,7 @@ std::vector<ConvexShape> shapes_that_cut(const VolumeOptions& options, const Con
   for (const std::string& plane : options.clips) shapes.push_back(parse_beyond(plane, "--plane " + plane));
   std::size_t aside = 0;
   for (const std::string& text : options.lenses) {
-    const LensWords words = parse_lens(text);
+    const LensSpec words = parse_lens(text);
     const bool cuts = words.lens.cut && !words.off && !words.lens.screen;
     if (cuts) shapes.push_back(words.lens.shape);
     if (!cuts) ++aside;

@@ -12,8 +12,8 @@ GridModel::GridModel(Document document, std::string program)
 
 TangibleVolume GridModel::read(Input& input, const Document& document, Progress& progress) const {
   TangibleVolume volume = load_tangible_volume(input, document.common.threads, &progress);
-  input.set_beside(names_beside(input, document.volume));
-  volume.beside = load_beside(input, document.volume, &progress);
+  input.set_secondary(secondary_names(input, document.volume));
+  volume.secondary = load_secondary(input, document.volume, &progress);
   return volume;
 }
 
@@ -26,11 +26,11 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, document);
   state.info = std::move(info);
-  state.looks = lens_looks(*view.volume, document.volume.focus, document.common.threads);
+  state.looks = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
   state.volume = std::move(view.volume);
   state.volume_label = document.input.field;
-  state.felt_scalar = volume.field;
+  state.haptic_scalar = volume.field;
   // Another time step of a field keeps its colours, or a film would flicker.
   const bool same_colors = before != nullptr && document.input.field == before->document.input.field &&
                            document.volume.transfer == before->document.volume.transfer;
@@ -43,7 +43,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
 
 void GridModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
-  if (view.volume) keep_volume(*view.volume, document);
+  if (view.volume) cache_volume(*view.volume, document);
 }
 
 }  // namespace palpate

@@ -9,7 +9,7 @@
 #include "common/cli/verbs.h"
 #include "common/compose/volume_fields.h"
 #include "common/compose/volume_scene.h"
-#include "common/hand/felt_surface_view.h"
+#include "common/hand/haptic_surface_view.h"
 #include "common/hand/probe_picture.h"
 #include "common/hand/touch_options.h"
 
@@ -21,7 +21,7 @@ SceneUse use_of(const Document& options, const Input& input) {
   return {.verb = "render",
           .threads = resolve_threads(options.common.threads),
           .drawing = true,
-          .beside = names_beside(input, options.volume)};
+          .secondary = secondary_names(input, options.volume)};
 }
 
 const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
@@ -33,7 +33,7 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
                 const Document& options, const VerbContext& context) {
   const HapticMode& mode = mode_of(modes, options);
   if (wants_surfaces(options, mode.name)) {
-    const std::string note = show_felt_surfaces(view, *volume.field, options.touch, &context.progress);
+    const std::string note = show_haptic_surfaces(view, *volume.field, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
   if (options.hand.path.empty()) return;
@@ -50,7 +50,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const bool touched = !options.hand.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
   TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
                                   : TangibleVolume{.image = load_volume(input, &context.progress)};
-  volume.beside = load_beside(input, options.volume, &context.progress);
+  volume.secondary = load_secondary(input, options.volume, &context.progress);
   const auto& image = volume.image;
   if (touched && !volume.field) {
     throw input_error({input.title(), "", "is flat: it has no inside to be felt", "a volume", ""});

@@ -188,8 +188,8 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
   const bool anatomical = space_of(input) == ImageSpace::kPatient;
-  summary.right = direction_words(glm::normalize(summary.lattice.axes[0]), anatomical);
-  summary.up = direction_words(glm::normalize(summary.lattice.axes[1]), anatomical);
+  summary.right = direction_text(glm::normalize(summary.lattice.axes[0]), anatomical);
+  summary.up = direction_text(glm::normalize(summary.lattice.axes[1]), anatomical);
   if (as_lines) {
     const Contours contours = contours_of(summary.lattice, slice.values, contour_values);
     if (contours.lines.empty()) {

@@ -15,9 +15,9 @@
 #include "common/device/tracked_hands.h"
 #include "common/hand/technique/immersive_technique.h"
 #include "common/hand/technique/pick.h"
+#include "common/render/label/label_pass.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
-#include "common/render/sign/sign_pass.h"
 #include "common/window/immersive/space_menu.h"
 
 namespace palpate {
@@ -48,9 +48,9 @@ std::vector<PickBall> sample_balls(const Vec3& corner) {
   return balls;
 }
 
-SignShape disc_of(double radius, const Vec3f& color) {
+LabelShape disc_of(double radius, const Vec3f& color) {
   constexpr int kCorners = 24;
-  SignShape shape{.corners = {}, .color = color, .opacity = 1.0F};
+  LabelShape shape{.corners = {}, .color = color, .opacity = 1.0F};
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kCorners;
     shape.corners.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
@@ -63,16 +63,16 @@ SceneView picture_of(const SpaceMenu& menu, const std::vector<PickBall>& balls, 
                      std::optional<std::size_t> picked) {
   SceneView view;
   view.show_axes = view.show_color_bar = view.show_outline = false;
-  view.signs.push_back(menu.drawn());
+  view.labels.push_back(menu.drawn());
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    SignView ball{.origin = balls[i].center, .unit = 1.0, .faces_viewer = true};
+    LabelView ball{.origin = balls[i].center, .unit = 1.0, .faces_viewer = true};
     const Vec3f color = picked == i ? Vec3f(0.98F, 0.80F, 0.30F) : Vec3f(0.55F, 0.60F, 0.66F);
     ball.shapes.push_back(disc_of(balls[i].radius, color));
     ball.texts.push_back(
         {.place = {1.5 * balls[i].radius, 0.0}, .height = 0.012, .words = "ball " + std::to_string(i + 1)});
-    view.signs.push_back(std::move(ball));
+    view.labels.push_back(std::move(ball));
   }
-  include_signs(view.signs, Mat3(1.0), view.bounds);
+  include_labels(view.labels, Mat3(1.0), view.bounds);
   view.camera = make_camera(view.bounds, {.azimuth = 10.0, .elevation = 0.0},
                             static_cast<double>(kPicture.width) / kPicture.height);
   // The menu lies in x and y, with y up.
@@ -99,13 +99,13 @@ void run_controls(const WorkbenchOptions& options, const WorkbenchContext& conte
   const std::vector<TrackedHands> hands = read_hands(options.file.string());
   if (hands.empty())
     throw input_error({options.file.string(), "", "no rows", "a stylus that is tracked", ""});
-  WorkbenchGeometry bench;
-  if (!options.nominal.empty()) bench = read_workbench(options.nominal);
-  const Vec3 corner = bench.interaction.middle;
-  bench.interaction.middle = Vec3{0.0};
-  bench.interaction.rotation = identity_rotation();
-  bench.interaction.gain = 1.0;
-  ImmersiveTechnique technique(bench, Vec3{0.0}, 1.0);
+  WorkbenchGeometry workbench;
+  if (!options.nominal.empty()) workbench = read_workbench(options.nominal);
+  const Vec3 corner = workbench.interaction.middle;
+  workbench.interaction.middle = Vec3{0.0};
+  workbench.interaction.rotation = identity_rotation();
+  workbench.interaction.gain = 1.0;
+  ImmersiveTechnique technique(workbench, Vec3{0.0}, 1.0);
   SpaceMenu menu(sample_items());
   menu.put(corner, Mat3(1.0), kEntry);
   const std::vector<PickBall> balls = sample_balls(corner);

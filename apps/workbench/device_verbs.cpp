@@ -6,13 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/workbench/bench_device.h"
 #include "apps/workbench/link_check.h"
+#include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
+#include "common/device/workbench_option.h"
 #include "common/servo/real_time.h"
 
 namespace palpate {
@@ -193,7 +193,7 @@ void run_devices(const WorkbenchOptions& options, const WorkbenchContext& contex
 }
 
 void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry bench = bench_of(options.workbench);
+  const WorkbenchGeometry workbench = workbench_of(options.workbench);
   const Survey seen = survey(options.device);
   std::string text = devices_text(seen);
   Json json = devices_json(seen);
@@ -205,9 +205,9 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   text += std::string("real-time priority is ") + (real_time ? "allowed\n" : "refused\n");
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
-    const DeviceText named = device_at_bench(device, bench);
+    const DeviceText named = device_at_workbench(device, workbench);
     const OpenedDevice opened =
-        open_at_bench(named, bench, [&](const std::string& line) { context.console.note(line); });
+        open_at_workbench(named, workbench, [&](const std::string& line) { context.console.note(line); });
     const auto work = [&](DriverLink& link, const std::string& name) {
       context.progress.begin("working the device", 0);
       const LinkCheck check = check_link(link, options.seconds, options.patience, context.progress);

@@ -142,7 +142,7 @@ std::vector<const TrackerMeasurement*> slice_of(const std::vector<TrackerMeasure
 
 constexpr CameraAngles kFromAbove{.azimuth = 0.0, .elevation = 65.0};
 
-std::string slice_words(std::size_t count, double middle) {
+std::string slice_text(std::size_t count, double middle) {
   return counted(count, "measurement") + " about z = " + short_number(std::round(1e3 * middle) * 1e-3) +
          " m; lengths by the logarithm; the transmitter is the small box";
 }
@@ -207,8 +207,8 @@ DistortionPicture orientation_error_icons(const std::vector<TrackerMeasurement>&
   double middle = 0.0;
   const auto slice = slice_of(rows, middle);
   const Box box = measured_box(rows);
-  DistortionPicture picture{"orientation_icons.png", scene_of(box, kFromAbove, "Orientation error",
-                                                              slice_words(slice.size(), middle))};
+  DistortionPicture picture{"orientation_icons.png",
+                            scene_of(box, kFromAbove, "Orientation error", slice_text(slice.size(), middle))};
   std::vector<Icon> icons;
   for (const TrackerMeasurement* row : slice) {
     const Vec3 part = pose_error(row->actual, row->reported).orientation;
@@ -227,7 +227,7 @@ DistortionPicture field_distortion_icons(const std::vector<TrackerMeasurement>& 
   const Box box = measured_box(rows);
   DistortionPicture picture{"field_icons.png",
                             scene_of(box, kFromAbove, "Distortion of the field of the coil along x",
-                                     slice_words(slice.size(), middle))};
+                                     slice_text(slice.size(), middle))};
   std::vector<Icon> icons;
   for (const TrackerMeasurement* row : slice) {
     const Vec3& p = row->actual.position;

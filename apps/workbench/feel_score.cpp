@@ -76,7 +76,7 @@ void FeelScore::add(const HandStep& step) noexcept {
   known_ = true;
 }
 
-double FeelScore::felt_stiffness() const noexcept {
+double FeelScore::haptic_stiffness() const noexcept {
   return stretch_stretch_ > 0.0 ? force_stretch_ / stretch_stretch_ : 0.0;
 }
 
@@ -92,7 +92,7 @@ std::vector<StabilityCase> FeelScore::cases() const {
   constexpr double kAlong = 0.02;
   add("force in free air", free_, kUnfelt, "N", "largest force while nothing holds the hand");
   if (held_ > 0) {
-    add("stiffness shown", std::abs(felt_stiffness() / stiffness_ - 1.0), kSofter, "of what is asked for",
+    add("stiffness shown", std::abs(haptic_stiffness() / stiffness_ - 1.0), kSofter, "of what is asked for",
         "force over stretch, all contacts; caps and slew limits make it softer");
     add("force along what is free", leak_, kAlong, "of the force",
         "largest part of the force that does not point at the proxy");

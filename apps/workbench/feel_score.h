@@ -43,7 +43,7 @@ class FeelScore {
   [[nodiscard]] double largest_force() const noexcept { return largest_; }  ///< [N]
   [[nodiscard]] double free_force() const noexcept { return free_; }        ///< [N] largest in free air
   [[nodiscard]] double leak() const noexcept { return leak_; }  ///< largest, of forces above 0.1 N
-  [[nodiscard]] double felt_stiffness() const noexcept;         ///< [N/m]; 0 without contact
+  [[nodiscard]] double haptic_stiffness() const noexcept;       ///< [N/m]; 0 without contact
   [[nodiscard]] double most_given() const noexcept { return most_given_; }  ///< [J] by one contact
   [[nodiscard]] std::size_t faults() const noexcept { return faults_; }     ///< steps
 

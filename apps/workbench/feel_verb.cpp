@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/workbench/bench_device.h"
 #include "apps/workbench/force_keys.h"
+#include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
@@ -46,7 +46,7 @@ std::string score_text(const FeelScore& score, const WorkbenchOptions& o, const 
                      " in contact\n";
   text += "  stretch    at most " + three_digits(kMilli * score.deepest()) + " mm under at most " +
           three_digits(score.largest_force()) + " N\n";
-  text += "  stiffness  " + three_digits(score.felt_stiffness()) + " N/m shown\n";
+  text += "  stiffness  " + three_digits(score.haptic_stiffness()) + " N/m shown\n";
   text +=
       "  energy     at most " + three_digits(kMilli * score.most_given()) + " mJ to the hand by a contact\n";
   if (timing != nullptr) {
@@ -80,7 +80,7 @@ Json score_json(const FeelScore& score, const WorkbenchOptions& o, const std::st
             {"steps_in_contact", score.in_contact()},
             {"deepest_m", score.deepest()},
             {"max_force_n", score.largest_force()},
-            {"shown_stiffness_n_per_m", score.felt_stiffness()},
+            {"shown_stiffness_n_per_m", score.haptic_stiffness()},
             {"free_force_n", score.free_force()},
             {"leak", score.leak()},
             {"most_given_j", score.most_given()},
@@ -166,12 +166,12 @@ FeelScore feel_path(const WorkbenchOptions& o, const std::optional<SimulatedDevi
     }
   } else if (!path.empty()) {
     ReplayDevice leader(samples_of(path, 1.0), limits);
-    BenchDevice bench(*simulated, &leader);
+    WorkbenchDevice workbench(*simulated, &leader);
     HandInput hand{.present = true};
     for (std::size_t n = 0;; ++n) {
       hand.time = path.front().time + static_cast<double>(n) / o.servo_rate;
-      if (!bench.device().read(hand.time, hand.sample)) break;
-      bench.device().command(take(hand));
+      if (!workbench.device().read(hand.time, hand.sample)) break;
+      workbench.device().command(take(hand));
       context.progress.check();
     }
   }
@@ -202,16 +202,16 @@ std::string readout(double time, const HandStep& step, double age, double rate) 
   return text + "\n";
 }
 
-FeelScore feel_live(BenchDevice& bench, const WorkbenchOptions& o, const WorkbenchContext& context,
+FeelScore feel_live(WorkbenchDevice& workbench, const WorkbenchOptions& o, const WorkbenchContext& context,
                     Timing& timing) {
   FeelScore score(o.stiffness);
   ForceKeys keys;
   if (keys.listening()) context.console.note("F12 or any key: no force; a: force again; q: end");
-  if (!bench.held().empty()) context.console.note("there is force only " + bench.held());
+  if (!workbench.held().empty()) context.console.note("there is force only " + workbench.held());
   ServoState state;
   double elapsed = 0.0;
   {
-    ServoLoop servo(bench.device(), feel_chain(o.effect, o.stiffness, o.damping), "feel",
+    ServoLoop servo(workbench.device(), feel_chain(o.effect, o.stiffness, o.damping), "feel",
                     {.rate = o.servo_rate});
     const std::int64_t start = monotonic_ns();
     std::string said;
@@ -238,8 +238,8 @@ FeelScore feel_live(BenchDevice& bench, const WorkbenchOptions& o, const Workben
       servo.collect_retired();
       (void)servo.read(state);
       for (HandStep step; servo.pop_step(step);) score.add(step);
-      if (bench.linked() != nullptr) {
-        if (std::string advice = bench.linked()->advice(); advice != said) {
+      if (workbench.linked() != nullptr) {
+        if (std::string advice = workbench.linked()->advice(); advice != said) {
           said = std::move(advice);
           if (!said.empty()) context.console.note(said);
         }
@@ -247,10 +247,10 @@ FeelScore feel_live(BenchDevice& bench, const WorkbenchOptions& o, const Workben
       if (elapsed < next) continue;
       next = elapsed + 1.0 / o.rate;
       const double rate = static_cast<double>(state.statistics.ticks) / std::max(elapsed, 1e-3);
-      context.console.print(readout(elapsed, state.hand, bench.device().age(), rate));
+      context.console.print(readout(elapsed, state.hand, workbench.device().age(), rate));
     }
   }
-  const TimeHistogram& ages = bench.device().ages();
+  const TimeHistogram& ages = workbench.device().ages();
   timing = {.servo_rate = static_cast<double>(state.statistics.ticks) / elapsed,
             .sample_rate = static_cast<double>(ages.count()) / elapsed,
             .age_p50 = histogram_ms(ages.percentile_ns(0.5)),
@@ -264,7 +264,7 @@ FeelScore feel_live(BenchDevice& bench, const WorkbenchOptions& o, const Workben
 
 void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
   WorkbenchOptions options = given;
-  const WorkbenchGeometry geometry = bench_of(options.workbench);
+  const WorkbenchGeometry geometry = workbench_of(options.workbench);
   std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
   if (simulated) {
     simulated->limits = safe_limits(simulated->profile);
@@ -280,20 +280,20 @@ void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
                                    .dump(2, ' ', false, Json::error_handler_t::replace));
     return;
   }
-  std::unique_ptr<BenchDevice> bench;
+  std::unique_ptr<WorkbenchDevice> workbench;
   StrokingHand hand(options.effect == FeelEffect::kSphere ? kFeelSphereRadius : 0.0,
                     simulated ? simulated->limits : DeviceLimits{});
   if (simulated) {
-    bench = std::make_unique<BenchDevice>(*simulated, &hand);
+    workbench = std::make_unique<WorkbenchDevice>(*simulated, &hand);
   } else {
-    bench = std::make_unique<BenchDevice>(options.device, geometry, context.console);
-    hold_to_tuned(geometry, bench->key(), options, context.console);
+    workbench = std::make_unique<WorkbenchDevice>(options.device, geometry, context.console);
+    hold_to_tuned(geometry, workbench->key(), options, context.console);
   }
   Timing timing;
-  const FeelScore score = feel_live(*bench, options, context, timing);
+  const FeelScore score = feel_live(*workbench, options, context, timing);
   context.console.print(score_text(score, options, &timing));
-  context.console.print_json(
-      score_json(score, options, bench->key(), &timing).dump(2, ' ', false, Json::error_handler_t::replace));
+  context.console.print_json(score_json(score, options, workbench->key(), &timing)
+                                 .dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace palpate

@@ -8,11 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/workbench/bench_device.h"
+#include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/text.h"
-#include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
+#include "common/device/workbench_option.h"
 #include "common/servo/real_time.h"
 
 namespace palpate {
@@ -37,42 +37,43 @@ Json json_of(const Vec3& x) { return {x.x, x.y, x.z}; }
 Json json_of(const Quat& q) { return {q.w, q.x, q.y, q.z}; }
 
 /// What the calibration of a workbench makes of what its devices tell.
-class BenchReading {
+class WorkbenchReading {
  public:
-  explicit BenchReading(const WorkbenchGeometry& bench) : bench_(bench) {}
+  explicit WorkbenchReading(const WorkbenchGeometry& workbench) : workbench_(workbench) {}
 
-  [[nodiscard]] bool corrects() const noexcept { return bench_.tracker.has_value(); }
+  [[nodiscard]] bool corrects() const noexcept { return workbench_.tracker.has_value(); }
   [[nodiscard]] TrackerPose corrected(const PoseAtom& pose) const noexcept {
     const TrackerPose reported{pose.position, pose.orientation};
-    return bench_.tracker ? bench_.tracker->corrected(reported) : reported;
+    return workbench_.tracker ? workbench_.tracker->corrected(reported) : reported;
   }
   /// Of the stylus, where it is calibrated.
   [[nodiscard]] std::optional<Vec3> tip(const PoseAtom& pose) const noexcept {
-    if (!bench_.stylus || pose.station != bench_.interaction.stylus_station) return std::nullopt;
+    if (!workbench_.stylus || pose.station != workbench_.interaction.stylus_station) return std::nullopt;
     const TrackerPose there = corrected(pose);
-    return there.position + there.orientation * *bench_.stylus;
+    return there.position + there.orientation * *workbench_.stylus;
   }
   /// The end of an arm in its frame 0, where it is calibrated and tells its joints.
   [[nodiscard]] std::optional<Rigid> end(const DeviceAtoms& atoms) const noexcept {
-    if (!bench_.arm || atoms.joint_count == 0 || bench_.arm->joint_count != atoms.joint_count)
+    if (!workbench_.arm || atoms.joint_count == 0 || workbench_.arm->joint_count != atoms.joint_count)
       return std::nullopt;
-    return bench_.arm->forward(std::span(atoms.joints).first(atoms.joint_count));
+    return workbench_.arm->forward(std::span(atoms.joints).first(atoms.joint_count));
   }
   /// The tip of an arm in the tracker's frame, where the workbench says how it stands.
-  [[nodiscard]] std::optional<Vec3> at_bench(const DeviceAtoms& atoms) const noexcept {
-    if (!bench_.coregistration || !atoms.has_position || atoms.station != 0) return std::nullopt;
+  [[nodiscard]] std::optional<Vec3> at_workbench(const DeviceAtoms& atoms) const noexcept {
+    if (!workbench_.coregistration || !atoms.has_position || atoms.station != 0) return std::nullopt;
     const auto there = end(atoms);
-    return bench_.coregistration->tracker_from_arm * (there ? there->translation : atoms.position);
+    return workbench_.coregistration->tracker_from_arm * (there ? there->translation : atoms.position);
   }
 
  private:
-  const WorkbenchGeometry& bench_;
+  const WorkbenchGeometry& workbench_;
 };
 
-std::string atoms_text(double time, const DeviceAtoms& atoms, const BenchReading& bench) {
+std::string atoms_text(double time, const DeviceAtoms& atoms, const WorkbenchReading& workbench) {
   std::string text = monitor_number(time, 2) + " s ";
   if (atoms.has_position) text += millimetres_text(atoms.position);
-  if (const auto there = bench.at_bench(atoms)) text += "  at the bench" + millimetres_text(*there);
+  if (const auto there = workbench.at_workbench(atoms))
+    text += "  at the workbench" + millimetres_text(*there);
   if (atoms.has_valuators) {
     for (const double value : atoms.valuators) text += monitor_number(value, 2);
   }
@@ -90,26 +91,26 @@ std::string atoms_text(double time, const DeviceAtoms& atoms, const BenchReading
 }
 
 /// A line for each station that is seen.
-std::string poses_text(double time, const PoseAtoms& poses, const BenchReading& bench) {
+std::string poses_text(double time, const PoseAtoms& poses, const WorkbenchReading& workbench) {
   std::string text;
   for (const PoseAtom& pose : poses.stations) {
     if (!pose.valid) continue;
-    const TrackerPose there = bench.corrected(pose);
+    const TrackerPose there = workbench.corrected(pose);
     text += monitor_number(time, 2) + " s   station " + std::to_string(pose.station) +
             millimetres_text(there.position) + "  turned";
     for (const double part :
          {there.orientation.w, there.orientation.x, there.orientation.y, there.orientation.z})
       text += monitor_number(part, 4);
-    if (bench.corrects())
+    if (workbench.corrects())
       text +=
           "  corrected by" + monitor_number(1e3 * glm::distance(there.position, pose.position), 2) + " mm";
-    if (const auto tip = bench.tip(pose)) text += "  tip" + millimetres_text(*tip);
+    if (const auto tip = workbench.tip(pose)) text += "  tip" + millimetres_text(*tip);
     text += pose.buttons != 0 ? "   pressed\n" : "\n";
   }
   return text.empty() ? monitor_number(time, 2) + " s   no station is seen\n" : text;
 }
 
-Json poses_json(const PoseAtoms& poses, const BenchReading& bench) {
+Json poses_json(const PoseAtoms& poses, const WorkbenchReading& workbench) {
   Json stations = Json::array();
   for (const PoseAtom& pose : poses.stations) {
     if (!pose.valid) continue;
@@ -117,40 +118,40 @@ Json poses_json(const PoseAtoms& poses, const BenchReading& bench) {
                  {"position_m", json_of(pose.position)},
                  {"rotation_wxyz", json_of(pose.orientation)},
                  {"buttons", pose.buttons}};
-    if (bench.corrects()) {
-      const TrackerPose there = bench.corrected(pose);
+    if (workbench.corrects()) {
+      const TrackerPose there = workbench.corrected(pose);
       station["corrected_position_m"] = json_of(there.position);
       station["corrected_rotation_wxyz"] = json_of(there.orientation);
     }
-    if (const auto tip = bench.tip(pose)) station["tip_m"] = json_of(*tip);
+    if (const auto tip = workbench.tip(pose)) station["tip_m"] = json_of(*tip);
     stations.push_back(std::move(station));
   }
   return stations;
 }
 
-Json atoms_json(double time, const DeviceAtoms& atoms, const BenchReading& bench) {
+Json atoms_json(double time, const DeviceAtoms& atoms, const WorkbenchReading& workbench) {
   Json json{{"seconds", time}, {"buttons", atoms.buttons}};
   if (atoms.has_position) json["position_m"] = json_of(atoms.position);
   if (atoms.has_valuators) json["valuators"] = atoms.valuators;
   for (std::size_t i = 0; i < atoms.bend_count; ++i) json["bends"].push_back(atoms.bends[i]);
   for (std::size_t i = 0; i < atoms.joint_count; ++i) json["joints_rad"].push_back(atoms.joints[i]);
-  if (const auto end = bench.end(atoms)) {
+  if (const auto end = workbench.end(atoms)) {
     json["arm_position_m"] = json_of(end->translation);
     json["arm_rotation_wxyz"] = json_of(end->rotation);
   }
-  if (const auto there = bench.at_bench(atoms)) json["bench_position_m"] = json_of(*there);
+  if (const auto there = workbench.at_workbench(atoms)) json["bench_position_m"] = json_of(*there);
   return json;
 }
 
 }  // namespace
 
 void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry geometry = bench_of(options.workbench);
-  const BenchReading bench(geometry);
+  const WorkbenchGeometry geometry = workbench_of(options.workbench);
+  const WorkbenchReading workbench(geometry);
   const std::unique_ptr<DriverLink> link =
-      open_at_bench(device_at_bench(options.device, geometry), geometry, [&](const std::string& line) {
-        context.console.note(line);
-      }).link;
+      open_at_workbench(device_at_workbench(options.device, geometry), geometry,
+                        [&](const std::string& line) { context.console.note(line); })
+          .link;
   const std::int64_t start = monotonic_ns();
   const auto elapsed = [&] { return 1e-9 * static_cast<double>(monotonic_ns() - start); };
   Json samples = Json::array();
@@ -167,11 +168,11 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
     next = now + 1.0 / options.rate;
     const PoseAtoms* const poses = link->poses();
     if (options.json) {
-      samples.push_back(atoms_json(now, link->atoms(), bench));
-      if (poses != nullptr) samples.back()["stations"] = poses_json(*poses, bench);
+      samples.push_back(atoms_json(now, link->atoms(), workbench));
+      if (poses != nullptr) samples.back()["stations"] = poses_json(*poses, workbench);
     } else {
-      context.console.print(poses != nullptr ? poses_text(now, *poses, bench)
-                                             : atoms_text(now, link->atoms(), bench));
+      context.console.print(poses != nullptr ? poses_text(now, *poses, workbench)
+                                             : atoms_text(now, link->atoms(), workbench));
     }
   }
   const Json told{{"device", options.device},

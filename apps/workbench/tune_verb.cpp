@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/workbench/bench_device.h"
 #include "apps/workbench/force_keys.h"
+#include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/output_file.h"
@@ -70,11 +70,11 @@ Json result_json(const TuningResult& at) {
 }
 
 /// Works a real device until the tuner is done. @throws Error, Cancelled: without a force then.
-TuningNews tune_live(BenchDevice& bench, const TuningPlan& plan, const WorkbenchOptions& options,
+TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, const WorkbenchOptions& options,
                      const WorkbenchContext& context) {
   ForceKeys keys;
   const auto channel = std::make_shared<StiffnessTuner::Channel>();
-  ServoLoop servo(bench.device(), tuning_chain(plan, channel), "tune", {.rate = plan.rate});
+  ServoLoop servo(workbench.device(), tuning_chain(plan, channel), "tune", {.rate = plan.rate});
   TuningNews news;
   ServoState state;
   std::string said;
@@ -92,7 +92,7 @@ TuningNews tune_live(BenchDevice& bench, const TuningPlan& plan, const Workbench
     servo.collect_retired();
     (void)servo.read(state);
     (void)channel->read(news);
-    if (std::string advice = bench.linked()->advice(); advice != said) {
+    if (std::string advice = workbench.linked()->advice(); advice != said) {
       said = std::move(advice);
       if (!said.empty()) context.console.note(said);
     }
@@ -100,7 +100,7 @@ TuningNews tune_live(BenchDevice& bench, const TuningPlan& plan, const Workbench
     if (begun && !shown) {
       servo.force_off();
       throw work_error("the force was cut (" + std::string(name_of(state.hand.cut)) +
-                       (bench.held().empty() ? "" : "; there is force only " + bench.held()) +
+                       (workbench.held().empty() ? "" : "; there is force only " + workbench.held()) +
                        "); nothing is written");
     }
     begun = begun || (shown && state.hand.present);
@@ -115,7 +115,7 @@ TuningNews tune_live(BenchDevice& bench, const TuningPlan& plan, const Workbench
 }  // namespace
 
 void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry geometry = bench_of(options.workbench);
+  const WorkbenchGeometry geometry = workbench_of(options.workbench);
   TuningNews news;
   TuningPlan plan;
   std::string key, text;
@@ -131,25 +131,25 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
     simulated->hand = kUnheld;
     simulated->limits = safe_limits(simulated->profile);
     simulated->wander = WanderingPath{};  // stands in the middle until it is drawn away
-    BenchDevice bench(*simulated, nullptr);
-    key = bench.key();
+    WorkbenchDevice workbench(*simulated, nullptr);
+    key = workbench.key();
     check_out();
     plan = plan_of(options, simulated->limits);
     plan.most = std::max(plan.least, std::min(plan.most, simulated->profile.max_stiffness));
-    news = run_tuning(bench.device(), plan, &context.progress);
+    news = run_tuning(workbench.device(), plan, &context.progress);
     bound = stiffness_bound(wall_loop(simulated->profile, plan.rate), 0.0);
     for (std::size_t i = 0; i < news.count; ++i) text += result_text(news.results[i]);
   } else {
-    BenchDevice bench(options.device, geometry, context.console);
-    key = bench.key();
+    WorkbenchDevice workbench(options.device, geometry, context.console);
+    key = workbench.key();
     check_out();
-    if (bench.held_by_itself())
-      throw usage_error("tune moves the arm by itself, and there is force only " + bench.held() +
+    if (workbench.held_by_itself())
+      throw usage_error("tune moves the arm by itself, and there is force only " + workbench.held() +
                         ": put the switch on another device (--device " + key +
                         ":enable=pedal), or stay at the device's own switch (" + key + ":button=none)");
-    plan = plan_of(options, bench.linked()->limits());
+    plan = plan_of(options, workbench.linked()->limits());
     context.console.note("the arm will move by itself; any key ends this without force");
-    news = tune_live(bench, plan, options, context);
+    news = tune_live(workbench, plan, options, context);
   }
   const std::optional<double> found = tuned_stiffness(news, options.tune.margin);
   Json places = Json::array();

@@ -155,7 +155,7 @@ void OutputFile::finish() {
   temporary_.clear();
 }
 
-bool may_keep_beside(const std::filesystem::path& path) {
+bool may_cache_beside(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   struct stat status {};
   return ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&

@@ -54,6 +54,6 @@ void check_output(const std::filesystem::path& path, bool overwrite);
 
 /// Whether the folder of `path` can be written and is meant to be: root may write to what nobody should, so
 /// that it takes more than access().
-[[nodiscard]] bool may_keep_beside(const std::filesystem::path& path);
+[[nodiscard]] bool may_cache_beside(const std::filesystem::path& path);
 
 }  // namespace palpate

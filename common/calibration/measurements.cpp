@@ -34,7 +34,7 @@ class Rows {
     require_plausible(value);
     return value;
   }
-  /// Squares of larger ones would leave a fit without an answer; no bench has such.
+  /// Squares of larger ones would leave a fit without an answer; no workbench has such.
   void require_plausible(double value) const {
     constexpr double kMost = 1e3;  // [m], [rad]
     if (std::abs(value) > kMost)

@@ -24,7 +24,7 @@ ProbeLog::ProbeLog(OutputFile& file, const Workspace& workspace, int links, cons
       histogram_ = value_histogram(*measured.scalar);
   }
   if (measured.noise != nullptr) header += ",noise";
-  for (const VolumeField& field : measured.beside) header += ",value:" + field.name;
+  for (const VolumeField& field : measured.secondary) header += ",value:" + field.name;
   file_.write(header + "\n");
 }
 
@@ -60,7 +60,7 @@ void ProbeLog::add(const PathRow& row, const HandStep& step, double microseconds
     const ScalarSample sample = measured_.noise->sample(proxy, noise_hint_);
     (line_ += ',') += exact_number(sample.status == SampleStatus::kOk ? sample.value : NAN);
   }
-  for (const VolumeField& field : measured_.beside)
+  for (const VolumeField& field : measured_.secondary)
     (line_ += ',') += exact_number(field.image->value_at(proxy));
   line_ += '\n';
   file_.write(line_);

@@ -22,7 +22,7 @@ class ProbeLog {
     const TensorField* tensors = nullptr;  ///< force, cl, cp, cs and fa
     const ScalarField* scalar = nullptr;   ///< value, and below: the part of all values that are lower
     const ScalarField* noise = nullptr;    ///< noise, as a part of the range of the values
-    std::vector<VolumeField> beside;       ///< other scalars: value:NAME for each
+    std::vector<VolumeField> secondary;    ///< other scalars: value:NAME for each
   };
   ProbeLog(OutputFile& file, const Workspace& workspace, int links, const Measured& measured);
 

@@ -9,7 +9,7 @@
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/stereo_text.h"
-#include "common/hand/bench/head_view.h"
+#include "common/hand/workbench/head_view.h"
 
 namespace palpate {
 namespace {
@@ -35,9 +35,10 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
                         .stop_requested = [] { return InterruptGuard::interrupted(); },
                         .note = [&](const std::string& line) { context.console.note(line); }};
   if (felt) request.touch = window_touch(verb.modes, options, context);
-  request.bench = bench_display_of(options, request.touch);
-  if (const auto& bench = request.bench; bench && !bench->several && stereo.mode == StereoMode::kNone)
-    stereo.mode = bench->bench.screens[bench->screen].stereo;
+  request.workbench = workbench_display_of(options, request.touch);
+  if (const auto& workbench = request.workbench;
+      workbench && !workbench->several && stereo.mode == StereoMode::kNone)
+    stereo.mode = workbench->workbench.screens[workbench->screen].stereo;
   const bool available = verb.window.available();
   if (!available && nothing_named) return headless_tour(verb.render, options, context, verb.next);
   if (options.common.explain) {

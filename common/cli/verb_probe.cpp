@@ -6,15 +6,15 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/probe_run.h"
 #include "common/cli/simulated_option.h"
-#include "common/compose/felt_scalar.h"
+#include "common/compose/haptic_scalar.h"
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_fields.h"
 #include "common/field/field_grid.h"
 #include "common/field/value_histogram.h"
 #include "common/hand/mode/chain_description.h"
-#include "common/hand/mode/felt_surfaces.h"
 #include "common/hand/mode/grid_mode.h"
+#include "common/hand/mode/haptic_surfaces.h"
 #include "common/hand/mode/linear_mode.h"
 #include "common/hand/touch_options.h"
 #include "common/haptics/constraint/layer.h"
@@ -90,7 +90,7 @@ std::string reason_of(ForceCut cut, const DeviceLimits& limits) {
 }
 
 /// The field that the hand feels: the explorer's kind says which it is.
-struct FeltInput {
+struct HapticInput {
   std::shared_ptr<const VectorField> field;
   std::shared_ptr<const ScalarField> scalar;
   std::shared_ptr<const TensorField> tensor;
@@ -99,11 +99,11 @@ struct FeltInput {
   double diagonal = 0.0;
   const TetMesh* mesh = nullptr;
   std::vector<std::string> notes;
-  std::vector<VolumeField> beside;  ///< other scalars of a volume, which are logged
+  std::vector<VolumeField> secondary;  ///< other scalars of a volume, which are logged
 };
 
-FeltInput load_felt(Input& input, const Document& options, const VerbContext& context) {
-  FeltInput felt;
+HapticInput load_haptic(Input& input, const Document& options, const VerbContext& context) {
+  HapticInput felt;
   const auto describe = [&felt](const auto& field) {
     felt.name = field.name();
     felt.bounds = field.bounds();
@@ -130,20 +130,20 @@ FeltInput load_felt(Input& input, const Document& options, const VerbContext& co
   } else if (context.explorer.kind == FieldKind::kScalar) {
     felt.scalar = input.load_scalar(options.common.threads, &context.progress);
     describe(*felt.scalar);
-    felt.beside = load_beside(input, options.volume, &context.progress);
+    felt.secondary = load_secondary(input, options.volume, &context.progress);
   } else {
     felt.field = input.load_field(options.common.threads, &context.progress);
     describe(*felt.field);
     if (!options.touch.scalar.empty()) {
       felt.scalar =
-          felt_scalar(options.touch.scalar, input, felt.field, options.common.threads, &context.progress);
+          haptic_scalar(options.touch.scalar, input, felt.field, options.common.threads, &context.progress);
     }
   }
   return felt;
 }
 
 /// Settles what isosurfaces are felt where nothing was said, so that the summary can state it.
-void settle_isosurfaces(FeltInput& felt, ProbeSummary& summary, const Console& console) {
+void settle_isosurfaces(HapticInput& felt, ProbeSummary& summary, const Console& console) {
   if (!felt.scalar) felt.scalar = make_speed_field(felt.field);
   Isovalues& isovalues = summary.settings.isosurface.isovalues;
   if (isovalues.count == 0) isovalues = {{otsu_threshold(*felt.scalar)}, 1};
@@ -194,9 +194,9 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   (void)focal_point_of(options.view);
   std::vector<PathRow> path;
   std::vector<TrackedHands> hands;
-  WorkbenchGeometry bench;
-  if (!options.hand.workbench.empty()) bench = read_workbench(options.hand.workbench);
-  const bool immersive = bench.interaction.immersive && options.hand.replay.empty();
+  WorkbenchGeometry workbench;
+  if (!options.hand.workbench.empty()) workbench = read_workbench(options.hand.workbench);
+  const bool immersive = workbench.interaction.immersive && options.hand.replay.empty();
   if (immersive && simulated)
     throw usage_error("tracked hands hold no simulated arm: leave --device out, or take a desktop");
   std::optional<Recording> recording;
@@ -218,12 +218,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
     console.print(plan_text(summary.plan));
   }
-  FeltInput felt = load_felt(input, options, context);
+  HapticInput felt = load_haptic(input, options, context);
   for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(
       options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
   summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
-  const TunedDevice* tuned = simulated ? find_tuned(bench.tuned, device_key(*simulated)) : nullptr;
+  const TunedDevice* tuned = simulated ? find_tuned(workbench.tuned, device_key(*simulated)) : nullptr;
   if (tuned != nullptr && summary.settings.stiffness > tuned->stiffness) {
     console.note(tuned_note(summary.settings.stiffness, tuned->stiffness));
     summary.settings.stiffness = tuned->stiffness;
@@ -233,7 +233,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   ProbeLog::Measured logged{
       .tensors = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr,
       .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr,
-      .beside = felt.beside};
+      .secondary = felt.secondary};
   if (context.explorer.kind == FieldKind::kFibre && !recording) {
     IsosurfaceSettings& layers = summary.settings.isosurface;
     if (layers.isovalues.count == 0) layers.isovalues = default_layers(*felt.scalar);
@@ -304,7 +304,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     summary.landmarks = haptics.landmarks;
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (immersive) {
-      ImmersiveTechnique technique(bench, felt.bounds.center(), workspace.scale());
+      ImmersiveTechnique technique(workbench, felt.bounds.center(), workspace.scale());
       follow_hands(hands, technique, summary.settings, planes.get(), stepper, workspace, run,
                    context.progress);
     } else if (simulated) {

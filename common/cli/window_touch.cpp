@@ -8,8 +8,8 @@
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/simulated_option.h"
-#include "common/device/bench_option.h"
 #include "common/device/driver_library.h"
+#include "common/device/workbench_option.h"
 #include "common/hand/drawn/annotation_list.h"
 #include "common/hand/servo_rows.h"
 #include "common/hand/touch_options.h"
@@ -61,14 +61,14 @@ void hold_to_tuned(const std::string& device, const VerbContext& context, ProbeS
 }
 /// The same workbench with a mouse: a program for it is tried at a desk by the file that it has there. What
 /// is given in the tracker's frame says nothing then, but the screen is where the view is.
-void take_to_desk(WorkbenchGeometry& bench) {
-  InteractionGeometry& hands = bench.interaction;
+void take_to_desk(WorkbenchGeometry& workbench) {
+  InteractionGeometry& hands = workbench.interaction;
   hands.immersive = false;
   hands.tip_offset = Vec3{0.0};
   if (!hands.surface) return;
   const Vec3 n{*hands.surface};
-  const bool screen = !bench.screens.empty() && n == axes(bench.screens.front().corners)[2] &&
-                      hands.surface->w == glm::dot(n, center(bench.screens.front().corners));
+  const bool screen = !workbench.screens.empty() && n == axes(workbench.screens.front().corners)[2] &&
+                      hands.surface->w == glm::dot(n, center(workbench.screens.front().corners));
   hands.surface = screen ? std::optional(Vec4{0.0, 0.0, 1.0, 0.0}) : std::nullopt;
 }
 
@@ -81,21 +81,22 @@ void take_to_desk(WorkbenchGeometry& bench) {
 /// A real device and its dead-man switch: that of --device, else the workbench's, else the driver's own. A
 /// tracker at an immersive workbench is its hands; an arm is where the workbench says.
 void take_link(const Document& options, const VerbContext& context, ProbeSessionOptions& touch) {
-  const WorkbenchGeometry& bench = touch.workbench;
-  const DeviceText text = device_at_bench(options.hand.device, bench);
+  const WorkbenchGeometry& workbench = touch.workbench;
+  const DeviceText text = device_at_workbench(options.hand.device, workbench);
   OpenedDevice opened =
-      open_at_bench(text, bench, [&](const std::string& line) { context.console.note(line); });
+      open_at_workbench(text, workbench, [&](const std::string& line) { context.console.note(line); });
   const bool tracks = opened.link->poses() != nullptr;
   const DeviceAtoms& atoms = opened.link->atoms();
-  if (bench.interaction.immersive && tracks) {
+  if (workbench.interaction.immersive && tracks) {
     touch.tracker = std::make_shared<LinkedDevice>(std::move(opened.link));
     return;
   }
-  if (bench.interaction.immersive) {
-    if (!bench.coregistration || !atoms.has_position) refuse_immersive(options);
-    const bool by_joints = bench.arm && atoms.joint_count > 0 && bench.arm->joint_count == atoms.joint_count;
-    const Rigid arm_from_device = by_joints ? device_from_arm(bench).inverse() : Rigid{};
-    touch.bench_from_device = bench.coregistration->tracker_from_arm * arm_from_device;
+  if (workbench.interaction.immersive) {
+    if (!workbench.coregistration || !atoms.has_position) refuse_immersive(options);
+    const bool by_joints =
+        workbench.arm && atoms.joint_count > 0 && workbench.arm->joint_count == atoms.joint_count;
+    const Rigid arm_from_device = by_joints ? device_from_arm(workbench).inverse() : Rigid{};
+    touch.workbench_from_device = workbench.coregistration->tracker_from_arm * arm_from_device;
   } else if (tracks && !atoms.has_position && !atoms.has_valuators) {
     refuse_desktop(options);
   }

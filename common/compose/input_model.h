@@ -78,7 +78,7 @@ class InputModel : public WindowModel {
 
   std::string save_session(const Document& document) final {
     Document saved = document;
-    for (const std::string& name : document.input.beside) saved.input.field += "," + name;
+    for (const std::string& name : document.input.secondary) saved.input.field += "," + name;
     return store_session(session_of(saved, program_), saved);
   }
 
@@ -120,7 +120,8 @@ class InputModel : public WindowModel {
 
   /// Whether both mean the same fields at the same time.
   [[nodiscard]] static bool same_content(const Document& a, const Document& b) {
-    return a.input.field == b.input.field && a.input.beside == b.input.beside && a.input.time == b.input.time;
+    return a.input.field == b.input.field && a.input.secondary == b.input.secondary &&
+           a.input.time == b.input.time;
   }
 
   /// What is open; null before start().
@@ -129,7 +130,7 @@ class InputModel : public WindowModel {
  private:
   static void choose(Input& input, const Document& document) {
     input.set_field(document.input.field);
-    input.set_beside(document.input.beside);
+    input.set_secondary(document.input.secondary);
     if (!input.times().empty()) input.set_time_step(time_step_of(document, input.times()));
   }
 
@@ -139,7 +140,7 @@ class InputModel : public WindowModel {
     complete(document, input, progress);
     Content content = read(input, document, progress);
     document.input.field = input.field_label();
-    document.input.beside = input.spec().beside;
+    document.input.secondary = input.spec().secondary;
     if (input.times().size() > 1) set_time_step(document, input.times(), input.time().step);
     SceneState state = present(input, content, document, nullptr, progress);
     scene_.emplace(Scene{std::move(input), std::move(content), std::move(state)});

@@ -99,7 +99,7 @@ std::string joined(std::initializer_list<double> numbers) {
 bool is_half_space(const ConvexShape& shape) { return !shape.quadric && shape.half_spaces.size() == 1; }
 
 // What is left where a half-space is gone.
-ConvexShape::HalfSpace kept_beside(const ConvexShape& gone) {
+ConvexShape::HalfSpace cached_beside(const ConvexShape& gone) {
   const ConvexShape::HalfSpace& face = gone.half_spaces.front();
   return {-face.outward, -face.offset};
 }
@@ -159,8 +159,8 @@ ConvexShape parse_beyond(std::string_view text, const std::string& asked) {
   return shape;
 }
 
-LensWords parse_lens(const std::string& text) {
-  LensWords words;
+LensSpec parse_lens(const std::string& text) {
+  LensSpec words;
   const std::string& all = text;
   std::string_view rest = text;
   constexpr std::string_view kTransfer = ",tf=";
@@ -237,9 +237,9 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   if (lens.shading != view.shading) *text += lens.shading ? ",shading=on" : ",shading=off";
   if (lens.field > 0) *text += ",field=" + view.fields[lens.field - 1].name;
   if (lens.own_transfer && lens.regions) {
-    *text += ",tf=" + region_words(*lens.regions);
+    *text += ",tf=" + region_text(*lens.regions);
   } else if (lens.own_transfer && lens.transfer && !lens.transfer->points().empty()) {
-    *text += ",tf=" + transfer_words(*lens.transfer);
+    *text += ",tf=" + transfer_text(*lens.transfer);
   }
   return text;
 }
@@ -263,13 +263,13 @@ std::vector<std::string> lens_texts(const VolumeView& view) {
 
 VolumeParts make_parts(const VolumeOptions& options, const Lens& model) {
   VolumeParts parts;
-  std::vector<std::pair<Lens, LensWords>> lenses;
+  std::vector<std::pair<Lens, LensSpec>> lenses;
   for (const std::string& plane : options.clips)
-    parts.cuts.push_back({.kept = kept_beside(parse_beyond(plane, "--clip " + plane))});
+    parts.cuts.push_back({.kept = cached_beside(parse_beyond(plane, "--clip " + plane))});
   for (const std::string& text : options.lenses) {
-    const LensWords words = parse_lens(text);
+    const LensSpec words = parse_lens(text);
     if (words.lens.cut && is_half_space(words.lens.shape)) {
-      parts.cuts.push_back({.kept = kept_beside(words.lens.shape), .on = !words.off});
+      parts.cuts.push_back({.kept = cached_beside(words.lens.shape), .on = !words.off});
       continue;
     }
     Lens& lens = lenses.emplace_back(words.lens, words).first;

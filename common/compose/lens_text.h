@@ -22,7 +22,7 @@
 namespace palpate {
 
 /// A lens without a transfer function of its own, and what was said of its rays.
-struct LensWords {
+struct LensSpec {
   Lens lens;
   std::optional<double> samples;  ///< a voxel
   std::optional<bool> shading;
@@ -31,7 +31,7 @@ struct LensWords {
   bool off = false;      ///< a half-space that would cut
 };
 /// @throws Error (usage) for words of another kind, and for a shape without size.
-[[nodiscard]] LensWords parse_lens(const std::string& text);
+[[nodiscard]] LensSpec parse_lens(const std::string& text);
 /// The words for a lens that parse_lens() made, or that was moved or scaled since; nothing for other shapes.
 /// @param view that the lens is part of: what it shares with the context is not said.
 [[nodiscard]] std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view);
@@ -46,7 +46,7 @@ struct LensWords {
 
 struct VolumeParts {
   std::vector<Lens> lenses;
-  std::vector<std::string> fields, transfers;  ///< LensWords::field and transfer of each lens
+  std::vector<std::string> fields, transfers;  ///< LensSpec::field and transfer of each lens
   std::vector<CuttingPlane> cuts;
 };
 /// What `--lens` and `--clip` ask for: half-spaces that cut are planes; other lenses that cut come first, so

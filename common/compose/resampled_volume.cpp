@@ -139,7 +139,7 @@ std::vector<std::string> flow_volume_names(const Input& input, const VolumeOptio
   };
   check(asked.front());
   std::vector<std::string> names = shown;
-  for (std::string& name : names_beside(shown, {asked.begin() + 1, asked.end()}, options, check))
+  for (std::string& name : secondary_names(shown, {asked.begin() + 1, asked.end()}, options, check))
     names.push_back(std::move(name));
   return names;
 }
@@ -219,7 +219,7 @@ FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorFiel
     if (name == names.front()) {
       volume.voxels.image = std::move(image);
     } else {
-      volume.voxels.beside.push_back({std::move(image), name});
+      volume.voxels.secondary.push_back({std::move(image), name});
     }
   }
   return volume;

@@ -42,7 +42,7 @@ ImagePlane parse_plane(const std::string& text, const Box& bounds) {
   return {normal / length, v[3] / length};
 }
 
-std::string direction_words(const Vec3& direction, bool anatomical) {
+std::string direction_text(const Vec3& direction, bool anatomical) {
   constexpr std::array<std::array<const char*, 2>, 3> kPatient{
       {{"left", "right"}, {"back", "front"}, {"feet", "head"}}};
   constexpr std::array<std::array<const char*, 2>, 3> kPlain{{{"-x", "+x"}, {"-y", "+y"}, {"-z", "+z"}}};

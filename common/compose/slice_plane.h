@@ -14,7 +14,7 @@ namespace palpate {
 
 /// What a direction leads to, in words: "right", "front", "head" of a patient, or "+x" and the like; both
 /// ends of oblique ones: "right and front".
-[[nodiscard]] std::string direction_words(const Vec3& direction, bool anatomical);
+[[nodiscard]] std::string direction_text(const Vec3& direction, bool anatomical);
 
 /// The box of two opposite corners "x,y,z,x,y,z". @throws Error (usage).
 [[nodiscard]] Box parse_box(const std::string& text, const std::string& option);

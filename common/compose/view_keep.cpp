@@ -25,7 +25,7 @@ void keep_lines(const LineStyle& style, Document& document) {
   document.view.line_opacity = style.opacity;
 }
 
-void keep_volume(const VolumeView& volume, Document& document) {
+void cache_volume(const VolumeView& volume, Document& document) {
   VolumeOptions& kept = document.volume;
   kept.clips.clear();  // cuts are among the lenses
   kept.lenses = lens_texts(volume);

@@ -16,6 +16,6 @@ void keep_camera(const SceneView& view, Document& document);
 void keep_lines(const LineStyle& style, Document& document);
 
 /// The lenses and cuts of a volume, how its rays are cast, and what is drawn on its planes.
-void keep_volume(const VolumeView& volume, Document& document);
+void cache_volume(const VolumeView& volume, Document& document);
 
 }  // namespace palpate

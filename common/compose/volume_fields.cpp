@@ -59,9 +59,10 @@ std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Prog
   return load_volume(input, progress);
 }
 
-std::vector<std::string> names_beside(const std::vector<std::string>& shown,
-                                      const std::vector<std::string>& beside, const VolumeOptions& options,
-                                      const std::function<void(const std::string&)>& check) {
+std::vector<std::string> secondary_names(const std::vector<std::string>& shown,
+                                         const std::vector<std::string>& secondary,
+                                         const VolumeOptions& options,
+                                         const std::function<void(const std::string&)>& check) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (name.empty() || std::find(shown.begin(), shown.end(), name) != shown.end()) return;
@@ -69,7 +70,7 @@ std::vector<std::string> names_beside(const std::vector<std::string>& shown,
     check(name);
     names.push_back(name);
   };
-  for (const std::string& name : beside) add(name);
+  for (const std::string& name : secondary) add(name);
   for (const std::string& text : options.lenses) add(parse_lens(text).field);
   if (names.size() >= kMostFields) {
     throw usage_error(std::to_string(names.size() + 1) + " fields are named; at most " +
@@ -78,17 +79,17 @@ std::vector<std::string> names_beside(const std::vector<std::string>& shown,
   return names;
 }
 
-std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options) {
-  return names_beside({input.spec().field, input.field_label()}, input.spec().beside, options,
-                      [&input](const std::string& name) {
-                        if (!input.names_field(name))
-                          check_file_field(name, "field", input.fields(), input.title());
-                      });
+std::vector<std::string> secondary_names(const Input& input, const VolumeOptions& options) {
+  return secondary_names({input.spec().field, input.field_label()}, input.spec().secondary, options,
+                         [&input](const std::string& name) {
+                           if (!input.names_field(name))
+                             check_file_field(name, "field", input.fields(), input.title());
+                         });
 }
 
-std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options, Progress* progress) {
+std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options, Progress* progress) {
   std::vector<VolumeField> fields;
-  for (const std::string& name : names_beside(input, options))
+  for (const std::string& name : secondary_names(input, options))
     fields.push_back({load_named(input, name, progress), name});
   return fields;
 }
@@ -96,10 +97,10 @@ std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options,
 TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress) {
   return {.image = load_volume(input, progress),
           .field = nullptr,
-          .beside = load_beside(input, options, progress)};
+          .secondary = load_secondary(input, options, progress)};
 }
 
-std::vector<Lens> lens_looks(const VolumeView& volume, const std::string& focus, int threads) {
+std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus, int threads) {
   std::vector<Lens> looks;
   for (std::size_t field = 0; field <= volume.fields.size(); ++field) {
     Lens& look = looks.emplace_back();

@@ -21,14 +21,14 @@ namespace palpate {
 /// The names, each once, in the order of VolumeView::fields; not that of what is shown around lenses.
 /// @throws Error (usage) for a name that is neither a scalar of the input nor a file, and for more than a
 /// picture can have.
-[[nodiscard]] std::vector<std::string> names_beside(const Input& input, const VolumeOptions& options);
+[[nodiscard]] std::vector<std::string> secondary_names(const Input& input, const VolumeOptions& options);
 /// The same of another choice of scalars.
 /// @param shown names of what is shown around lenses. @param beside those asked for, but for lenses.
 /// @param check refuses a name that means nothing.
-[[nodiscard]] std::vector<std::string> names_beside(const std::vector<std::string>& shown,
-                                                    const std::vector<std::string>& beside,
-                                                    const VolumeOptions& options,
-                                                    const std::function<void(const std::string&)>& check);
+[[nodiscard]] std::vector<std::string> secondary_names(const std::vector<std::string>& shown,
+                                                       const std::vector<std::string>& secondary,
+                                                       const VolumeOptions& options,
+                                                       const std::function<void(const std::string&)>& check);
 
 /// Refuses a `name` that is no file, either. @param option that has it. @param known names that would do.
 /// @throws Error (usage).
@@ -37,9 +37,9 @@ void check_file_field(const std::string& name, const std::string& option,
 /// The voxels that FILE or FILE:NAME means. @throws Error, Cancelled.
 [[nodiscard]] std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress);
 
-/// Reads their voxels. @throws Error as names_beside() and of the files; Cancelled.
-[[nodiscard]] std::vector<VolumeField> load_beside(Input& input, const VolumeOptions& options,
-                                                   Progress* progress);
+/// Reads their voxels. @throws Error as secondary_names() and of the files; Cancelled.
+[[nodiscard]] std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options,
+                                                      Progress* progress);
 
 /// All voxels of a picture that nobody feels. @throws Error, Cancelled.
 [[nodiscard]] TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress);
@@ -47,10 +47,11 @@ void check_file_field(const std::string& name, const std::string& option,
 /// How lenses show each field, by Lens::field: as `--focus-tf` says, of the values of that field; where it
 /// says nothing the context's denser half, and all of another field.
 /// @param volume has its fields. @throws Error as focus_transfer_of().
-[[nodiscard]] std::vector<Lens> lens_looks(const VolumeView& volume, const std::string& focus, int threads);
+[[nodiscard]] std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus,
+                                                 int threads);
 
 /// The lenses and cuts that the options ask for, with the fields and transfer functions that they name.
-/// @param volume has its fields; @param looks of lens_looks() for it.
+/// @param volume has its fields; @param looks of lens_appearances() for it.
 /// @throws Error (usage) as make_parts(), and for more transfer functions than a picture can have; of files.
 void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& looks,
                 int threads);

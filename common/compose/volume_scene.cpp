@@ -77,8 +77,8 @@ ColorPreset preset_of(const std::string& name) {
 
 VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image, int threads) {
   const DataRange range = [&] { return place_range(image, threads); };
-  if (auto transfer = transfer_from_words(name)) return {*transfer, {}};
-  if (auto regions = regions_from_words(name, range)) return {{}, std::move(regions)};
+  if (auto transfer = transfer_from_text(name)) return {*transfer, {}};
+  if (auto regions = regions_from_text(name, range)) return {{}, std::move(regions)};
   if (name == kBoundariesPreset) return {{}, spread(boundary_regions(), range())};
   const bool values = image.lowest <= image.highest;
   const double lower = values ? image.lowest : 0.0;
@@ -94,8 +94,8 @@ VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image,
 void check_transfer(const std::string& name) {
   std::error_code ignored;
   const auto any_range = [] { return PlaceRange{{0.0, 0.0}, {1.0, 1.0}}; };
-  if (name.empty() || name == kBoundariesPreset || transfer_from_words(name) ||
-      regions_from_words(name, any_range) || std::filesystem::exists(name, ignored))
+  if (name.empty() || name == kBoundariesPreset || transfer_from_text(name) ||
+      regions_from_text(name, any_range) || std::filesystem::exists(name, ignored))
     return;
   // A word is a preset; what looks like a path was meant as one.
   if (name.find_first_of("./") != std::string::npos)
@@ -194,7 +194,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   const std::shared_ptr<const VolumeImage>& image = shown.image;
   VolumeView volume;
   volume.image = image;
-  volume.fields = shown.beside;
+  volume.fields = shown.secondary;
   VolumeTransfer transfer = volume_transfer_of(options.volume.transfer, *image, options.common.threads);
   volume.transfer = std::move(transfer.colors);
   volume.regions = std::move(transfer.regions);
@@ -208,7 +208,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
-    const std::vector<Lens> looks = lens_looks(volume, options.volume.focus, options.common.threads);
+    const std::vector<Lens> looks = lens_appearances(volume, options.volume.focus, options.common.threads);
     take_parts(volume, options.volume, looks, options.common.threads);
   }
   volume.planes = plane_images_of(options.volume);

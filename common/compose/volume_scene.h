@@ -31,7 +31,7 @@ struct VolumeTransfer {
 void take_transfer(VolumeTransfer transfer, Lens& lens);
 
 /// What `--transfer-function` names: a preset, a file of either kind, "points:" or "regions:" with the points
-/// or regions themselves (transfer_words(), region_words()), or nothing for default_color_transfer().
+/// or regions themselves (transfer_text(), region_text()), or nothing for default_color_transfer().
 /// @throws Error (usage) for a word that is none of these, (bad input) for a file.
 [[nodiscard]] VolumeTransfer volume_transfer_of(const std::string& name, const VolumeImage& image,
                                                 int threads);
@@ -61,7 +61,7 @@ void check_volume_options(const VolumeOptions& options);
 struct TangibleVolume {
   std::shared_ptr<const VolumeImage> image;
   std::shared_ptr<const ScalarField> field;  ///< null where the image is flat: it has no inside
-  std::vector<VolumeField> beside;           ///< other scalars, to be drawn in lenses
+  std::vector<VolumeField> secondary;        ///< other scalars, to be drawn in lenses
 };
 /// @throws Error, Cancelled.
 [[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);

@@ -21,10 +21,10 @@ std::string color_array_of(const Document& document) {
 auto scene_of(const Document& d) {
   // Volumes of tensors are made of them: their transfer functions are a matter of drawing alone.
   const bool scalars = d.input.kind != FieldKind::kTensor;
-  return std::tuple(d.input.field, d.input.beside, d.input.time, d.tracing.seeds, d.tracing.direction,
+  return std::tuple(d.input.field, d.input.secondary, d.input.time, d.tracing.seeds, d.tracing.direction,
                     d.tracing.integrator, d.tracing.tolerance, d.tracing.step, d.tracing.max_length,
                     d.common.seed, d.tracts.seeds, d.tracts.seeds_per_voxel, d.tracts.cutoff,
-                    d.tract_look.file, d.tensors.underlay, color_array_of(d), d.volume.scalar,
+                    d.tract_appearance.file, d.tensors.underlay, color_array_of(d), d.volume.scalar,
                     d.volume.resample, scalars ? d.volume.transfer : std::string(),
                     scalars ? d.volume.focus : std::string(), d.heart.layer, d.heart.angle, d.heart.cut,
                     d.heart.contours, d.heart.lens_angle, d.heart.lens.empty());
@@ -48,7 +48,7 @@ bool same_scene(const Document& a, const Document& b) { return scene_of(a) == sc
 
 void take_scene(const Document& used, Document& document) {
   document.input.field = used.input.field;
-  document.input.beside = used.input.beside;
+  document.input.secondary = used.input.secondary;
   document.input.time = used.input.time;
   document.tracing = used.tracing;
   document.tracts = used.tracts;

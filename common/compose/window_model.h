@@ -57,12 +57,12 @@ struct SceneInfo {
 /// A scene with its lines, or its volume.
 struct SceneState {
   std::shared_ptr<const SceneInfo> info;
-  Document document;                               ///< as used; what was left to a default is filled in
-  std::shared_ptr<const std::vector<Line>> lines;  ///< never null
-  std::shared_ptr<const VectorField> probed;       ///< the flow that the hand feels; null: none
-  std::shared_ptr<const ScalarField> felt_scalar;  ///< what modes of a scalar feel; null: the speed, if any
-  std::shared_ptr<const TensorField> felt_tensor;  ///< fibres that the hand feels; null: none
-  std::string felt_scalar_key;                     ///< tells it from other scalars of the same field
+  Document document;                                 ///< as used; what was left to a default is filled in
+  std::shared_ptr<const std::vector<Line>> lines;    ///< never null
+  std::shared_ptr<const VectorField> probed;         ///< the flow that the hand feels; null: none
+  std::shared_ptr<const ScalarField> haptic_scalar;  ///< what modes of a scalar feel; null: the speed, if any
+  std::shared_ptr<const TensorField> haptic_tensor;  ///< fibres that the hand feels; null: none
+  std::string haptic_scalar_key;                     ///< tells it from other scalars of the same field
   std::shared_ptr<const LineArray>
       color_array;  ///< what the document colours the lines by, where that is no quantity of theirs
   std::vector<SurfaceView> surfaces;      ///< drawn with the lines

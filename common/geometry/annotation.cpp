@@ -54,7 +54,7 @@ double measure_of(const Annotation& annotation) noexcept {
   return 0.0;
 }
 
-std::string measure_words(const Annotation& annotation, const std::string& unit) {
+std::string measure_text(const Annotation& annotation, const std::string& unit) {
   const std::string number = short_number(measure_of(annotation));
   switch (annotation.kind) {
     case AnnotationKind::kPoint:

@@ -46,7 +46,7 @@ struct Annotation {
 [[nodiscard]] double measure_of(const Annotation& annotation) noexcept;
 /// What measure_of() says, with its unit: "12.3 mm", "45 degrees"; empty of a point.
 /// @param unit of lengths; empty: not known, "units".
-[[nodiscard]] std::string measure_words(const Annotation& annotation, const std::string& unit);
+[[nodiscard]] std::string measure_text(const Annotation& annotation, const std::string& unit);
 /// The points as they are drawn: an area's first one again at the end.
 [[nodiscard]] std::vector<Vec3> outline_of(const Annotation& annotation);
 

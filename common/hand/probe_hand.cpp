@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-ProbeHand::ProbeHand(const ProbeSessionOptions& options, const FeltData& data, const ProbeReadout& readout)
+ProbeHand::ProbeHand(const ProbeSessionOptions& options, const HapticData& data, const ProbeReadout& readout)
     : options_(options),
       data_(data),
       readout_(readout),
@@ -25,10 +25,10 @@ void ProbeHand::open_data() {
   if (options_.hands.empty() && !options_.tracker) return;
   technique_ = std::make_unique<ImmersiveTechnique>(options_.workbench, data_.field().bounds().center(),
                                                     data_.workspace().scale());
-  const InteractionGeometry& bench = options_.workbench.interaction;
+  const InteractionGeometry& workbench = options_.workbench.interaction;
   if (!hands_ && options_.tracker) {
-    hands_ =
-        std::make_unique<LiveHands>(options_.tracker, HandStations{bench.stylus_station, bench.hand_station});
+    hands_ = std::make_unique<LiveHands>(options_.tracker,
+                                         HandStations{workbench.stylus_station, workbench.hand_station});
   }
   if (!hands_) hands_ = std::make_unique<ReplayHands>(options_.hands);
 }
@@ -69,27 +69,27 @@ Device& ProbeHand::make_device() {
 }
 
 Placement ProbeHand::placement(const Camera& camera) const {
-  const InteractionGeometry& bench = options_.workbench.interaction;
+  const InteractionGeometry& workbench = options_.workbench.interaction;
   const Workspace workspace = data_.workspace();
-  if (options_.bench_from_device) {
-    const BenchPlace place =
-        bench_place_.value_or(place_of(bench, data_.field().bounds().center(), workspace.scale()));
-    const Rigid& lies = *options_.bench_from_device;
-    Placement placement{workspace.workspace_from_data(place(lies.translation + bench.tip_offset)),
+  if (options_.workbench_from_device) {
+    const WorkbenchPlace place =
+        workbench_place_.value_or(place_of(workbench, data_.field().bounds().center(), workspace.scale()));
+    const Rigid& lies = *options_.workbench_from_device;
+    Placement placement{workspace.workspace_from_data(place(lies.translation + workbench.tip_offset)),
                         glm::mat3_cast(place.turn * lies.rotation), workspace.scale() * place.units};
-    if (bench.surface) {
-      const Vec3 n{*bench.surface};
+    if (workbench.surface) {
+      const Vec3 n{*workbench.surface};
       placement.surface = Vec4{glm::conjugate(lies.rotation) * n,
-                               bench.surface->w - glm::dot(n, lies.translation + bench.tip_offset)};
+                               workbench.surface->w - glm::dot(n, lies.translation + workbench.tip_offset)};
     }
     return placement;
   }
   Placement placement{
-      .middle = workspace.workspace_from_data(camera.focal_point) + camera.axes * bench.tip_offset,
+      .middle = workspace.workspace_from_data(camera.focal_point) + camera.axes * workbench.tip_offset,
       .axes = camera.axes,
-      .surface = bench.surface};
+      .surface = workbench.surface};
   // It is the picture of the tip that is on the surface.
-  if (placement.surface) placement.surface->w -= glm::dot(Vec3{*bench.surface}, bench.tip_offset);
+  if (placement.surface) placement.surface->w -= glm::dot(Vec3{*workbench.surface}, workbench.tip_offset);
   return placement;
 }
 
@@ -124,11 +124,11 @@ void ProbeHand::lead(const HandEvent& event, const Camera& camera, const Picture
 std::optional<Vec3> ProbeHand::along_surface(const HandEvent& event, const Camera& camera,
                                              const Vec3& before) const {
   const bool held = readout_.held && readout_.state == HoldState::kHeld;
-  const FeltLevels felt = data_.levels();
+  const HapticLevels felt = data_.levels();
   if (!held || !felt.field || intent().axis || !std::holds_alternative<MouseDrag>(event)) return std::nullopt;
   CellHint hint;
   const ScalarSample value = felt.field->sample(readout_.proxy, hint);
-  const auto level = felt_level(felt, value.value);
+  const auto level = haptic_level(felt, value.value);
   if (value.status != SampleStatus::kOk || !level) return std::nullopt;
   return dragged_along({*felt.field, *level, readout_.proxy}, camera, before, intent().probe);
 }
@@ -151,7 +151,7 @@ bool ProbeHand::device_presses() const noexcept {
 }
 
 std::optional<double> ProbeHand::device_reach() const {
-  if (!linked_ || data_.empty() || options_.bench_from_device) return std::nullopt;
+  if (!linked_ || data_.empty() || options_.workbench_from_device) return std::nullopt;
   const DeviceLimits& limits = linked_->limits();
   double least = HUGE_VAL;
   for (int axis = 0; axis < 2; ++axis)  // right and up
@@ -173,7 +173,7 @@ std::optional<PlanePoses> ProbeHand::follow_hands(double time) {
     let_go();
     return std::nullopt;
   }
-  (void)technique_->take(hands, {.place = bench_place_});
+  (void)technique_->take(hands, {.place = workbench_place_});
   if (!mouse_->grabbed()) grab(time, intent().probe);
   pressed_ = intent().acts;
   return carried_.follow(intent(), planes_.news());

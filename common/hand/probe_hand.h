@@ -9,7 +9,7 @@
 #include "common/device/mouse_device.h"
 #include "common/device/replay_device.h"
 #include "common/device/simulated_device.h"
-#include "common/hand/felt_data.h"
+#include "common/hand/haptic_data.h"
 #include "common/hand/probe_options.h"
 #include "common/hand/probe_readout.h"
 #include "common/hand/technique/hand_planes.h"
@@ -22,7 +22,7 @@ namespace palpate {
 class ProbeHand {
  public:
   /// All three outlive it. @param readout what the servo published last.
-  ProbeHand(const ProbeSessionOptions& options, const FeltData& data, const ProbeReadout& readout);
+  ProbeHand(const ProbeSessionOptions& options, const HapticData& data, const ProbeReadout& readout);
 
   /// Lets go, and takes tracked hands to the input that has just been opened.
   void open_data();
@@ -41,7 +41,7 @@ class ProbeHand {
   /// Whether the hand works something else, such as a menu: its button takes hold of nothing then.
   void engage(bool elsewhere) noexcept;
   /// Where the data is at the workbench now; tracked hands are there, too.
-  void place_bench(const BenchPlace& place) noexcept { bench_place_ = place; }
+  void place_workbench(const WorkbenchPlace& place) noexcept { workbench_place_ = place; }
 
   [[nodiscard]] const HandsIntent& intent() const noexcept { return technique_->intent(); }
   /// Whether mouse and keys move the probe: not in a replay, nor with a path, tracked hands or a real device.
@@ -99,12 +99,12 @@ class ProbeHand {
                                                   const Vec3& before) const;
 
   const ProbeSessionOptions& options_;
-  const FeltData& data_;
+  const HapticData& data_;
   const ProbeReadout& readout_;
   bool replaying_;
   std::unique_ptr<InteractionTechnique> technique_;
   std::unique_ptr<HandSource> hands_;  ///< of the immersive technique
-  std::optional<BenchPlace> bench_place_;
+  std::optional<WorkbenchPlace> workbench_place_;
   std::optional<Camera> seen_;  ///< the view of the last follow_view() or lead()
   CarriedPlanes carried_;
   HandPlanes planes_;

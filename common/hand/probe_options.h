@@ -44,7 +44,7 @@ struct ProbeSessionOptions {
   std::shared_ptr<DriverLink> link;
   /// Where frame D of that device is in the tracker's frame of an immersive workbench: its tip is where the
   /// data is then, whichever way the view is. None: it is laid over the view.
-  std::optional<Rigid> bench_from_device;
+  std::optional<Rigid> workbench_from_device;
   /// What the device bears, as tuning found it [N/m]: the chain gets no more.
   double most_stiffness = HUGE_VAL;
   /// Its dead-man switch; `limits` name its sample_button().

@@ -1,6 +1,6 @@
 /// The hand in the window: one object that lives as long as a window, and joins four parts.
 ///
-///   FeltData     the data under the hand
+///   HapticData     the data under the hand
 ///   ProbeHand    the device that leads the probe, and what the hand has hold of
 ///   ProbeServo   the servo with its chain, the recorder, the replay
 ///   ProbeTrail   what the hand leaves behind: read-outs, path, followed line, kept lines, tracts
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "common/hand/drawn/annotation_list.h"
-#include "common/hand/felt_data.h"
+#include "common/hand/haptic_data.h"
 #include "common/hand/probe_hand.h"
 #include "common/hand/probe_options.h"
 #include "common/hand/probe_servo.h"
@@ -35,7 +35,7 @@ class ProbeSession {
 
   [[nodiscard]] bool available() const noexcept { return !options_.modes.empty(); }
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
-  [[nodiscard]] const FeltData& data() const noexcept { return data_; }
+  [[nodiscard]] const HapticData& data() const noexcept { return data_; }
   [[nodiscard]] const ProbeHand& hand() const noexcept { return hand_; }
   [[nodiscard]] ProbeHand& hand() noexcept { return hand_; }
   [[nodiscard]] const ProbeServo& servo() const noexcept { return servo_; }
@@ -98,7 +98,7 @@ class ProbeSession {
 
   ProbeSessionOptions options_;
   TouchChoice choice_;
-  FeltData data_;
+  HapticData data_;
   ProbeTrail trail_;
   ProbeHand hand_;
   AnnotationList notes_;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPathSpacing = 2e-4;  // diagonals
-constexpr std::size_t kMostFelt = 1U << 20U;
+constexpr std::size_t kMostHaptic = 1U << 20U;
 
 bool is_on_line(const HandStep& step) {
   return step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
@@ -33,7 +33,7 @@ void ProbeTrail::open_data() {
   drawing_.reset();
   if (data_.has_tensors()) drawing_.emplace(data_.field().tensor);
   clear_path();
-  kept_.clear();
+  drawn_lines_.clear();
   last_drawn_.reset();
 }
 
@@ -109,7 +109,7 @@ void ProbeTrail::draw_path(const HandStep& step, bool on_line, StrokeUse stroke)
   if (!on_line) return;
   const double spacing = kPathSpacing * data_.field().diagonal();
   if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
-    if (felt_.size() < kMostFelt) felt_.push_back({proxy, force});
+    if (felt_.size() < kMostHaptic) felt_.push_back({proxy, force});
   } else {
     felt_.back().force = force;
   }
@@ -142,7 +142,7 @@ void ProbeTrail::describe(const TouchChoice& choice, double force_cap, bool on_d
       data_.has_tensors() ? tension_range(choice.settings, force_cap) : std::nullopt;
   view.path = choice.show_path ? PathView{path_, path_->size(), tension} : PathView{};
   view.seeds = data_.lines();
-  view.kept = kept_.drawn();
+  view.drawn_lines = drawn_lines_.drawn();
 }
 
 void ProbeTrail::note_line() {
@@ -159,7 +159,7 @@ void ProbeTrail::forget_note() {
 
 ProbeTrail::Keeping ProbeTrail::keep_line() {
   if (drawing_) {
-    if (!drawing_->keep(kept_)) return Keeping::kNothing;
+    if (!drawing_->keep(drawn_lines_)) return Keeping::kNothing;
     path_ = drawing_->path();
     return Keeping::kKept;
   }
@@ -173,26 +173,26 @@ ProbeTrail::Keeping ProbeTrail::keep_noted_line() {
 }
 
 ProbeTrail::Keeping ProbeTrail::keep(const Line& line, std::vector<double> forces) {
-  if (kept_.ends_with(line, forces)) return Keeping::kAlready;
-  kept_.keep(line, std::move(forces));
+  if (drawn_lines_.ends_with(line, forces)) return Keeping::kAlready;
+  drawn_lines_.keep(line, std::move(forces));
   return Keeping::kKept;
 }
 
 void ProbeTrail::remove_kept(std::size_t index) {
   if (drawing_) {
-    drawing_->remove(kept_, index);
+    drawing_->remove(drawn_lines_, index);
   } else {
-    kept_.remove(index);
+    drawn_lines_.remove(index);
   }
 }
 
 std::size_t ProbeTrail::undo_depth() const noexcept {
-  return drawing_ ? drawing_->undo_depth() : kept_.undo_depth();
+  return drawing_ ? drawing_->undo_depth() : drawn_lines_.undo_depth();
 }
 
 bool ProbeTrail::undo() {
-  if (!drawing_) return kept_.undo();
-  if (!drawing_->undo(kept_)) return false;
+  if (!drawing_) return drawn_lines_.undo();
+  if (!drawing_->undo(drawn_lines_)) return false;
   path_ = drawing_->path();
   return true;
 }

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/drawn/followed_curve.h"
-#include "common/hand/drawn/kept_lines.h"
 #include "common/hand/drawn/tract_drawing.h"
-#include "common/hand/felt_data.h"
+#include "common/hand/haptic_data.h"
 #include "common/hand/probe_readout.h"
 #include "common/hand/touch_choice.h"
 #include "common/render/probe_view.h"
@@ -22,7 +22,7 @@ namespace palpate {
 class ProbeTrail {
  public:
   /// `data` outlives it.
-  explicit ProbeTrail(const FeltData& data) : data_(data) {}
+  explicit ProbeTrail(const HapticData& data) : data_(data) {}
 
   /// Begins with the input that has just been opened; what was kept of another is forgotten.
   void open_data();
@@ -54,8 +54,8 @@ class ProbeTrail {
   void note_line();
   /// The hand takes the probe elsewhere.
   void forget_note();
-  [[nodiscard]] const KeptLines& kept() const noexcept { return kept_; }
-  /// Takes out the kept line at `index`. @pre index < kept().entries().size().
+  [[nodiscard]] const DrawnLines& drawn_lines() const noexcept { return drawn_lines_; }
+  /// Takes out the line at `index`. @pre index < drawn_lines().entries().size().
   void remove_kept(std::size_t index);
   /// Takes back the last stroke, keep_line(), remove_kept() or clear_path() of tracts; false where there is
   /// none. A path without tracts stays cleared.
@@ -77,18 +77,18 @@ class ProbeTrail {
   void read_step(const HandStep& step);
   void draw_path(const HandStep& step, bool on_line, StrokeUse stroke);
 
-  const FeltData& data_;
+  const HapticData& data_;
   std::optional<FollowedCurve> curve_;
   std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
   bool follows_surface_ = false;
   std::shared_ptr<ProbePath> path_;
-  std::vector<FeltForce> felt_;  ///< since the line was caught
-  bool other_line_ = false;      ///< it was let go, or another one caught, since then
-  bool held_before_ = false;     ///< something has held this hand since it took the probe
+  std::vector<HapticForce> felt_;  ///< since the line was caught
+  bool other_line_ = false;        ///< it was let go, or another one caught, since then
+  bool held_before_ = false;       ///< something has held this hand since it took the probe
   bool growing_ = false;
   std::optional<NotedLine> noted_;
   std::optional<TractDrawing> drawing_;  ///< where there are tensors
-  KeptLines kept_;
+  DrawnLines drawn_lines_;
   ProbeReadout readout_;
   ReadoutHints hints_;
 };

@@ -166,10 +166,10 @@ void keep_touch(const TouchChoice& choice, const std::string& mode, TouchOptions
   options.field_damping = settings.force_field.damping;
   options.density_curve = settings.force_field.density.text();
   options.anisotropy_curve = settings.anisotropy.tau.text(1.0 / kMillimetres);
-  options.noise_texture = texture_words(settings.texture);
-  options.linear = linear_words(settings.linear);
-  options.grid = grid_words(settings.grid_axis);
-  options.planes = plane_words(settings.plane_widget);
+  options.noise_texture = texture_text(settings.texture);
+  options.linear = linear_text(settings.linear);
+  options.grid = grid_text(settings.grid_axis);
+  options.planes = plane_text(settings.plane_widget);
   options.stroke = name_of(choice.stroke);
 }
 

@@ -7,20 +7,20 @@
 #include <string>
 
 #include "common/compose/window_model.h"
-#include "common/hand/bench/bench_display.h"
 #include "common/hand/probe_session.h"
+#include "common/hand/workbench/workbench_display.h"
 #include "common/render/scene_view.h"
 #include "common/scene/document/document.h"
 
 namespace palpate {
 
 struct WindowRequest {
-  std::string program;                       ///< in the title bar
-  std::string command_line;                  ///< for the text of saved pictures
-  SceneView view;                            ///< what is shown at the start, but for lines, bounds and camera
-  std::optional<BenchDisplayOptions> bench;  ///< the screens of a workbench; none: a desktop
-  ProbeSessionOptions touch;                 ///< without modes: the window knows no touch
-  std::function<bool()> stop_requested;      ///< asked a few times a second; true closes the window
+  std::string program;       ///< in the title bar
+  std::string command_line;  ///< for the text of saved pictures
+  SceneView view;            ///< what is shown at the start, but for lines, bounds and camera
+  std::optional<WorkbenchDisplayOptions> workbench;  ///< the screens of a workbench; none: a desktop
+  ProbeSessionOptions touch;                         ///< without modes: the window knows no touch
+  std::function<bool()> stop_requested;              ///< asked a few times a second; true closes the window
   std::function<void(const std::string&)> note;  ///< told what of the user's files cannot be read or written
 };
 

@@ -7,9 +7,9 @@
 ///   free        r_a = 0                      fixed       any r_a
 ///   drag        sum_a (r_a / tau_a)^2 <= 1, over all dragged axes at once (motion_rule.h)
 ///   unilateral  -tau_a <= r_a <= 0, with the axis pointing outward, into free space (eq. 6.7)
-///   snap        as drag, and dp goes by whole teeth (snap_jointly())
+///   snap        as drag, and dp goes by whole detents (snap_jointly())
 ///
-/// dp is the least motion that leaves an allowed r, so that r changes by no more than dx, but for the teeth.
+/// dp is the least motion that leaves an allowed r, so that r changes by no more than dx, but for the detents.
 /// Where thresholds and axes change with the place, r changes by the change of what is allowed as well.
 #pragma once
 

@@ -9,11 +9,11 @@ namespace {
 /// What an earlier motion left at a threshold, to rounding, is within it: a second one moves nothing.
 constexpr double kRounding = 0x1p-40;
 
-/// Beyond this many, teeth cannot be told apart: the probe itself will do.
+/// Beyond this many, detents cannot be told apart: the probe itself will do.
 constexpr double kCountable = 0x1p52;
 
-/// Whole teeth by which a proxy goes after a probe that is `away` teeth from it, to come within one.
-double teeth_passed(double away) noexcept { return std::max(std::ceil(away - kRounding) - 1.0, 0.0); }
+/// Whole detents by which a proxy goes after a probe that is `away` detents from it, to come within one.
+double detents_passed(double away) noexcept { return std::max(std::ceil(away - kRounding) - 1.0, 0.0); }
 
 /// What joint drag leaves between probe and proxy, r_a = dx_a tau_a^2 / (tau_a^2 + m), lies on the ellipsoid
 /// for exactly one multiplier m >= 0, since each |r_a| falls with m (Hart 1994, distance to an ellipsoid).
@@ -114,7 +114,7 @@ double unilateral(double dx_outward, double tau) noexcept {
 double snap_drag(double dx, double tau) noexcept {
   if (!(tau > 0.0)) return dx;
   const double away = std::abs(dx) / tau;
-  return away < kCountable ? std::copysign(tau * teeth_passed(away), dx) : dx;
+  return away < kCountable ? std::copysign(tau * detents_passed(away), dx) : dx;
 }
 
 JointDrag drag_jointly(const Vec3& dx, const Vec3& tau) noexcept {
@@ -129,7 +129,7 @@ Vec3 snap_jointly(const Vec3& dx, const Vec3& tau) noexcept {
     if (tau[a] > 0.0) squared += part * part;
   }
   const double away = std::sqrt(squared);
-  double part = away > 0.0 ? teeth_passed(away) / away : 0.0;
+  double part = away > 0.0 ? detents_passed(away) / away : 0.0;
   if (!(away < kCountable)) part = 1.0;
   Vec3 moved{0.0};
   for (int a = 0; a < 3; ++a) {

@@ -42,7 +42,7 @@ inline constexpr int kMaxNewtonSteps = 24;
 [[nodiscard]] JointDrag drag_jointly(const Vec3& dx, const Vec3& tau) noexcept;
 
 /// Snap-drag along several axes at once: stays while the probe is within the ellipsoid of drag_jointly(),
-/// then jumps towards it by whole teeth, to within the ellipsoid. On one axis this is snap_drag(); infinite
+/// then jumps towards it by whole detents, to within the ellipsoid. On one axis this is snap_drag(); infinite
 /// tau fixes an axis, tau = 0 lets it go freely.
 [[nodiscard]] Vec3 snap_jointly(const Vec3& dx, const Vec3& tau) noexcept;
 

@@ -54,7 +54,7 @@ constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{{"uint
 
 }  // namespace
 
-RawLayout parse_raw_layout(const RawWords& words) {
+RawLayout parse_raw_layout(const RawSpec& words) {
   RawLayout layout;
   if (words.size.empty() || words.type.empty())
     throw usage_error(
@@ -105,7 +105,7 @@ std::uint64_t byte_count(const RawLayout& layout) noexcept {
   return bytes;
 }
 
-RawWords raw_words_of_name(const std::string& name) {
+RawSpec raw_spec_of_name(const std::string& name) {
   static const std::regex kPattern(R"((?:.*_)?([0-9]+x[0-9]+x[0-9]+)_([a-z]+[0-9]*)\.raw)");
   std::smatch parts;
   // A name is short; a hostile one would send the matcher deep.

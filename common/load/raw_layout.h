@@ -19,7 +19,7 @@ struct RawLayout {
 };
 
 /// The same as text, in the grammar of the command line; what is empty is left to RawLayout.
-struct RawWords {
+struct RawSpec {
   std::string size;     ///< "256x256x178", needed
   std::string type;     ///< "uint16", needed
   std::string endian;   ///< "little" or "big"
@@ -34,13 +34,13 @@ struct RawWords {
 };
 
 /// @throws Error (usage) that names the word as an option of the command line (`--raw-size`).
-[[nodiscard]] RawLayout parse_raw_layout(const RawWords& words);
+[[nodiscard]] RawLayout parse_raw_layout(const RawSpec& words);
 
 /// Bytes of the voxels; 2^64 - 1 where they would be more than any file has.
 [[nodiscard]] std::uint64_t byte_count(const RawLayout& layout) noexcept;
 
 /// What a file's name says in the manner of public collections ("tooth_103x94x161_uint8.raw"): size and type,
 /// both empty where it says nothing.
-[[nodiscard]] RawWords raw_words_of_name(const std::string& name);
+[[nodiscard]] RawSpec raw_spec_of_name(const std::string& name);
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-/// Whether local rendering (volume/kept_volume.h) is worth it, by the times of pictures while view and volume
+/// Whether local rendering (volume/cached_volume.h) is worth it, by the times of pictures while view and volume
 /// stand still. Plain arithmetic, no clock.
 ///
 /// Symbols. f time of the picture that was drawn in full and kept; l of those that follow; l_0 the least of

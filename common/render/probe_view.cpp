@@ -12,7 +12,7 @@ bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::i
 
 }  // namespace
 
-Rgb kept_color(int number) noexcept {
+Rgb cached_color(int number) noexcept {
   constexpr int kColors = kCategoryCount - 1;  // the last one is a grey
   const int k = ((number - 1) % kColors + kColors) % kColors;
   return map_color(ColorMap::kCategorical, (k + 0.5) / kCategoryCount);
@@ -29,7 +29,7 @@ bool same_picture(const ProbeView& a, const ProbeView& b) noexcept {
          same_number(a.force_cap, b.force_cap) && a.show_force == b.show_force &&
          same_place(a.velocity, b.velocity) && same_number(a.reference_speed, b.reference_speed) &&
          a.tensor == b.tensor && a.followed == b.followed && a.path == b.path && a.seeds == b.seeds &&
-         a.kept == b.kept && a.style == b.style;
+         a.drawn_lines == b.drawn_lines && a.style == b.style;
 }
 
 }  // namespace palpate

@@ -58,14 +58,14 @@ struct LocalSeeds {
 };
 
 /// A line that the user has kept.
-struct KeptLine {
+struct DrawnLine {
   std::shared_ptr<const Line> line;  ///< may be null
   int number = 1;                    ///< written at its first point; 0: nothing is
-  std::optional<Rgb> color;          ///< where absent: kept_color(number)
+  std::optional<Rgb> color;          ///< where absent: cached_color(number)
 };
 
 /// A colour for each number, from the categorical map; it repeats after seven.
-[[nodiscard]] Rgb kept_color(int number) noexcept;
+[[nodiscard]] Rgb cached_color(int number) noexcept;
 
 /// Sizes in thousandths of the picture's height at the focal point, so that they hold at each zoom.
 struct ProbeStyle {
@@ -108,8 +108,8 @@ struct ProbeView {
 
   std::shared_ptr<const FollowedLine> followed;  ///< may be null
   PathView path;
-  std::shared_ptr<const LocalSeeds> seeds;            ///< may be null
-  std::shared_ptr<const std::vector<KeptLine>> kept;  ///< may be null
+  std::shared_ptr<const LocalSeeds> seeds;                    ///< may be null
+  std::shared_ptr<const std::vector<DrawnLine>> drawn_lines;  ///< may be null
   ProbeStyle style;
 };
 

@@ -19,13 +19,13 @@
 #include "common/render/gl/program.h"
 #include "common/render/gl/target.h"
 #include "common/render/glyph/probe_pass.h"
+#include "common/render/label/label_pass.h"
 #include "common/render/line/colored_lines.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/line/line_pass.h"
 #include "common/render/overlay/overlay.h"
 #include "common/render/scene_parts.h"
-#include "common/render/sign/sign_pass.h"
 #include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
@@ -67,7 +67,7 @@ struct SceneRenderer::State {
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
-  std::unique_ptr<SignPass> signs;
+  std::unique_ptr<LabelPass> labels;
   std::unique_ptr<Overlay> overlay;
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
   FrameTimer timer;
@@ -321,7 +321,7 @@ struct SceneRenderer::State {
 
     const double aspect = static_cast<double>(width) / height;
     Box drawn = reach;
-    include_signs(view.signs, view.camera.axes, drawn);
+    include_labels(view.labels, view.camera.axes, drawn);
     const ViewTransform transform = view_transform(view.camera, frame, drawn, aspect);
     const bool perspective = view.camera.projection == Projection::kPerspective;
     // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
@@ -355,9 +355,9 @@ struct SceneRenderer::State {
     }
     // Where more of them lie in a volume than there is room for, they are drawn over it.
     if (is_transparent(view) && !layered) lines.draw(line_program, view, frame, base, unit);
-    if (!view.signs.empty()) {
-      if (!signs) signs = std::make_unique<SignPass>();
-      signs->draw(view.signs, frame, view.camera.axes);
+    if (!view.labels.empty()) {
+      if (!labels) labels = std::make_unique<LabelPass>();
+      labels->draw(view.labels, frame, view.camera.axes);
     }
 
     glDisable(GL_DEPTH_TEST);
@@ -392,7 +392,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
   s.stereo->begin(view.stereo.mode, width, height);
   s.stop_tracts = {};
   SceneView seen = view;
-  if (seen.volume) seen.volume->keep_picture = false;  // the eyes take turns
+  if (seen.volume) seen.volume->cache_picture = false;  // the eyes take turns
   const StereoEyes eyes = stereo_eyes(view.camera, view.stereo, view.bounds);
   for (std::size_t i = 0; i < eyes.cameras.size(); ++i) {
     seen.camera = eyes.cameras[i];
@@ -471,8 +471,8 @@ std::string SceneRenderer::tables_by() const {
   return state_->draws_volume && state_->volume ? state_->volume->cost().tables_by : std::string();
 }
 
-bool SceneRenderer::kept_volume() const noexcept {
-  return state_->draws_volume && state_->volume && state_->volume->kept_picture();
+bool SceneRenderer::cached_volume() const noexcept {
+  return state_->draws_volume && state_->volume && state_->volume->cached_picture();
 }
 
 void SceneRenderer::forget_volume() {

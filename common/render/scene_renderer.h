@@ -26,7 +26,7 @@ struct TractShare {
 /// style stay, only the probe and what hangs on it are drawn, over a copy (local redraw). The order is that
 /// of drawing everything, so the picture is the same to the bit. Transparent lines are drawn every time (in
 /// a volume as layers of its rays: what lies before them veils them, and they veil what is behind), and
-/// the volume, of which a picture of its own may be kept (VolumeView::keep_picture). The probe is in it: what
+/// the volume, of which a picture of its own may be kept (VolumeView::cache_picture). The probe is in it: what
 /// lies before it veils it, and it shines through as through anything nearer.
 /// A view with two eyes is drawn once for each, then composed (stereo_pass.h). What stands still is kept for
 /// one eye alone, so that each of the two draws all of it, tracts without a limit of time. Needs an
@@ -56,8 +56,8 @@ class SceneRenderer {
   [[nodiscard]] bool made_slabs() const noexcept;
   bool prepare_slabs(std::size_t cut);
   void forget_slabs();
-  /// As VolumePass::kept_picture() and forget_picture().
-  [[nodiscard]] bool kept_volume() const noexcept;
+  /// As VolumePass::cached_picture() and forget_picture().
+  [[nodiscard]] bool cached_volume() const noexcept;
   void forget_volume();
   /// From now on pictures keep what estimate_error() and estimate_savings() compare, where they show a
   /// volume: copies of them before and behind it; of two eyes that of the one drawn last.

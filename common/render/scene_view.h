@@ -12,9 +12,9 @@
 #include "common/geometry/line.h"
 #include "common/math/vec.h"
 #include "common/render/camera.h"
+#include "common/render/label/label_view.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
-#include "common/render/sign/sign_view.h"
 #include "common/render/stereo/stereo_view.h"
 #include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
@@ -65,9 +65,9 @@ struct SceneView {
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;
   std::vector<NoteView> notes;
-  std::vector<SignView> signs;  ///< menus and words in space
-  std::string volume_label;     ///< what its values are, for the colour bar
-  bool anatomical = false;      ///< data coordinates are RAS+: letters say where right, front and up are
+  std::vector<LabelView> labels;  ///< menus and words in space
+  std::string volume_label;       ///< what its values are, for the colour bar
+  bool anatomical = false;        ///< data coordinates are RAS+: letters say where right, front and up are
 };
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.

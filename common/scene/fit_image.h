@@ -7,7 +7,7 @@
 #include "common/base/progress.h"
 #include "common/field/data_set.h"
 #include "common/field/tensor/tensor_fit.h"
-#include "common/scene/tensor_words.h"
+#include "common/scene/tensor_spec.h"
 
 namespace palpate {
 

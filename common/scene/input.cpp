@@ -137,7 +137,7 @@ void Input::part_fields() {
   const std::string words = spec_.field;
   bool first = true;
   for (const std::string_view name : split(words, ',')) {
-    if (!first) spec_.beside.emplace_back(name);
+    if (!first) spec_.secondary.emplace_back(name);
     if (first) spec_.field = name;
     first = false;
   }
@@ -149,7 +149,7 @@ void Input::open_files(Progress* progress) {
   request.surface_markers = spec_.surface_markers;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {
-    (void)parse_tensor_words(spec_.tensor);  // a misspelt option is refused first
+    (void)parse_tensor_spec(spec_.tensor);  // a misspelt option is refused first
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};
   }
   source_ = Source::open(request, {}, progress);
@@ -357,7 +357,7 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   const std::string name = file_name();
   TensorImage image = make_tensor_image(
       std::move(blocks), {.source = source, .diffusion = file()->diffusion, .file = name, .measured = !made_},
-      parse_tensor_words(spec_.tensor), threads, progress);
+      parse_tensor_spec(spec_.tensor), threads, progress);
   seconds_field_ = watch.seconds();
   return image;
 }

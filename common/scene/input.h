@@ -74,8 +74,8 @@ class Input {
 
   /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
   void set_field(std::string name) { spec_.field = std::move(name); }
-  /// Chooses what InputOptions::beside has.
-  void set_beside(std::vector<std::string> names) { spec_.beside = std::move(names); }
+  /// Chooses what InputOptions::secondary has.
+  void set_secondary(std::vector<std::string> names) { spec_.secondary = std::move(names); }
 
   /// The recipe of the vector field that spec().field means. @pre file().
   /// @throws Error (usage, listing the known ones), (bad input) where there is no vector field or no volume.

@@ -1,4 +1,4 @@
-/// Layers that took time to solve, kept in a file beside the session (kept_file.h) so that the next opening
+/// Layers that took time to solve, kept in a file beside the session (cached_file.h) so that the next opening
 /// need not. They belong to one mesh: its cells, places and tagged surfaces.
 #pragma once
 
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/field/layer/wall_layer.h"
-#include "common/scene/kept_file.h"
+#include "common/scene/cached_file.h"
 
 namespace palpate {
 
-class LayerCache final : public KeptLayers {
+class LayerCache final : public CachedLayers {
  public:
   /// @param input the file that is opened. @param threads that compare meshes, as parallel_for().
   LayerCache(const std::filesystem::path& input, Keeping keeping, int threads = 0);
@@ -25,7 +25,7 @@ class LayerCache final : public KeptLayers {
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return file_.notes(); }
 
  private:
-  KeptFile file_;
+  CachedFile file_;
   int threads_;
 };
 

@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/scene/kept_file.h"
+#include "common/scene/cached_file.h"
 #include "common/scene/sha256.h"
 
 namespace palpate {

@@ -66,10 +66,11 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
                                                              byte_size(array.type);
     const bool in_field = std::find(wanted.begin(), wanted.end(), array.name) != wanted.end();
     const bool colors = array.name == use.color_array;
-    const bool in_lens = std::any_of(use.beside.begin(), use.beside.end(), [&](const std::string& name) {
-      return input.names_field(name) &&
-             choose_scalar(input.arrays(), name, input.title()).array == array.name;
-    });
+    const bool in_lens =
+        std::any_of(use.secondary.begin(), use.secondary.end(), [&](const std::string& name) {
+          return input.names_field(name) &&
+                 choose_scalar(input.arrays(), name, input.title()).array == array.name;
+        });
     const bool drawn =
         std::find(use.volume_arrays.begin(), use.volume_arrays.end(), array.name) != use.volume_arrays.end();
     const std::string what = kArray + array.name;
@@ -90,8 +91,8 @@ void plan_arrays(const Input& input, const SceneUse& use, Needs& plan) {
 }
 
 // Voxels of other files.
-void plan_beside(const Input& input, const SceneUse& use, Needs& plan) {
-  for (const std::string& name : use.beside) {
+void plan_secondary(const Input& input, const SceneUse& use, Needs& plan) {
+  for (const std::string& name : use.secondary) {
     if (!input.names_field(name)) plan.push_back(used("voxels of " + name, "another field, for lenses"));
   }
 }
@@ -109,7 +110,7 @@ void plan_file(const Input& input, const FileInfo& file, const SceneUse& use, Ne
   for (const std::string& helper : others) plan.push_back(left_out(kHelper + helper, "not for this format"));
 
   plan_arrays(input, use, plan);
-  plan_beside(input, use, plan);
+  plan_secondary(input, use, plan);
   if (file.times.size() > 1) {
     plan.push_back(
         left_out(std::to_string(file.times.size() - 1) + " other time steps", "one is shown at a time"));

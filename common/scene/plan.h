@@ -22,7 +22,7 @@ struct SceneUse {
   bool drawing = false;   ///< a picture or the window
   bool window = false;
   std::string color_array;                 ///< array that colours the lines, empty for none
-  std::vector<std::string> beside;         ///< scalars and files that lenses of a volume show
+  std::vector<std::string> secondary;      ///< scalars and files that lenses of a volume show
   std::vector<std::string> volume_arrays;  ///< arrays that are drawn as volumes beside lines
 };
 

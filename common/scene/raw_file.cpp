@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLargestSidecar = std::size_t{64} << 10;
 
 /// The option behind a usage error's words is a key of the sidecar.
-RawLayout parse_sidecar(const RawWords& words, const std::string& sidecar) {
+RawLayout parse_sidecar(const RawSpec& words, const std::string& sidecar) {
   try {
     return parse_raw_layout(words);
   } catch (const Error& error) {
@@ -23,7 +23,7 @@ RawLayout parse_sidecar(const RawWords& words, const std::string& sidecar) {
   }
 }
 
-RawWords read_sidecar(const std::string& sidecar) {
+RawSpec read_sidecar(const std::string& sidecar) {
   const HeadOfFile head = read_head(sidecar, kLargestSidecar);
   const toml::parse_result parsed = [&] {
     try {
@@ -36,7 +36,7 @@ RawWords read_sidecar(const std::string& sidecar) {
   const toml::table* raw = parsed["raw"].as_table();
   if (raw == nullptr)
     throw input_error({sidecar, "", "has no table [raw]", "size, type and so on there", ""});
-  RawWords words;
+  RawSpec words;
   for (const auto& [key, value] : *raw) {
     const std::string_view name = key.str();
     const auto text = value.value<std::string>();
@@ -59,7 +59,7 @@ RawWords read_sidecar(const std::string& sidecar) {
 
 }  // namespace
 
-std::optional<RawLayout> raw_layout_of(const std::filesystem::path& file, const RawWords& options,
+std::optional<RawLayout> raw_layout_of(const std::filesystem::path& file, const RawSpec& options,
                                        std::string& note) {
   if (!options.empty()) return parse_raw_layout(options);
   const std::string sidecar = file.string() + ".toml";
@@ -68,7 +68,7 @@ std::optional<RawLayout> raw_layout_of(const std::filesystem::path& file, const 
     note = "layout of the voxels from " + sidecar;
     return parse_sidecar(read_sidecar(sidecar), sidecar);
   }
-  const RawWords words = raw_words_of_name(file.filename().string());
+  const RawSpec words = raw_spec_of_name(file.filename().string());
   const auto bytes = std::filesystem::file_size(file, ignored);
   if (words.empty() || ignored) return std::nullopt;
   const RawLayout layout = [&] {

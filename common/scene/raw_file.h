@@ -26,6 +26,6 @@ namespace palpate {
 /// @param note what was taken from where, for the user; empty where there is nothing to say.
 /// @throws Error (usage) for options, (bad input) for a sidecar that makes no sense.
 [[nodiscard]] std::optional<RawLayout> raw_layout_of(const std::filesystem::path& file,
-                                                     const RawWords& options, std::string& note);
+                                                     const RawSpec& options, std::string& note);
 
 }  // namespace palpate

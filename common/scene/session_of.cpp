@@ -7,10 +7,10 @@
 
 namespace palpate {
 
-std::vector<std::pair<std::string, std::string>> kept_settings(const Document& document) {
+std::vector<std::pair<std::string, std::string>> saved_settings(const Document& document) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const Setting& row : settings()) {
-    if (!row.kept || !row.kinds.has(document.input.kind) || is_default(row, document)) continue;
+    if (!row.saved || !row.kinds.has(document.input.kind) || is_default(row, document)) continue;
     std::string text = value_text(row, document);
     std::error_code ignored;
     if (row.file && std::filesystem::is_regular_file(text, ignored))
@@ -24,7 +24,7 @@ Session session_of(const Document& document, const std::string& program) {
   Session session{.program = program};
   for (const auto& file : document.input.files) session.inputs.push_back(describe_input(file, false));
   if (document.input.solution) session.inputs.push_back(describe_input(*document.input.solution, true));
-  session.options = kept_settings(document);
+  session.options = saved_settings(document);
   return session;
 }
 
@@ -35,7 +35,7 @@ std::string store_session(const Session& session, const Document& document) {
       ".palpate.toml";
   const auto beside = files.empty() ? std::filesystem::path() : files.front().parent_path();
   std::filesystem::path path = beside / name;
-  if (!may_keep_beside(path)) path = name;
+  if (!may_cache_beside(path)) path = name;
   save_session(path, session);
   return path.string();
 }

@@ -16,9 +16,9 @@ inline constexpr double kSessionAspect = 1.5;
 
 /// The settings that sessions keep and that differ from their defaults, by name. Files that they name are
 /// named by their full paths.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> kept_settings(const Document& document);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> saved_settings(const Document& document);
 
-/// The inputs of `document` and what kept_settings() gives. @throws Error (bad input) where an input cannot
+/// The inputs of `document` and what saved_settings() gives. @throws Error (bad input) where an input cannot
 /// be read.
 [[nodiscard]] Session session_of(const Document& document, const std::string& program);
 

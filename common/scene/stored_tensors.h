@@ -7,7 +7,7 @@
 #include "common/field/data_set.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/tensor/tensor_source.h"
-#include "common/scene/tensor_words.h"
+#include "common/scene/tensor_spec.h"
 
 namespace palpate {
 

@@ -10,7 +10,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/tensor/tensor_fit.h"
 #include "common/field/tensor/tensor_source.h"
-#include "common/scene/tensor_words.h"
+#include "common/scene/tensor_spec.h"
 
 namespace palpate {
 

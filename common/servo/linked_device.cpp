@@ -45,7 +45,7 @@ void LinkedDevice::work(const std::stop_token& stop) {
   request_real_time_priority(kLinkPriority);
   Order order;
   LinkPhase told = LinkPhase::kAbsent;
-  double told_at = 0.0;
+  double reported_at = 0.0;
   while (!stop.stop_requested()) {
     (void)orders_.read(order);
     const double now = now_seconds();
@@ -57,9 +57,9 @@ void LinkedDevice::work(const std::stop_token& stop) {
     // Words are for people: when something has changed, and now and then.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
-    if (status.phase == told && now - told_at < kPause) continue;
+    if (status.phase == told && now - reported_at < kPause) continue;
     told = status.phase;
-    told_at = now;
+    reported_at = now;
     std::string advice = link_->advice();
     const std::lock_guard lock(mutex_);
     status_ = status;

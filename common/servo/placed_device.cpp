@@ -39,11 +39,11 @@ bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
   tips_.write(in_hand);
   if (moved) return false;
   sample = {atoms.time, placement_.middle + placement_.scale * (placement_.axes * in_hand),
-            felt_buttons(atoms.buttons)};
+            haptic_buttons(atoms.buttons)};
   return true;
 }
 
-std::uint32_t PlacedDevice::felt_buttons(std::uint32_t buttons) noexcept {
+std::uint32_t PlacedDevice::haptic_buttons(std::uint32_t buttons) noexcept {
   buttons_.store(buttons, std::memory_order_relaxed);
   const bool acts = limits_.enabling_button != 0;
   return acts && elsewhere_.load(std::memory_order_relaxed) ? buttons & ~1U : buttons;
@@ -63,7 +63,7 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
     const Vec3 in_hand = (steered_ - placement_.middle) * placement_.axes / placement_.scale;
     steered_ = placement_.middle + placement_.scale * (placement_.axes * placement_.on_surface(in_hand));
   }
-  sample = {now, steered_, felt_buttons(atoms.buttons)};  // at rest it is no stale one
+  sample = {now, steered_, haptic_buttons(atoms.buttons)};  // at rest it is no stale one
   return true;
 }
 

@@ -77,7 +77,7 @@ class PlacedDevice final : public Device {
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
 
  private:
-  [[nodiscard]] std::uint32_t felt_buttons(std::uint32_t buttons) noexcept;
+  [[nodiscard]] std::uint32_t haptic_buttons(std::uint32_t buttons) noexcept;
   bool steer(double now, const DeviceAtoms& atoms, DeviceSample& sample) noexcept;
 
   LinkedDevice& device_;

@@ -23,9 +23,9 @@ bool StationPoses::next(double now, PoseSample& sample) {
     sample = {now, std::nullopt};
     return true;
   }
-  if (!(atom.time > told_)) return false;
+  if (!(atom.time > reported_)) return false;
   lost_ = false;
-  told_ = atom.time;
+  reported_ = atom.time;
   sample = {atom.time, TrackerPose{atom.position, atom.orientation}};
   return true;
 }

@@ -21,9 +21,9 @@ class StationPoses final : public PoseSource {
 
  private:
   std::shared_ptr<LinkedDevice> tracker_;
-  std::size_t station_;  ///< from 0
-  double told_ = 0.0;    ///< time of the last pose [s]
-  bool lost_ = false;    ///< that it is not seen has been told
+  std::size_t station_;    ///< from 0
+  double reported_ = 0.0;  ///< time of the last pose [s]
+  bool lost_ = false;      ///< that it is not seen has been told
 };
 
 }  // namespace palpate

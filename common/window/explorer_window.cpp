@@ -54,10 +54,10 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   constexpr float kTextHeight = 14.0F;
   gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
   live_ = std::make_unique<LivePicture>(options_.frame_budget);
-  if (options_.bench) {
-    bench_ = std::make_unique<BenchDisplay>(*options_.bench);
-    if (options_.bench->several) {
-      screens_ = std::make_unique<ScreenWindows>(glfw_, *options_.bench, view_.stereo, options_.hidden);
+  if (options_.workbench) {
+    workbench_ = std::make_unique<WorkbenchDisplay>(*options_.workbench);
+    if (options_.workbench->several) {
+      screens_ = std::make_unique<ScreenWindows>(glfw_, *options_.workbench, view_.stereo, options_.hidden);
       // The desktop is one more display, for one eye that rests.
       view_.stereo.mode = StereoMode::kNone;
     }
@@ -86,7 +86,7 @@ WindowResult ExplorerWindow::run() {
       break;
     }
     glfwSwapBuffers(glfw_.get());
-    if (bench_) bench_->finished(BenchDisplay::now());
+    if (workbench_) workbench_->finished(WorkbenchDisplay::now());
   }
   touch_.finish();
   WindowResult result{.frames = frame_,
@@ -101,7 +101,7 @@ WindowResult ExplorerWindow::run() {
                       .series = plot_.curve(),
                       .missing = missing_};
   if (screens_) result.screens = screens_->read();
-  if (bench_) result.latency = bench_->latency();
+  if (workbench_) result.latency = workbench_->latency();
   std::tie(result.width, result.height) = glfw_.size();
   result.median_frame_ms = live_->median_milliseconds();
   result.quality = live_->figures().quality;
@@ -125,7 +125,7 @@ void ExplorerWindow::wait_for_events() {
 }
 
 bool ExplorerWindow::lively() const {
-  return lively_frames_ > 0 || state_.playing || touch_.lively() || (bench_ && bench_->lively());
+  return lively_frames_ > 0 || state_.playing || touch_.lively() || (workbench_ && workbench_->lively());
 }
 
 bool ExplorerWindow::closes() {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "common/base/clock.h"
-#include "common/hand/bench/bench_display.h"
 #include "common/hand/probe_session.h"
+#include "common/hand/workbench/workbench_display.h"
 #include "common/render/png.h"
 #include "common/scene/document/history.h"
 #include "common/window/controls/scene_controls.h"
@@ -158,7 +158,7 @@ class ExplorerWindow {
   ProbeSession touch_;
   SceneControls controls_;
   WindowFiles files_;
-  std::unique_ptr<BenchDisplay> bench_;
+  std::unique_ptr<WorkbenchDisplay> workbench_;
   std::unique_ptr<ScreenWindows> screens_;  // each beside that of the desktop
 };
 

@@ -47,7 +47,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     resting_ = view.volume;
     resting_camera_ = view.camera;
     if (!moving && finer_ > 0 && has_two_eyes(view)) view.volume = finer_view(*view.volume, finer_);
-    view.volume->keep_picture = !moving && local_.on();
+    view.volume->cache_picture = !moving && local_.on();
   }
   const bool wants_error = volume && !moving && !error_known_ && moment.interrupted;
   if (dirty_ || (wants_error && !estimating_) || width != width_ || height != height_ ||
@@ -73,7 +73,8 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     // A picture that keeps slabs for the next ones says nothing of their time.
     if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
     if (!moving && finer_ == 0) budget_.rested(renderer_.gpu_milliseconds());
-    if (volume && view.volume->keep_picture && local_.drawn(figures_.milliseconds, renderer_.kept_volume())) {
+    if (volume && view.volume->cache_picture &&
+        local_.drawn(figures_.milliseconds, renderer_.cached_volume())) {
       renderer_.forget_volume();
       refined_ = passing_ = error_known_ = false;
       finer_ = 0;

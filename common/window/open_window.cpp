@@ -23,7 +23,7 @@ WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& mod
        .focal_point = focal_point_of(options.view),
        .command_line = std::move(request.command_line),
        .version = version_text(request.program),
-       .bench = std::move(request.bench),
+       .workbench = std::move(request.workbench),
        .touch = std::move(request.touch),
        .panels = panels,
        .region =

@@ -18,9 +18,9 @@ namespace palpate {
 SavedFiles::SavedFiles(const std::filesystem::path& folder, std::string program)
     : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
 
-std::filesystem::path SavedFiles::save_lines(const KeptLines& lines, std::string& name) {
+std::filesystem::path SavedFiles::save_lines(const DrawnLines& lines, std::string& name) {
   Lines kept;
-  for (const KeptLines::Entry& entry : lines.entries()) kept.insert(entry.line);
+  for (const DrawnLines::Entry& entry : lines.entries()) kept.insert(entry.line);
   const bool again = std::ranges::includes(kept, in_own_file_);
   std::filesystem::path path = (folder_ / name).lexically_normal();
   if (path != own_lines_) asked_lines_ = path;
@@ -37,9 +37,9 @@ std::filesystem::path SavedFiles::save_lines(const KeptLines& lines, std::string
   return path;
 }
 
-std::size_t SavedFiles::unsaved(const KeptLines& lines) const {
+std::size_t SavedFiles::unsaved(const DrawnLines& lines) const {
   return static_cast<std::size_t>(std::ranges::count_if(
-      lines.entries(), [this](const KeptLines::Entry& entry) { return !saved_.contains(entry.line); }));
+      lines.entries(), [this](const DrawnLines::Entry& entry) { return !saved_.contains(entry.line); }));
 }
 
 std::filesystem::path SavedFiles::save_transfer(const std::string& name, const Lens& look) const {

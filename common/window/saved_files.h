@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/geometry/annotation.h"
-#include "common/hand/drawn/kept_lines.h"
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/load/write/write_image.h"
 #include "common/render/lens/lens.h"
 #include "common/render/png.h"
@@ -29,9 +29,9 @@ class SavedFiles {
   /// Saves kept lines or tracts under `name`, numbered where a file of others is in the way; `name` becomes
   /// what was taken, so that the next time writes the same file again: as long as all that is in it is still
   /// kept, else the next number is taken.
-  std::filesystem::path save_lines(const KeptLines& lines, std::string& name);
+  std::filesystem::path save_lines(const DrawnLines& lines, std::string& name);
   /// How many of `lines` are in no file that this window has written.
-  [[nodiscard]] std::size_t unsaved(const KeptLines& lines) const;
+  [[nodiscard]] std::size_t unsaved(const DrawnLines& lines) const;
   /// Saves a lens's transfer function under `name`: as a table, or its regions.
   [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& look) const;
   /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.

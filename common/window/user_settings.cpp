@@ -96,7 +96,7 @@ toml::table recent_table(const UserSettings& settings) {
 
 }  // namespace
 
-Look look_of(const SceneView& view) noexcept {
+Look appearance_of(const SceneView& view) noexcept {
   return {.background = view.background,
           .projection = view.camera.projection,
           .outline = view.show_outline,
@@ -106,7 +106,7 @@ Look look_of(const SceneView& view) noexcept {
           .depth_cue = view.style.depth_cue};
 }
 
-void apply_look(const Look& look, SceneView& view) noexcept {
+void apply_appearance(const Look& look, SceneView& view) noexcept {
   view.background = look.background;
   view.camera.projection = look.projection;
   view.show_outline = look.outline;

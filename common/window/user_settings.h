@@ -27,8 +27,8 @@ struct Look {
 
   bool operator==(const Look&) const = default;
 };
-[[nodiscard]] Look look_of(const SceneView& view) noexcept;
-void apply_look(const Look& look, SceneView& view) noexcept;
+[[nodiscard]] Look appearance_of(const SceneView& view) noexcept;
+void apply_appearance(const Look& look, SceneView& view) noexcept;
 
 struct UserSettings {
   static constexpr std::size_t kMostRecent = 10;

@@ -16,11 +16,13 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options,
   options.width = before.width;
   options.height = before.height;
   options.recent = before.recent;
-  apply_look(before.look, options.view);
+  apply_appearance(before.look, options.view);
   options.touch.fault_folder = files->recent.parent_path();
   WindowResult result = run_window(model, options);
-  const UserSettings after{
-      .width = result.width, .height = result.height, .look = look_of(result.view), .recent = result.recent};
+  const UserSettings after{.width = result.width,
+                           .height = result.height,
+                           .look = appearance_of(result.view),
+                           .recent = result.recent};
   try {
     save_user_settings(*files, after, before);
   } catch (const Error& error) {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/compose/window_model.h"
-#include "common/hand/bench/bench_display.h"
 #include "common/hand/probe_series.h"
 #include "common/hand/probe_session.h"
+#include "common/hand/workbench/workbench_display.h"
 #include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
@@ -37,7 +37,7 @@ struct WindowOptions {
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
-  std::optional<BenchDisplayOptions> bench;
+  std::optional<WorkbenchDisplayOptions> workbench;
   ProbeSessionOptions touch;      ///< without modes: the window knows no touch
   std::vector<PanelPart> panels;  ///< the program's parts of the panel, from above
   std::optional<Box> region;      ///< of interest, in a volume
@@ -78,7 +78,7 @@ struct WindowResult {
   SeriesCurve series;                ///< that was plotted at the end
   std::vector<std::string> missing;  ///< labels of controls that the script named and no panel had
   std::vector<Image> screens;        ///< of a workbench, each in a window of its own, at the end
-  double latency = 0.0;              ///< BenchDisplay::latency()
+  double latency = 0.0;              ///< WorkbenchDisplay::latency()
 };
 
 /// Whether a window can be opened at all (a display is there).

@@ -23,10 +23,10 @@ bool WindowFiles::attempt(const std::function<std::string()>& save) {
 std::string WindowFiles::write_lines() {
   ProbeTrail& trail = touch_.trail();
   if (!trail.drawn().empty()) (void)trail.keep_line();
-  if (trail.kept().entries().empty())
+  if (trail.drawn_lines().entries().empty())
     throw work_error(touch_.data().has_tensors() ? "no tract is drawn; press G, then drag along one"
                                                  : "no line is kept; grab the probe (G), then K keeps one");
-  return saved_.save_lines(trail.kept(), state_.lines_file).string();
+  return saved_.save_lines(trail.drawn_lines(), state_.lines_file).string();
 }
 
 void WindowFiles::save_lines() {
@@ -65,7 +65,7 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
 
 bool WindowFiles::ask(std::optional<InputFiles> opens) {
   const auto whole = [](const DrawnTract& tract) { return tract.line.points.size() > 1; };
-  const std::size_t count = saved_.unsaved(touch_.trail().kept()) +
+  const std::size_t count = saved_.unsaved(touch_.trail().drawn_lines()) +
                             static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
   if (count == 0 || touch_.servo().replaying()) return false;
   const std::string lines = counted(count, touch_.data().has_tensors() ? "tract" : "line");

@@ -29,7 +29,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   gui_->begin_frame(events, width, height, seconds);
   look();
   // An orthographic picture has one eye, but a workbench's is never that.
-  controls_.place(controlled(), has_two_eyes(view_) || (bench_ && !screens_));
+  controls_.place(controlled(), has_two_eyes(view_) || (workbench_ && !screens_));
   handle_events(events);
   work_in_space();
   if (needs_camera_ && scene_) reset_camera();
@@ -49,14 +49,14 @@ void ExplorerWindow::draw_frame(double seconds) {
   draw_picture(picture, parts, width, height);
   draw_second_pointer();
   gui_->end_frame();
-  if (screens_) screens_->draw(picture, *bench_, state_.picture.quality);
+  if (screens_) screens_->draw(picture, *workbench_, state_.picture.quality);
 }
 
 ControlledScene ExplorerWindow::controlled() {
   return {.scene = scene_ ? &*scene_ : nullptr,
           .view = view_,
           .picture = picture_,
-          .bench = bench_.get(),
+          .workbench = workbench_.get(),
           .beside_screens = screens_ != nullptr,
           .time = glfwGetTime()};
 }
@@ -74,7 +74,7 @@ void ExplorerWindow::update_panels() {
 }
 
 void ExplorerWindow::follow_hand() {
-  if (bench_) touch_.hand().place_bench(place_of(view_.camera, bench_->screen()));
+  if (workbench_) touch_.hand().place_workbench(place_of(view_.camera, workbench_->screen()));
   if (view_.probe) touch_.update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
   cut_volume();
   controls_.lead_by_grid(controlled());
@@ -101,21 +101,21 @@ void ExplorerWindow::cut_volume() {
 }
 
 void ExplorerWindow::look() {
-  if (!bench_) return;
-  bench_->follow(BenchDisplay::now());
-  state_.head_rows = bench_->rows();
+  if (!workbench_) return;
+  workbench_->follow(WorkbenchDisplay::now());
+  state_.head_rows = workbench_->rows();
   // The desktop beside several screens shows all of the one that its camera is of.
   if (screens_) return;
   const auto [left, top] = glfw_.position();
   const double scale = glfw_.pixels_per_coordinate();
-  bench_->cover(scale * left + picture_.left, scale * top + picture_.top, picture_.width, picture_.height,
-                view_.camera);
+  workbench_->cover(scale * left + picture_.left, scale * top + picture_.top, picture_.width, picture_.height,
+                    view_.camera);
 }
 
 void ExplorerWindow::reset_camera() {
   needs_camera_ = false;
-  if (bench_) {
-    view_.camera = bench_->camera(view_.bounds, options_.touch.workspace_scale);
+  if (workbench_) {
+    view_.camera = workbench_->camera(view_.bounds, options_.touch.workspace_scale);
     return;
   }
   view_.camera =
@@ -136,7 +136,7 @@ void ExplorerWindow::draw_second_pointer() const {
 
 SceneView ExplorerWindow::with_focus() {
   SceneView picture = view_;
-  const bool hand = touch_.readout().held || !touch_.trail().kept().entries().empty();
+  const bool hand = touch_.readout().held || !touch_.trail().drawn_lines().entries().empty();
   // Those on a layer are its grain.
   const bool on_layer = scene_ && scene_->info->layers;
   if ((hand || !view_.surfaces.empty()) && !on_layer && touch_.choice().fade_rest) fade_lines(picture);
@@ -147,9 +147,10 @@ SceneView ExplorerWindow::with_focus() {
 void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, int width, int height) {
   const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
   if (glfw_.take_damage()) live_->damage();
-  PictureMoment moment{.seconds = glfwGetTime(),
-                       .moving = controls_.moves_view() || state_.playing || (bench_ && bench_->moved()),
-                       .editing = ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
+  PictureMoment moment{
+      .seconds = glfwGetTime(),
+      .moving = controls_.moves_view() || state_.playing || (workbench_ && workbench_->moved()),
+      .editing = ImGui::IsAnyItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)};
   if (!lively() && !jobs_.running() && !scripted()) {
     moment.interrupted = [this] {
       glfwPollEvents();
@@ -157,7 +158,7 @@ void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, 
     };
   }
   if (touch_.planes()) moment.next_cut = static_cast<std::size_t>(touch_.planes()->current);
-  if (bench_ && !screens_) bench_->show(picture);
+  if (workbench_ && !screens_) workbench_->show(picture);
   if (picture.stereo.mode == StereoMode::kRows || picture.stereo.mode == StereoMode::kColumns) {
     const auto [column, row] = pixel_on_monitor(glfw_.get());
     picture.stereo.first = {column + static_cast<int>(parts.picture.left),

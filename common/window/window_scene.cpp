@@ -62,14 +62,14 @@ void ExplorerWindow::adopt(SceneState scene) {
 }
 
 void ExplorerWindow::adopt_field() {
-  NamedField open{.field = scene_->probed, .name = {}, .scalar = scene_->felt_scalar};
-  open.tensor = scene_->tensors ? scene_->tensors->image->field : scene_->felt_tensor;
+  NamedField open{.field = scene_->probed, .name = {}, .scalar = scene_->haptic_scalar};
+  open.tensor = scene_->tensors ? scene_->tensors->image->field : scene_->haptic_tensor;
   if (open.empty() || !touch_.available()) return;
   // The fields of all examples have the same label.
   const SceneInfo& info = *scene_->info;
   std::string label = scene_->document.input.field;
   if (info.files.files.empty()) label.insert(0, info.name + " ");
-  open.name = field_key(label, time_step_of(scene_->document, info.times)) + scene_->felt_scalar_key;
+  open.name = field_key(label, time_step_of(scene_->document, info.times)) + scene_->haptic_scalar_key;
   if (touch_.set_field(std::move(open))) controls_.touch().let_go();
   if (!view_.probe) view_.probe.emplace();
   view_.probe->reference_speed = reference_speed(view_);
@@ -108,7 +108,7 @@ void ExplorerWindow::step_in_time(bool on) {
 void ExplorerWindow::follow_layer() {
   const ProbeReadout& hand = touch_.readout();
   if (!scene_ || !scene_->info->layers || !hand.held || !hand.scalar) return;
-  if (const auto level = felt_level(touch_.data().levels(), *hand.scalar))
+  if (const auto level = haptic_level(touch_.data().levels(), *hand.scalar))
     state_.document.heart.layer = exact_number(*level);
 }
 

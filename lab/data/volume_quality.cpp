@@ -266,7 +266,7 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     measure("voxels in bricks of so many cells", kPoolBrickCells, bricked);
   }
   VolumeView kept = given;
-  kept.keep_picture = true;
+  kept.cache_picture = true;
   const auto pixel_count = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels);
   measure("kept while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
 
@@ -277,7 +277,7 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     begin_row();
     std::vector<double> times;
     for (VolumeView& view : places) {
-      view.keep_slabs = slabs;
+      view.cache_slabs = slabs;
       (void)picture.draw_alone(view, camera);  // slabs that lack are made
     }
     for (const VolumeView& view : places) times.push_back(picture.draw_alone(view, camera));

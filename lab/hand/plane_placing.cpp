@@ -64,8 +64,8 @@ Rig rig_of(PlacingMeans means, double voxel, double target) {
   switch (means) {
     case PlacingMeans::kHandAlone:
       break;
-    case PlacingMeans::kGridTeeth:
-      settings.grid_axis.teeth = 1.0;
+    case PlacingMeans::kGridDetents:
+      settings.grid_axis.detents = 1.0;
       [[fallthrough]];
     case PlacingMeans::kGrid:
       links.push_back(std::make_unique<GridAxis>(Vec3{0.0}, Mat3{1.0}, Vec3{voxel}));
@@ -130,7 +130,7 @@ MedianInterval median_interval(std::vector<double> values) {
 
 std::string name_of(PlacingMeans means) {
   constexpr std::array<const char*, kPlacingMeansCount> kNames{
-      "hand alone",         "grid, free along the axis", "grid with teeth",
+      "hand alone",         "grid, free along the axis", "grid with detents",
       "grid with landmark", "plane widget, free",        "plane widget, constrained"};
   return kNames[static_cast<std::size_t>(means)];
 }
@@ -269,7 +269,7 @@ ReportSection plane_placing_section(const std::vector<PlacingRow>& rows, const P
 std::vector<StabilityCase> plane_placing_cases(const std::vector<PlacingRow>& rows) {
   std::vector<StabilityCase> cases;
   for (const PlacingRow& row : rows) {
-    const bool holds_line = row.means == PlacingMeans::kGrid || row.means == PlacingMeans::kGridTeeth ||
+    const bool holds_line = row.means == PlacingMeans::kGrid || row.means == PlacingMeans::kGridDetents ||
                             row.means == PlacingMeans::kGridLandmark ||
                             row.means == PlacingMeans::kWidgetConstrained;
     if (!holds_line || row.placed == 0) continue;

@@ -24,7 +24,7 @@ namespace palpate {
 enum class PlacingMeans : std::uint8_t {
   kHandAlone,          ///< the plane's centre is where the hand is
   kGrid,               ///< on an axis of the grid, freely along it
-  kGridTeeth,          ///< from node to node
+  kGridDetents,        ///< from node to node
   kGridLandmark,       ///< with a landmark where the plane shall go
   kWidgetFree,         ///< the plane widget with constraints that let go at once
   kWidgetConstrained,  ///< with constraints that hold

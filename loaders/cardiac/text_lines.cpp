@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBuffer = 4 * TextLines::kLongestLine;  // [bytes]
 
 /// Where words end.
-constexpr bool between_words(char c) noexcept {
+constexpr bool between_text(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
 }
 
@@ -98,9 +98,9 @@ bool TextLines::next() {
 std::string_view TextLines::word_here() noexcept {
   const char* first = rest_.data();
   const char* const end = first + rest_.size();
-  while (first != end && between_words(*first)) ++first;
+  while (first != end && between_text(*first)) ++first;
   const char* last = first;
-  while (last != end && !between_words(*last)) ++last;
+  while (last != end && !between_text(*last)) ++last;
   rest_ = {last, static_cast<std::size_t>(end - last)};
   return {first, static_cast<std::size_t>(last - first)};
 }

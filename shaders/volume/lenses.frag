@@ -47,7 +47,7 @@ bool reaches_out(int i) {
 
 void main() {
 #ifndef CONTEXT
-  if (is_kept()) discard;
+  if (is_saved()) discard;
 #endif
   Ray ray = pixel_ray();
   vec2 inside[kLensRoom];

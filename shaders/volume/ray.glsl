@@ -27,12 +27,12 @@ ivec2 opaque_pixel() {
 }
 
 #ifndef CONTEXT
-// Whether this pixel shows the volume already, as it was kept (common/render/volume/kept_volume.h): what is opaque there
+// Whether this pixel shows the volume already, as it was kept (common/render/volume/cached_volume.h): what is opaque there
 // has not moved.
-layout(location = 40) uniform bool has_kept;
+layout(location = 40) uniform bool has_saved;
 layout(binding = 8) uniform sampler2D still_depth;  // opaque_depth when it was kept
-bool is_kept() {
-  return has_kept && texelFetch(opaque_depth, opaque_pixel(), 0).x == texelFetch(still_depth, opaque_pixel(), 0).x;
+bool is_saved() {
+  return has_saved && texelFetch(opaque_depth, opaque_pixel(), 0).x == texelFetch(still_depth, opaque_pixel(), 0).x;
 }
 #endif
 

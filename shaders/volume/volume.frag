@@ -24,7 +24,7 @@
 layout(location = 0) out vec4 color;  // associated
 
 void main() {
-  if (is_kept()) discard;
+  if (is_saved()) discard;
   Ray ray = pixel_ray();
 #ifdef LAYERS
   begin_layers(ray);

@@ -87,7 +87,7 @@ TEST_F(ArmAtTheWorkbench, IsCheckedThroughALibraryThatIsNamed) {
 }
 
 TEST_F(ArmAtTheWorkbench, IsReadOverTheNetwork) {
-  folder_.write("bench.toml",
+  folder_.write("workbench.toml",
                 "[tracker]\ndegree = 0\ncenter = [0, 0, 0]\nscale = 1\nposition = [[0.01, 0, 0]]\n"
                 "orientation = [[0, 0, 0]]\n");
   VrpnServer vrpn;
@@ -103,8 +103,8 @@ TEST_F(ArmAtTheWorkbench, IsReadOverTheNetwork) {
   for (const std::string& device :
        {"vrpn:Phantom0@127.0.0.1:" + std::to_string(vrpn.port()),
         "inverse3:host=127.0.0.1,spelling=vector,port=" + std::to_string(web.port())}) {
-    const Json seen =
-        json({"monitor", "--device", device, "--seconds", "2", "--rate", "20", "--workbench", "bench.toml"});
+    const Json seen = json(
+        {"monitor", "--device", device, "--seconds", "2", "--rate", "20", "--workbench", "workbench.toml"});
     EXPECT_EQ(seen["phase"], "ready") << seen["advice"];
     ASSERT_GT(seen["samples"].size(), 3U) << device;
     EXPECT_NE(seen["samples"].front()["position_m"], seen["samples"].back()["position_m"])

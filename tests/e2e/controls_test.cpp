@@ -20,7 +20,7 @@ class Controls : public ExplorerTest {
  protected:
   Controls() : ExplorerTest("workbench") {
     folder_.write(
-        "bench.toml",
+        "workbench.toml",
         "[stylus]\ntip = [0, 0, -0.1]\n[interaction]\nmiddle = [0.1, 0.2, 0.3]\ntechnique = 'immersive'\n");
   }
 
@@ -57,8 +57,8 @@ TEST_F(Controls, AreWorkedByARecordedStylus) {
   }
   point_at(kCorner + Vec3(0.24, -0.09, -0.05), false);  // the second ball
   folder_.write("hands.csv", table_);
-  const Json told = json(
-      {"controls", "hands.csv", "--workbench", "bench.toml", "--out", "log.csv", "--picture", "menu.png"});
+  const Json told = json({"controls", "hands.csv", "--workbench", "workbench.toml", "--out", "log.csv",
+                          "--picture", "menu.png"});
   EXPECT_EQ(told["events"][0]["label"], "isosurface");
   EXPECT_EQ(told["events"][0]["id"], 12);
   EXPECT_NEAR(told["opacity"].get<double>(), 0.8, 1e-12);

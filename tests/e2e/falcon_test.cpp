@@ -108,11 +108,11 @@ TEST_F(FalconWindow, IsMovedByTheDeviceAndRepeatsToTheBit) {
 // seen in dead_man_test.
 TEST_F(FalconWindow, SaysWhichSwitchLetsItShowForce) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
-  folder_.write("bench.toml", "[interaction]\nenabling_button = 3\n");
+  folder_.write("workbench.toml", "[interaction]\nenabling_button = 3\n");
   std::string maps;
-  for (const auto& [bench, button] : {std::pair{false, 2}, std::pair{true, 3}}) {
+  for (const auto& [workbench, button] : {std::pair{false, 2}, std::pair{true, 3}}) {
     std::vector<std::string> arguments{"--device", "falcon_emulated"};
-    if (bench) arguments.insert(arguments.end(), {"--workbench", "bench.toml"});
+    if (workbench) arguments.insert(arguments.end(), {"--workbench", "workbench.toml"});
     const ProgramResult lived = open(arguments, 200, maps);
     EXPECT_NE(lived.err.find("only while button " + std::to_string(button)), std::string::npos) << lived.err;
     const Recording recording = read_recording(folder_.path("run.txt").string());

@@ -56,7 +56,7 @@ TEST_F(GridRegion, SessionsWithABoxServeAllVerbs) {
   EXPECT_EQ(bytes_of(folder_.path("session.nrrd")), bytes_of(folder_.path("option.nrrd")));
 }
 
-// A hand on the grid takes the face at +x from 0.5 to 0.72: with teeth it is left on a voxel.
+// A hand on the grid takes the face at +x from 0.5 to 0.72: with detents it is left on a voxel.
 TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   const double spacing = 2.0 / 95.0;  // of the example: 96 points from -1 to 1
   const double from = -1.0 + 71.0 * spacing;
@@ -78,9 +78,9 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return Json::parse(result.out).at("box").get<std::vector<double>>();
   };
-  std::vector<std::string> with_teeth = probe;
-  with_teeth.insert(with_teeth.end(), {"--grid-teeth", "1"});
-  const std::vector<double> box = box_after(with_teeth);
+  std::vector<std::string> with_detents = probe;
+  with_detents.insert(with_detents.end(), {"--grid-detents", "1"});
+  const std::vector<double> box = box_after(with_detents);
   ASSERT_EQ(box.size(), 6U);
   // A tooth is left for the next one where the hand is on that: the last node before 0.72.
   EXPECT_NEAR(box[3], -1.0 + std::floor((0.72 + 1.0) / spacing) * spacing, 1e-12);
@@ -89,7 +89,7 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   EXPECT_NEAR(box_after(probe)[3], 0.72, 0.005) << "where the hand was as it let go";
   // Away from all faces the button takes the view: the same pull moves its middle the other way, by whole
   // voxels of that axis alone.
-  std::vector<std::string> away = with_teeth;
+  std::vector<std::string> away = with_detents;
   away[8] = "-0.9,-0.9,-0.9,0.99,0.9,0.9";
   away.insert(away.end(), {"--focal", "0.1,0.2,0.3"});
   const ProgramResult moved = run(away);
@@ -109,8 +109,8 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   EXPECT_LT(pressed[2], 0.0);
   EXPECT_EQ(pressed[0], 0.1);
   // At a face it does not.
-  with_teeth.insert(with_teeth.end(), {"--focal", "0.1,0.2,0.3"});
-  EXPECT_EQ(Json::parse(run(with_teeth).out).at("focal").get<std::vector<double>>(),
+  with_detents.insert(with_detents.end(), {"--focal", "0.1,0.2,0.3"});
+  EXPECT_EQ(Json::parse(run(with_detents).out).at("focal").get<std::vector<double>>(),
             std::vector<double>({0.1, 0.2, 0.3}));
   // Other modes know no box; what is none is refused.
   EXPECT_EQ(run({"probe", "--example", "shells", "--path", "hand.csv", "--box", "1,2", "--json"}).exit_code,

@@ -209,7 +209,7 @@ TEST_F(GridWidget, RefusesWhatMakesNoGridOrPlane) {
   refused("--grid-switch", "faces");
   refused("--grid-peaks", "99");
   refused("--grid-pull", "0");
-  refused("--grid-teeth", "2");
+  refused("--grid-detents", "2");
   refused("--planes", "1,2,3");
   refused("--planes", "through:0,0,0,1,1,1,2,2,2");
   refused("--detent", "-1");

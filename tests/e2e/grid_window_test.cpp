@@ -260,7 +260,7 @@ TEST_F(GridWindow, TheHandCarriesTheViewAlongOneAxisOfTheGrid) {
   at({.kind = InputKind::kRelease});
   next_ += 20;
   const WindowResult result =
-      open({tooth, "--camera", "0,0,0,1", "--focal", "51.2,46.2,80.3", "--grid-teeth", "1"}, "carried");
+      open({tooth, "--camera", "0,0,0,1", "--focal", "51.2,46.2,80.3", "--grid-detents", "1"}, "carried");
   const Vec3 taken{51.2, 46.2, 80.3};
   const Vec3 moved = result.view.camera.focal_point - taken;
   EXPECT_EQ(moved.x, 0.0);

@@ -18,7 +18,7 @@ const char* const kBench =
 
 class Stereo : public ExplorerTest {
  protected:
-  Stereo() : ExplorerTest("grid") { folder_.write("bench.toml", kBench); }
+  Stereo() : ExplorerTest("grid") { folder_.write("workbench.toml", kBench); }
 };
 
 TEST_F(Stereo, SaysWhatTheEyesSeeAndKeepsItInReach) {
@@ -30,7 +30,7 @@ TEST_F(Stereo, SaysWhatTheEyesSeeAndKeepsItInReach) {
                          "--disparity-limit", "20", "--out", "b.png"});
   EXPECT_EQ(free.exit_code, 0) << free.err;
   EXPECT_EQ(free.out.find("brought to"), std::string::npos) << free.out;
-  const auto head = run({"render", "--example", "shells", "--size", "64x48", "--workbench", "bench.toml",
+  const auto head = run({"render", "--example", "shells", "--size", "64x48", "--workbench", "workbench.toml",
                          "--head", "0.1,0,0.6", "--stereo", "columns", "--out", "c.png"});
   EXPECT_EQ(head.exit_code, 0) << head.err;
   EXPECT_NE(head.out.find("stereo columns"), std::string::npos) << head.out;
@@ -48,11 +48,11 @@ TEST_F(Stereo, RefusesWhatCannotBeShown) {
   refused({"--stereo", "rows", "--projection", "orthographic"}, "perspective");
   refused({"--head", "0,0,1"}, "--workbench");
   refused({"--screen", "front"}, "--head");
-  refused({"--workbench", "bench.toml", "--head", "0,0,-1"}, "before the screen");
-  refused({"--workbench", "bench.toml", "--head", "0,1"}, "--head");
-  refused({"--workbench", "bench.toml", "--head", "0,0,1,2,0,0,0"}, "length 1");
-  refused({"--workbench", "bench.toml", "--head", "0,0,1", "--screen", "wide"}, "--size");
-  refused({"--workbench", "bench.toml", "--head", "0,0,1", "--screen", "rear"}, "front, wide");
+  refused({"--workbench", "workbench.toml", "--head", "0,0,-1"}, "before the screen");
+  refused({"--workbench", "workbench.toml", "--head", "0,1"}, "--head");
+  refused({"--workbench", "workbench.toml", "--head", "0,0,1,2,0,0,0"}, "length 1");
+  refused({"--workbench", "workbench.toml", "--head", "0,0,1", "--screen", "wide"}, "--size");
+  refused({"--workbench", "workbench.toml", "--head", "0,0,1", "--screen", "rear"}, "front, wide");
   folder_.write("bare.toml", "[stylus]\ntip = [0, 0, 0]\n");
   refused({"--workbench", "bare.toml", "--head", "0,0,1"}, "[screen]", 3);
 }
@@ -112,9 +112,9 @@ TEST_F(Stereo, FollowsARecordedHead) {
   folder_.write("head.csv",
                 "t,x,y,z,qw,qx,qy,qz\n0,0,0,0.6,1,0,0,0\n0.05,0.02,0,0.6,1,0,0,0\n0.1,0.04,0,0.6,1,0,0,0\n");
   folder_.write("ahead.toml", std::string(kBench) + "[head]\nlatency = 0.05\n");
-  const auto picture = [&](const char* bench, std::vector<std::string> head, const char* out) {
+  const auto picture = [&](const char* workbench, std::vector<std::string> head, const char* out) {
     std::vector<std::string> arguments{"render",      "--example", "shells", "--size", "64x48",
-                                       "--workbench", bench,       "--out",  out,      "--force"};
+                                       "--workbench", workbench,   "--out",  out,      "--force"};
     arguments.insert(arguments.end(), head.begin(), head.end());
     const auto result = run(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -125,19 +125,21 @@ TEST_F(Stereo, FollowsARecordedHead) {
     stbi_image_free(data);
     return pixels;
   };
-  const auto at = [&](const char* place) { return picture("bench.toml", {"--head", place}, "still.png"); };
-  EXPECT_EQ(picture("bench.toml", {"--head", "replay:head.csv"}, "end.png"), at("0.04,0,0.6"));
-  EXPECT_EQ(picture("bench.toml", {"--head", "replay:head.csv", "--head-time", "0.06"}, "early.png"),
+  const auto at = [&](const char* place) {
+    return picture("workbench.toml", {"--head", place}, "still.png");
+  };
+  EXPECT_EQ(picture("workbench.toml", {"--head", "replay:head.csv"}, "end.png"), at("0.04,0,0.6"));
+  EXPECT_EQ(picture("workbench.toml", {"--head", "replay:head.csv", "--head-time", "0.06"}, "early.png"),
             at("0.024,0,0.6"));
   EXPECT_EQ(picture("ahead.toml", {"--head", "replay:head.csv"}, "ahead.png"), at("0.06,0,0.6"));
   EXPECT_NE(at("0.04,0,0.6"), at("0.06,0,0.6"));
   EXPECT_EQ(run({"render", "--example", "shells", "--out", "x.png", "--head-time", "1"}).exit_code, 2);
-  EXPECT_EQ(run({"render", "--example", "shells", "--out", "x.png", "--workbench", "bench.toml", "--head",
+  EXPECT_EQ(run({"render", "--example", "shells", "--out", "x.png", "--workbench", "workbench.toml", "--head",
                  "replay:none.csv"})
                 .exit_code,
             3);
-  EXPECT_EQ(run({"open", "--example", "shells", "--workbench", "bench.toml", "--head", "hands"}).exit_code,
-            2);
+  EXPECT_EQ(
+      run({"open", "--example", "shells", "--workbench", "workbench.toml", "--head", "hands"}).exit_code, 2);
 }
 
 }  // namespace

@@ -38,16 +38,16 @@ const char* const kArmBench =
 class TrackerWindow : public ExplorerTest {
  protected:
   TrackerWindow() : ExplorerTest("flow") {
-    folder_.write("bench.toml", kBench);
+    folder_.write("workbench.toml", kBench);
     folder_.write("arm.toml", kArmBench);
   }
 
   /// Opens a window until `steps` steps are recorded.
-  ProgramResult open(const std::string& device, const std::string& bench, int steps,
+  ProgramResult open(const std::string& device, const std::string& workbench, int steps,
                      const std::string& head = "") {
     std::vector<std::string> command{bin("flow").string(), "open", "--example",   "tornado",
                                      "--workspace-scale",  "0.1",  "--record",    "run.txt",
-                                     "--device",           device, "--workbench", bench};
+                                     "--device",           device, "--workbench", workbench};
     if (!head.empty()) command.insert(command.end(), {"--head", head});
     Program program(command, folder_.path());
     constexpr double kLimit = 60.0;  // [s]
@@ -85,7 +85,7 @@ class TrackerWindow : public ExplorerTest {
 TEST_F(TrackerWindow, PutsTheProbeWhereTheTipOfTheStylusIs) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
   // The head is on the same tracker, which can be opened once only.
-  const ProgramResult lived = open("polhemus_emulated:still=1", "bench.toml", 3000, "polhemus_emulated");
+  const ProgramResult lived = open("polhemus_emulated:still=1", "workbench.toml", 3000, "polhemus_emulated");
   EXPECT_EQ(lived.exit_code, 130) << lived.err;
   const auto last = last_probe();
   ASSERT_TRUE(last) << "the tracker never had hold of the probe";
@@ -119,23 +119,23 @@ TEST_F(TrackerWindow, PutsTheProbeWhereTheTipOfACoregisteredArmIs) {
   const double out = 0.21 * std::cos(thigh) + 0.17 * std::cos(shin);
   const Vec3 own{out * std::sin(base), 0.21 * std::sin(thigh) + 0.17 * std::sin(shin),
                  out * std::cos(base) - 0.24};
-  const Vec3 at_bench = Quat{0.6, 0.0, 0.8, 0.0} * own + Vec3(0.5, 0.11, -0.2);
-  const Vec3 expected = middle() + 0.5 * (Quat{0.6, 0.8, 0.0, 0.0} * (at_bench - Vec3(0.52, 0.1, -0.2)));
+  const Vec3 at_workbench = Quat{0.6, 0.0, 0.8, 0.0} * own + Vec3(0.5, 0.11, -0.2);
+  const Vec3 expected = middle() + 0.5 * (Quat{0.6, 0.8, 0.0, 0.0} * (at_workbench - Vec3(0.52, 0.1, -0.2)));
   constexpr double kRounding = 1e-9;  // [m]
   EXPECT_LT(glm::distance(*last, expected), kRounding);
 }
 
 TEST_F(TrackerWindow, NeedsAWorkbenchForIt) {
   folder_.write("desk.toml", "[interaction]\ntechnique = \"desktop\"\n");
-  const auto refused = [this](const std::string& device, const std::string& bench) {
+  const auto refused = [this](const std::string& device, const std::string& workbench) {
     const ProgramResult result =
-        run({"open", "--example", "tornado", "--device", device, "--workbench", bench});
+        run({"open", "--example", "tornado", "--device", device, "--workbench", workbench});
     EXPECT_EQ(result.exit_code, 2) << result.err;
     return result.err;
   };
   EXPECT_NE(refused("polhemus_emulated", "desk.toml").find("immersive"), std::string::npos);
-  EXPECT_NE(refused("falcon_emulated", "bench.toml").find("[coregistration]"), std::string::npos);
-  EXPECT_NE(refused("polhemus_emulated:hemisphere=up", "bench.toml").find("+x"), std::string::npos);
+  EXPECT_NE(refused("falcon_emulated", "workbench.toml").find("[coregistration]"), std::string::npos);
+  EXPECT_NE(refused("polhemus_emulated:hemisphere=up", "workbench.toml").find("+x"), std::string::npos);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace palpate::test {
 namespace {
 
 const Quat kTurn{0.6, 0.8, 0.0, 0.0};  // of the tracker's axes
-const Vec3 kMiddle{0.3, 0.2, 0.1};     // [m] of the bench
+const Vec3 kMiddle{0.3, 0.2, 0.1};     // [m] of the workbench
 const Vec3 kTip{0.0, 0.0, -0.12};
 constexpr double kGain = 1.5;
 const char* const kBench =
@@ -64,13 +64,13 @@ class TwoHands : public ExplorerTest {
 };
 
 TEST_F(TwoHands, CarryAPlaneAndReplayToTheBit) {
-  folder_.write("bench.toml", kBench);
+  folder_.write("workbench.toml", kBench);
   const Vec3 n = glm::normalize(Vec3(0.3, -0.2, 0.9)), way{0.02, 0.05, -0.1};
   const Json info = json({"info", "--example", "shells"});
   folder_.write("hands.csv", recording(to_normal(n), way, std::sqrt(12.0)));
-  const std::vector<std::string> command{"probe",        "--example",   "shells",     "--path",
-                                         "hands.csv",    "--workbench", "bench.toml", "--mode",
-                                         "plane-widget", "--out",       "log.csv",    "--force"};
+  const std::vector<std::string> command{"probe",        "--example",   "shells",         "--path",
+                                         "hands.csv",    "--workbench", "workbench.toml", "--mode",
+                                         "plane-widget", "--out",       "log.csv",        "--force"};
   const Json summary = json(command);
   ASSERT_EQ(summary["planes"].size(), 1U) << info;
   const Json& plane = summary["planes"][0];
@@ -89,10 +89,10 @@ TEST_F(TwoHands, PlaceAPlaneThroughThreePointsOfTheTooth) {
   const Vec3 points[]{{30.0, 40.0, 120.0}, {70.0, 35.0, 110.0}, {50.0, 70.0, 60.0}};
   const Vec3 n = glm::normalize(glm::cross(points[1] - points[0], points[2] - points[0]));
   const Vec3 center{51.0, 46.5, 80.0};
-  folder_.write("bench.toml", kBench);
+  folder_.write("workbench.toml", kBench);
   folder_.write("hands.csv", recording(to_normal(n), glm::dot(n, points[0] - center) * n,
                                        glm::length(Vec3(102.0, 93.0, 160.0))));
-  const Json summary = json({"probe", tooth.string(), "--path", "hands.csv", "--workbench", "bench.toml",
+  const Json summary = json({"probe", tooth.string(), "--path", "hands.csv", "--workbench", "workbench.toml",
                              "--mode", "plane-widget"});
   const Json& plane = summary["planes"][0];
   const Vec3 normal{plane["normal"][0], plane["normal"][1], plane["normal"][2]};
@@ -103,15 +103,15 @@ TEST_F(TwoHands, PlaceAPlaneThroughThreePointsOfTheTooth) {
 }
 
 TEST_F(TwoHands, SaysWhatDoesNotFit) {
-  folder_.write("bench.toml", kBench);
+  folder_.write("workbench.toml", kBench);
   folder_.write("desk.toml", "[interaction]\ntechnique = \"desktop\"\n");
   folder_.write("wrong.toml", "[interaction]\n\ntechnique = \"gloves\"\n");
   folder_.write("path.csv", "t,x,y,z\n0,0,0,0\n0.001,0,0,0\n");
-  const auto probe = [this](const char* bench) {
-    return run({"probe", "--example", "shells", "--path", "path.csv", "--json", "--workbench", bench});
+  const auto probe = [this](const char* workbench) {
+    return run({"probe", "--example", "shells", "--path", "path.csv", "--json", "--workbench", workbench});
   };
   EXPECT_EQ(probe("desk.toml").exit_code, 0) << "a path is a desktop's";
-  const ProgramResult path = probe("bench.toml");
+  const ProgramResult path = probe("workbench.toml");
   EXPECT_EQ(path.exit_code, 3);
   EXPECT_NE(path.err.find("qw"), std::string::npos) << path.err;
   const ProgramResult wrong = probe("wrong.toml");
@@ -119,10 +119,10 @@ TEST_F(TwoHands, SaysWhatDoesNotFit) {
   EXPECT_NE(wrong.err.find("line 3"), std::string::npos) << wrong.err;
   EXPECT_EQ(probe("none.toml").exit_code, 3);
   const ProgramResult arm = run({"probe", "--example", "shells", "--path", "path.csv", "--json",
-                                 "--workbench", "bench.toml", "--device", "simulated"});
+                                 "--workbench", "workbench.toml", "--device", "simulated"});
   EXPECT_EQ(arm.exit_code, 2) << arm.err;
   // In the window hands need such a workbench; that of hands is a desktop's without them, but for a display.
-  const ProgramResult desk = run({"open", "--example", "shells", "--workbench", "bench.toml"});
+  const ProgramResult desk = run({"open", "--example", "shells", "--workbench", "workbench.toml"});
   EXPECT_EQ(desk.exit_code, 1);
   EXPECT_NE(desk.err.find("this is a desktop"), std::string::npos) << desk.err;
   EXPECT_EQ(run({"open", "--example", "shells", "--device", "hands:path.csv"}).exit_code, 2);

@@ -122,12 +122,12 @@ TEST_F(WorkbenchDevices, CorrectATrackerByItsCalibration) {
     rows << "\n";
   }
   folder_.write("poses.csv", rows.str());
-  folder_.write("bench.toml",
+  folder_.write("workbench.toml",
                 "[stylus]\ntip = [0, 0, -0.12]\n\n[interaction]\ntechnique = \"immersive\"\n"
                 "middle = [0.5, 0, 0]\nstylus_station = 2\nhand_station = 1\n");
-  (void)json({"calibrate", "tracker", "poses.csv", "--degree", "4", "--out", "bench.toml"});
+  (void)json({"calibrate", "tracker", "poses.csv", "--degree", "4", "--out", "workbench.toml"});
   const Json seen = json({"monitor", "--device", "polhemus_emulated:still=1,metal=1", "--seconds", "1.5",
-                          "--workbench", "bench.toml"});
+                          "--workbench", "workbench.toml"});
   const Json& stations = seen["samples"].back()["stations"];
   ASSERT_EQ(stations.size(), 2U) << seen;
   for (int station = 1; station <= 2; ++station) {
@@ -180,16 +180,17 @@ TEST_F(WorkbenchDevices, PutAnArmWhereItsCalibratedJointsSay) {
           << ", 0, 0, 0, 3], [0, 0, 0, 0, 0, 4], [0, 0, 0, 0, 0, 5], [0, 0, 0, 0, 0, 6]]\n"
              "free = [\"gamma\", \"gamma\", \"gamma\", \"\", \"\", \"\"]\n";
   folder_.write("nominal.toml", nominal.str());
-  folder_.write("bench.toml",
+  folder_.write("workbench.toml",
                 "[interaction]\narm_rotation = [0.5, -0.5, -0.5, -0.5]\narm_middle = [0.24, 0, 0]\n\n"
                 "[coregistration]\nrotation = [0.6, 0, 0.8, 0]\ntranslation = [0.5, 0.1, -0.2]\n"
                 "sensor = [0, 0, 0]\n");
   (void)json(
-      {"calibrate", "arm", "grid.csv", "--nominal", "nominal.toml", "--offsets", "--out", "bench.toml"});
+      {"calibrate", "arm", "grid.csv", "--nominal", "nominal.toml", "--offsets", "--out", "workbench.toml"});
   const std::string device =
       "openhaptics:name=Worn arm,library=" + (build_folder() / "tests/libpalpate_fake_hd.so").string();
   const Json bare = json({"monitor", "--device", device, "--seconds", "0.5"});
-  const Json seen = json({"monitor", "--device", device, "--seconds", "0.5", "--workbench", "bench.toml"});
+  const Json seen =
+      json({"monitor", "--device", device, "--seconds", "0.5", "--workbench", "workbench.toml"});
   const Vec3 actual{0.03, -0.02, 0.04};
   const Json& sample = seen["samples"].back();
   EXPECT_GT(glm::distance(vector_of(bare["samples"].back()["position_m"]), actual), 0.015);
@@ -197,11 +198,11 @@ TEST_F(WorkbenchDevices, PutAnArmWhereItsCalibratedJointsSay) {
   EXPECT_EQ(sample["joints_rad"].size(), 6U);
   const Vec3 in_arm{0.24 + actual.z, actual.x, actual.y};
   EXPECT_LT(glm::distance(vector_of(sample["arm_position_m"]), in_arm), 1e-5);
-  const Vec3 at_bench = Quat{0.6, 0.0, 0.8, 0.0} * in_arm + Vec3(0.5, 0.1, -0.2);
-  EXPECT_LT(glm::distance(vector_of(sample["bench_position_m"]), at_bench), 1e-5);
+  const Vec3 at_workbench = Quat{0.6, 0.0, 0.8, 0.0} * in_arm + Vec3(0.5, 0.1, -0.2);
+  EXPECT_LT(glm::distance(vector_of(sample["bench_position_m"]), at_workbench), 1e-5);
   // A device that tells no joints goes by its own word, and that is said.
   const ProgramResult falcon =
-      run({"monitor", "--device", "falcon_emulated", "--seconds", "0.2", "--workbench", "bench.toml"});
+      run({"monitor", "--device", "falcon_emulated", "--seconds", "0.2", "--workbench", "workbench.toml"});
   EXPECT_EQ(falcon.exit_code, 0) << falcon.err;
   EXPECT_NE(falcon.err.find("tells none"), std::string::npos) << falcon.err;
 }

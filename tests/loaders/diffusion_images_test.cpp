@@ -73,7 +73,7 @@ std::vector<double> signals(const Vec3& main) {
   return values;
 }
 
-Input open(const std::filesystem::path& file, const TensorWords& words = {}) {
+Input open(const std::filesystem::path& file, const TensorSpec& words = {}) {
   InputOptions spec;
   spec.files = {file};
   spec.kind = FieldKind::kTensor;
@@ -82,13 +82,13 @@ Input open(const std::filesystem::path& file, const TensorWords& words = {}) {
 }
 
 /// The main direction at the first voxel, and its FA-like spread of eigenvalues.
-SymmetricEigen first_tensor(const std::filesystem::path& file, const TensorWords& words = {}) {
+SymmetricEigen first_tensor(const std::filesystem::path& file, const TensorSpec& words = {}) {
   const TensorImage made = open(file, words).load_tensor_image(1);
   const auto d = read_tensor(*made.image.find(made.choice.array, Association::kPoint), 0, made.choice.order);
   return symmetric_eigen({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
 }
 
-std::string failure(const std::filesystem::path& file, const TensorWords& words = {}) {
+std::string failure(const std::filesystem::path& file, const TensorSpec& words = {}) {
   try {
     (void)open(file, words).load_tensor_image(1);
   } catch (const Error& error) {
@@ -131,7 +131,7 @@ TEST(DiffusionNifti, ReadsRowsColumnsSmallWeightingsAndLengths) {
   folder.write("dwi.bvec", bvec_rows(3.0));  // not of unit length
   EXPECT_NEAR(first_tensor(folder.path("dwi.nii")).values[0], 1.7e-3, 1e-8);
   folder.write("elsewhere.txt", bval_text());
-  TensorWords words;
+  TensorSpec words;
   words.bval = folder.path("elsewhere.txt");
   words.flip = "i";
   EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {1.0, 0.2, 0.1}), 1.0, 1e-6);
@@ -181,7 +181,7 @@ TEST(TensorNifti, TellsFslsOrderFromMrtrixsAndHonoursTheAxesOfEach) {
       "mrtrix.nii", image(6, kLeftHanded, {d[0][0], d[1][1], d[2][2], d[1][0], d[2][0], d[2][1]}));
   EXPECT_NEAR(along(first_tensor(rows), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
   EXPECT_NEAR(along(first_tensor(diagonal), {1.0, 2.0, 3.0}), 1.0, 1e-6);
-  TensorWords words;
+  TensorSpec words;
   words.order = "mrtrix";
   EXPECT_LT(first_tensor(rows, words).values[2], 0.0);  // told to, it reads it wrong
   words.order = "word";
@@ -226,7 +226,7 @@ TEST(DiffusionNifti, FitsWhereTheMaskSays) {
   folder.write("dwi.bvec", bvec_rows());
   std::string mask = image(1, kLeftHanded, {1.0});
   put_at(mask, 352, 0.0F);  // not the first voxel
-  TensorWords words;
+  TensorSpec words;
   words.mask = folder.write("mask.nii", mask).string();
   const TensorImage made = open(file, words).load_tensor_image(1);
   ASSERT_TRUE(made.fit);
@@ -241,7 +241,7 @@ TEST(DiffusionNifti, FitsWhereTheMaskSays) {
 TEST(DiffusionNrrd, FitsTheTensorsThatThePublicHelixHas) {
   PALPATE_NEED_DATA(dwi, "dtmri/helix-synthetic/helix-DWI.nhdr");
   PALPATE_NEED_DATA(dti, "dtmri/helix-synthetic/helix-DTI.nhdr");
-  TensorWords words;
+  TensorSpec words;
   words.mask = "none";
   const TensorImage fitted = open(dwi, words).load_tensor_image(2), stored = open(dti).load_tensor_image(2);
   std::size_t both = 0;

@@ -47,7 +47,7 @@ const char* note_on_directions(const TensorField& fibres, const HeartChoice& cho
 
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
 void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
-                const std::string& file, int threads, LayersNeeded layers, KeptLayers* kept, Heart& heart) {
+                const std::string& file, int threads, LayersNeeded layers, CachedLayers* kept, Heart& heart) {
   if (!choice.layer.empty()) {
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
@@ -131,7 +131,7 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
 }
 
 Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::string& file, int threads,
-                 LayersNeeded layers, KeptLayers* kept) {
+                 LayersNeeded layers, CachedLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);

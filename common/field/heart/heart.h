@@ -69,6 +69,6 @@ enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible, kSurfaces };
 /// without layers, and (work failed) as make_wall_layer().
 [[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
                                int threads = 0, LayersNeeded layers = LayersNeeded::kAlways,
-                               KeptLayers* kept = nullptr);
+                               CachedLayers* kept = nullptr);
 
 }  // namespace palpate

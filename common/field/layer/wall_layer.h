@@ -21,12 +21,12 @@ struct WallLayer {
 };
 
 /// Layers that were solved before, such as those in a file (scene/layer_cache.h).
-class KeptLayers {
+class CachedLayers {
  public:
-  KeptLayers() = default;
-  virtual ~KeptLayers() = default;
-  KeptLayers(const KeptLayers&) = delete;
-  KeptLayers& operator=(const KeptLayers&) = delete;
+  CachedLayers() = default;
+  virtual ~CachedLayers() = default;
+  CachedLayers(const CachedLayers&) = delete;
+  CachedLayers& operator=(const CachedLayers&) = delete;
 
   /// Those of a mesh with the very same cells and surfaces; nothing where there are none.
   virtual std::optional<WallLayer> find(const DataSet& mesh) = 0;

@@ -183,7 +183,7 @@ std::string color_transfer_text(const ColorTransfer& transfer) {
   return text;
 }
 
-std::string transfer_words(const ColorTransfer& transfer) {
+std::string transfer_text(const ColorTransfer& transfer) {
   std::string words(kWords);
   for (const ColorPoint& point : transfer.points()) {
     if (words.size() > kWords.size()) words += '/';
@@ -192,7 +192,7 @@ std::string transfer_words(const ColorTransfer& transfer) {
   return words;
 }
 
-std::optional<ColorTransfer> transfer_from_words(const std::string& text) {
+std::optional<ColorTransfer> transfer_from_text(const std::string& text) {
   if (!text.starts_with(kWords)) return std::nullopt;
   std::vector<ColorPoint> points;
   for (const std::string_view row : split(std::string_view(text).substr(kWords.size()), '/')) {

@@ -100,9 +100,9 @@ inline constexpr int kColorPresetCount = 3;
 
 /// The function on one line, as options and sessions have it: "points:V,R,G,B,A/V,R,G,B,A/…", the same
 /// numbers with '/' between points. @pre it has a point.
-[[nodiscard]] std::string transfer_words(const ColorTransfer& transfer);
-/// What transfer_words() wrote; absent where `text` does not begin with "points:".
+[[nodiscard]] std::string transfer_text(const ColorTransfer& transfer);
+/// What transfer_text() wrote; absent where `text` does not begin with "points:".
 /// @throws Error (usage) for points that are none.
-[[nodiscard]] std::optional<ColorTransfer> transfer_from_words(const std::string& text);
+[[nodiscard]] std::optional<ColorTransfer> transfer_from_text(const std::string& text);
 
 }  // namespace palpate

@@ -139,7 +139,7 @@ RegionTransfer boundary_regions() {
 
 namespace {
 
-constexpr std::string_view kRegionWords = "regions:", kFractionsRow = "fractions";
+constexpr std::string_view kRegionForm = "regions:", kFractionsRow = "fractions";
 constexpr const char* kRegionRows =
     "a transfer function of value and gradient: rows such as box,V,M,V,M,R,G,B,A,S";
 constexpr std::array<TransferRegion::Shape, 3> kRegionShapes{
@@ -245,20 +245,20 @@ std::string regions_text(const RegionTransfer& transfer) {
   return text;
 }
 
-std::string region_words(const RegionTransfer& transfer) {
-  std::string words(kRegionWords);
+std::string region_text(const RegionTransfer& transfer) {
+  std::string words(kRegionForm);
   for (const TransferRegion& region : transfer.regions()) {
-    if (words.size() > kRegionWords.size()) words += '/';
+    if (words.size() > kRegionForm.size()) words += '/';
     words += region_row(region);
   }
   return words;
 }
 
-std::optional<RegionTransfer> regions_from_words(const std::string& text, const DataRange& range) {
-  if (!text.starts_with(kRegionWords)) return std::nullopt;
+std::optional<RegionTransfer> regions_from_text(const std::string& text, const DataRange& range) {
+  if (!text.starts_with(kRegionForm)) return std::nullopt;
   std::vector<TransferRegion> regions;
   bool fractions = false;
-  const std::string_view rows = std::string_view(text).substr(kRegionWords.size());
+  const std::string_view rows = std::string_view(text).substr(kRegionForm.size());
   if (rows.empty()) return RegionTransfer();
   for (const std::string_view row : split(rows, '/')) {
     if (trimmed(row) == kFractionsRow && regions.empty()) {

@@ -116,10 +116,10 @@ using DataRange = std::function<PlaceRange()>;
 [[nodiscard]] std::string regions_text(const RegionTransfer& transfer);
 
 /// The function on one line, as options and sessions have it: "regions:" and the rows, '/' between them.
-[[nodiscard]] std::string region_words(const RegionTransfer& transfer);
-/// What region_words() wrote, or a user; absent where `text` does not begin with "regions:".
+[[nodiscard]] std::string region_text(const RegionTransfer& transfer);
+/// What region_text() wrote, or a user; absent where `text` does not begin with "regions:".
 /// @throws Error (usage) for rows that are none.
-[[nodiscard]] std::optional<RegionTransfer> regions_from_words(const std::string& text,
-                                                               const DataRange& range);
+[[nodiscard]] std::optional<RegionTransfer> regions_from_text(const std::string& text,
+                                                              const DataRange& range);
 
 }  // namespace palpate

@@ -59,7 +59,7 @@ std::vector<NoteView> notes_of(const AnnotationList& list, const std::string& un
                                const std::optional<Vec3>& next) {
   std::vector<NoteView> notes;
   const auto words = [&](const Annotation& each) {
-    const std::string measure = measure_words(each, unit);
+    const std::string measure = measure_text(each, unit);
     return each.label + (each.label.empty() || measure.empty() ? "" : ": ") + measure;
   };
   for (const Annotation& each : list.entries()) notes.push_back({each.points, outline_of(each), words(each)});

@@ -44,7 +44,7 @@ void TractDrawing::cut_to_note() {
   if (noted_ && noted_->edits == pen_.edits()) pen_.cut(noted_->points);
 }
 
-bool TractDrawing::keep(KeptLines& kept) {
+bool TractDrawing::keep(DrawnLines& kept) {
   std::vector<DrawnTract> tracts = pen_.take();
   if (tracts.empty()) return false;
   list_edits_.push_back({.strokes = pen_.depth(), .took = true});
@@ -52,7 +52,7 @@ bool TractDrawing::keep(KeptLines& kept) {
   return true;
 }
 
-void TractDrawing::remove(KeptLines& kept, std::size_t index) {
+void TractDrawing::remove(DrawnLines& kept, std::size_t index) {
   list_edits_.push_back({.strokes = pen_.depth(), .took = false});
   kept.remove(index);
 }
@@ -63,7 +63,7 @@ std::size_t TractDrawing::undo_depth() const noexcept {
   return pen_.depth() + list_edits_.size() - static_cast<std::size_t>(took);
 }
 
-bool TractDrawing::undo(KeptLines& kept) {
+bool TractDrawing::undo(DrawnLines& kept) {
   const bool of_list = !list_edits_.empty() && pen_.depth() == list_edits_.back().strokes;
   if (!of_list && pen_.depth() == 0) return false;
   if (of_list) (void)kept.undo();

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/field/tensor/tensor_field.h"
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/drawn/drawn_tract.h"
-#include "common/hand/drawn/kept_lines.h"
 #include "common/render/probe_path.h"
 #include "common/servo/hand_step.h"
 
@@ -39,11 +39,11 @@ class TractDrawing {
   void cut_to_note();
 
   /// Gives the tracts to `kept`; false where there are none.
-  bool keep(KeptLines& kept);
+  bool keep(DrawnLines& kept);
   /// Takes out the one at `index` of `kept`.
-  void remove(KeptLines& kept, std::size_t index);
+  void remove(DrawnLines& kept, std::size_t index);
   /// Takes back the last stroke, keep(), remove() or clear(); false where there is none.
-  bool undo(KeptLines& kept);
+  bool undo(DrawnLines& kept);
   /// How often that is possible.
   [[nodiscard]] std::size_t undo_depth() const noexcept;
 

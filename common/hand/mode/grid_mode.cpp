@@ -152,7 +152,7 @@ HapticChain make_plane_widget(const HapticScene& scene) {
   return made;
 }
 
-GridAxisSettings grid_settings(const GridWords& words) {
+GridAxisSettings grid_settings(const GridSpec& words) {
   GridAxisSettings settings;
   check_read(read_text(words.frame, settings.frame), "--grid-frame");
   check_read(read_text(words.marks, settings.marks), "--grid-marks");
@@ -172,13 +172,13 @@ GridAxisSettings grid_settings(const GridWords& words) {
   if (!std::isfinite(words.notch) || words.notch < 0.0)
     throw usage_error("--grid-notch: a distance of zero or more in mm is expected");
   settings.notch = kMetresPerMillimetre * words.notch;
-  settings.teeth = words.teeth;
-  if (!(words.teeth >= 0.0 && words.teeth <= 1.0))
-    throw usage_error("--grid-teeth: a number from 0 to 1 is expected");
+  settings.detents = words.detents;
+  if (!(words.detents >= 0.0 && words.detents <= 1.0))
+    throw usage_error("--grid-detents: a number from 0 to 1 is expected");
   return settings;
 }
 
-PlaneWidgetSettings plane_settings(const PlaneWords& words) {
+PlaneWidgetSettings plane_settings(const PlaneSpec& words) {
   PlaneWidgetSettings settings;
   check_read(read_text(words.planes, settings.poses), "--planes");
   constexpr double kMostDetent = 90.0;
@@ -190,7 +190,7 @@ PlaneWidgetSettings plane_settings(const PlaneWords& words) {
   return settings;
 }
 
-GridWords grid_words(const GridAxisSettings& settings) {
+GridSpec grid_text(const GridAxisSettings& settings) {
   const Vec3& h = settings.spacing;
   return {.frame = text_of(settings.frame),
           .spacing = h.x > 0.0 && h.y > 0.0 && h.z > 0.0 ? exact_text(h) : std::string(),
@@ -199,10 +199,10 @@ GridWords grid_words(const GridAxisSettings& settings) {
           .peaks = settings.peaks,
           .pull = settings.threshold / kMetresPerMillimetre,
           .notch = settings.notch / kMetresPerMillimetre,
-          .teeth = settings.teeth};
+          .detents = settings.detents};
 }
 
-PlaneWords plane_words(const PlaneWidgetSettings& settings) {
+PlaneSpec plane_text(const PlaneWidgetSettings& settings) {
   return {.planes = settings.poses.count > 0 ? text_of(settings.poses) : std::string(),
           .detent = settings.detent,
           .sphere = settings.radius / kMetresPerMillimetre,
@@ -210,13 +210,13 @@ PlaneWords plane_words(const PlaneWidgetSettings& settings) {
 }
 
 std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings) {
-  const GridWords words = grid_words(settings);
+  const GridSpec words = grid_text(settings);
   std::vector<std::pair<std::string, std::string>> options{{"grid-frame", words.frame},
                                                            {"grid-switch", words.switch_at},
                                                            {"grid-peaks", std::to_string(words.peaks)},
                                                            {"grid-pull", exact_number(words.pull)},
                                                            {"grid-notch", exact_number(words.notch)},
-                                                           {"grid-teeth", exact_number(words.teeth)}};
+                                                           {"grid-detents", exact_number(words.detents)}};
   if (!words.spacing.empty()) options.emplace_back("grid-spacing", words.spacing);
   if (!words.marks.empty()) options.emplace_back("grid-marks", words.marks);
   return options;

@@ -10,17 +10,17 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/constraint/grid_axis_settings.h"
 #include "common/haptics/constraint/plane_widget_settings.h"
-#include "common/scene/touch_words.h"
+#include "common/scene/touch_spec.h"
 
 namespace palpate {
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
-[[nodiscard]] GridAxisSettings grid_settings(const GridWords& words);
-[[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneWords& words);
+[[nodiscard]] GridAxisSettings grid_settings(const GridSpec& words);
+[[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneSpec& words);
 
 /// The same as words, lengths to rounding.
-[[nodiscard]] GridWords grid_words(const GridAxisSettings& settings);
-[[nodiscard]] PlaneWords plane_words(const PlaneWidgetSettings& settings);
+[[nodiscard]] GridSpec grid_text(const GridAxisSettings& settings);
+[[nodiscard]] PlaneSpec plane_text(const PlaneWidgetSettings& settings);
 /// Those of a grid as options, names without dashes.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings);
 

@@ -121,7 +121,7 @@ HapticChain make_linear(const HapticScene& scene) {
       std::make_unique<LinearConstraint>(make_frame(scene), std::array{measures, measures, measures}), scene);
 }
 
-LinearSettings linear_settings(const LinearWords& words) {
+LinearSettings linear_settings(const LinearSpec& words) {
   LinearSettings settings;
   settings.reference = named<LinearReference>(words.reference, kLinearReferenceCount, "--reference");
   settings.measure = named<LinearMeasure>(words.measure, kLinearMeasureCount, "--measure");
@@ -155,7 +155,7 @@ LinearSettings linear_settings(const LinearWords& words) {
   return settings;
 }
 
-LinearWords linear_words(const LinearSettings& settings) {
+LinearSpec linear_text(const LinearSettings& settings) {
   return {.reference = std::string(name_of(settings.reference)),
           .axes = text_of_axes(settings, ',', [](const LinearAxis& axis) { return name_of(axis.rule); }),
           .tau = text_of_curves(settings,
@@ -166,7 +166,7 @@ LinearWords linear_words(const LinearSettings& settings) {
 }
 
 std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings) {
-  const LinearWords words = linear_words(settings);
+  const LinearSpec words = linear_text(settings);
   return {
       {"reference", words.reference}, {"axes", words.axes},       {"tau", words.tau},
       {"kappa", words.kappa},         {"measure", words.measure}, {"friction", exact_number(words.friction)}};

@@ -8,15 +8,15 @@
 
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/constraint/linear_settings.h"
-#include "common/scene/touch_words.h"
+#include "common/scene/touch_spec.h"
 
 namespace palpate {
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
-[[nodiscard]] LinearSettings linear_settings(const LinearWords& words);
+[[nodiscard]] LinearSettings linear_settings(const LinearSpec& words);
 
 /// The same as words.
-[[nodiscard]] LinearWords linear_words(const LinearSettings& settings);
+[[nodiscard]] LinearSpec linear_text(const LinearSettings& settings);
 /// The settings as options, names without dashes: linear_settings() reads them back, thresholds to rounding.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings);
 

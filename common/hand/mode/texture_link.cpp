@@ -39,7 +39,7 @@ TextureSettings texture_settings(const std::string& words) {
   return settings;
 }
 
-std::string texture_words(const TextureSettings& settings) {
+std::string texture_text(const TextureSettings& settings) {
   if (!settings.by_noise) return "off";
   return settings.grain == TextureSettings{}.grain ? "on" : settings.grain.text(kMetresPerMillimetre);
 }

@@ -26,6 +26,6 @@ namespace palpate {
 /// @throws Error (usage) that says what is expected.
 [[nodiscard]] TextureSettings texture_settings(const std::string& words);
 /// The inverse of texture_settings().
-[[nodiscard]] std::string texture_words(const TextureSettings& settings);
+[[nodiscard]] std::string texture_text(const TextureSettings& settings);
 
 }  // namespace palpate

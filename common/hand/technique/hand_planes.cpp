@@ -5,13 +5,13 @@
 namespace palpate {
 
 void HandPlanes::follow(std::shared_ptr<WidgetNewsBuffer> told) {
-  told_ = std::move(told);
+  reported_ = std::move(told);
   news_.reset();
 }
 
 void HandPlanes::read(int edit) {
   WidgetNews news;
-  if (!told_ || !told_->read(news) || news.edit != edit) return;
+  if (!reported_ || !reported_->read(news) || news.edit != edit) return;
   news_ = news;
 }
 

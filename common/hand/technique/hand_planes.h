@@ -16,12 +16,12 @@ class HandPlanes {
   void read(int edit);
 
   /// Whether the chain has planes, told of or not.
-  [[nodiscard]] bool there() const noexcept { return told_ != nullptr; }
+  [[nodiscard]] bool there() const noexcept { return reported_ != nullptr; }
   /// What the servo told last; none in other modes, and before it tells.
   [[nodiscard]] const std::optional<WidgetNews>& news() const noexcept { return news_; }
 
  private:
-  std::shared_ptr<WidgetNewsBuffer> told_;
+  std::shared_ptr<WidgetNewsBuffer> reported_;
   std::optional<WidgetNews> news_;
 };
 

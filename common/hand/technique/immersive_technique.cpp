@@ -4,17 +4,17 @@
 
 namespace palpate {
 
-ImmersiveTechnique::ImmersiveTechnique(WorkbenchGeometry bench, const Vec3& middle, double scale)
-    : bench_(std::move(bench)), place_(place_of(bench_.interaction, middle, scale)) {
+ImmersiveTechnique::ImmersiveTechnique(WorkbenchGeometry workbench, const Vec3& middle, double scale)
+    : workbench_(std::move(workbench)), place_(place_of(workbench_.interaction, middle, scale)) {
   intent_.probe = middle;
 }
 
 TrackerPose ImmersiveTechnique::corrected(const TrackerPose& reported) const noexcept {
-  return bench_.tracker ? bench_.tracker->corrected(reported) : reported;
+  return workbench_.tracker ? workbench_.tracker->corrected(reported) : reported;
 }
 
 Vec3 ImmersiveTechnique::on_surface(const Vec3& q) const noexcept {
-  const auto& plane = bench_.interaction.surface;
+  const auto& plane = workbench_.interaction.surface;
   if (!plane) return q;
   const Vec3 n{*plane};
   return q - (glm::dot(n, q) - plane->w) * n;
@@ -34,9 +34,9 @@ bool ImmersiveTechnique::take(const HandEvent& event, const HandsView& view) noe
   intent_.stylus.reset();
   if (hands->stylus) {
     const TrackerPose pose = corrected(*hands->stylus);
-    const Vec3 shaft = bench_.stylus.value_or(Vec3{0.0});
+    const Vec3 shaft = workbench_.stylus.value_or(Vec3{0.0});
     const Vec3 tip = pose.position + pose.orientation * shaft;
-    tip_ = place_(on_surface(tip + bench_.interaction.tip_offset));
+    tip_ = place_(on_surface(tip + workbench_.interaction.tip_offset));
     if (hands->clutch) offset_ = intent_.probe - tip_;
     if (!hands->clutch) intent_.probe = tip_ + offset_;
     const Vec3 along = glm::length(shaft) > 0.0 ? glm::normalize(shaft) : Vec3{0.0, 0.0, -1.0};

@@ -3,7 +3,7 @@
 ///
 /// Symbols. q place of a tip or sensor in the tracker's frame [m], after the correction of its distortion; e
 /// the offset from the tip to its picture; (n, d) the plane that the tip moves on, where there is one; B the
-/// similarity to the data (bench_place.h), with the turn R.
+/// similarity to the data (workbench_place.h), with the turn R.
 ///
 ///   x = o + B(P(q + e)),   P(q) = q - (n.q - d) n, or q where there is no plane                      (1)
 ///
@@ -25,10 +25,10 @@ namespace palpate {
 
 class ImmersiveTechnique final : public InteractionTechnique {
  public:
-  /// @param bench its correction of the tracker and tip of the stylus are used, where it has such.
+  /// @param workbench its correction of the tracker and tip of the stylus are used, where it has such.
   /// @param middle of the data  @param scale metres of the workspace per data unit; both say what B is until
   /// a view does (HandsView).
-  ImmersiveTechnique(WorkbenchGeometry bench, const Vec3& middle, double scale);
+  ImmersiveTechnique(WorkbenchGeometry workbench, const Vec3& middle, double scale);
 
   void put(const Vec3& probe) noexcept override;
   bool take(const HandEvent& event, const HandsView& view) noexcept override;
@@ -37,8 +37,8 @@ class ImmersiveTechnique final : public InteractionTechnique {
   [[nodiscard]] TrackerPose corrected(const TrackerPose& reported) const noexcept;
   [[nodiscard]] Vec3 on_surface(const Vec3& q) const noexcept;
 
-  WorkbenchGeometry bench_;
-  BenchPlace place_;           ///< B
+  WorkbenchGeometry workbench_;
+  WorkbenchPlace place_;       ///< B
   Vec3 offset_{0.0};           ///< o
   Vec3 tip_{0.0};              ///< (1) without o, of the stylus that was seen last
   std::optional<Rigid> grip_;  ///< of the other hand, when it took hold

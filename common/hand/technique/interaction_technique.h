@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "common/device/tracked_hands.h"
-#include "common/hand/technique/bench_place.h"
 #include "common/hand/technique/pick.h"
 #include "common/hand/technique/probe_mouse.h"
+#include "common/hand/technique/workbench_place.h"
 #include "common/math/quaternion.h"
 
 namespace palpate {
@@ -44,7 +44,7 @@ struct HandsView {
   PictureSize size;
   std::optional<Vec3> held;  ///< the proxy, while something holds it
   /// Where the data is at the workbench; none: as its file says.
-  std::optional<BenchPlace> place;
+  std::optional<WorkbenchPlace> place;
 };
 
 class InteractionTechnique {

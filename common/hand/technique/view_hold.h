@@ -1,5 +1,5 @@
 /// A hand that takes hold of the scene and carries the view over a haptic grid (Ikits 2006, sec. 8.5: camera
-/// control): along one axis of the grid at a time, and with teeth by whole steps of it.
+/// control): along one axis of the grid at a time, and with detents by whole steps of it.
 ///
 /// While the button is held the hand goes on as if the camera stood still; what is drawn is the view moved by
 ///

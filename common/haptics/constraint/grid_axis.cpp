@@ -102,15 +102,15 @@ void GridAxis::update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpd
   }
   const int a = leading_;
   const Notch notch = notch_near(u[a]);
-  const bool teeth = settings_.teeth > 0.0;
+  const bool detents = settings_.detents > 0.0;
   if (notch.there && std::abs(u[a] - notch.at) < notch.reach) {
     at_[a] = notch.at;
     link.kappa[a] = notch_hold(u[a] - notch.at, notch.reach);
     link.jacobian = Mat3{0.0};
   } else {
-    at_[a] = teeth ? node(a, at_[a] + snap_drag(u[a] - at_[a], spacing_[a])) : u[a];
-    if (teeth) link.kappa[a] = settings_.teeth;
-    link.jacobian = teeth ? Mat3{0.0} : glm::outerProduct(axes_[a], axes_[a]);
+    at_[a] = detents ? node(a, at_[a] + snap_drag(u[a] - at_[a], spacing_[a])) : u[a];
+    if (detents) link.kappa[a] = settings_.detents;
+    link.jacobian = detents ? Mat3{0.0} : glm::outerProduct(axes_[a], axes_[a]);
   }
   link.proxy = origin_ + axes_ * at_;
   link.frame = axes_;

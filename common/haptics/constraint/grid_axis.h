@@ -11,7 +11,7 @@
 /// axis a pull across changes nothing: an axis left there would pull back at once, for ever. Along an axis
 /// that does not lead q keeps its very bits.
 ///
-/// With teeth, q_a stays on nodes, from one to the next by the snap-drag rule with tau = h_a.
+/// With detents, q_a stays on nodes, from one to the next by the snap-drag rule with tau = h_a.
 ///
 /// Landmarks are planes m_i . q = c_i, felt where the axis that leads crosses them, at
 /// l_i = (c_i - sum_(b != a) m_ib q_b) / m_ia, as notches of half-width w:

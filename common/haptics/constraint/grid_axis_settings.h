@@ -75,7 +75,7 @@ struct GridAxisSettings {
   static constexpr int kMostPeaks = 8;
 
   double threshold = 0.006;  ///< pull across the axis by which another one takes over [m]
-  double teeth = 0.0;        ///< kappa of the nodes along the axis, in [0, 1]; 0: it is followed freely
+  double detents = 0.0;      ///< kappa of the nodes along the axis, in [0, 1]; 0: it is followed freely
   double notch = 0.003;      ///< reach of a landmark along the axis [m]; 0: landmarks are not felt
   GridSwitch switch_at = GridSwitch::kNodes;
   /// The rest takes effect when the chain is built.
@@ -87,7 +87,7 @@ struct GridAxisSettings {
   bool operator==(const GridAxisSettings&) const = default;
 
   [[nodiscard]] bool valid() const noexcept {
-    return threshold > 0.0 && std::isfinite(threshold) && teeth >= 0.0 && teeth <= 1.0 && notch >= 0.0 &&
+    return threshold > 0.0 && std::isfinite(threshold) && detents >= 0.0 && detents <= 1.0 && notch >= 0.0 &&
            std::isfinite(notch) && frame.valid() && is_finite(spacing) && spacing.x >= 0.0 &&
            spacing.y >= 0.0 && spacing.z >= 0.0 && peaks >= 0 && peaks <= kMostPeaks && marks.valid();
   }
@@ -102,7 +102,7 @@ struct GridAxisSettings {
   template <typename Self, typename Visit>
   static void each(Self& self, Visit&& visit) {
     visit("grid_axis.threshold", self.threshold);
-    visit("grid_axis.teeth", self.teeth);
+    visit("grid_axis.detents", self.detents);
     visit("grid_axis.notch", self.notch);
     visit("grid_axis.switch", self.switch_at);
     visit("grid_axis.frame", self.frame);

@@ -49,7 +49,7 @@ bool ProbePass::update(const SceneView& view, const SceneFrame& frame, const Val
   const bool other_colors = range != range_ || style_ != view.style;
   if (probe.followed != shown_followed_ || other_frame || other_colors) upload_followed(view, frame, range);
   if (probe.seeds != shown_seeds_ || other_frame || other_colors) upload_seeds(view, frame, range);
-  if (probe.kept != shown_kept_ || other_frame) upload_kept(view, frame);
+  if (probe.drawn_lines != shown_kept_ || other_frame) upload_cached(view, frame);
   frame_ = frame;
   range_ = range;
   style_ = view.style;
@@ -79,11 +79,11 @@ void ProbePass::upload_seeds(const SceneView& view, const SceneFrame& frame, con
   seeds_.set_values(map_coordinates(line_values(lines, style), style, own));
 }
 
-void ProbePass::upload_kept(const SceneView& view, const SceneFrame& frame) {
-  shown_kept_ = view.probe->kept;
+void ProbePass::upload_cached(const SceneView& view, const SceneFrame& frame) {
+  shown_kept_ = view.probe->drawn_lines;
   kept_.clear();
   if (!shown_kept_) return;
-  for (const KeptLine& kept : *shown_kept_) {
+  for (const DrawnLine& kept : *shown_kept_) {
     kept_.emplace_back();
     kept_.back().set_geometry(kept.line ? make_line_geometry({*kept.line}, frame) : LineGeometry{});
   }
@@ -158,8 +158,8 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
   how.coloring = LineDraw::Coloring::kOneColor;
   program.use(ColorMap::kSequential);
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    const KeptLine& kept = (*shown_kept_)[i];
-    how.color = kept.color.value_or(kept_color(kept.number));
+    const DrawnLine& kept = (*shown_kept_)[i];
+    how.color = kept.color.value_or(cached_color(kept.number));
     kept_[i].draw(how);
   }
   if (shown_followed_) {

@@ -50,7 +50,7 @@ class ProbePass {
                  std::size_t last) const;
   void upload_followed(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
   void upload_seeds(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
-  void upload_kept(const SceneView& view, const SceneFrame& frame);
+  void upload_cached(const SceneView& view, const SceneFrame& frame);
 
   LineSet followed_, seeds_;
   std::vector<LineSet> kept_;  // one a line: each has its own colour
@@ -66,7 +66,7 @@ class ProbePass {
   std::optional<LineStyle> style_;
   std::shared_ptr<const FollowedLine> shown_followed_;
   std::shared_ptr<const LocalSeeds> shown_seeds_;
-  std::shared_ptr<const std::vector<KeptLine>> shown_kept_;
+  std::shared_ptr<const std::vector<DrawnLine>> shown_kept_;
   bool followed_has_values_ = false;
 };
 

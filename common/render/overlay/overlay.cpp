@@ -179,16 +179,16 @@ void draw_notes(const OverlayPen& pen, const SceneView& view, int width, int hei
 }
 
 // Newtons beside the middle of the band, numbers at the first points of kept lines.
-void draw_probe_words(const OverlayPen& pen, const SceneView& view, int width, int height) {
+void draw_probe_text(const OverlayPen& pen, const SceneView& view, int width, int height) {
   const ProbeView& probe = *view.probe;
   const float em = pen.text_height();
-  if (probe.kept) {
-    for (const KeptLine& kept : *probe.kept) {
+  if (probe.drawn_lines) {
+    for (const DrawnLine& kept : *probe.drawn_lines) {
       if (kept.number == 0 || !kept.line || kept.line->points.empty()) continue;
       const auto at = place_of(view, kept.line->points.front().position, width, height);
       if (!at) continue;
       pen.text(at->x + 0.5F * em, at->y - 1.2F * em, std::to_string(kept.number),
-               packed(kept.color.value_or(kept_color(kept.number))));
+               packed(kept.color.value_or(cached_color(kept.number))));
     }
   }
   const bool pulled =
@@ -254,7 +254,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   if (view.show_axes) draw_axes(pen, view, height);
   if (view.anatomical) draw_sides(pen, view, width, height);
   draw_notes(pen, view, width, height);
-  if (view.probe) draw_probe_words(pen, view, width, height);
+  if (view.probe) draw_probe_text(pen, view, width, height);
   if (view.show_color_bar) draw_colors(pen, view, legend, width, height);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -10,7 +10,7 @@ std::vector<SurfaceView> show_surfaces(const std::vector<std::shared_ptr<const I
   for (const auto& mesh : meshes) {
     SurfaceView surface{.mesh = mesh};
     if (meshes.size() > 1) {
-      surface.color = kept_color(static_cast<int>(surfaces.size()) + 1);
+      surface.color = cached_color(static_cast<int>(surfaces.size()) + 1);
       surface.opacity = kHalf;
     }
     surfaces.push_back(std::move(surface));

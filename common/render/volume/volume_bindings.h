@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kShapeBlock = 
 // Textures. Those of slabs and of the context are never in one program.
 inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4,
                                kColors = 5;
-inline constexpr std::uint32_t kKeptPicture = 6, kKeptDepth = 7, kStillDepth = 8;
+inline constexpr std::uint32_t kCachedPicture = 6, kCachedDepth = 7, kStillDepth = 8;
 inline constexpr std::uint32_t kContextFront = 6, kContextBack = 7, kContextKind = 8, kTileKinds = 9,
                                kCoarseVoxels = 10;
 inline constexpr std::uint32_t kBrickIndex = 11;
@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kRegionTables = 15;
 inline constexpr std::int32_t kHasOpaqueDepth = 0;
 inline constexpr std::int32_t kSlabNormal = 1, kSlabBorders = 2;
 inline constexpr std::int32_t kContextPixel = 4, kWantedKind = 5, kFarthestLens = 6;
-inline constexpr std::int32_t kHasKept = 40, kDepthPixel = 41;
+inline constexpr std::int32_t kHasCached = 40, kDepthPixel = 41;
 
 /// A uniform block's buffer.
 template <typename Block>

@@ -21,9 +21,9 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/program.h"
 #include "common/render/line/line_layers.h"
+#include "common/render/volume/cached_volume.h"
 #include "common/render/volume/context_picture.h"
 #include "common/render/volume/estimate/image_error.h"
-#include "common/render/volume/kept_volume.h"
 #include "common/render/volume/plane_image_pass.h"
 #include "common/render/volume/shape_block.h"
 #include "common/render/volume/slab_cache.h"
@@ -113,8 +113,8 @@ struct VolumePass::State {
   std::unique_ptr<SlabCache> slabs;
   std::size_t moving_cut = 0;  // of `slabs`
   bool made_slabs = false;
-  std::unique_ptr<KeptVolume> kept;
-  bool kept_picture = false;  // by the last draw()
+  std::unique_ptr<CachedVolume> cached;
+  bool cached_picture = false;  // by the last draw()
 
   const GlProgram& program_of(Reach reach) {
     GlProgram& program = programs[as_size(reach)][as_size(variant)];
@@ -126,8 +126,8 @@ struct VolumePass::State {
     return program;
   }
 
-  [[nodiscard]] bool keeps_slabs() const {
-    return shown.keep_slabs && layers == nullptr && !has_regions(shown) && !samples_less_far(shown) &&
+  [[nodiscard]] bool caches_slabs() const {
+    return shown.cache_slabs && layers == nullptr && !has_regions(shown) && !samples_less_far(shown) &&
            !is_colored(variant);
   }
 
@@ -135,7 +135,7 @@ struct VolumePass::State {
   bool uses_slabs(const FrameBlock& block, bool opaque) {
     if (slabs && slabs->fits(shown, block, opaque)) return true;
     slabs.reset();
-    if (!keeps_slabs()) return false;
+    if (!caches_slabs()) return false;
     if (!drawn_view || !same_camera(drawn_block, block)) return false;
     const auto cut = moved_cut(*drawn_view, shown);
     if (!cut) return false;
@@ -168,7 +168,7 @@ struct VolumePass::State {
             std::uint32_t opaque_depth) {
     bind_volume(volume, shapes);
     use(program, opaque_depth, 1.0F);
-    if (!context) glUniform1i(volume_shader::kHasKept, 0);
+    if (!context) glUniform1i(volume_shader::kHasCached, 0);
   }
 
   // @param step pixels of opaque_depth to one of the picture.
@@ -197,14 +197,14 @@ struct VolumePass::State {
   }
 
   // Rays of all pixels but those that `seen` shows already, with other samples and tables.
-  void cast_again(const VolumeView& as, std::uint32_t opaque_depth, float step, const KeptVolume* seen) {
+  void cast_again(const VolumeView& as, std::uint32_t opaque_depth, float step, const CachedVolume* seen) {
     if (!again) again = std::make_unique<VolumeVariant>();
     again->update(as, frame, textures);
     glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kVolumeBlock, again->volume_block.name());
     bind_shape_block(again->shape_block, again->room);
     again->textures.bind(is_colored(variant));
     use(program_again(), opaque_depth, step);
-    glUniform1i(volume_shader::kHasKept, seen != nullptr ? 1 : 0);
+    glUniform1i(volume_shader::kHasCached, seen != nullptr ? 1 : 0);
     if (seen != nullptr) glBindTextureUnit(volume_shader::kStillDepth, seen->depth());
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -220,8 +220,8 @@ struct VolumePass::State {
   static void set_slab(const SlabCache::Slab& slab) {
     glUniform3f(volume_shader::kSlabNormal, slab.normal.x, slab.normal.y, slab.normal.z);
     glUniform2f(volume_shader::kSlabBorders, slab.lower, slab.upper);
-    glBindTextureUnit(volume_shader::kKeptPicture, slab.kept);
-    glBindTextureUnit(volume_shader::kKeptDepth, slab.depth);
+    glBindTextureUnit(volume_shader::kCachedPicture, slab.kept);
+    glBindTextureUnit(volume_shader::kCachedDepth, slab.depth);
   }
 
   // Drivers compile at the first draw into a framebuffer: here with no pixel of it.
@@ -267,7 +267,7 @@ struct VolumePass::State {
   }
 
   // Casts rays over the framebuffer that is bound, but for those that `seen` shows already.
-  void draw_volume(bool slab, std::uint32_t opaque_depth, const FrameBlock& block, const KeptVolume* seen) {
+  void draw_volume(bool slab, std::uint32_t opaque_depth, const FrameBlock& block, const CachedVolume* seen) {
     if (context) {
       context->draw(opaque_depth, block);
       context->show();
@@ -285,7 +285,7 @@ struct VolumePass::State {
     }
     if (seen != nullptr) {
       glBindTextureUnit(volume_shader::kStillDepth, seen->depth());
-      glUniform1i(volume_shader::kHasKept, 1);
+      glUniform1i(volume_shader::kHasCached, 1);
     }
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -305,9 +305,9 @@ void VolumePass::show_layers(const LineLayers* layers, bool same) {
   State& s = *state_;
   if ((layers != nullptr) != (s.layers != nullptr)) {
     s.slabs.reset();
-    s.kept.reset();
+    s.cached.reset();
   }
-  if (!same) s.kept.reset();
+  if (!same) s.cached.reset();
   s.layers = layers;
 }
 
@@ -327,7 +327,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.textures.update(view, make_brick_sight(block, frame));
   if (s.textures.changes() != voxels) {
     s.slabs.reset();
-    s.kept.reset();
+    s.cached.reset();
   }
   view.storage = asked.storage;
   view = s.textures.drawn(std::move(view));
@@ -364,29 +364,29 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
 void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
   State& s = *state_;
   PALPATE_CHECK(s.textures.image() != nullptr);
-  s.made_slabs = s.kept_picture = false;
+  s.made_slabs = s.cached_picture = false;
   s.cost.slab_bytes = 0;
   const bool slabs = !s.context && s.uses_slabs(block, opaque_depth != 0);
   const bool stands = s.drawn_view && s.drawn_block == block && same_picture(*s.drawn_view, s.shown);
   const bool keeps =
-      KeptVolume::possible(s.shown) || (s.kept && s.kept->refined() && s.kept->fits(s.shown, block));
+      CachedVolume::possible(s.shown) || (s.cached && s.cached->refined() && s.cached->fits(s.shown, block));
   if (opaque_depth != 0 && keeps && bricks().complete() && (stands || !slabs)) {
-    if (!s.kept || !s.kept->fits(s.shown, block)) {
-      s.kept = std::make_unique<KeptVolume>(s.shown, block, opaque_depth,
-                                            [&] { s.draw_volume(slabs, opaque_depth, block, nullptr); });
-      s.kept_picture = true;
+    if (!s.cached || !s.cached->fits(s.shown, block)) {
+      s.cached = std::make_unique<CachedVolume>(s.shown, block, opaque_depth,
+                                                [&] { s.draw_volume(slabs, opaque_depth, block, nullptr); });
+      s.cached_picture = true;
     }
-    s.kept->show(opaque_depth);
-    if (!s.kept_picture && s.context) {
-      s.cast_again(sampled_view(s.shown, 1.0, 1.0), opaque_depth, 1.0F, s.kept.get());
-    } else if (!s.kept_picture) {
-      s.draw_volume(slabs, opaque_depth, block, s.kept.get());
+    s.cached->show(opaque_depth);
+    if (!s.cached_picture && s.context) {
+      s.cast_again(sampled_view(s.shown, 1.0, 1.0), opaque_depth, 1.0F, s.cached.get());
+    } else if (!s.cached_picture) {
+      s.draw_volume(slabs, opaque_depth, block, s.cached.get());
     }
   } else {
-    s.kept.reset();
+    s.cached.reset();
     s.draw_volume(slabs, opaque_depth, block, nullptr);
   }
-  s.cost.kept_bytes = s.kept ? s.kept->bytes() : 0;
+  s.cost.cached_bytes = s.cached ? s.cached->bytes() : 0;
   s.drawn_view = s.shown;
   s.drawn_block = block;
   s.drawn_depth = opaque_depth;
@@ -405,19 +405,19 @@ void VolumePass::draw_as(const VolumeView& as, std::uint32_t opaque_depth, float
 bool VolumePass::refine(int doublings) {
   State& s = *state_;
   if (!s.drawn_view || s.drawn_depth == 0 || !bricks().complete()) return false;
-  if (!s.kept || !s.kept->fits(s.shown, s.drawn_block)) {
-    s.kept = std::make_unique<KeptVolume>(s.shown, s.drawn_block, s.drawn_depth, [&] {
+  if (!s.cached || !s.cached->fits(s.shown, s.drawn_block)) {
+    s.cached = std::make_unique<CachedVolume>(s.shown, s.drawn_block, s.drawn_depth, [&] {
       s.draw_volume(false, s.drawn_depth, s.drawn_block, nullptr);
     });
     return true;
   }
   const VolumeView finer = finer_view(s.shown, doublings);
-  return s.kept->refine(doublings, [&] { draw_as(finer, s.kept->depth(), 1.0F); });
+  return s.cached->refine(doublings, [&] { draw_as(finer, s.cached->depth(), 1.0F); });
 }
 
 bool VolumePass::prepare_slabs(std::size_t cut) {
   State& s = *state_;
-  if (!s.drawn_view || s.context || !s.keeps_slabs() || cut >= s.shown.cuts.size() || !s.shown.cuts[cut].on)
+  if (!s.drawn_view || s.context || !s.caches_slabs() || cut >= s.shown.cuts.size() || !s.shown.cuts[cut].on)
     return false;
   if (s.slabs && (s.moving_cut != cut || !s.slabs->fits(s.shown, s.drawn_block, s.drawn_depth != 0)))
     s.slabs.reset();
@@ -449,9 +449,9 @@ BrickShare VolumePass::bricks() const noexcept { return state_->textures.bricks_
 
 bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }
 
-bool VolumePass::kept_picture() const noexcept { return state_->kept_picture; }
+bool VolumePass::cached_picture() const noexcept { return state_->cached_picture; }
 
-void VolumePass::forget_picture() { state_->kept.reset(); }
+void VolumePass::forget_picture() { state_->cached.reset(); }
 
 void VolumePass::forget_slabs() {
   state_->slabs.reset();

@@ -54,7 +54,7 @@ class VolumePass {
   /// block, or 0 where there are none (RenderTarget::copy_depth).
   /// While one plane that cuts moves and all else stands still, what does not change is kept (slab_cache.h);
   /// any other change throws it away. While nothing of the volume changes, its picture may be
-  /// (VolumeView::keep_picture).
+  /// (VolumeView::cache_picture).
   /// @pre update().
   /// @param block the frame's.
   void draw(std::uint32_t opaque_depth, const FrameBlock& block);
@@ -95,7 +95,7 @@ class VolumePass {
   void forget_slabs();
   /// Whether the last draw() kept the picture that it made, so that the next ones of the same volume take
   /// less.
-  [[nodiscard]] bool kept_picture() const noexcept;
+  [[nodiscard]] bool cached_picture() const noexcept;
   /// Has the next draw() make it anew: opaque things have come to stay.
   void forget_picture();
 
@@ -110,7 +110,7 @@ class VolumePass {
     std::uint64_t table_bytes = 0;
     std::uint64_t brick_bytes = 0;
     std::uint64_t slab_bytes = 0;     ///< kept of a plane that moves
-    std::uint64_t kept_bytes = 0;     ///< the picture that is kept of a volume that stands still
+    std::uint64_t cached_bytes = 0;   ///< the cached picture of a volume that stands still
     std::uint64_t again_bytes = 0;    ///< tables of draw_as()
     std::uint64_t context_bytes = 0;  ///< coarser voxels, tables and pictures of the context, drawn alone
     double table_ms = 0.0;            ///< of the last preintegration

@@ -16,7 +16,7 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
          a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
          a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
          a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
-         a.stop_where_opaque == b.stop_where_opaque && a.keep_slabs == b.keep_slabs &&
+         a.stop_where_opaque == b.stop_where_opaque && a.cache_slabs == b.cache_slabs &&
          a.context == b.context && a.storage == b.storage;
 }
 

@@ -118,16 +118,16 @@ struct VolumeView {
   TableMaker table_maker = TableMaker::kFaster;  ///< kGpu where the driver can
   bool skip_empty = true;  ///< leave out bricks in which nothing is seen; changes no pixel by 1/255
   /// Keep pictures of slabs while one cut moves (slab_cache.h); changes no pixel by 1/255.
-  bool keep_slabs = true;
+  bool cache_slabs = true;
   /// Keep the picture of a volume that stands still, so that rays are cast anew only where opaque things move
-  /// (kept_volume.h); changes no pixel by 1/255.
-  bool keep_picture = false;
+  /// (cached_volume.h); changes no pixel by 1/255.
+  bool cache_picture = false;
   ContextQuality context;  ///< samples_per_voxel are of voxels of its level
   VoxelStorage storage;
   bool stop_where_opaque = true;  ///< end rays that let less than 1/512 of the light through
 };
 
-/// Whether both give the same picture, by the same means but for keep_picture and table_maker; images count
+/// Whether both give the same picture, by the same means but for cache_picture and table_maker; images count
 /// as the same where they are the same objects.
 [[nodiscard]] bool same_picture(const VolumeView& a, const VolumeView& b);
 

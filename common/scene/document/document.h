@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "common/scene/document/input_options.h"
-#include "common/scene/touch_words.h"
+#include "common/scene/touch_spec.h"
 
 namespace palpate {
 
@@ -126,7 +126,7 @@ struct TensorOptions {
 };
 
 /// Tracts of a file, and how tracts are drawn.
-struct TractLook {
+struct TractAppearance {
   std::string file;      ///< a tractogram; empty: none
   double width = 1.5;    ///< thousandths of the picture's height
   double opacity = 1.0;  ///< in (0, 1]
@@ -174,9 +174,9 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  LinearWords linear;                    ///< mode linear
-  GridWords grid;                        ///< mode grid
-  PlaneWords planes;                     ///< mode plane-widget
+  LinearSpec linear;                     ///< mode linear
+  GridSpec grid;                         ///< mode grid
+  PlaneSpec planes;                      ///< mode plane-widget
   std::string noise_texture = "off";     ///< grammar of texture_settings()
   double field_force = 1.0;              ///< [N] of the force-field modes
   double field_damping = 5.0;            ///< [N s/m], likewise
@@ -225,7 +225,7 @@ struct Document {
   VolumeOptions volume;
   SliceOptions slice;
   TensorOptions tensors;
-  TractLook tract_look;
+  TractAppearance tract_appearance;
   HeartOptions heart;
   SeriesOptions series;
   TouchOptions touch;

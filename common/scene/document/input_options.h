@@ -9,7 +9,7 @@
 #include "common/load/raw_layout.h"
 #include "common/scene/document/field_kind.h"
 #include "common/scene/remesher.h"
-#include "common/scene/tensor_words.h"
+#include "common/scene/tensor_spec.h"
 
 namespace palpate {
 
@@ -20,12 +20,12 @@ struct InputOptions {
   std::string example;                            ///< in place of files
   /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `beside`.
   std::string field;
-  std::vector<std::string> beside;      ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
+  std::vector<std::string> secondary;   ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
   std::string time;                     ///< first, last or a time; empty: the verb's default, the first
   FieldKind kind = FieldKind::kVector;  ///< what is taken from it: the program's own, no setting
   int refine = 0;                       ///< LoadRequest::refine
-  RawWords raw;        ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
-  TensorWords tensor;  ///< how tensors are read and fitted
+  RawSpec raw;         ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
+  TensorSpec tensor;   ///< how tensors are read and fitted
   std::string series;  ///< LoadRequest::series
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
   std::string mesher;  ///< what fills a heart's wall: cells, delaunay, tetgen; empty: the verb's default

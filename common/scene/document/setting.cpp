@@ -179,7 +179,7 @@ const std::vector<Setting>& settings() {
 
 const Setting* find_setting(std::string_view name, FieldKind kind) {
   const auto found = std::ranges::find_if(
-      settings(), [&](const Setting& row) { return row.kept && row.name == name && row.kinds.has(kind); });
+      settings(), [&](const Setting& row) { return row.saved && row.name == name && row.kinds.has(kind); });
   return found == settings().end() ? nullptr : &*found;
 }
 
@@ -192,7 +192,7 @@ const Setting& setting(std::string_view name) {
 std::string_view nearest_setting(std::string_view name, FieldKind kind) {
   std::string_view nearest;
   for (const Setting& row : settings()) {
-    if (!row.kept || !row.kinds.has(kind)) continue;
+    if (!row.saved || !row.kinds.has(kind)) continue;
     if (nearest.empty() || letters_apart(name, row.name) < letters_apart(name, nearest)) nearest = row.name;
   }
   return nearest;

@@ -117,7 +117,7 @@ struct Setting {
   std::string_view title = {};      ///< for panels; empty: the name, its dashes as blanks
   std::string_view alias = {};      ///< another spelling, with its dashes: "-o"
   Spelling spelling = Spelling::kOption;
-  bool kept = true;       ///< by sessions
+  bool saved = true;      ///< by sessions
   bool recorded = false;  ///< a recording of the hand has it
   bool file = false;      ///< its text may name a file
 

@@ -38,7 +38,7 @@ inline constexpr Place kSliceAt = kAt<&Document::slice, M...>;
 template <auto... M>
 inline constexpr Place kTensorLookAt = kAt<&Document::tensors, M...>;
 template <auto... M>
-inline constexpr Place kTractLookAt = kAt<&Document::tract_look, M...>;
+inline constexpr Place kTractAppearanceAt = kAt<&Document::tract_appearance, M...>;
 template <auto... M>
 inline constexpr Place kTouchAt = kAt<&Document::touch, M...>;
 template <auto... M>

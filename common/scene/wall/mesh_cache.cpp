@@ -18,7 +18,7 @@ namespace {
 using namespace message;
 
 /// Goes up with every change of how cells are sampled, split, meshed and kept.
-constexpr KeptFile::Kind kMesh{.what = "mesh", .version = "palpate mesh 1"};
+constexpr CachedFile::Kind kMesh{.what = "mesh", .version = "palpate mesh 1"};
 
 std::string key_of(const DataSet& block, const HeartChoice* choice, const WallMeshOptions& options,
                    int threads) {
@@ -125,8 +125,8 @@ void MeshCache::keep(const DataSet& block, const HeartChoice* choice, const Wall
   if (file_.wants(seconds)) file_.keep(key_of(block, choice, options, threads_), encode(mesh));
 }
 
-WallMesh kept_or_made_mesh(const DataSet& block, const HeartChoice* choice, const WallMeshOptions& options,
-                           const std::filesystem::path& input, Keeping keeping, Progress* progress) {
+WallMesh cached_or_made_mesh(const DataSet& block, const HeartChoice* choice, const WallMeshOptions& options,
+                             const std::filesystem::path& input, Keeping keeping, Progress* progress) {
   if (tetrahedra_alone(block)) keeping = Keeping::kOff;
   MeshCache cache(input, keeping, options.threads);
   std::optional<WallMesh> mesh = cache.find(block, choice, options);

@@ -1,4 +1,4 @@
-/// Tetrahedra that the mesher made, kept in "NAME.palpate.mesh" beside the file (kept_file.h), so that
+/// Tetrahedra that the mesher made, kept in "NAME.palpate.mesh" beside the file (cached_file.h), so that
 /// neither the next opening nor the next `mesh` runs it again.
 ///
 /// They belong to the cells and places that were meshed, to the directions that came along, and to the
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/kept_file.h"
+#include "common/scene/cached_file.h"
 #include "common/scene/wall/wall_mesh.h"
 
 namespace palpate {
@@ -32,15 +32,15 @@ class MeshCache {
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return file_.notes(); }
 
  private:
-  KeptFile file_;
+  CachedFile file_;
   int threads_;
 };
 
 /// make_wall_mesh(), or what was kept of it beside `input`; its notes say which. Tetrahedra of the file are
 /// not kept a second time.
 /// @throws as make_wall_mesh().
-[[nodiscard]] WallMesh kept_or_made_mesh(const DataSet& block, const HeartChoice* choice,
-                                         const WallMeshOptions& options, const std::filesystem::path& input,
-                                         Keeping keeping, Progress* progress);
+[[nodiscard]] WallMesh cached_or_made_mesh(const DataSet& block, const HeartChoice* choice,
+                                           const WallMeshOptions& options, const std::filesystem::path& input,
+                                           Keeping keeping, Progress* progress);
 
 }  // namespace palpate

@@ -33,9 +33,9 @@ WallMesh mesh_of(const Input& input, const DataSet& block, const std::optional<H
                  const WallMeshOptions& options, Progress* progress) {
   const InputOptions& spec = input.spec();
   const bool file = !spec.files.empty();
-  return kept_or_made_mesh(block, choice ? &*choice : nullptr, options,
-                           file ? spec.files.front() : std::filesystem::path(input.title()),
-                           file ? keeping_from_name(spec.cache) : Keeping::kOff, progress);
+  return cached_or_made_mesh(block, choice ? &*choice : nullptr, options,
+                             file ? spec.files.front() : std::filesystem::path(input.title()),
+                             file ? keeping_from_name(spec.cache) : Keeping::kOff, progress);
 }
 
 Remesher remesher_of(const Document& options) {

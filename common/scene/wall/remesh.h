@@ -25,7 +25,7 @@ namespace palpate {
 /// Its fibres for a mesh, which has directions at its points; nothing where there are none. @throws Error.
 [[nodiscard]] std::optional<HeartChoice> choice_for_mesh(const Input& input);
 
-/// kept_or_made_mesh() of an open input; a built-in one has no file to keep anything beside. @throws as that.
+/// cached_or_made_mesh() of an open input; a built-in one has no file to keep anything beside. @throws as that.
 [[nodiscard]] WallMesh mesh_of(const Input& input, const DataSet& block,
                                const std::optional<HeartChoice>& choice, const WallMeshOptions& options,
                                Progress* progress);

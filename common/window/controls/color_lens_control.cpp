@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/compose/lens_text.h"
-#include "common/hand/mode/felt_surfaces.h"
+#include "common/hand/mode/haptic_surfaces.h"
 #include "common/window/controls/pick_volume.h"
 
 namespace palpate {

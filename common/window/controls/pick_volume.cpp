@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/hand/mode/felt_surfaces.h"
+#include "common/hand/mode/haptic_surfaces.h"
 
 namespace palpate {
 

@@ -26,9 +26,9 @@ void SceneControls::place(const ControlledScene& on, bool two) {
 }
 
 Camera SceneControls::seeing(const ControlledScene& on) const {
-  if (on.bench == nullptr || on.beside_screens) return seeing_camera(on.view, pointer_.eye());
+  if (on.workbench == nullptr || on.beside_screens) return seeing_camera(on.view, pointer_.eye());
   SceneView seen = on.view;
-  on.bench->show(seen);
+  on.workbench->show(seen);
   return seeing_camera(seen, pointer_.eye());
 }
 
@@ -71,7 +71,7 @@ bool SceneControls::handle_plane_image(const InputEvent& event, const Controlled
 
 bool SceneControls::handle_lens(const InputEvent& event, const ControlledScene& on) {
   if (on.has_layer())
-    return color_lens_.handle(event, pointer_.area(), {on.scene->felt_scalar, shown_layer(*on.scene)},
+    return color_lens_.handle(event, pointer_.area(), {on.scene->haptic_scalar, shown_layer(*on.scene)},
                               on.view);
   if (!on.view.volume) return false;
   lens_moved_ = lens_moved_ || lens_.followed();
@@ -124,10 +124,10 @@ void SceneControls::let_go() {
 
 std::optional<std::string> SceneControls::work_in_space(const ControlledScene& on) {
   Camera seeing = on.view.camera;
-  if (on.bench != nullptr) {
+  if (on.workbench != nullptr) {
     // Between both eyes, where they are before the screen.
-    const Eyes& eyes = on.bench->eyes();
-    const Vec3 viewer = place_of(on.view.camera, on.bench->screen())(0.5 * (eyes[0] + eyes[1]));
+    const Eyes& eyes = on.workbench->eyes();
+    const Vec3 viewer = place_of(on.view.camera, on.workbench->screen())(0.5 * (eyes[0] + eyes[1]));
     if (glm::dot(viewer - seeing.focal_point, seeing.axes[2]) > 0.0) seeing = seen_from(seeing, viewer);
   }
   auto words = hand_in_space_.follow(menu_, session_, on.view, seeing, pointer_.area(), on.time);
@@ -176,7 +176,7 @@ void SceneControls::decorate(const ControlledScene& on, SceneView& picture) {
       for (Vec3& proxy : picture.probe->links) proxy += moved;
     }
   }
-  if (auto menu = menu_.drawn()) picture.signs.push_back(std::move(*menu));
+  if (auto menu = menu_.drawn()) picture.labels.push_back(std::move(*menu));
   picture.notes = notes_of(session_.notes(), length_unit(picture), next_mark(on));
   if (const auto& picked = hand_in_space_.picked()) picture.notes.push_back(note_of(*picked));
   std::vector<std::vector<Vec3>> handled;

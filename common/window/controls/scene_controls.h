@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "common/hand/bench/bench_display.h"
 #include "common/hand/technique/view_hold.h"
+#include "common/hand/workbench/workbench_display.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/controls/lens_control.h"
 #include "common/window/controls/plane_image_control.h"
@@ -27,7 +27,7 @@ struct ControlledScene {
   SceneView& view;
   PictureArea picture;
   /// Shows the data as a screen of a workbench does to the head before it; null: a desktop.
-  const BenchDisplay* bench = nullptr;
+  const WorkbenchDisplay* workbench = nullptr;
   bool beside_screens = false;  ///< these are windows of their own, and this one is a desktop
   double time = 0.0;            ///< [s] of a steady clock
 

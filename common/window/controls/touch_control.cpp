@@ -127,7 +127,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
     if (const auto pick = pick_slice(*view.tensors, view.camera, size.width, size.height, mouse.x, mouse.y))
       return pick->position;
   }
-  if (const FeltLevels felt = session_.data().levels(); felt.field) {
+  if (const HapticLevels felt = session_.data().levels(); felt.field) {
     const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
     const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
     const Vec3 viewer =
@@ -283,7 +283,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
           break;
       }
       return (session_.data().has_tensors() ? "kept tract " : "kept line ") +
-             std::to_string(session_.trail().kept().entries().back().number) +
+             std::to_string(session_.trail().drawn_lines().entries().back().number) +
              "; Ctrl+E saves all that are kept";
     }
     case Command::kLocalLines: {

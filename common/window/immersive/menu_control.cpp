@@ -150,10 +150,10 @@ std::optional<Dial> MenuControl::held_way() const { return menu_ ? menu_->held_w
 
 std::optional<Vec3> MenuControl::mouse_place(const Camera& camera, const PictureArea& area) const {
   if (!menu_) return std::nullopt;
-  const SignView sign = menu_->drawn();
+  const LabelView label = menu_->drawn();
   const Ray ray = ray_through(camera, area, x_ - area.left, y_ - area.top);
-  const double slope = glm::dot(ray.direction, sign.axes[2]);
-  const double along = glm::dot(sign.origin - ray.origin, sign.axes[2]) / slope;
+  const double slope = glm::dot(ray.direction, label.axes[2]);
+  const double along = glm::dot(label.origin - ray.origin, label.axes[2]) / slope;
   if (!(along > 0.0) || !std::isfinite(along)) return std::nullopt;
   return ray.origin + along * ray.direction;
 }
@@ -189,7 +189,7 @@ std::vector<Command> MenuControl::act(const SceneState& scene, Document& documen
   return commands;
 }
 
-std::optional<SignView> MenuControl::drawn() const {
+std::optional<LabelView> MenuControl::drawn() const {
   return menu_ ? std::optional(menu_->drawn()) : std::nullopt;
 }
 

@@ -51,7 +51,7 @@ class MenuControl {
   /// Carries out what was done since: sliders and knobs change `document` and `view`. @return commands that
   /// were chosen, oldest first.
   [[nodiscard]] std::vector<Command> act(const SceneState& scene, Document& document, SceneView& view);
-  [[nodiscard]] std::optional<SignView> drawn() const;
+  [[nodiscard]] std::optional<LabelView> drawn() const;
 
  private:
   void take(const SpaceEvent& event);

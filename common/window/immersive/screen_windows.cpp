@@ -99,11 +99,11 @@ struct ScreenWindows::State {
   }
 };
 
-ScreenWindows::ScreenWindows(GlfwWindow& main, const BenchDisplayOptions& bench, const StereoView& stereo,
-                             bool hidden)
+ScreenWindows::ScreenWindows(GlfwWindow& main, const WorkbenchDisplayOptions& workbench,
+                             const StereoView& stereo, bool hidden)
     : state_(std::make_unique<State>()) {
   state_->main = main.get();
-  for (const ScreenGeometry& screen : bench.bench.screens) {
+  for (const ScreenGeometry& screen : workbench.workbench.screens) {
     ScreenWindow window{.screen = screen, .stereo = stereo};
     if (stereo.mode == StereoMode::kNone) window.stereo.mode = screen.stereo;
     window.window = open_window(main.get(), screen, window.stereo.mode, hidden);
@@ -124,7 +124,8 @@ ScreenWindows::~ScreenWindows() {
   }
 }
 
-void ScreenWindows::draw(const SceneView& view, const BenchDisplay& bench, const FrameQuality& quality) {
+void ScreenWindows::draw(const SceneView& view, const WorkbenchDisplay& workbench,
+                         const FrameQuality& quality) {
   std::vector<const ScreenWindow*> drawn;
   for (ScreenWindow& w : state_->windows) {
     state_->resize(w);
@@ -132,7 +133,7 @@ void ScreenWindows::draw(const SceneView& view, const BenchDisplay& bench, const
     SceneView seen = with_quality(view, quality);
     seen.stereo = w.stereo;
     seen.stereo.first = pixel_on_monitor(w.window);
-    bench.show(w.screen.corners, seen);
+    workbench.show(w.screen.corners, seen);
     if (w.shown && same_picture(*w.shown, seen) && w.resolution == quality.resolution) continue;
     state_->renderer.draw(seen, w.width, w.height, quality.resolution);
     state_->renderer.show(0, 0, w.framebuffer.name());

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "common/hand/bench/bench_display.h"
+#include "common/hand/workbench/workbench_display.h"
 #include "common/render/budget/frame_quality.h"
 #include "common/render/scene_view.h"
 
@@ -21,14 +21,15 @@ class ScreenWindows {
   /// @param main whose context is current, now and at all calls; it takes their keys, and outlives this.
   /// @param stereo how screens show two eyes that do not say so themselves.
   /// @throws Error (work failed) where a window cannot be opened, such as one for two buffers.
-  ScreenWindows(GlfwWindow& main, const BenchDisplayOptions& bench, const StereoView& stereo, bool hidden);
+  ScreenWindows(GlfwWindow& main, const WorkbenchDisplayOptions& workbench, const StereoView& stereo,
+                bool hidden);
   ~ScreenWindows();
   ScreenWindows(const ScreenWindows&) = delete;
   ScreenWindows& operator=(const ScreenWindows&) = delete;
 
-  /// Draws and shows what has changed. `view`'s camera is that of `bench`'s screen. Leaves the main window's
+  /// Draws and shows what has changed. `view`'s camera is that of `workbench`'s screen. Leaves the main window's
   /// context current.
-  void draw(const SceneView& view, const BenchDisplay& bench, const FrameQuality& quality);
+  void draw(const SceneView& view, const WorkbenchDisplay& workbench, const FrameQuality& quality);
   /// Whether one of them was asked to close.
   [[nodiscard]] bool close_asked() const;
   /// What the screens show, as they would be seen in a file.

@@ -51,14 +51,14 @@ auto dial_of(Items& items, int id) -> decltype(items.data()) {
   return nullptr;
 }
 
-/// Of menu places, with v down; the sign's y is up.
-SignShape box(double u, double v, double width, double height, const Vec3f& color, float opacity) {
+/// Of menu places, with v down; the label's y is up.
+LabelShape box(double u, double v, double width, double height, const Vec3f& color, float opacity) {
   return {{{u, -v - height}, {u + width, -v - height}, {u + width, -v}, {u, -v}}, color, opacity};
 }
 
-SignShape disc(const Vec2& middle, double radius, const Vec3f& color) {
+LabelShape disc(const Vec2& middle, double radius, const Vec3f& color) {
   constexpr int kCorners = 32;
-  SignShape shape{.corners = {}, .color = color, .opacity = 1.0F};
+  LabelShape shape{.corners = {}, .color = color, .opacity = 1.0F};
   for (int i = 0; i < kCorners; ++i) {
     const double angle = kTurn * i / kCorners;
     shape.corners.push_back({middle.x + radius * std::cos(angle), -middle.y + radius * std::sin(angle)});
@@ -67,7 +67,7 @@ SignShape disc(const Vec2& middle, double radius, const Vec3f& color) {
 }
 
 /// A bar from a to b.
-SignShape bar(const Vec2& a, const Vec2& b, double width, const Vec3f& color) {
+LabelShape bar(const Vec2& a, const Vec2& b, double width, const Vec3f& color) {
   const Vec2 from{a.x, -a.y}, to{b.x, -b.y}, along = glm::normalize(to - from);
   const Vec2 side = 0.5 * width * Vec2{-along.y, along.x};
   return {{from - side, to - side, to + side, from + side}, color, 1.0F};
@@ -92,30 +92,30 @@ int detents_of(const DialRange& range) {
   return count <= kMost ? static_cast<int>(std::round(count)) + 1 : 0;
 }
 
-void draw_slider(const SpaceItem& item, double u, double v, bool active, SignView& sign) {
+void draw_slider(const SpaceItem& item, double u, double v, bool active, LabelView& label) {
   const double y = v + kTrackDown, length = kTrackRight - kTrackLeft;
-  sign.shapes.push_back(box(u + kTrackLeft, y - 0.06, length, 0.12, kTrack, 1.0F));
+  label.shapes.push_back(box(u + kTrackLeft, y - 0.06, length, 0.12, kTrack, 1.0F));
   const int detents = detents_of(item.range);
   for (int i = 0; i < detents; ++i) {
     const double at = u + kTrackLeft + length * i / std::max(detents - 1, 1);
-    sign.shapes.push_back(box(at - 0.03, y - 0.18, 0.06, 0.36, kTrack, 1.0F));
+    label.shapes.push_back(box(at - 0.03, y - 0.18, 0.06, 0.36, kTrack, 1.0F));
   }
   const double handle = u + kTrackLeft + length * item.range.part(item.value);
-  sign.shapes.push_back(disc({handle, y}, 0.26, active ? kActive : kHandle));
+  label.shapes.push_back(disc({handle, y}, 0.26, active ? kActive : kHandle));
 }
 
-void draw_knob(const SpaceItem& item, double u, double v, bool active, SignView& sign) {
+void draw_knob(const SpaceItem& item, double u, double v, bool active, LabelView& label) {
   const Vec2 middle{u + kKnobLeft, v + kKnobDown};
   const int detents = detents_of(item.range);
   for (int i = 0; i + 1 < detents; ++i) {
     const double part = static_cast<double>(i) / (detents - 1);
-    sign.shapes.push_back(
+    label.shapes.push_back(
         bar(knob_way(middle, kKnobRadius, part), knob_way(middle, 1.2 * kKnobRadius, part), 0.06, kTrack));
   }
-  sign.shapes.push_back(disc(middle, kKnobRadius, active ? kActive : kTrack));
+  label.shapes.push_back(disc(middle, kKnobRadius, active ? kActive : kTrack));
   const double part = item.range.part(item.value);
-  sign.shapes.push_back(bar(knob_way(middle, 0.3 * kKnobRadius, part),
-                            knob_way(middle, 0.95 * kKnobRadius, part), 0.14, kHandle));
+  label.shapes.push_back(bar(knob_way(middle, 0.3 * kKnobRadius, part),
+                             knob_way(middle, 0.95 * kKnobRadius, part), 0.14, kHandle));
 }
 
 }  // namespace
@@ -301,8 +301,8 @@ std::string SpaceMenu::pointed_label() const {
   return (*column)[pointed_->back()].label;
 }
 
-SignView SpaceMenu::drawn() const {
-  SignView sign{.origin = corner_, .axes = axes_, .unit = entry_};
+LabelView SpaceMenu::drawn() const {
+  LabelView label{.origin = corner_, .axes = axes_, .unit = entry_};
   std::size_t depth = 0;
   for (const Placed& p : placed()) {
     // Each column has a background of its own.
@@ -310,11 +310,11 @@ SignView SpaceMenu::drawn() const {
       depth = p.path.size();
       const std::vector<SpaceItem>* column = &items_;
       for (std::size_t i = 0; i + 1 < p.path.size(); ++i) column = &(*column)[p.path[i]].behind;
-      sign.shapes.push_back(box(p.u, p.v, kColumn, height_of(*column), kPanel, 0.85F));
+      label.shapes.push_back(box(p.u, p.v, kColumn, height_of(*column), kPanel, 0.85F));
     }
     const bool on_way = p.path.size() <= open_.size() && open_[p.path.size() - 1] == p.path.back();
     const bool pointed = pointed_ == p.path, active = held_ && held_->path == p.path;
-    if (pointed || on_way || active) sign.shapes.push_back(box(p.u, p.v, kColumn, p.height, kPointed, 0.9F));
+    if (pointed || on_way || active) label.shapes.push_back(box(p.u, p.v, kColumn, p.height, kPointed, 0.9F));
     const SpaceItem& item = *p.item;
     std::string words = item.label;
     Vec2 place{p.u + kMargin, -p.v - 0.5};
@@ -322,24 +322,24 @@ SignView SpaceMenu::drawn() const {
       case SpaceItem::Kind::kEntry:
         if (!item.behind.empty()) {
           const double right = p.u + kColumn - 0.6;
-          sign.shapes.push_back(
+          label.shapes.push_back(
               {{{right, -p.v - 0.7}, {right + 0.3, -p.v - 0.5}, {right, -p.v - 0.3}}, kWords, 1.0F});
         }
         break;
       case SpaceItem::Kind::kSlider:
         words += "  " + value_text(item.value);
         place.y = -p.v - 0.42;
-        draw_slider(item, p.u, p.v, active, sign);
+        draw_slider(item, p.u, p.v, active, label);
         break;
       case SpaceItem::Kind::kKnob:
-        draw_knob(item, p.u, p.v, active, sign);
+        draw_knob(item, p.u, p.v, active, label);
         place = {p.u + kKnobLeft + 1.5 * kKnobRadius, -p.v - kKnobDown + 0.4};
-        sign.texts.push_back({{place.x, place.y - 0.8}, kText, value_text(item.value), kWords});
+        label.texts.push_back({{place.x, place.y - 0.8}, kText, value_text(item.value), kWords});
         break;
     }
-    sign.texts.push_back({place, kText, std::move(words), kWords});
+    label.texts.push_back({place, kText, std::move(words), kWords});
   }
-  return sign;
+  return label;
 }
 
 }  // namespace palpate

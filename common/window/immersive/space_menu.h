@@ -15,7 +15,7 @@
 
 #include "common/hand/technique/pick.h"
 #include "common/haptics/widget/dial_chain.h"
-#include "common/render/sign/sign_view.h"
+#include "common/render/label/label_view.h"
 #include "common/window/immersive/dial.h"
 
 namespace palpate {
@@ -64,7 +64,7 @@ class SpaceMenu {
   void set(int id, double value);
   /// The label of what is pointed at; empty where nothing is.
   [[nodiscard]] std::string pointed_label() const;
-  [[nodiscard]] SignView drawn() const;
+  [[nodiscard]] LabelView drawn() const;
 
  private:
   using Path = std::vector<std::size_t>;  ///< indices, from the first column on

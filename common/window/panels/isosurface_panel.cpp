@@ -54,7 +54,7 @@ void remove(Isovalues& isovalues, int index) {
 
 /// A slider each, and the buttons that add and remove one.
 /// @param what "isosurface", or the "layer" of a heart.
-Isovalues edit_values(const FeltLevels& felt, const std::string& what) {
+Isovalues edit_values(const HapticLevels& felt, const std::string& what) {
   Isovalues isovalues = felt.isovalues;
   const double lowest = felt.field->lowest(), highest = felt.field->highest();
   int removed = -1;
@@ -117,8 +117,9 @@ Isovalues with_another(const Isovalues& isovalues, double lowest, double highest
   return result;
 }
 
-void edit_isosurfaces(IsosurfaceSettings& settings, const FeltLevels& felt, const FeltSurfaces::Made& made,
-                      std::optional<double> fraction, const std::string& mode, bool flow) {
+void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& felt,
+                      const HapticSurfaces::Made& made, std::optional<double> fraction,
+                      const std::string& mode, bool flow) {
   if (!felt.field) return;
   // The layers of a heart hold as such.
   const bool chosen = mode == kIsosurfaceMode;

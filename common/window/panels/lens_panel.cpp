@@ -30,7 +30,7 @@ std::optional<double> reach_of(const ConvexShape& shape) {
 enum class LensWish : std::uint8_t { kNone, kMove, kRemove };
 
 /// Has the lens show what `look` does.
-void take_look(Lens& lens, const Lens& look) {
+void take_appearance(Lens& lens, const Lens& look) {
   lens.transfer = look.transfer;
   lens.regions = look.regions;
   lens.colored = look.colored;
@@ -40,7 +40,7 @@ void take_look(Lens& lens, const Lens& look) {
 /// Which field a lens shows, and whether by a transfer function of its own. An edit that would take more
 /// transfer functions than a picture can have is taken back.
 void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& looks,
-                const std::string& context, KeptHistogram& histograms) {
+                const std::string& context, CachedHistogram& histograms) {
   const Lens before = view.lenses[index];
   Lens& lens = view.lenses[index];
   if (!view.fields.empty()) {
@@ -50,13 +50,14 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& lo
         const std::string& name = field == 0 ? context : view.fields[field - 1].name;
         if (!selectable(name.c_str(), lens.field == field) || field >= looks.size()) continue;
         lens.field = field;
-        take_look(lens, looks[field]);
+        take_appearance(lens, looks[field]);
       }
       ImGui::EndCombo();
     }
   }
   const Lens& look = looks[std::min(lens.field, looks.size() - 1)];
-  if (checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer) take_look(lens, look);
+  if (checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer)
+    take_appearance(lens, look);
   if (lens.own_transfer) {
     EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
     if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
@@ -109,7 +110,7 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
   }
   if (checkbox("cut away", &lens.cut) && !lens.cut) {
     lens.field = 0;
-    take_look(lens, model);
+    take_appearance(lens, model);
   }
 }
 
@@ -135,7 +136,7 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
 
 std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
                                            const std::string& context, const Box& bounds,
-                                           KeptHistogram& histograms) {
+                                           CachedHistogram& histograms) {
   const Lens model = looks.empty() ? Lens() : looks.front();
   std::optional<std::size_t> gone, taken;
   constexpr float kRows = 14.0F;

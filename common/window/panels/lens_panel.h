@@ -17,6 +17,6 @@ namespace palpate {
 /// @return the lens that the mouse is to move from now on, a new one among them.
 std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
                                            const std::string& context, const Box& bounds,
-                                           KeptHistogram& histograms);
+                                           CachedHistogram& histograms);
 
 }  // namespace palpate

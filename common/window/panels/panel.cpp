@@ -47,7 +47,7 @@ void draw_input(const SceneState& scene) {
   ImGui::PopStyleColor();
 }
 
-void draw_line_look(LineStyle& style) {
+void draw_line_appearance(LineStyle& style) {
   constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
   slider_scalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
                 ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
@@ -60,10 +60,10 @@ void draw_line_look(LineStyle& style) {
   checkbox("fade with depth", &style.depth_cue);
 }
 
-void draw_look(SceneView& view, PanelActions& actions) {
+void draw_appearance(SceneView& view, PanelActions& actions) {
   section("LOOK");
   const bool lines = view.lines && !view.lines->empty();
-  if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_look(view.style);
+  if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_appearance(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
   bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
@@ -138,7 +138,7 @@ PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, Sc
     }
     PanelContext on{state, *state.scene, view, actions};
     for (const PanelPart& part : parts) part(on);
-    draw_look(view, actions);
+    draw_appearance(view, actions);
     for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
       for (const std::string& note : *notes) {
         ImGui::Spacing();

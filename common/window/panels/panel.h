@@ -47,7 +47,7 @@ struct PanelState {
   std::string replay_verdict;                                            ///< that was said
   std::string lines_file = "followed.vtp";                               ///< edited
   std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
-  KeptHistogram histogram;                                               ///< of the volume
+  CachedHistogram histogram;                                             ///< of the volume
 
   /// The line at the bottom, of something that went as it should, or that did not.
   void say(std::string words) {

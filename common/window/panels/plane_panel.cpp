@@ -236,9 +236,9 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
                     ImGuiSliderFlags_AlwaysClamp))
     grid.notch = notch / kMillimetres;
   explain("grid-notch");
-  slider_scalar("teeth", ImGuiDataType_Double, &grid.teeth, &kNone, &kFull, "%.2f",
+  slider_scalar("detents", ImGuiDataType_Double, &grid.detents, &kNone, &kFull, "%.2f",
                 ImGuiSliderFlags_AlwaysClamp);
-  explain("grid-teeth");
+  explain("grid-detents");
   slider_int("peaks", &grid.peaks, 0, GridAxisSettings::kMostPeaks, "%d", ImGuiSliderFlags_AlwaysClamp);
   hint("landmarks where the values along each axis pile up");
   bool marks_alone = grid.switch_at == GridSwitch::kMarks;

@@ -140,7 +140,7 @@ bool edit_regions(const PlaceCanvas& canvas, const PlaceRange& range, RegionTran
   return true;
 }
 
-bool edit_look(RegionTransfer& transfer, int chosen) {
+bool edit_appearance(RegionTransfer& transfer, int chosen) {
   if (chosen < 0 || chosen >= static_cast<int>(transfer.regions().size())) return false;
   const auto index = static_cast<std::size_t>(chosen);
   TransferRegion region = transfer.regions()[index];
@@ -206,7 +206,7 @@ bool draw_region_editor(const char* id, const PlaceHistogram& histogram, RegionT
   }
   ImGui::TextDisabled("value %s to %s, gradient to %s", short_number(range.lower.x).c_str(),
                       short_number(range.upper.x).c_str(), short_number(range.upper.y).c_str());
-  changed = edit_look(transfer, chosen) || changed;
+  changed = edit_appearance(transfer, chosen) || changed;
   ImGui::PopID();
   return changed;
 }

@@ -91,7 +91,7 @@ void choose_file(std::string& file, float width) {
 }
 
 /// @param surfaces words for those that are felt; null: none are.
-void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfaces) {
+void choose_appearances(TouchChoice& choice, float half, bool flow, const char* surfaces) {
   if (surfaces != nullptr) checkbox(surfaces, &choice.show_surface);
   if (!flow) {
     checkbox("path", &choice.show_path);
@@ -111,14 +111,14 @@ void choose_looks(TouchChoice& choice, float half, bool flow, const char* surfac
 /// Rows of its own height, however many are kept: nothing below them moves.
 void list_kept(ProbeSession& session) {
   constexpr float kRows = 3.0F;
-  const KeptLines& kept = session.trail().kept();
+  const DrawnLines& kept = session.trail().drawn_lines();
   ImGui::BeginChild("kept", {0.0F, kRows * ImGui::GetTextLineHeightWithSpacing()});
   if (kept.entries().empty())
     ImGui::TextDisabled(session.data().has_tensors() ? "no tract is kept" : "no line is kept");
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < kept.entries().size(); ++i) {
-    const KeptLines::Entry& entry = kept.entries()[i];
-    const Rgb color = kept_color(entry.number);
+    const DrawnLines::Entry& entry = kept.entries()[i];
+    const Rgb color = cached_color(entry.number);
     ImGui::PushID(static_cast<int>(i));
     ImGui::TextColored({color.r, color.g, color.b, 1.0F}, "%d", entry.number);
     ImGui::SameLine();
@@ -164,7 +164,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   choose_mode(choice, session.modes());
   edit_settings(choice, session.modes()[choice.mode].name, session.data().has_flow());
   edit_curves(choice, session.modes()[choice.mode].name, session);
-  const FeltLevels felt = session.data().levels();
+  const HapticLevels felt = session.data().levels();
   edit_isosurfaces(choice.settings.isosurface, felt, session.data().surfaces(),
                    session.data().surfaces_fraction(), session.modes()[choice.mode].name,
                    session.data().has_flow());
@@ -173,7 +173,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
   const char* const surfaces = layers ? "show felt layers" : "show isosurface";
-  choose_looks(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr);
+  choose_appearances(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr);
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
   if (const std::string note = session.limits().note(session.choice().settings); !note.empty())
@@ -188,7 +188,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (session.data().scalar() && !session.data().has_flow() && view.volume)
     edit_notes(session, *view.volume, marking, actions);
   if (!session.data().has_flow() && !tensors) return actions;
-  ImGui::BeginDisabled(session.trail().kept().entries().empty() && session.trail().drawn().empty());
+  ImGui::BeginDisabled(session.trail().drawn_lines().entries().empty() && session.trail().drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
     ImGui::SameLine();

@@ -170,7 +170,7 @@ std::vector<std::string> preset_names() {
 
 /// The editor of the kind that `transfer` is. @return whether it changed.
 bool edit_either(EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
-                 KeptHistogram& histograms, std::optional<double> felt) {
+                 CachedHistogram& histograms, std::optional<double> felt) {
   if (transfer.regions)
     return draw_region_editor("regions", histograms.places_of(image), *transfer.regions, felt);
   return draw_transfer_editor("points", {image->lowest, image->highest}, histograms.of(image),
@@ -179,7 +179,7 @@ bool edit_either(EditedTransfer& transfer, const std::shared_ptr<const VolumeIma
 
 }  // namespace
 
-const ValueHistogram* KeptHistogram::of(const std::shared_ptr<const VolumeImage>& image) {
+const ValueHistogram* CachedHistogram::of(const std::shared_ptr<const VolumeImage>& image) {
   if (image->lowest > image->highest) return nullptr;
   if (image_ == image) return &histogram_;
   constexpr std::size_t kMostVoxels = 2'000'000, kBins = 512;
@@ -191,7 +191,7 @@ const ValueHistogram* KeptHistogram::of(const std::shared_ptr<const VolumeImage>
   return &histogram_;
 }
 
-const PlaceHistogram& KeptHistogram::places_of(const std::shared_ptr<const VolumeImage>& image) {
+const PlaceHistogram& CachedHistogram::places_of(const std::shared_ptr<const VolumeImage>& image) {
   constexpr std::size_t kMostVoxels = 2'000'000, kColumns = 96, kRows = 48;
   if (places_image_ != image) places_ = count_places(*image, kColumns, kRows, kMostVoxels);
   places_image_ = image;
@@ -199,7 +199,7 @@ const PlaceHistogram& KeptHistogram::places_of(const std::shared_ptr<const Volum
 }
 
 bool choose_transfer(const char* label, const char* automatic, std::string& words, EditedTransfer& transfer,
-                     const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms,
+                     const std::shared_ptr<const VolumeImage>& image, CachedHistogram& histograms,
                      std::string& file, std::optional<double> felt) {
   const bool own = words.starts_with("points:") || words.starts_with("regions:");
   const std::string now = words.empty() ? automatic : own ? kOwnWords : words;
@@ -212,7 +212,7 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
     ImGui::EndCombo();
   }
   if (edit_either(transfer, image, histograms, felt))
-    words = transfer.regions ? region_words(*transfer.regions) : transfer_words(transfer.colors);
+    words = transfer.regions ? region_text(*transfer.regions) : transfer_text(transfer.colors);
   input_text("##file", &file);
   ImGui::SameLine();
   if (small_button("load") && !file.empty()) words = file;
@@ -224,7 +224,7 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
 }
 
 bool choose_own_transfer(const char* label, EditedTransfer& transfer,
-                         const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms) {
+                         const std::shared_ptr<const VolumeImage>& image, CachedHistogram& histograms) {
   const EditedTransfer before = transfer;
   ImGui::PushID(label);
   if (begin_combo(label, kOwnWords)) {

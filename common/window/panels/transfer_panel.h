@@ -15,7 +15,7 @@ namespace palpate {
 
 /// The histogram of the volume that was asked for last, counted once: of all its voxels, or where they are
 /// more than two million of as many, evenly taken, so that a frame hardly waits for it.
-class KeptHistogram {
+class CachedHistogram {
  public:
   /// @pre not null. @return null where no value is finite.
   [[nodiscard]] const ValueHistogram* of(const std::shared_ptr<const VolumeImage>& image);
@@ -45,13 +45,13 @@ struct EditedTransfer {
 /// @return whether it is to be saved now.
 [[nodiscard]] bool choose_transfer(const char* label, const char* automatic, std::string& words,
                                    EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
-                                   KeptHistogram& histograms, std::string& file,
+                                   CachedHistogram& histograms, std::string& file,
                                    std::optional<double> felt = std::nullopt);
 
 /// The same of one lens, without words and files: what is chosen and edited goes into `transfer`.
 /// @return whether it changed.
 bool choose_own_transfer(const char* label, EditedTransfer& transfer,
-                         const std::shared_ptr<const VolumeImage>& image, KeptHistogram& histograms);
+                         const std::shared_ptr<const VolumeImage>& image, CachedHistogram& histograms);
 
 /// Points are dragged; a double click adds one, a right click takes one out; the one that was touched last
 /// has its colour below.

@@ -24,24 +24,25 @@ bool shows_shared(const Lens& lens) { return !lens.cut && !lens.own_transfer && 
 
 /// Which other scalars are there for lenses, of those of the input, `fields`, and of other files.
 /// @param field that is seen around lenses.
-void choose_beside(std::vector<std::string>& beside, const std::string& field,
-                   const std::vector<std::string>& fields) {
-  if (fields.size() < 2 && beside.empty()) return;
-  if (!begin_combo("fields for lenses", beside.empty() ? "none" : counted(beside.size(), "field").c_str()))
+void choose_secondary(std::vector<std::string>& secondary, const std::string& field,
+                      const std::vector<std::string>& fields) {
+  if (fields.size() < 2 && secondary.empty()) return;
+  if (!begin_combo("fields for lenses",
+                   secondary.empty() ? "none" : counted(secondary.size(), "field").c_str()))
     return;
   std::vector<std::string> names = fields;
-  for (const std::string& name : beside) {
+  for (const std::string& name : secondary) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);  // of other files
   }
   for (const std::string& name : names) {
     if (name == field) continue;
-    const auto there = std::find(beside.begin(), beside.end(), name);
-    if (!selectable(name.c_str(), there != beside.end(), ImGuiSelectableFlags_DontClosePopups)) continue;
-    if (there != beside.end()) {
-      beside.erase(there);
+    const auto there = std::find(secondary.begin(), secondary.end(), name);
+    if (!selectable(name.c_str(), there != secondary.end(), ImGuiSelectableFlags_DontClosePopups)) continue;
+    if (there != secondary.end()) {
+      secondary.erase(there);
       break;
     }
-    if (beside.size() + 1 < kMostFields) beside.push_back(name);
+    if (secondary.size() + 1 < kMostFields) secondary.push_back(name);
   }
   ImGui::EndCombo();
 }
@@ -95,9 +96,9 @@ void draw_values_at_probe(const PanelState& state, const std::string& field, con
   rows.finish();
 }
 
-void draw_volume_look(PanelState& state, const SceneState& scene, const std::string& field,
-                      const std::vector<std::string>& fields, std::vector<std::string>& beside,
-                      std::optional<double> felt, VolumeView& volume, PanelActions& actions) {
+void draw_volume_appearance(PanelState& state, const SceneState& scene, const std::string& field,
+                            const std::vector<std::string>& fields, std::vector<std::string>& secondary,
+                            std::optional<double> felt, VolumeView& volume, PanelActions& actions) {
   const ValueHistogram* const histogram = state.histogram.of(volume.image);
   EditedTransfer colors{volume.transfer, volume.regions};
   actions.save_transfer |= choose_transfer("colours", "from the histogram", state.document.volume.transfer,
@@ -121,7 +122,7 @@ void draw_volume_look(PanelState& state, const SceneState& scene, const std::str
   }
   section("LENSES");
   actions.lens = draw_lens_panel(volume, scene.looks, field, scene.info->bounds, state.histogram);
-  choose_beside(beside, field, fields);
+  choose_secondary(secondary, field, fields);
   if (volume.lenses.empty()) return;
   EditedTransfer focus = focus_of(volume, scene);
   const EditedTransfer before = focus;
@@ -139,8 +140,8 @@ void draw_volume(PanelContext& on) {
   choose_word("field", state.document.input.field, scene.info->fields);
   if (!volume.fields.empty()) draw_values_at_probe(state, state.document.input.field, volume);
   draw_time(state, scene.info->times);
-  draw_volume_look(state, scene, state.document.input.field, scene.info->fields, state.document.input.beside,
-                   value_at_probe(state), volume, on.actions);
+  draw_volume_appearance(state, scene, state.document.input.field, scene.info->fields,
+                         state.document.input.secondary, value_at_probe(state), volume, on.actions);
 }
 
 }  // namespace palpate

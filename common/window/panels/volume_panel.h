@@ -15,9 +15,9 @@ void draw_volume(PanelContext& on);
 /// Colours, rays, cuts and lenses of a volume.
 /// @param field name of what is seen around lenses. @param fields that there are. @param beside edited: those
 /// for lenses. @param felt value at the probe.
-void draw_volume_look(PanelState& state, const SceneState& scene, const std::string& field,
-                      const std::vector<std::string>& fields, std::vector<std::string>& beside,
-                      std::optional<double> felt, VolumeView& volume, PanelActions& actions);
+void draw_volume_appearance(PanelState& state, const SceneState& scene, const std::string& field,
+                            const std::vector<std::string>& fields, std::vector<std::string>& secondary,
+                            std::optional<double> felt, VolumeView& volume, PanelActions& actions);
 
 /// How rays are cast.
 void draw_rays(VolumeView& volume);

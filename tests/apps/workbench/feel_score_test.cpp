@@ -45,7 +45,7 @@ TEST(FeelScore, JudgesAWallThatIsShownTruly) {
   const FeelScore score = pressed(FeelEffect::kWall, {}, {0.01, 0.0, 0.005}, {0.01, 0.0, -0.005});
   EXPECT_NEAR(score.deepest(), 0.005, 1e-12);
   EXPECT_NEAR(score.largest_force(), 0.005 * kStiffness, 1e-9);
-  EXPECT_NEAR(score.felt_stiffness(), kStiffness, 1.0);
+  EXPECT_NEAR(score.haptic_stiffness(), kStiffness, 1.0);
   EXPECT_EQ(score.free_force(), 0.0);
   EXPECT_LT(score.leak(), 1e-12);
   // In and out at constant speed the hold gives K v T p to the hand (devices are what takes it).
@@ -59,7 +59,7 @@ TEST(FeelScore, SeesAWallThatACapMakesSofter) {
   const FeelScore score =
       pressed(FeelEffect::kWall, {.force_cap = 1.0}, {0.0, 0.0, 0.005}, {0.0, 0.0, -0.005});
   EXPECT_NEAR(score.largest_force(), 1.0, 1e-12);
-  EXPECT_LT(score.felt_stiffness(), 0.6 * kStiffness);
+  EXPECT_LT(score.haptic_stiffness(), 0.6 * kStiffness);
   EXPECT_FALSE(holds(score, "stiffness shown"));
 }
 

@@ -1,5 +1,5 @@
 // A hand moves in a volume, the view stands still: frames in which rays are cast only where something opaque
-// has moved (common/render/volume/kept_volume.h) against frames that cast all of them, in turns.
+// has moved (common/render/volume/cached_volume.h) against frames that cast all of them, in turns.
 //   build/release/bench/local_redraw_bench TOOTH.nhdr HEAD.nii.gz [pixels] [steps]
 // Times are those of the processor, all threads together; the clock's stand beside them. "first" is the frame
 // that is kept, "local" the mean of those that follow, "full" of those without; "moved" the share of the
@@ -55,9 +55,9 @@ void run(const std::string& what, SceneView view, const Motion& motion, int pixe
   double moved = 0.0;
   for (int i = 0; i <= steps; ++i) {
     motion(view, static_cast<double>(i) / steps);
-    view.volume->keep_picture = false;
+    view.volume->cache_picture = false;
     const Frame f = timed(full, view, pixels);
-    view.volume->keep_picture = true;
+    view.volume->cache_picture = true;
     const Frame l = timed(local, view, pixels);
     const Image wanted = full.read(), found = local.read();
     std::size_t others = 0;

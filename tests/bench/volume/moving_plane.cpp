@@ -54,7 +54,7 @@ struct Kept {
   explicit Kept(int pixels) : picture(pixels, pixels, VolumePicture::Context::kCurrent) {}
 
   void take(VolumeView view, const Camera& camera, const FloatImage& wanted, bool counts) {
-    view.keep_slabs = true;
+    view.cache_slabs = true;
     const int programs = picture.cost().programs;
     const std::uint64_t before = picture.cost().slab_bytes;
     const Frame put = timed([&] { (void)picture.draw_alone(view, camera); });
@@ -89,7 +89,7 @@ void drag(const std::string& name, VolumeView view, const Camera& camera, const 
   for (int i = 0; i <= steps; ++i) {
     // Forth and back over the inner fifth.
     view.cuts[0].kept.offset = middle + 0.2 * reach * std::sin(2.0 * 3.14159265358979 * (i + 0.3) / steps);
-    view.keep_slabs = false;
+    view.cache_slabs = false;
     const Frame cast = timed([&] { (void)anew.draw_alone(view, camera); });
     const FloatImage wanted = anew.draw(view, camera);
     const bool counts = i > 0;  // before, nothing has moved: tables, voxels and shaders are made

@@ -125,10 +125,10 @@ TEST_P(SettingsRoundTrip, GivesEveryRowBack) {
       if (row.spelling == Spelling::kOption) {
         EXPECT_EQ(value_text(row, made), text);
       }
-      if (!row.kept) continue;
+      if (!row.saved) continue;
 
       Session session{.program = "program"};
-      session.options = kept_settings(made);
+      session.options = saved_settings(made);
       save_session(folder_.path("s.toml"), session);
       Document back = parse(group, {"--session", folder_.path("s.toml").string()}).options;
       EXPECT_TRUE(same_value(row, made, back)) << text << " comes back as " << value_text(row, back);

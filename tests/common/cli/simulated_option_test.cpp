@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/device/bench_option.h"
+#include "common/device/workbench_option.h"
 
 namespace palpate::test {
 namespace {
@@ -30,7 +30,7 @@ TEST(SimulatedOption, NamesDeviceAndHandInAnyOrder) {
   EXPECT_EQ(of("simulated:hand=relaxed"), "PHANToM Premium 3.0 class in a relaxed hand");
 }
 
-TEST(BenchOption, TellsDevicesOfOneDriverApart) {
+TEST(WorkbenchOption, TellsDevicesOfOneDriverApart) {
   const auto key = [](const char* text) { return device_key(parse_device(text)); };
   EXPECT_EQ(key("falcon:gain=3500"), "falcon");
   EXPECT_EQ(key("dhd:cap=3,serial=12"), "dhd:12");

@@ -181,7 +181,7 @@ TEST(Lenses, OfFacesComeBackToTheBit) {
 
 // Another field and a transfer function of its own, whose words may have any commas but no ';'.
 TEST(Lenses, NameAFieldAndATransferFunctionOfTheirOwn) {
-  const LensWords words =
+  const LensSpec words =
       parse_lens("sphere:0,0,0,1,samples=8,field=pet.nii.gz:scalars,tf=points:0,0,0,0,0/2,1,1,1,1");
   EXPECT_EQ(words.field, "pet.nii.gz:scalars");
   EXPECT_EQ(words.transfer, "points:0,0,0,0,0/2,1,1,1,1");

@@ -81,9 +81,9 @@ class Hand {
 
 /// Keeps the followed line; whether there was one.
 bool keep(ProbeSession& session) {
-  const std::size_t before = session.trail().kept().entries().size();
+  const std::size_t before = session.trail().drawn_lines().entries().size();
   (void)session.trail().keep_line();
-  return session.trail().kept().entries().size() > before;
+  return session.trail().drawn_lines().entries().size() > before;
 }
 
 /// Distance of `x` from the helix through `seed`.
@@ -177,7 +177,7 @@ TEST(ProbeSession, LettingGoLeavesTheLineInThePictureAndToBeKept) {
   EXPECT_FALSE(is_finite(hand.view.probe));
   EXPECT_TRUE(hand.view.followed) << "stays until the next line is caught";
   ASSERT_TRUE(keep(hand.session));
-  const KeptLines::Entry& kept = hand.session.trail().kept().entries().front();
+  const DrawnLines::Entry& kept = hand.session.trail().drawn_lines().entries().front();
   ASSERT_GT(kept.line->points.size(), 10U);
   ASSERT_EQ(kept.forces.size(), kept.line->points.size());
   for (const LinePoint& point : kept.line->points) EXPECT_LE(off_the_line(point.position), 7e-6);
@@ -196,7 +196,7 @@ TEST(ProbeSession, KeepsTheForcesOfTheHoldAtHandOnly) {
   hand.grab(other);
   ASSERT_TRUE(hand.wait_for_state(HoldState::kHeld));
   ASSERT_TRUE(keep(hand.session));
-  const KeptLines::Entry& kept = hand.session.trail().kept().entries().front();
+  const DrawnLines::Entry& kept = hand.session.trail().drawn_lines().entries().front();
   EXPECT_LE(off_the_line(kept.line->points[kept.line->points.size() / 2].position, other), 7e-6);
   EXPECT_LT(kept.largest_force, 1e-3) << "nothing of what was felt on the other line";
   for (std::size_t i = 0; i < kept.forces.size(); ++i) {
@@ -212,7 +212,7 @@ TEST(ProbeSession, AnotherFieldLetsGoAndForgets) {
   ASSERT_TRUE(hand.wait_for([&] { return hand.view.followed != nullptr; }));
   hand.session.set_field({helix_flow(2.0 * kRise), field_key("helix", 1)});
   EXPECT_FALSE(hand.session.hand().grabbed());
-  EXPECT_TRUE(hand.session.trail().kept().entries().empty());
+  EXPECT_TRUE(hand.session.trail().drawn_lines().entries().empty());
   hand.frame();
   EXPECT_EQ(hand.view.followed, nullptr) << "a line of the other field";
   EXPECT_FALSE(keep(hand.session)) << "likewise";

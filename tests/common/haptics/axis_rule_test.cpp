@@ -56,7 +56,7 @@ TEST(AxisRule, FrictionGrowsWithThePenetration) {
   EXPECT_LE(glm::distance(moved({0.002, 0.0, 0.005}, {kFixed, snap_hold(0.001), snap_hold(0.001)}, 0.5),
                           Vec3(0.0, 0.0, 0.004)),
             1e-15)
-      << "two teeth of 2 mm";
+      << "two detents of 2 mm";
 }
 
 AxisHold any_hold(std::mt19937_64& random) {
@@ -97,9 +97,9 @@ TEST(AxisRule, KnowsItsJacobian) {
       aside[a] = kAside;
       const Vec3 slope = (moved(dx + aside, holds) - moved(dx - aside, holds)) / (2.0 * kAside);
       // Teeth leave J at the direction towards the probe, which turns with it: stated as fixed.
-      const bool teeth = std::any_of(holds.begin(), holds.end(),
-                                     [](const AxisHold& hold) { return hold.rule == AxisRule::kSnap; });
-      if (!teeth) worst = std::max(worst, glm::distance(jacobian[a], slope));
+      const bool detents = std::any_of(holds.begin(), holds.end(),
+                                       [](const AxisHold& hold) { return hold.rule == AxisRule::kSnap; });
+      if (!detents) worst = std::max(worst, glm::distance(jacobian[a], slope));
     }
     kinks += worst > 1e-5;
   }
@@ -119,7 +119,7 @@ TEST(AxisRule, FadesContinuouslyToAxesThatAreAlike) {
     AxisHolds holds{any_hold(random), any_hold(random), any_hold(random)};
     for (AxisHold& hold : holds) {
       hold.tau *= 0.02;
-      if (hold.rule == AxisRule::kSnap) hold.rule = AxisRule::kFixed;  // teeth leap by themselves
+      if (hold.rule == AxisRule::kSnap) hold.rule = AxisRule::kFixed;  // detents leap by themselves
     }
     for (const int first : {0, 1}) {
       const Vec3 dx = 0.02 * Vec3{normal(random), normal(random), normal(random)};
@@ -155,7 +155,7 @@ TEST(AxisRule, KeepsWhatIsAlikeWhereTheFrameIsUndefined) {
   EXPECT_EQ(moved(Vec3{1.0}, line), Vec3{1.0}) << "a line without a direction is free";
   AxisHolds mixed{snap_hold(0.004), drag_hold(0.004), drag_hold(0.004)};
   make_alike(mixed, 0, 0.0);
-  EXPECT_EQ(moved(Vec3{1.0}, mixed), Vec3{1.0}) << "teeth along no direction are none";
+  EXPECT_EQ(moved(Vec3{1.0}, mixed), Vec3{1.0}) << "detents along no direction are none";
   AxisHolds gone{wall_hold(0.01), kFixed, drag_hold(0.004)};
   let_go(gone, 0.0);
   EXPECT_EQ(moved(-Vec3{1.0}, gone), -Vec3{1.0});

@@ -70,7 +70,7 @@ TEST(ForceProfile, SnapDrag) {
                   {2, 4, 0.2},      //
                   {1.5, 2, 0.05},   // and snaps the other way: hysteresis of 2 tau
                   {-0.5, 0, 0.05},  //
-                  {7, 6, -0.1}});   // dx = 7 at once: three teeth, to within tau
+                  {7, 6, -0.1}});   // dx = 7 at once: three detents, to within tau
 }
 
 // Eq. 6.5. Resists up to 0.2 N, both ways, and drags there.

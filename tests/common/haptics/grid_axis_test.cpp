@@ -13,9 +13,9 @@ namespace {
 
 class GridAxisTest : public ::testing::Test {
  protected:
-  void use(double threshold, double teeth) {
+  void use(double threshold, double detents) {
     ChainSettings settings;
-    settings.grid_axis = {.threshold = threshold, .teeth = teeth};
+    settings.grid_axis = {.threshold = threshold, .detents = detents};
     grid_.apply(settings);
   }
   /// Millimetres in and out.
@@ -49,7 +49,7 @@ TEST_F(GridAxisTest, KeepsItsAxisBetweenNodes) {
   EXPECT_EQ(at({41.0, 40.0, 0.0}).proxy, Vec3(50.0, 40.0, 0.0));
 }
 
-TEST_F(GridAxisTest, HasTeethOnItsNodes) {
+TEST_F(GridAxisTest, HasDetentsOnItsNodes) {
   use(0.010, 0.25);
   LinkUpdate link = at({12.0, 0.0, 0.0});
   EXPECT_EQ(link.proxy, Vec3(0.0, 0.0, 0.0));

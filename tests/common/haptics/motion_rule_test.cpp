@@ -26,7 +26,7 @@ TEST(Unilateral, IsFreeOutward) {
   EXPECT_EQ(unilateral(-2.5, 1.0), -1.5);
 }
 
-TEST(SnapDrag, JumpsByWholeTeethToWithinOneOfTheProbe) {
+TEST(SnapDrag, JumpsByWholeDetentsToWithinOneOfTheProbe) {
   EXPECT_EQ(snap_drag(1.0, 1.0), 0.0);
   EXPECT_EQ(snap_drag(1.25, 1.0), 1.0) << "eq. 6.8";
   EXPECT_EQ(snap_drag(-1.25, 1.0), -1.0);
@@ -42,7 +42,7 @@ TEST(SnapDrag, JumpsByWholeTeethToWithinOneOfTheProbe) {
   }
 }
 
-// A probe that stands at a whole number of teeth, to rounding: what is left is one tooth, to rounding, and no
+// A probe that stands at a whole number of detents, to rounding: what is left is one tooth, to rounding, and no
 // second jump follows.
 TEST(SnapDrag, MovesNothingASecondTimeAtWholeTeeth) {
   constexpr double kTau = 0.1;
@@ -163,14 +163,14 @@ TEST(JointDrag, MovesNothingASecondTime) {
   }
 }
 
-// On one axis the rule of eq. 6.8; on several by whole teeth towards the probe, whatever the frame.
-TEST(JointSnap, GoesByWholeTeethTowardsTheProbe) {
+// On one axis the rule of eq. 6.8; on several by whole detents towards the probe, whatever the frame.
+TEST(JointSnap, GoesByWholeDetentsTowardsTheProbe) {
   EXPECT_EQ(snap_jointly({2.5, 0.0, 0.0}, Vec3{1.0}), Vec3(snap_drag(2.5, 1.0), 0.0, 0.0));
   EXPECT_EQ(snap_jointly({0.6, 0.6, 0.5}, Vec3{1.0}), Vec3{0.0});
   EXPECT_EQ(snap_jointly({9.0, 2.5, 3.0}, {HUGE_VAL, 1.0, 0.0}), Vec3(0.0, 2.0, 3.0)) << "fixed, snap, free";
   const Vec3 dx{3.0, -4.0, 12.0};  // 13 long
   const Vec3 moved = snap_jointly(dx, Vec3{2.0});
-  EXPECT_NEAR(glm::length(moved), 12.0, 1e-12) << "six teeth of the six and a half";
+  EXPECT_NEAR(glm::length(moved), 12.0, 1e-12) << "six detents of the six and a half";
   EXPECT_NEAR(glm::length(glm::cross(moved, dx)), 0.0, 1e-12);
   EXPECT_EQ(snap_jointly(Vec3{1e300}, Vec3{1e-300}), Vec3{1e300}) << "beyond counting";
 }

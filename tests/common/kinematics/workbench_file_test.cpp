@@ -75,7 +75,7 @@ TEST_F(WorkbenchFileTest, EverySectionComesBackToTheBit) {
 TEST_F(WorkbenchFileTest, ReplacingASectionLeavesAllOtherLines) {
   const std::string
       head =
-          "# the lab's bench\nname = 'B 12'   # our room\n\n[screen]\nlower_left = [0, 0, 0]\n"
+          "# the lab's workbench\nname = 'B 12'   # our room\n\n[screen]\nlower_left = [0, 0, 0]\n"
           "lower_right = [1, 0, 0]\nupper_left = [0, 1, 0]\n\n",
       tail =
           "\n# ours, not Palpate's\n[lab.notes]\ntext = \"\"\"\n[stylus] is in the drawer\n\"\"\"\n"
@@ -188,14 +188,14 @@ TEST_F(WorkbenchFileTest, KnowsOneScreenOrSeveral) {
 
 // What users are given to start from is read, every key of it.
 TEST_F(WorkbenchFileTest, ReadsTheOneOfTheDocuments) {
-  const WorkbenchGeometry bench = read_workbench(source_folder() / "docs/workbench.toml");
-  ASSERT_EQ(bench.screens.size(), 1U);
-  EXPECT_EQ(bench.screens[0].stereo, StereoMode::kRows);
-  EXPECT_EQ(bench.head.glide, 0.75);
-  EXPECT_TRUE(bench.interaction.immersive);
-  EXPECT_EQ(bench.interaction.surface, Vec4(0.0, 0.0, 1.0, 0.0));
-  EXPECT_EQ(bench.interaction.enabling_device, "pedal");
-  EXPECT_EQ(bench.device_options.size(), 1U);
+  const WorkbenchGeometry workbench = read_workbench(source_folder() / "docs/workbench.toml");
+  ASSERT_EQ(workbench.screens.size(), 1U);
+  EXPECT_EQ(workbench.screens[0].stereo, StereoMode::kRows);
+  EXPECT_EQ(workbench.head.glide, 0.75);
+  EXPECT_TRUE(workbench.interaction.immersive);
+  EXPECT_EQ(workbench.interaction.surface, Vec4(0.0, 0.0, 1.0, 0.0));
+  EXPECT_EQ(workbench.interaction.enabling_device, "pedal");
+  EXPECT_EQ(workbench.device_options.size(), 1U);
   // The keys of the header that says what there is are in it.
   std::ifstream header(source_folder() / "common/kinematics/workbench_file.h");
   std::stringstream all;
@@ -226,20 +226,20 @@ TEST_F(WorkbenchFileTest, SaysWhatFollowsTheHeadAndHowScreensShowIt) {
         "predict = false\nvelocity_window = 0.1\nfreeze = 0.5\nglide = 0\n"
         "[interaction]\ntechnique = 'immersive'\nmiddle = [0, 0, 0]\ntip_offset = [0, 0.05, 0]\n"
         "surface = 'screen'\n");
-  const WorkbenchGeometry bench = read_workbench(path_);
-  EXPECT_EQ(bench.screens[0].position[0], -1920);
-  EXPECT_EQ(bench.screens[0].stereo, StereoMode::kRows);
-  EXPECT_EQ(bench.head.source, "hands");
-  EXPECT_EQ(bench.head.resting_eye, Vec3(0.5, 0.6, 2.0));
-  EXPECT_EQ(bench.head.sensor_latency, 0.004);
-  EXPECT_EQ(bench.head.display_latency, 0.008);
-  EXPECT_EQ(bench.head.latency, 0.05);
-  EXPECT_FALSE(bench.head.predict);
-  EXPECT_EQ(bench.head.velocity_window, 0.1);
-  EXPECT_EQ(bench.head.freeze, 0.5);
-  EXPECT_EQ(bench.head.glide, 0.0);
-  EXPECT_EQ(bench.interaction.tip_offset, Vec3(0.0, 0.05, 0.0));
-  EXPECT_EQ(bench.interaction.surface, Vec4(0.0, 0.0, 1.0, 1.0));
+  const WorkbenchGeometry workbench = read_workbench(path_);
+  EXPECT_EQ(workbench.screens[0].position[0], -1920);
+  EXPECT_EQ(workbench.screens[0].stereo, StereoMode::kRows);
+  EXPECT_EQ(workbench.head.source, "hands");
+  EXPECT_EQ(workbench.head.resting_eye, Vec3(0.5, 0.6, 2.0));
+  EXPECT_EQ(workbench.head.sensor_latency, 0.004);
+  EXPECT_EQ(workbench.head.display_latency, 0.008);
+  EXPECT_EQ(workbench.head.latency, 0.05);
+  EXPECT_FALSE(workbench.head.predict);
+  EXPECT_EQ(workbench.head.velocity_window, 0.1);
+  EXPECT_EQ(workbench.head.freeze, 0.5);
+  EXPECT_EQ(workbench.head.glide, 0.0);
+  EXPECT_EQ(workbench.interaction.tip_offset, Vec3(0.0, 0.05, 0.0));
+  EXPECT_EQ(workbench.interaction.surface, Vec4(0.0, 0.0, 1.0, 1.0));
   write("[interaction]\nsurface = [0, 2, 0, 1]\n");
   EXPECT_EQ(read_workbench(path_).interaction.surface, Vec4(0.0, 1.0, 0.0, 0.5));
   // At a desk the screen is where the view is.

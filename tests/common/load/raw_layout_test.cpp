@@ -28,7 +28,7 @@ TEST(RawLayout, IsReadFromTheWordsOfTheCommandLine) {
 }
 
 TEST(RawLayout, NonsenseIsAnErrorOfUsageThatNamesTheOption) {
-  const auto expect_refused = [](const RawWords& words, const std::string& option) {
+  const auto expect_refused = [](const RawSpec& words, const std::string& option) {
     try {
       (void)parse_raw_layout(words);
       ADD_FAILURE() << option << " was accepted";
@@ -55,11 +55,11 @@ TEST(RawLayout, SizesBeyondAllMemoryDoNotWrapAround) {
 }
 
 TEST(RawLayout, NamesOfPublicCollectionsAreUnderstood) {
-  const RawWords words = raw_words_of_name("tooth_103x94x161_uint8.raw");
+  const RawSpec words = raw_spec_of_name("tooth_103x94x161_uint8.raw");
   EXPECT_EQ(words.size, "103x94x161");
   EXPECT_EQ(words.type, "uint8");
   for (const char* name : {"tooth.raw", "tooth_103x94_uint8.raw", "103x94x161.raw", "a_1x2x3_uint8.dat", ""})
-    EXPECT_TRUE(raw_words_of_name(name).empty()) << name;
+    EXPECT_TRUE(raw_spec_of_name(name).empty()) << name;
 }
 
 }  // namespace

@@ -222,10 +222,10 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   expect("and the error, of all samples", made_for(view, true), {"volume/volume.frag, again"}, {});
   view.far_sampling = 1.0;
 
-  view.keep_picture = true;
-  expect("a kept picture", made_for(view), {"volume/kept.frag"},
+  view.cache_picture = true;
+  expect("a kept picture", made_for(view), {"volume/cached.frag"},
          {"kept volume", "depths of the kept volume"});
-  view.keep_picture = false;
+  view.cache_picture = false;
 
   // Transparent lines in the volume, and without it.
   SceneView lines = scene_of(view);

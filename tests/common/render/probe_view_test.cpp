@@ -20,8 +20,8 @@ TEST(ProbeView, ForcesSpreadUpToTheCapUnlessSaidOtherwise) {
 
 TEST(ProbeView, NeighbouringNumbersHaveDifferentColours) {
   for (int number = -7; number < 20; ++number)
-    EXPECT_NE(kept_color(number), kept_color(number + 1)) << number;
-  EXPECT_EQ(kept_color(1), kept_color(8));
+    EXPECT_NE(cached_color(number), cached_color(number + 1)) << number;
+  EXPECT_EQ(cached_color(1), cached_color(8));
 }
 
 // Every member makes another picture, or the window would not be drawn anew.
@@ -45,7 +45,7 @@ TEST(ProbeView, EachChangeIsAnotherPicture) {
   EXPECT_TRUE(changed([](ProbeView& p) { --p.path.count; }));
   EXPECT_TRUE(changed([](ProbeView& p) { p.path.range = ValueRange{}; }));
   EXPECT_TRUE(changed([](ProbeView& p) { p.seeds.reset(); }));
-  EXPECT_TRUE(changed([](ProbeView& p) { p.kept.reset(); }));
+  EXPECT_TRUE(changed([](ProbeView& p) { p.drawn_lines.reset(); }));
   EXPECT_TRUE(changed([](ProbeView& p) { p.style.ball_size *= 2.0; }));
   SceneView without = scene;
   without.probe.reset();

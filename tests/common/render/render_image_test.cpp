@@ -258,7 +258,7 @@ TEST(Baseline, TransparentByTermination) {
   test::expect_baseline(view, "whirlwind_transparent");
 }
 
-// Pictures with everything on them, for the eye (see keep_picture).
+// Pictures with everything on them, for the eye (see cache_picture).
 TEST(Look, AtWhatUsersSee) {
   if (std::getenv("PALPATE_PICTURES") == nullptr) GTEST_SKIP() << "PALPATE_PICTURES names no folder";
   constexpr int kWidth = 1280, kHeight = 800;
@@ -266,33 +266,33 @@ TEST(Look, AtWhatUsersSee) {
   view.title = "whirlwind";
   view.subtitle = "120 lines";
   view.units = {"m", "s"};
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "dark");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "dark");
   view.background = Background::kLight;
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "light");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "light");
   view.style.color_by = ColorBy::kError;
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "light_error");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "light_error");
   view.style.opacity = 0.4;
   view.style.color_by = ColorBy::kTermination;
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "light_transparent");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "light_transparent");
   view.background = Background::kDark;
   view.style = {};
   view.style.color_by = ColorBy::kTime;
   view.style.color_map = ColorMap::kDiverging;
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "diverging");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "diverging");
   view.style = {};
   view.style.color_by = ColorBy::kDirection;
   view.style.width = 8.0;
-  test::keep_picture(render_image(view, 640, 400).image, "direction");
+  test::cache_picture(render_image(view, 640, 400).image, "direction");
 
   view.style = {};
   view.probe = test::sample_probe(view);
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_dark");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "probe_dark");
   view.background = Background::kLight;
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_light");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "probe_light");
   view.style.dimming = 0.35;
   view.camera.focal_point = view.probe->proxy;
   zoom(view.camera, 2.6);
-  test::keep_picture(render_image(view, kWidth, kHeight).image, "probe_near");
+  test::cache_picture(render_image(view, kWidth, kHeight).image, "probe_near");
 }
 
 // A solid with an enamel about it and a sharp transfer function, as a tooth has; an opaque line goes through

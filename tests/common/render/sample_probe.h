@@ -74,13 +74,13 @@ inline ProbeView sample_probe(const SceneView& view, std::size_t at = 150) {
   seeds->style.width = 5.0;
   probe.seeds = seeds;
 
-  auto kept = std::make_shared<std::vector<KeptLine>>();
+  auto kept = std::make_shared<std::vector<DrawnLine>>();
   for (const int k : {1, 2}) {
     const auto number = static_cast<std::size_t>(17 * k);
     kept->push_back(
         {.line = std::make_shared<const Line>(lines.at(std::min(number, lines.size() - 1))), .number = k});
   }
-  probe.kept = kept;
+  probe.drawn_lines = kept;
   return probe;
 }
 

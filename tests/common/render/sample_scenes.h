@@ -48,7 +48,7 @@ inline Line polyline(const std::vector<Vec3>& points, double value = 0.0) {
 }
 
 /// Keeps a picture for the eye where PALPATE_PICTURES names a folder.
-inline void keep_picture(const Image& image, const std::string& name) {
+inline void cache_picture(const Image& image, const std::string& name) {
   const char* folder = std::getenv("PALPATE_PICTURES");
   if (folder == nullptr) return;
   std::filesystem::create_directories(folder);

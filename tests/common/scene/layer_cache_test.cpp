@@ -132,7 +132,7 @@ TEST_F(LayerCacheTest, AFolderThatCannotBeWrittenIsSaid) {
 
 // A heart is the same whether its layers were solved or taken.
 TEST_F(LayerCacheTest, HeartsTakeWhatWasKept) {
-  class Counted final : public KeptLayers {
+  class Counted final : public CachedLayers {
    public:
     explicit Counted(LayerCache& cache) : cache_(cache) {}
     std::optional<WallLayer> find(const DataSet& mesh) override {

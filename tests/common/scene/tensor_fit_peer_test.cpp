@@ -15,7 +15,7 @@
 namespace palpate::test {
 namespace {
 
-TensorImage image_of(const std::filesystem::path& file, const TensorWords& words) {
+TensorImage image_of(const std::filesystem::path& file, const TensorSpec& words) {
   InputOptions spec;
   spec.files = {file};
   spec.kind = FieldKind::kTensor;
@@ -66,7 +66,7 @@ TEST_P(FitBesideMrtrix, HasTheSameDirectionsAndAnisotropies) {
   if (std::system("command -v dwi2tensor >/dev/null") != 0) GTEST_SKIP() << "MRtrix's dwi2tensor is missing";
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 
-  TensorWords words;
+  TensorSpec words;
   words.fit = ordinary ? "ordinary" : "weighted";
   const Agreement agreement = compare(image_of(dwi, words), image_of(theirs, {}));
   EXPECT_GT(agreement.voxels, 20'000U);

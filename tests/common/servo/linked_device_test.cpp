@@ -26,7 +26,7 @@ class ScriptedLink final : public DriverLink {
   bool round(const Vec3& force) noexcept override {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(mutex_);
-    told_ = force;
+    reported_ = force;
     ++rounds_;
     atoms_ = said_;
     poses_ = said_poses_;
@@ -51,7 +51,7 @@ class ScriptedLink final : public DriverLink {
   }
   [[nodiscard]] Vec3 told() const {
     const std::lock_guard lock(mutex_);
-    return told_;
+    return reported_;
   }
   [[nodiscard]] std::uint64_t rounds() const {
     const std::lock_guard lock(mutex_);
@@ -62,7 +62,7 @@ class ScriptedLink final : public DriverLink {
 
  private:
   mutable std::mutex mutex_;
-  Vec3 told_{0.0};
+  Vec3 reported_{0.0};
   std::uint64_t rounds_ = 0;
   bool speaks_ = false;
   DeviceAtoms said_, atoms_;

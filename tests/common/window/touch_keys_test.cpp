@@ -98,8 +98,8 @@ TEST_F(TouchWindowTest, LinesAreKeptTakenBackAndSaved) {
   lead_to(75.0, 25.0);
   key(' ');
   const WindowResult kept = run();
-  ASSERT_TRUE(kept.view.probe->kept);
-  EXPECT_EQ(kept.view.probe->kept->size(), 2U);
+  ASSERT_TRUE(kept.view.probe->drawn_lines);
+  EXPECT_EQ(kept.view.probe->drawn_lines->size(), 2U);
   EXPECT_EQ(kept.document.input.time, "") << "Space keeps, and does not play, while the probe is held";
   EXPECT_NE(kept.message.find("kept line 2"), std::string::npos);
   key('E', kModifierControl);
@@ -110,7 +110,7 @@ TEST_F(TouchWindowTest, LinesAreKeptTakenBackAndSaved) {
   key('Z', kModifierControl);
   const WindowResult undone = run();
   EXPECT_EQ(undone.message, "undone");
-  EXPECT_EQ(undone.view.probe->kept->size(), 1U);
+  EXPECT_EQ(undone.view.probe->drawn_lines->size(), 1U);
 }
 
 TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {
@@ -123,8 +123,8 @@ TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {
   key('K');
   const WindowResult again = run();
   EXPECT_NE(again.message.find("kept already"), std::string::npos) << again.message;
-  ASSERT_TRUE(again.view.probe->kept);
-  EXPECT_EQ(again.view.probe->kept->size(), 1U);
+  ASSERT_TRUE(again.view.probe->drawn_lines);
+  EXPECT_EQ(again.view.probe->drawn_lines->size(), 1U);
 }
 
 TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentThere) {
@@ -135,7 +135,7 @@ TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentTher
   const int last = last_;
   key('K');
   const WindowResult rested = run();
-  ASSERT_EQ(rested.view.probe->kept->size(), 1U);
+  ASSERT_EQ(rested.view.probe->drawn_lines->size(), 1U);
   options_.script = script;
   last_ = last;
   // Across other lines, fast.
@@ -147,8 +147,9 @@ TEST_F(TouchWindowTest, ThePanelKeepsTheLineOnWhichTheHandRestedBeforeItWentTher
   at(last_ + 2, {.kind = InputKind::kRelease});
   const WindowResult result = run();
   EXPECT_NE(result.message.find("kept line 1"), std::string::npos) << result.message;
-  ASSERT_EQ(result.view.probe->kept->size(), 1U);
-  const Line &meant = *rested.view.probe->kept->front().line, &kept = *result.view.probe->kept->front().line;
+  ASSERT_EQ(result.view.probe->drawn_lines->size(), 1U);
+  const Line &meant = *rested.view.probe->drawn_lines->front().line,
+             &kept = *result.view.probe->drawn_lines->front().line;
   const auto near = [&](const Line& line) {
     double nearest = HUGE_VAL;
     for (const LinePoint& p : line.points) {
@@ -191,7 +192,7 @@ TEST_F(TouchWindowTest, SpacePlaysWhileTheProbeIsFree) {
   key(' ');
   const WindowResult result = run();
   EXPECT_GT(model_.updated, 0);
-  EXPECT_TRUE(!result.view.probe->kept || result.view.probe->kept->empty());
+  EXPECT_TRUE(!result.view.probe->drawn_lines || result.view.probe->drawn_lines->empty());
 }
 
 TEST_F(TouchWindowTest, RShowsARakeThenAPlaneThenNothing) {

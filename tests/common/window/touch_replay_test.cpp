@@ -45,8 +45,8 @@ TEST_F(TouchWindowTest, ARecordingPlaysBackIdentically) {
   EXPECT_EQ(replayed.probe.state, lived.probe.state);
   EXPECT_EQ(replayed.probe.velocity, lived.probe.velocity);
   EXPECT_EQ(replayed.view.camera, lived.view.camera) << "what mouse and keys did is done again";
-  ASSERT_TRUE(replayed.view.probe->kept);
-  EXPECT_EQ(replayed.view.probe->kept->size(), 1U);
+  ASSERT_TRUE(replayed.view.probe->drawn_lines);
+  EXPECT_EQ(replayed.view.probe->drawn_lines->size(), 1U);
   EXPECT_TRUE(replayed.view.probe->followed);
   EXPECT_FALSE(std::filesystem::exists(folder_.path("followed.vtp"))) << "nothing is saved again";
 }

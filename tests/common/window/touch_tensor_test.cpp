@@ -68,9 +68,11 @@ class TouchTensor : public TouchWindowTest {
     at(begin + kSteps + 8, {.kind = InputKind::kRelease});
   }
   static std::size_t kept(const WindowResult& result) {
-    return result.view.probe && result.view.probe->kept ? result.view.probe->kept->size() : 0;
+    return result.view.probe && result.view.probe->drawn_lines ? result.view.probe->drawn_lines->size() : 0;
   }
-  static const Line& tract(const WindowResult& result) { return *result.view.probe->kept->front().line; }
+  static const Line& tract(const WindowResult& result) {
+    return *result.view.probe->drawn_lines->front().line;
+  }
 
   BundleModel model_;
 };
@@ -230,7 +232,7 @@ TEST_F(TouchTensor, ClosesUnaskedWhenAllIsSaved) {
   EXPECT_LT(run().frames, options_.frames);
 }
 
-void keep_one(KeptLines& lines, double x) {
+void keep_one(DrawnLines& lines, double x) {
   Line line;
   line.points = {{.position = {x, 0.0, 0.0}}, {.position = {x + 1.0, 0.0, 0.0}, .arc = 1.0}};
   lines.keep(line, {1.0, 2.0});
@@ -239,7 +241,7 @@ void keep_one(KeptLines& lines, double x) {
 TEST(SavedFiles, NeverLoseASavedTract) {
   const TempFolder folder;
   SavedFiles files(folder.path(), "test");
-  KeptLines lines;
+  DrawnLines lines;
   std::string name = "tracts.csv";
   keep_one(lines, 0.0);
   EXPECT_EQ(files.unsaved(lines), 1U);

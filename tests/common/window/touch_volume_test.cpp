@@ -37,7 +37,7 @@ class BlobModel final : public WindowModel {
     info->bounds = image->bounds();
     SceneState scene{.info = info, .document = document};
     scene.lines = std::make_shared<const std::vector<Line>>();
-    scene.felt_scalar = field;
+    scene.haptic_scalar = field;
     scene.volume =
         VolumeView{.image = image,
                    .transfer = make_color_transfer(ColorPreset::kDensity, image->lowest, image->highest),
@@ -88,7 +88,7 @@ TEST_F(TouchVolume, TheWallHoldsTheProxyBackOnTheIsovalue) {
   EXPECT_GT(result.probe.force, 0.05);
   ASSERT_TRUE(result.probe.scalar);
   Progress progress;
-  const auto felt = blob_.start(progress).felt_scalar;
+  const auto felt = blob_.start(progress).haptic_scalar;
   EXPECT_NEAR(*result.probe.scalar, otsu_threshold(*felt), 1e-6 * felt->highest());
 }
 
@@ -100,7 +100,7 @@ TEST_F(TouchVolume, TheHandBeginsOnTheSurfaceThatIsDrawn) {
   ASSERT_TRUE(mesh);
   EXPECT_FALSE(mesh->triangles.empty());
   Progress progress;
-  const auto felt = blob_.start(progress).felt_scalar;
+  const auto felt = blob_.start(progress).haptic_scalar;
   EXPECT_EQ(mesh->level, otsu_threshold(*felt));
   ASSERT_TRUE(result.probe.scalar);
   EXPECT_NEAR(*result.probe.scalar, mesh->level, 1e-6 * felt->highest());
@@ -112,7 +112,7 @@ TEST_F(TouchVolume, AnotherIsovalueMovesTheSurface) {
   ASSERT_EQ(result.view.surfaces.size(), 1U);
   ASSERT_TRUE(result.view.surfaces[0].mesh);
   Progress progress;
-  const auto felt = blob_.start(progress).felt_scalar;
+  const auto felt = blob_.start(progress).haptic_scalar;
   EXPECT_GT(result.view.surfaces[0].mesh->level, 0.9 * felt->highest());
 }
 

@@ -33,7 +33,7 @@ class VolumeModel : public WindowModel {
   }
   void keep(const SceneView& view, Document& document) const override {
     keep_camera(view, document);
-    if (view.volume) keep_volume(*view.volume, document);
+    if (view.volume) cache_volume(*view.volume, document);
   }
   std::string save_session(const Document& document) override {
     saved = document;
@@ -185,7 +185,7 @@ TEST_F(VolumeWindow, EditsTheTransferFunctionOverTheHistogram) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_TRUE(result.document.volume.transfer.starts_with("points:")) << result.document.volume.transfer;
   EXPECT_GT(model_.updated, 0);
-  const auto edited = transfer_from_words(result.document.volume.transfer);
+  const auto edited = transfer_from_text(result.document.volume.transfer);
   ASSERT_TRUE(edited);
   EXPECT_TRUE(result.missing.empty());
   ASSERT_EQ(edited->points().size(), preset.points().size());

@@ -38,7 +38,7 @@ TEST(PlanePlacing, AStillHandGetsThereByEveryMeans) {
 
 TEST(PlanePlacing, ConstraintsKeepTheOtherAxes) {
   for (int n = 0; n < 3; ++n) {
-    for (const PlacingMeans means : {PlacingMeans::kGrid, PlacingMeans::kGridTeeth,
+    for (const PlacingMeans means : {PlacingMeans::kGrid, PlacingMeans::kGridDetents,
                                      PlacingMeans::kGridLandmark, PlacingMeans::kWidgetConstrained}) {
       const PlacingTrial held = trial(means, 3e-4, n);
       EXPECT_EQ(held.sideways, 0.0) << name_of(means) << ": to the bit";
@@ -71,7 +71,7 @@ TEST(PlanePlacing, MediansComeWithTheirIntervals) {
 }
 
 /// What grid and widget do for a hand that trembles, beyond what chance explains: a landmark makes placing
-/// faster; teeth make it slower, and exact; a line that is kept costs no time and leaves nothing sideways.
+/// faster; detents make it slower, and exact; a line that is kept costs no time and leaves nothing sideways.
 TEST(PlanePlacing, TheGridHelpsAHandThatTrembles) {
   const std::vector<PlacingRow> rows = run_plane_placing({.trials = 12}, nullptr);
   ASSERT_EQ(rows.size(), static_cast<std::size_t>(kPlacingMeansCount));
@@ -81,8 +81,8 @@ TEST(PlanePlacing, TheGridHelpsAHandThatTrembles) {
   EXPECT_GT(row(PlacingMeans::kHandAlone).sideways_p90, 0.0);
   EXPECT_GT(row(PlacingMeans::kGridLandmark).gain.low, 0.5) << "seconds";
   EXPECT_EQ(row(PlacingMeans::kGridLandmark).off.high, 0.0);
-  EXPECT_LT(row(PlacingMeans::kGridTeeth).gain.high, 0.0);
-  EXPECT_EQ(row(PlacingMeans::kGridTeeth).off.high, 0.0);
+  EXPECT_LT(row(PlacingMeans::kGridDetents).gain.high, 0.0);
+  EXPECT_EQ(row(PlacingMeans::kGridDetents).off.high, 0.0);
   EXPECT_LT(std::abs(row(PlacingMeans::kGrid).gain.median), 0.1);
 }
 

@@ -27,7 +27,7 @@ VolumeView converged_view(VolumeView view) {
   view.table_lengths = static_cast<int>(kLengthGroup);
   view.preintegrate = true;
   view.skip_empty = view.stop_where_opaque = false;
-  view.keep_slabs = view.keep_picture = false;
+  view.cache_slabs = view.cache_picture = false;
   return view;
 }
 
@@ -36,7 +36,7 @@ VolumeView sampled_view(VolumeView view, double context, double focus) {
   for (Lens& lens : view.lenses) lens.samples_per_voxel *= focus;
   view.far_sampling = 1.0;
   view.context = {};
-  view.keep_slabs = view.keep_picture = false;
+  view.cache_slabs = view.cache_picture = false;
   return view;
 }
 

@@ -103,8 +103,8 @@ RegionTransfer one_of_each() {
 }
 
 TEST(RegionTransferFile, WordsAndFilesGiveTheSameFunctionBack) {
-  EXPECT_EQ(regions_from_words(region_words(one_of_each()), no_range), one_of_each());
-  EXPECT_EQ(regions_from_words("points:1,2,3,4,5", no_range), std::nullopt);
+  EXPECT_EQ(regions_from_text(region_text(one_of_each()), no_range), one_of_each());
+  EXPECT_EQ(regions_from_text("points:1,2,3,4,5", no_range), std::nullopt);
   const test::TempFolder folder;
   const std::string file = (folder.path() / "regions.txt").string();
   std::ofstream(file) << regions_text(one_of_each());
@@ -117,7 +117,7 @@ TEST(RegionTransferFile, WordsAndFilesGiveTheSameFunctionBack) {
 
 TEST(RegionTransferFile, TakesFractionsOfTheRangesOfTheData) {
   const auto range = [] { return PlaceRange{{100.0, 0.0}, {300.0, 50.0}}; };
-  const auto transfer = regions_from_words("regions:fractions/box,0.5,0,1,1,1,1,1,0.5,0", range);
+  const auto transfer = regions_from_text("regions:fractions/box,0.5,0,1,1,1,1,1,0.5,0", range);
   ASSERT_TRUE(transfer.has_value());
   EXPECT_EQ(transfer->regions()[0].corners[0], Vec2(200.0, 0.0));
   EXPECT_EQ(transfer->regions()[0].corners[1], Vec2(300.0, 50.0));
@@ -148,8 +148,8 @@ TEST(RegionTransferFile, NamesTheLineThatIsNoRegion) {
   EXPECT_NE(message("box,0,0,1,1,1,2,1,0.5,0\n").find("colour"), std::string::npos);
   EXPECT_NE(message("box,0,0,0,1,1,1,1,0.5,0\n").find("width"), std::string::npos);
   EXPECT_NE(message("# nothing\n").find("no region"), std::string::npos);
-  EXPECT_THROW((void)regions_from_words("regions:box,1,2", no_range), Error);
-  EXPECT_THROW((void)regions_from_words("regions:/", no_range), Error);
+  EXPECT_THROW((void)regions_from_text("regions:box,1,2", no_range), Error);
+  EXPECT_THROW((void)regions_from_text("regions:/", no_range), Error);
 }
 
 TEST(RegionTransfer, BoundariesAreSeenWhereValuesChangeAlone) {

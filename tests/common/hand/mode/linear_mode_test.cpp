@@ -22,7 +22,7 @@ namespace palpate::test {
 namespace {
 
 /// What the user is told; empty where settings come of the words.
-std::string refusal(const LinearWords& words) {
+std::string refusal(const LinearSpec& words) {
   try {
     EXPECT_TRUE(linear_settings(words).valid());
   } catch (const Error& error) {
@@ -34,7 +34,7 @@ std::string refusal(const LinearWords& words) {
   return "";
 }
 
-void expect_refused(const LinearWords& words, const std::string& option) {
+void expect_refused(const LinearSpec& words, const std::string& option) {
   const std::string line = refusal(words);
   EXPECT_NE(line.find(option), std::string::npos) << "'" << line << "'";
 }
@@ -81,14 +81,14 @@ TEST(LinearMode, TakesThresholdsInMillimetresForEachAxis) {
 }
 
 TEST(LinearMode, OptionsReadBackFromASession) {
-  for (const LinearWords& words : {LinearWords{}, LinearWords{.reference = "curvature",
-                                                  .axes = "unilateral,snap,drag",
-                                                  .tau = "3/0:1,2.5:3,smooth/0.125",
-                                                  .kappa = "0.5",
-                                                  .measure = "gradient",
-                                                  .friction = 0.1 + 0.2}}) {
+  for (const LinearSpec& words : {LinearSpec{}, LinearSpec{.reference = "curvature",
+                                                .axes = "unilateral,snap,drag",
+                                                .tau = "3/0:1,2.5:3,smooth/0.125",
+                                                .kappa = "0.5",
+                                                .measure = "gradient",
+                                                .friction = 0.1 + 0.2}}) {
     const LinearSettings settings = linear_settings(words);
-    LinearWords saved;
+    LinearSpec saved;
     for (const auto& [option, value] : linear_options(settings)) {
       if (option == "reference") saved.reference = value;
       if (option == "axes") saved.axes = value;
@@ -119,7 +119,7 @@ Vec3 path_at(int n) {
   return kScale * Vec3{(0.5 + 0.3 * u) * std::cos(u), (0.5 + 0.3 * u) * std::sin(3.0 * u), 0.4 * u};
 }
 
-HapticScene helix_scene(const LinearWords& words) {
+HapticScene helix_scene(const LinearSpec& words) {
   HapticScene scene{.field = helix_flow(kRise), .workspace = {kScale, LocalFrame{}}, .settings = {}};
   scene.settings.linear = linear_settings(words);
   return scene;
@@ -163,7 +163,7 @@ TEST(LinearMode, TheThresholdFollowsTheMeasure) {
 }
 
 /// All references and measures, with curves that matter.
-std::array<LinearWords, 5> all_kinds() {
+std::array<LinearSpec, 5> all_kinds() {
   const char* curve = "0:1,0.5:6,1.5:2,smooth";
   return {{{.reference = "auto", .tau = curve, .kappa = "0:1,2:0.25"},
            {.reference = "flow", .tau = curve, .measure = "speed"},
@@ -176,7 +176,7 @@ TEST(LinearMode, RecordingsReplayToTheBit) {
   const std::vector<HapticMode> modes{find_mode(modes_of(FieldKind::kVector), kLinearMode)};
   const NamedField open{helix_flow(kRise), field_key("helix", 0)};
   const TempFolder folder;
-  for (const LinearWords& words : all_kinds()) {
+  for (const LinearSpec& words : all_kinds()) {
     ChainSettings settings;
     settings.linear = linear_settings(words);
     const std::string description = describe_chain(kLinearMode, kScale, settings, open.name);

@@ -16,8 +16,8 @@ HandsView view() {
   return {.camera = make_camera({Vec3{-1.0}, Vec3{1.0}}, {}, 1.5), .size = {300, 200}, .held = std::nullopt};
 }
 
-/// A bench whose tracker is turned a quarter about x, with a stylus of 100 mm and a tracker that is 5 mm off.
-WorkbenchGeometry bench(double gain) {
+/// A workbench whose tracker is turned a quarter about x, with a stylus of 100 mm and a tracker that is 5 mm off.
+WorkbenchGeometry workbench(double gain) {
   WorkbenchGeometry out;
   out.interaction = {true, {0.5, 0.1, -0.2}, rotation_by({0.5 * 3.14159265358979323846, 0.0, 0.0}), gain};
   out.stylus = Vec3{0.0, 0.0, -0.1};
@@ -33,7 +33,7 @@ TrackedHands stylus(const Vec3& place, const Quat& turn = identity_rotation()) {
 
 TEST(InteractionTechnique, EachLeavesWhatIsNotItsOwn) {
   DesktopTechnique desktop;
-  ImmersiveTechnique immersive(bench(1.0), Vec3{0.0}, 1.0);
+  ImmersiveTechnique immersive(workbench(1.0), Vec3{0.0}, 1.0);
   for (InteractionTechnique* each :
        {static_cast<InteractionTechnique*>(&desktop), static_cast<InteractionTechnique*>(&immersive)}) {
     const bool mouse = each == &desktop;
@@ -72,8 +72,8 @@ TEST(DesktopTechnique, MovesAsTheMouseDoes) {
 TEST(ImmersiveTechnique, TakesTheTipThroughTheCalibration) {
   constexpr double kScale = 0.002;  // metres of the workspace per data unit
   const Vec3 middle{50.0, 40.0, 80.0};
-  ImmersiveTechnique hands(bench(2.0), middle, kScale);
-  // The tip in the middle of the bench: 5 mm less for the tracker, and the stylus pointing along x.
+  ImmersiveTechnique hands(workbench(2.0), middle, kScale);
+  // The tip in the middle of the workbench: 5 mm less for the tracker, and the stylus pointing along x.
   const Quat along_x = rotation_by({0.0, -0.5 * 3.14159265358979323846, 0.0});
   ASSERT_LT(glm::distance(along_x * Vec3(0.0, 0.0, -0.1), Vec3(0.1, 0.0, 0.0)), 1e-15);
   const Vec3 sensor = Vec3(0.5, 0.1, -0.2) - Vec3(0.1, 0.0, 0.0) - Vec3(0.005, 0.0, 0.0);
@@ -86,7 +86,7 @@ TEST(ImmersiveTechnique, TakesTheTipThroughTheCalibration) {
 }
 
 TEST(ImmersiveTechnique, TheClutchMovesTheHandAndNotTheProbe) {
-  ImmersiveTechnique hands(bench(1.0), Vec3{0.0}, 1.0);
+  ImmersiveTechnique hands(workbench(1.0), Vec3{0.0}, 1.0);
   (void)hands.take(stylus({0.5, 0.1, 0.0}), {});
   const Vec3 before = hands.intent().probe;
   TrackedHands away = stylus({0.9, -0.4, 0.3});
@@ -111,7 +111,7 @@ TEST(ImmersiveTechnique, TheOtherHandCarriesAPlaneRigidly) {
   std::uniform_real_distribution<double> any{-1.0, 1.0};
   const auto vector = [&] { return Vec3{any(random), any(random), any(random)}; };
   for (int run = 0; run < 50; ++run) {
-    WorkbenchGeometry geometry = bench(0.5 + run * 0.05);
+    WorkbenchGeometry geometry = workbench(0.5 + run * 0.05);
     ImmersiveTechnique hands(geometry, vector(), 0.01);
     CarriedPlanes carried;
     WidgetNews news;
@@ -158,7 +158,7 @@ TEST(ImmersiveTechnique, TheOtherHandCarriesAPlaneRigidly) {
 
 // The picture of the tip is off by the offset, turned and enlarged as the data is, and stays on the surface.
 TEST(ImmersiveTechnique, ShowsTheTipBesideTheHandAndOnASurface) {
-  WorkbenchGeometry file = bench(2.0);
+  WorkbenchGeometry file = workbench(2.0);
   constexpr double kScale = 0.25;  // [m] a data unit
   ImmersiveTechnique plain(file, Vec3{1.0, 2.0, 3.0}, kScale);
   file.interaction.tip_offset = {0.01, -0.02, 0.03};
@@ -168,7 +168,7 @@ TEST(ImmersiveTechnique, ShowsTheTipBesideTheHandAndOnASurface) {
   ImmersiveTechnique on_surface(file, Vec3{1.0, 2.0, 3.0}, kScale);
   std::mt19937_64 random(29);
   std::uniform_real_distribution<double> anywhere(-0.3, 0.3);
-  const BenchPlace place = place_of(file.interaction, Vec3{1.0, 2.0, 3.0}, kScale);
+  const WorkbenchPlace place = place_of(file.interaction, Vec3{1.0, 2.0, 3.0}, kScale);
   for (int i = 0; i < 50; ++i) {
     const Vec3 q{anywhere(random), anywhere(random), anywhere(random)};
     const TrackedHands hands = stylus(q, rotation_by({anywhere(random), anywhere(random), anywhere(random)}));
@@ -187,7 +187,7 @@ TEST(ImmersiveTechnique, ShowsTheTipBesideTheHandAndOnASurface) {
 }
 
 TEST(ImmersiveTechnique, PointsFromItsTipAlongTheStylus) {
-  WorkbenchGeometry file = bench(1.0);
+  WorkbenchGeometry file = workbench(1.0);
   file.tracker.reset();
   ImmersiveTechnique technique(file, Vec3{0.0}, 0.25);
   const Quat turn = rotation_by({0.4, -0.2, 0.9});
@@ -203,7 +203,7 @@ TEST(ImmersiveTechnique, PointsFromItsTipAlongTheStylus) {
 
 // What the mouse does to the view the hands follow: they stay where the data is shown.
 TEST(ImmersiveTechnique, IsWhereTheViewShowsTheData) {
-  WorkbenchGeometry file = bench(1.0);
+  WorkbenchGeometry file = workbench(1.0);
   file.tracker.reset();
   file.stylus.reset();
   const Screen screen{{-0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, {-0.3, 0.2, 0.1}};

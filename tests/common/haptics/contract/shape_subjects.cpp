@@ -23,7 +23,7 @@ std::shared_ptr<Constraint> always_held(Arguments&&... arguments) {
   auto shape = std::make_shared<Shape>(std::forward<Arguments>(arguments)...);
   ChainSettings settings;
   settings.shape = {.snap_distance = 1e3, .release_distance = 1e3};
-  settings.grid_axis = {.threshold = 0.02, .teeth = 0.0};
+  settings.grid_axis = {.threshold = 0.02, .detents = 0.0};
   shape->apply(settings);
   return shape;
 }
@@ -170,13 +170,13 @@ Vec3 along_axes(double s) {
   return kSpacing * (corners[at] + t * (corners[at + 1] - corners[at])) + wobble;
 }
 
-ContractSubject grid_axis(bool teeth) {
+ContractSubject grid_axis(bool detents) {
   ContractSubject subject;
-  subject.name = teeth ? "GridAxisWithTeeth" : "GridAxis";
-  subject.make = [teeth](const Placement& at) {
+  subject.name = detents ? "GridAxisWithTeeth" : "GridAxis";
+  subject.make = [detents](const Placement& at) {
     auto grid = std::make_shared<GridAxis>(at.point(Vec3{0.0}), at.rotation, Vec3{kSpacing});
     ChainSettings settings;
-    settings.grid_axis = {.threshold = 0.02, .teeth = teeth ? 0.5 : 0.0};
+    settings.grid_axis = {.threshold = 0.02, .detents = detents ? 0.5 : 0.0};
     grid->apply(settings);
     return grid;
   };
@@ -188,7 +188,7 @@ ContractSubject grid_axis(bool teeth) {
     return kSpacing * (off.x + off.y + off.z - most);
   };
   subject.slope = 2.0;
-  subject.leap = teeth ? kSpacing * std::numbers::sqrt3 : 0.03;  // an axis takes over at 0.02 of pull
+  subject.leap = detents ? kSpacing * std::numbers::sqrt3 : 0.03;  // an axis takes over at 0.02 of pull
   subject.smooth_at = {0.06, 0.2};
   return subject;
 }

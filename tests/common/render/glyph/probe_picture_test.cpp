@@ -192,7 +192,7 @@ TEST(LocalRedraw, GivesThePictureOfAFullRedraw) {
     fresh.draw(view, kSize, kSize);
     const Image image = kept.read();
     ASSERT_LE(test::worst_difference(image, fresh.read()), 1) << number;
-    test::keep_picture(image, "course_" + std::to_string(number));
+    test::cache_picture(image, "course_" + std::to_string(number));
     ++number;
   }
 }
@@ -280,11 +280,11 @@ TEST(ProbePicture, LinesAlongOneCurveAreSeenInTheirOrder) {
     return count;
   };
   probe.style.kept_width = 12.0;
-  auto kept = std::make_shared<std::vector<KeptLine>>();
+  auto kept = std::make_shared<std::vector<DrawnLine>>();
   kept->push_back({.line = std::make_shared<const Line>(line), .number = 0, .color = Rgb(0.1F, 0.9F, 0.1F)});
-  probe.kept = kept;
+  probe.drawn_lines = kept;
   EXPECT_EQ(greens(0.05, 0.95), 101);
-  probe.kept = nullptr;
+  probe.drawn_lines = nullptr;
   probe.style.followed_width = 50.0;
   probe.style.path_width = 25.0;
   auto followed = std::make_shared<FollowedLine>();
@@ -330,11 +330,11 @@ TEST(ProbePicture, NewtonsNumbersAndTheSecondBarLeaveTheirMarks) {
   EXPECT_EQ(lit(0, kSize, 0, kSize), 0);
 
   // A kept line of one point is nothing but its number.
-  auto kept = std::make_shared<std::vector<KeptLine>>();
+  auto kept = std::make_shared<std::vector<DrawnLine>>();
   kept->push_back({.line = std::make_shared<const Line>(test::polyline({{-0.5, 0.0, 0.5}})), .number = 8});
-  view.probe->kept = kept;
+  view.probe->drawn_lines = kept;
   EXPECT_GT(lit(50, 80, 40, 70), 8);
-  view.probe->kept = nullptr;
+  view.probe->drawn_lines = nullptr;
 
   view.probe->probe = view.probe->proxy = Vec3(0.0);
   view.probe->style.probe_size = view.probe->style.proxy_size = 0.1;
@@ -358,12 +358,12 @@ TEST(Baseline, ProbeInTheWhirlwind) {
   view.probe = test::sample_probe(view);
   // Without text: which font there is depends on the system.
   view.probe->show_force = false;
-  auto kept = *view.probe->kept;
-  for (KeptLine& line : kept) {
-    line.color = kept_color(line.number);
+  auto kept = *view.probe->drawn_lines;
+  for (DrawnLine& line : kept) {
+    line.color = cached_color(line.number);
     line.number = 0;
   }
-  view.probe->kept = std::make_shared<const std::vector<KeptLine>>(std::move(kept));
+  view.probe->drawn_lines = std::make_shared<const std::vector<DrawnLine>>(std::move(kept));
   test::expect_baseline(view, "probe_dark");
 }
 

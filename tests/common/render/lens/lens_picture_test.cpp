@@ -176,10 +176,10 @@ class MovingPlane : public testing::Test {
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       const std::vector<float> depth = depths.empty() ? std::vector<float>() : depths[i % depths.size()];
       view.cuts[0].kept.offset = offsets[i];
-      view.keep_slabs = true;
+      view.cache_slabs = true;
       const FloatImage moved = moving_.draw(view, camera, depth);
       kept += moving_.cost().slab_bytes > 0 ? 1 : 0;
-      view.keep_slabs = false;
+      view.cache_slabs = false;
       const double off = worst_difference(moved, still_.draw(view, camera, depth));
       EXPECT_LE(off, 1.0 / 255.0) << what << ", at " << offsets[i];
       EXPECT_EQ(still_.cost().slab_bytes, 0U);
@@ -238,7 +238,7 @@ TEST_F(MovingPlane, FindsAllPicturesThatWereMadeBeforeItMoves) {
   for (const Vec3& n : {glm::normalize(Vec3(1.0, 0.2, 0.4)), camera.axes[2], -camera.axes[2]}) {
     for (const double at : {0.2, -1.5, 1.5}) {
       view.cuts = {{.kept = {{0.0, 1.0, 0.0}, 0.6}}, {.kept = {n, at}}};
-      view.keep_slabs = true;
+      view.cache_slabs = true;
       (void)moving_.draw(view, camera, depth);
       int more = 0;
       while (moving_.prepare_slabs(1) && more < 1000) ++more;
@@ -248,19 +248,19 @@ TEST_F(MovingPlane, FindsAllPicturesThatWereMadeBeforeItMoves) {
       EXPECT_GT(bytes, 0U);
       for (const double offset : path(1.2)) {
         view.cuts[1].kept.offset = offset;
-        view.keep_slabs = true;
+        view.cache_slabs = true;
         const FloatImage moved = moving_.draw(view, camera, depth);
         EXPECT_EQ(moving_.cost().slab_bytes, bytes) << offset;
-        view.keep_slabs = false;
+        view.cache_slabs = false;
         EXPECT_LE(worst_difference(moved, still_.draw(view, camera, depth)), 1.0 / 255.0) << offset;
       }
     }
   }
   // Only for cuts that are there, and only where they may be kept.
-  view.keep_slabs = false;
+  view.cache_slabs = false;
   (void)moving_.draw(view, camera);
   EXPECT_FALSE(moving_.prepare_slabs(1));
-  view.keep_slabs = true;
+  view.cache_slabs = true;
   view.cuts[1].on = false;
   (void)moving_.draw(view, camera);
   EXPECT_FALSE(moving_.prepare_slabs(1));
@@ -293,7 +293,7 @@ TEST_F(MovingPlane, MayHaveOthersAboutIt) {
     other.cuts[0].kept.offset = 0.2;
     const FloatImage now = moving_.draw(other, from);
     EXPECT_EQ(moving_.cost().slab_bytes, 0U) << what;
-    other.keep_slabs = false;
+    other.cache_slabs = false;
     EXPECT_EQ(worst_difference(now, still_.draw(other, from)), 0.0) << what;
   };
   VolumeView other = view;

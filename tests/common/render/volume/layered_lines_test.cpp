@@ -328,13 +328,13 @@ TEST_F(LayeredLines, StandAmongOpaqueThingsAndInKeptPictures) {
   SceneView view = scene_of(camera, {ribbon({-0.9, -0.3, 0.2}, {0.9, 0.4, 0.1}, camera)});
   view.probe = ProbeView{.probe = {0.5, -0.8, 0.1}, .proxy = {0.2, 0.6, 0.0}};
   view.probe->style.probe_size = view.probe->style.proxy_size = 150.0;
-  view.volume->keep_picture = true;
+  view.volume->cache_picture = true;
   SceneRenderer kept;
   const auto expect_full = [&](const char* what, bool anew) {
     kept.draw(view, kPixels, kPixels);
-    EXPECT_EQ(kept.kept_volume(), anew) << what;
+    EXPECT_EQ(kept.cached_volume(), anew) << what;
     SceneView in_full = view;
-    in_full.volume->keep_picture = false;
+    in_full.volume->cache_picture = false;
     SceneRenderer fresh;
     fresh.draw(in_full, kPixels, kPixels);
     EXPECT_LE(worst_difference(kept.read(), fresh.read()), 1) << what;

@@ -77,7 +77,7 @@ std::string page() {
       if (!row.unit.empty()) range += (range.empty() ? "" : ", ") + std::string(row.unit);
       const std::string usual = row.otherwise.empty() ? default_text(row) : std::string(row.otherwise);
       text += "| " + option_of(row) + " | " + cell(row.value_name()) + " | " + cell(usual) + " | " + range +
-              " | " + programs_of(row) + " | " + (row.kept ? "kept" : "") + " | " + cell(row.help) + " |\n";
+              " | " + programs_of(row) + " | " + (row.saved ? "saved" : "") + " | " + cell(row.help) + " |\n";
     }
   }
   return text;

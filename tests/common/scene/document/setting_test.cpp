@@ -76,8 +76,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tensors", a, b, c, d, e, f, g, h, i);
   }
   {
-    const auto& [a, b, c] = document.tract_look;
-    expect("tract_look", a, b, c);
+    const auto& [a, b, c] = document.tract_appearance;
+    expect("tract_appearance", a, b, c);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = document.heart;
@@ -112,7 +112,7 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
 TEST(Settings, AreKnownToASessionByOneNameEach) {
   for (const FieldKind kind : kFieldKinds) {
     std::map<std::string_view, int> rows;
-    for (const Setting& row : settings()) rows[row.name] += row.kept && row.kinds.has(kind) ? 1 : 0;
+    for (const Setting& row : settings()) rows[row.name] += row.saved && row.kinds.has(kind) ? 1 : 0;
     for (const auto& [name, count] : rows)
       EXPECT_LE(count, 1) << name << " of " << name_of(kind) << " fields";
   }

@@ -54,7 +54,7 @@ class MeshCacheTest : public testing::Test {
   [[nodiscard]] std::filesystem::path input() const { return folder_.path("heart.exelem.gz"); }
   [[nodiscard]] std::filesystem::path kept() const { return folder_.path("heart.palpate.mesh"); }
   [[nodiscard]] WallMesh made(const DataSet& mesh, const WallMeshOptions& options = {}) const {
-    return kept_or_made_mesh(mesh, &kChoice, options, input(), Keeping::kAlways, nullptr);
+    return cached_or_made_mesh(mesh, &kChoice, options, input(), Keeping::kAlways, nullptr);
   }
   [[nodiscard]] bool found(const DataSet& mesh, const WallMeshOptions& options = {}) const {
     return MeshCache(input(), Keeping::kAlways).find(mesh, &kChoice, options).has_value();
@@ -134,7 +134,7 @@ TEST_F(MeshCacheTest, WhatMakesNoSenseIsNoMesh) {
   const std::string key = whole.substr(line + 1, 64);
   const std::string body = whole.substr(line + 1 + 64 + 1, whole.size() - line - 2 - 2 * 64);
   const auto taken = [&](const std::string& content) {
-    KeptFile(input(), {.what = "mesh", .version = version.c_str()}, Keeping::kAlways, 1).keep(key, content);
+    CachedFile(input(), {.what = "mesh", .version = version.c_str()}, Keeping::kAlways, 1).keep(key, content);
     return found(mesh);
   };
   ASSERT_TRUE(taken(body));
@@ -155,7 +155,7 @@ TEST_F(MeshCacheTest, WhatMakesNoSenseIsNoMesh) {
 TEST_F(MeshCacheTest, NothingIsKeptWhereThatIsNotWantedOrPossible) {
   const DataSet mesh = wall();
   const auto make = [&](const std::filesystem::path& file, Keeping keeping) {
-    return kept_or_made_mesh(mesh, &kChoice, {}, file, keeping, nullptr);
+    return cached_or_made_mesh(mesh, &kChoice, {}, file, keeping, nullptr);
   };
   EXPECT_EQ(make(input(), Keeping::kOff).notes, make(input(), Keeping::kOff).notes);
   EXPECT_FALSE(std::filesystem::exists(kept()));
@@ -167,7 +167,7 @@ TEST_F(MeshCacheTest, NothingIsKeptWhereThatIsNotWantedOrPossible) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("shut/heart.palpate.mesh")));
   // A file's own tetrahedra stand in the file already.
   const DataSet tets = data_set_of(make(input(), Keeping::kOff));
-  EXPECT_TRUE(kept_or_made_mesh(tets, nullptr, {}, input(), Keeping::kAlways, nullptr).kept);
+  EXPECT_TRUE(cached_or_made_mesh(tets, nullptr, {}, input(), Keeping::kAlways, nullptr).kept);
   EXPECT_FALSE(std::filesystem::exists(kept()));
 }
 

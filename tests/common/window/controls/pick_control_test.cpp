@@ -102,12 +102,12 @@ TEST_F(PickControlTest, ALineThatIsPickedIsKeptOnceAndAStylusGoesOnFromThere) {
   PickingHand hand = hand_at({0.62, 0.3, 3.0}, true);
   hand.can_move = true;
   EXPECT_EQ(follow(hand), "kept line 1");
-  ASSERT_EQ(session_->trail().kept().entries().size(), 1U);
+  ASSERT_EQ(session_->trail().drawn_lines().entries().size(), 1U);
   EXPECT_LT(glm::distance(session_->hand().intent().probe, {0.6, 0.3, 0.0}), 1e-12);
   EXPECT_EQ(follow(hand), std::nullopt) << "once a press";
   (void)follow(std::nullopt);
   EXPECT_EQ(follow(hand), "line 1 is kept");
-  EXPECT_EQ(session_->trail().kept().entries().size(), 1U);
+  EXPECT_EQ(session_->trail().drawn_lines().entries().size(), 1U);
 }
 
 // A tracked stylus in a session with cutting planes: far from them it points at the sphere of one, which then

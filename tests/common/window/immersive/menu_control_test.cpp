@@ -30,8 +30,8 @@ class MenuControlTest : public testing::Test {
   /// Moves the mouse to where a place of the menu is drawn.
   void move_to(double u, double v, const Camera& camera) {
     menu_.place(camera, kArea);
-    const SignView sign = *menu_.drawn();
-    const Vec3 at = sign.origin + sign.unit * (u * sign.axes[0] - v * sign.axes[1]);
+    const LabelView label = *menu_.drawn();
+    const Vec3 at = label.origin + label.unit * (u * label.axes[0] - v * label.axes[1]);
     const Vec3 shown = project(camera, at, static_cast<int>(kArea.width), static_cast<int>(kArea.height));
     (void)menu_.handle({.kind = InputKind::kMove, .x = kArea.left + shown.x, .y = kArea.top + shown.y}, kArea,
                        camera);
@@ -92,10 +92,11 @@ TEST_F(MenuControlTest, SetsStepWidthAndTurn) {
 
 TEST_F(MenuControlTest, IsPointedAtByAStylusAndGoesAway) {
   menu_.place(view_.camera, kArea);
-  const SignView sign = *menu_.drawn();
-  const Vec3 hand = sign.origin + 10.0 * sign.unit * sign.axes[2];
+  const LabelView label = *menu_.drawn();
+  const Vec3 hand = label.origin + 10.0 * label.unit * label.axes[2];
   const auto ray = [&](double u, double v) {
-    return Ray{hand, glm::normalize(sign.origin + sign.unit * (u * sign.axes[0] - v * sign.axes[1]) - hand)};
+    return Ray{hand,
+               glm::normalize(label.origin + label.unit * (u * label.axes[0] - v * label.axes[1]) - hand)};
   };
   EXPECT_TRUE(menu_.point(ray(1.0, 3.5), false));
   EXPECT_TRUE(menu_.point(ray(1.0, 3.5), true));

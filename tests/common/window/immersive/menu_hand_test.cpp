@@ -36,7 +36,7 @@ class HeldLink final : public DriverLink {
   bool round(const Vec3& force) noexcept override {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(mutex_);
-    told_ = force;
+    reported_ = force;
     atoms_ = said_;
     atoms_.time = now();
     return true;
@@ -53,12 +53,12 @@ class HeldLink final : public DriverLink {
   }
   [[nodiscard]] Vec3 told() const {
     const std::lock_guard lock(mutex_);
-    return told_;
+    return reported_;
   }
 
  private:
   mutable std::mutex mutex_;
-  Vec3 told_{0.0};
+  Vec3 reported_{0.0};
   DeviceAtoms said_{.has_position = true}, atoms_{.has_position = true};
   LinkStatus status_;
   DeviceLimits limits_;
@@ -102,8 +102,8 @@ class MenuHandTest : public testing::Test {
   }
   /// A place of the menu, in the data.
   [[nodiscard]] Vec3 at(double u, double v) const {
-    const SignView sign = *menu_.drawn();
-    return sign.origin + sign.unit * (u * sign.axes[0] - v * sign.axes[1]);
+    const LabelView label = *menu_.drawn();
+    return label.origin + label.unit * (u * label.axes[0] - v * label.axes[1]);
   }
   /// Where a hand is that the eye sees there, at `s` times the distance; in its device's frame.
   [[nodiscard]] Vec3 seen_there(double u, double v, double s) const {

@@ -139,10 +139,10 @@ TEST(DialRange, HasNoDetentsWithoutAStep) {
 
 TEST_F(SpaceMenuTest, IsDrawnAsASignOfItsPlace) {
   (void)point(1.0, 1.5);
-  const SignView sign = menu_.drawn();
-  EXPECT_EQ(sign.origin, kCorner);
-  EXPECT_EQ(sign.unit, kEntry);
-  EXPECT_EQ(sign.texts.size(), 8U) << "seven items, of which two are behind one, and the knob's value";
+  const LabelView label = menu_.drawn();
+  EXPECT_EQ(label.origin, kCorner);
+  EXPECT_EQ(label.unit, kEntry);
+  EXPECT_EQ(label.texts.size(), 8U) << "seven items, of which two are behind one, and the knob's value";
 }
 
 }  // namespace

@@ -163,13 +163,13 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
   key('G');
   press("Keep line");
   const WindowResult kept = run();
-  ASSERT_TRUE(kept.view.probe->kept);
-  EXPECT_EQ(kept.view.probe->kept->size(), 1U);
+  ASSERT_TRUE(kept.view.probe->drawn_lines);
+  EXPECT_EQ(kept.view.probe->drawn_lines->size(), 1U);
   const auto script = options_.script;
   const int last = last_;
 
   press("x");
-  EXPECT_TRUE(run().view.probe->kept->empty());
+  EXPECT_TRUE(run().view.probe->drawn_lines->empty());
 
   options_.script = script;
   last_ = last;
@@ -192,7 +192,7 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
   const WindowResult saved = run();
   EXPECT_NE(saved.message.find("ok.csv"), std::string::npos) << saved.message;
   EXPECT_NE(read_file(folder_.path("ok.csv")).find("force"), std::string::npos);
-  EXPECT_EQ(saved.view.probe->kept->size(), 1U);
+  EXPECT_EQ(saved.view.probe->drawn_lines->size(), 1U);
 }
 
 TEST_F(TouchPanelTest, OtherLinesOfTheSameFieldLeaveTheProbeInTheHand) {

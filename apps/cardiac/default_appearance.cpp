@@ -1,0 +1,83 @@
+#include "apps/cardiac/default_appearance.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "apps/cardiac/series_range.h"
+#include "common/base/text.h"
+#include "common/field/layer/wall_layer.h"
+#include "common/field/layer/wall_surfaces.h"
+#include "common/field/scalar_choice.h"
+#include "common/render/line_style.h"
+
+namespace palpate {
+namespace {
+
+/// Of the widest range, from which on a step has enough to see.
+constexpr double kNearlyAsFar = 0.9;
+
+bool same_numbers(const DataArray& a, const DataArray& b) {
+  return a.bytes.size() == b.bytes.size() && std::memcmp(a.bytes.data(), b.bytes.data(), a.bytes.size()) == 0;
+}
+
+double width_of(const DataArray& array) {
+  std::vector<double> values(array.tuples);
+  for (std::size_t t = 0; t < values.size(); ++t) values[t] = array.at(t);
+  const std::optional<ValueRange> range = usual_range(values);
+  return range ? range->upper - range->lower : 0.0;
+}
+
+/// At which of `steps` a scalar is shown; nothing where it does not change.
+std::optional<std::size_t> step_to_show(Input& input, const std::string& name,
+                                        const std::vector<std::size_t>& steps, Progress* progress) {
+  std::vector<double> widths;
+  double widest = 0.0;
+  std::optional<DataArray> first;
+  bool changes = false;
+  for (const std::size_t step : steps) {
+    input.set_time_step(step);
+    const std::vector<DataSet> blocks = input.read({name}, progress);
+    const DataArray* array = blocks.empty() ? nullptr : blocks.front().find(name, Association::kPoint);
+    if (array == nullptr) return std::nullopt;
+    if (!first) first = *array;
+    changes = changes || !same_numbers(*first, *array);
+    // Most of what a mesh has stays as it is, which two steps tell.
+    if (!changes && !widths.empty()) return std::nullopt;
+    widths.push_back(width_of(*array));
+    widest = std::max(widest, widths.back());
+  }
+  std::size_t shown = 0;
+  while (shown + 1 < widths.size() && widths[shown] < kNearlyAsFar * widest) ++shown;
+  return steps[shown];
+}
+
+}  // namespace
+
+std::string angle_of(const HeartOptions& options) {
+  return options.angle.empty() ? std::string("helix") : options.angle;
+}
+
+std::string choose_default_appearance(Input& input, Document& options, Progress* progress) {
+  if (!options.heart.angle.empty()) return {};
+  options.heart.angle = angle_of(options.heart);
+  if (input.times().size() < 2) return {};
+  const std::size_t asked = input.time().step;
+  const std::vector<std::size_t> steps = spread_steps(input);
+  for (const ArrayInfo& array : input.arrays()) {
+    if (array.association != Association::kPoint || array.components != 1 || array.name == kLayerArray ||
+        array.name == kSurfaceArray)
+      continue;
+    const auto step = step_to_show(input, array.name, steps, progress);
+    input.set_time_step(asked);
+    if (!step) continue;
+    options.heart.angle = array.name;
+    if (options.input.time.empty()) input.set_time_step(*step);
+    return "coloured by " + array.name + " at time " + short_number(input.times()[input.time().step]) +
+           "; --angle and --time choose others";
+  }
+  return {};
+}
+
+}  // namespace palpate

@@ -1,0 +1,67 @@
+/// Followed lines and drawn tracts that the user has kept: a list, with the force that was felt along each.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/geometry/line.h"
+#include "common/hand/drawn/drawn_tract.h"
+#include "common/render/probe_view.h"
+
+namespace palpate {
+
+/// What the hand felt at a place of a line, data units.
+struct HapticForce {
+  Vec3 position{0.0};
+  double force = 0.0;  ///< [N]
+};
+
+/// The force felt last at each point of `line`; NaN at points that the hand did not pass. The places lie on
+/// the line, in the order of time.
+[[nodiscard]] std::vector<double> forces_along(const Line& line, std::span<const HapticForce> felt);
+
+class DrawnLines {
+ public:
+  struct Entry {
+    int number = 1;  ///< counts all that were ever kept
+    std::shared_ptr<const Line> line;
+    std::vector<double> forces;            ///< [N], one a point; NaN where none was felt
+    std::vector<TensorMeasures> measures;  ///< one a point of a tract; none of a streamline
+    double largest_force = 0.0;
+  };
+
+  void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}}}); }
+  /// All of them, as one thing to take back.
+  void keep(std::vector<DrawnTract> lines);
+  /// Whether the last one has been kept with these points and forces.
+  [[nodiscard]] bool ends_with(const Line& line, const std::vector<double>& forces) const;
+  /// Takes out the one at `index`. @pre index < entries().size().
+  void remove(std::size_t index);
+  /// Takes back the last keep() or remove(); false where there is nothing to take back.
+  bool undo();
+  /// How often that is possible.
+  [[nodiscard]] std::size_t undo_depth() const noexcept { return before_.size(); }
+  void clear();
+
+  [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
+  /// For the picture; another object whenever the list has changed.
+  [[nodiscard]] const std::shared_ptr<const std::vector<DrawnLine>>& drawn() const noexcept { return drawn_; }
+
+  /// Writes all lines as write_drawn().
+  /// @throws Error.
+  void save(const std::filesystem::path& path, bool overwrite) const;
+
+ private:
+  void changed();
+
+  std::vector<Entry> entries_;
+  std::vector<std::vector<Entry>> before_;  ///< for undo()
+  std::shared_ptr<const std::vector<DrawnLine>> drawn_;
+  int next_number_ = 1;
+};
+
+}  // namespace palpate

@@ -1,0 +1,41 @@
+/// How tensors are read and fitted, in the words of the command line.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/field/tensor/orientation_check.h"
+#include "common/field/tensor/tensor_field.h"
+#include "common/field/tensor/tensor_fit.h"
+
+namespace palpate {
+
+/// As options have them.
+struct TensorSpec {
+  std::string order = "auto";  ///< auto, fsl, mrtrix, nifti: of six volumes of a NIfTI image
+  std::filesystem::path bval;  ///< empty: beside the image
+  std::filesystem::path bvec;
+  std::string mask = "auto";                 ///< of the fit: auto, none, or an image file
+  std::string fit = "weighted";              ///< weighted, ordinary
+  std::string negative = "keep";             ///< keep, zero
+  std::string flip;                          ///< image axes to be turned around: "k", "ij"
+  std::string permute;                       ///< "jik"
+  std::string interpolation = "components";  ///< components, log-euclidean
+};
+
+enum class StoredOrder : std::uint8_t { kAuto, kFsl, kMrtrix, kNifti };
+
+/// The same, understood.
+struct TensorReading {
+  StoredOrder order = StoredOrder::kAuto;
+  FitOptions fit;
+  bool masked = true;               ///< the fit leaves out the background
+  std::filesystem::path mask_file;  ///< empty: foreground_mask() of the unweighted volumes
+  AxisTurn turn;
+  TensorInterpolation interpolation = TensorInterpolation::kComponents;
+};
+
+/// @throws Error (usage) naming the option and the words that it knows.
+[[nodiscard]] TensorReading parse_tensor_spec(const TensorSpec& words);
+
+}  // namespace palpate
