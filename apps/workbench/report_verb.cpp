@@ -6,7 +6,7 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "lab/hand/stability_sweep.h"
+#include "lab/hand/wall/stability_sweep.h"
 #include "lab/page/html.h"
 #include "lab/page/report.h"
 

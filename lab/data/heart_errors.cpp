@@ -15,8 +15,8 @@
 #include "common/field/layer/wall_layer.h"
 #include "common/math/symmetric3.h"
 #include "common/trace/fibre_lines.h"
-#include "lab/hand/fibre_chain.h"
-#include "lab/hand/step_errors.h"
+#include "lab/hand/constraint/fibre_feel.h"
+#include "lab/hand/probe_run.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

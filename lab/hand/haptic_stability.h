@@ -11,7 +11,7 @@
 #include "common/base/progress.h"
 #include "common/field/vector_field.h"
 #include "lab/data/stability.h"
-#include "lab/hand/constraint_sweep.h"
+#include "lab/hand/constraint/constraint_sweep.h"
 
 namespace palpate {
 

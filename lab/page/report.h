@@ -8,7 +8,7 @@
 
 #include "lab/data/stability.h"
 #include "lab/data/sweep.h"
-#include "lab/hand/constraint_sweep.h"
+#include "lab/hand/constraint/constraint_sweep.h"
 #include "lab/page/machine.h"
 #include "lab/page/section.h"
 

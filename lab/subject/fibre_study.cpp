@@ -8,7 +8,7 @@
 #include "common/scene/heart_layer.h"
 #include "common/scene/seeds.h"
 #include "lab/data/heart_errors.h"
-#include "lab/hand/fibre_feel.h"
+#include "lab/hand/constraint/fibre_feel.h"
 #include "lab/study.h"
 
 namespace palpate {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/ventricle.h"
-#include "lab/hand/fibre_chain.h"
+#include "lab/hand/constraint/fibre_feel.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
 #include "tests/support/allocation_guard.h"

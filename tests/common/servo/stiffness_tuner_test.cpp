@@ -11,7 +11,7 @@
 #include "common/device/simulated_device.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"
-#include "lab/hand/wall_run.h"
+#include "lab/hand/wall/wall_run.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/stability_limit.h"
 

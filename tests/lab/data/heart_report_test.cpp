@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lab/data/heart_errors.h"
-#include "lab/hand/fibre_chain.h"
-#include "lab/hand/fibre_feel.h"
+#include "lab/hand/constraint/fibre_feel.h"
 #include "lab/page/report.h"
 
 namespace palpate {

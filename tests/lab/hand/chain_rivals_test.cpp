@@ -1,6 +1,6 @@
 // Figure 6.7 in numbers: what the report says of chain, pipe and balance.
 
-#include "lab/hand/chain_rivals.h"
+#include "lab/hand/chain/chain_rivals.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // What chains yield on closed loops: the plain sum of springs is seen to make energy, the consistent form
 // not.
 
-#include "lab/hand/chain_work.h"
+#include "lab/hand/chain/chain_work.h"
 
 #include <algorithm>
 #include <cmath>

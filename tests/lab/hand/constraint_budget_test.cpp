@@ -1,6 +1,6 @@
 // The sweep of every constraint's budget: what is enough is exact, what is not is seen.
 
-#include "lab/hand/constraint_budget.h"
+#include "lab/hand/constraint/constraint_budget.h"
 
 #include <algorithm>
 #include <map>

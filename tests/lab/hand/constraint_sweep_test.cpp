@@ -1,7 +1,7 @@
 // The sweep of the constraint's budget on a rotation, whose streamlines are circles: what the report calls
 // reference is held against those.
 
-#include "lab/hand/constraint_sweep.h"
+#include "lab/hand/constraint/constraint_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "lab/data/made_data.h"
+#include "lab/hand/constraint/reference_curve.h"
 #include "lab/hand/probe_run.h"
-#include "lab/hand/reference_curve.h"
 
 namespace palpate::test {
 namespace {

@@ -1,10 +1,10 @@
-#include "lab/hand/limit_cycle.h"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "lab/hand/wall/wall_run.h"
 
 namespace palpate::test {
 namespace {

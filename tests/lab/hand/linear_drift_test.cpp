@@ -1,6 +1,6 @@
 // Drift of the linear model: of the first order in the speed, as Euler's rule, and of known size on a circle.
 
-#include "lab/hand/linear_drift.h"
+#include "lab/hand/constraint/linear_drift.h"
 
 #include <cmath>
 

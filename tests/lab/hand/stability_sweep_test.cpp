@@ -1,4 +1,4 @@
-#include "lab/hand/stability_sweep.h"
+#include "lab/hand/wall/stability_sweep.h"
 
 #include <gtest/gtest.h>
 

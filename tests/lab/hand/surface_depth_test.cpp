@@ -1,6 +1,6 @@
 // Older estimates of depth are seen to be wrong, and how; the proxy is not.
 
-#include "lab/hand/surface_depth.h"
+#include "lab/hand/constraint/surface_depth.h"
 
 #include <gtest/gtest.h>
 

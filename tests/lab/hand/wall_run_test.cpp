@@ -1,13 +1,13 @@
 // The bench of virtual walls against theory: it must see instability where theory puts it, or what it says of
 // controllers and hands means nothing.
 
-#include "lab/hand/wall_run.h"
+#include "lab/hand/wall/wall_run.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "lab/hand/energy_cycle.h"
+#include "lab/hand/wall/energy_cycle.h"
 #include "tests/support/stability_limit.h"
 
 namespace palpate::test {

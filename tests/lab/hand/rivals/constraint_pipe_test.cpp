@@ -1,11 +1,10 @@
 // The pipe on a line and a wall that it crosses at an angle, where its rest is known.
 
-#include "lab/hand/rivals/constraint_pipe.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "lab/hand/chain/rivals.h"
 #include "tests/common/haptics/straight_links.h"
 
 namespace palpate {

@@ -1,12 +1,12 @@
 // The balance of reactions on cases whose sums of forces can be done by hand.
 
-#include "lab/hand/rivals/force_balance.h"
-
 #include <array>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "lab/hand/chain/rivals.h"
 
 namespace palpate {
 namespace {

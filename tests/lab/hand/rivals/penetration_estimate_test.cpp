@@ -1,11 +1,11 @@
 // Estimates of depth where they are right and where they are known to be wrong.
 
-#include "lab/hand/rivals/penetration_estimate.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "lab/hand/constraint/surface_depth.h"
 
 namespace palpate {
 namespace {

@@ -16,7 +16,7 @@
 #include "common/haptics/reference_frame.h"
 #include "lab/data/formula_flow.h"
 #include "lab/data/made_data.h"
-#include "lab/hand/constraint_budget.h"
+#include "lab/hand/constraint/constraint_budget.h"
 
 namespace palpate {
 namespace {

@@ -1,4 +1,4 @@
-#include "lab/hand/fibre_feel.h"
+#include "lab/hand/constraint/fibre_feel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 
 #include "common/base/text.h"
 #include "common/field/analytic/ventricle.h"
-#include "lab/hand/fibre_chain.h"
 #include "lab/hand/probe_run.h"
 #include "lab/page/html.h"
 

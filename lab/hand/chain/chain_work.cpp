@@ -1,4 +1,4 @@
-#include "lab/hand/chain_work.h"
+#include "lab/hand/chain/chain_work.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
-#include "lab/hand/constraint_sweep.h"
+#include "lab/hand/constraint/constraint_sweep.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "lab/hand/constraint/reference_curve.h"
 #include "lab/hand/probe_run.h"
-#include "lab/hand/reference_curve.h"
 
 namespace palpate {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "common/base/text.h"
-#include "lab/hand/chain_work.h"
+#include "lab/hand/chain/chain_work.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "common/base/text.h"
-#include "lab/hand/stability_sweep.h"
+#include "lab/hand/wall/stability_sweep.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

@@ -1,4 +1,4 @@
-#include "lab/hand/stability_sweep.h"
+#include "lab/hand/wall/stability_sweep.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "common/base/parallel.h"
 #include "common/base/text.h"
-#include "lab/hand/energy_cycle.h"
+#include "lab/hand/wall/energy_cycle.h"
 
 namespace palpate {
 namespace {

@@ -1,4 +1,4 @@
-#include "lab/hand/constraint_budget.h"
+#include "lab/hand/constraint/constraint_budget.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "lab/hand/surface_depth.h"
+#include "lab/hand/constraint/surface_depth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include "common/haptics/constraint/isosurface.h"
 #include "lab/hand/probe_run.h"
-#include "lab/hand/rivals/penetration_estimate.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

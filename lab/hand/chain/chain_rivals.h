@@ -25,8 +25,8 @@ namespace palpate {
 
 enum class RivalMethod : std::uint8_t {
   kChain,           ///< streamline, then isosurface, a proxy each
-  kPipe,            ///< one proxy through both (lab/hand/rivals/constraint_pipe.h)
-  kBalanceCurve,    ///< one proxy between primitives (force_balance.h), the line twice as strong
+  kPipe,            ///< one proxy through both (lab/hand/rivals/rivals.h)
+  kBalanceCurve,    ///< one proxy between primitives (rivals.h), the line twice as strong
   kBalanceSurface,  ///< the same, the plane twice as strong
 };
 inline constexpr std::array<RivalMethod, 4> kRivalMethods{

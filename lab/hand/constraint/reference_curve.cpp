@@ -1,4 +1,4 @@
-#include "lab/hand/reference_curve.h"
+#include "lab/hand/constraint/reference_curve.h"
 
 #include <algorithm>
 #include <array>

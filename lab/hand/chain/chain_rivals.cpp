@@ -1,4 +1,4 @@
-#include "lab/hand/chain_rivals.h"
+#include "lab/hand/chain/chain_rivals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,8 @@
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/proxy_chain.h"
 #include "lab/data/formula_flow.h"
+#include "lab/hand/chain/rivals.h"
 #include "lab/hand/probe_run.h"
-#include "lab/hand/rivals/constraint_pipe.h"
-#include "lab/hand/rivals/force_balance.h"
 
 namespace palpate {
 namespace {

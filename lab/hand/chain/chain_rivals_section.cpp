@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "lab/hand/chain_rivals.h"
+#include "lab/hand/chain/chain_rivals.h"
 #include "lab/page/html.h"
 #include "lab/page/plane_picture.h"
 #include "lab/page/plot.h"

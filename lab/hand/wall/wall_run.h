@@ -16,15 +16,28 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "common/device/device_profile.h"
 #include "common/device/hand_model.h"
 #include "common/device/simulated_arm.h"
 #include "common/haptics/coupling.h"
 #include "common/haptics/proxy_chain.h"
-#include "lab/hand/limit_cycle.h"
 
 namespace palpate {
+
+struct Oscillation {
+  bool sustained = false;  ///< it does not die out
+  double amplitude = 0.0;  ///< half of the way from lowest to highest, over the last quarter; unit of x
+  double frequency = 0.0;  ///< [Hz] of rises through the middle of that way; 0 where there are fewer than two
+};
+
+/// Looks at the last half of evenly spaced samples. An oscillation is sustained where the range of the last
+/// quarter is larger than `floor`, and has not fallen by kDecay from that of the quarter before: one that
+/// grows, and one that has settled to a limit cycle, but not one that dies out by more than that.
+inline constexpr double kDecay = 0.05;
+/// @param period [s] between samples.  @param floor unit of x; below it nothing is called a swing.
+[[nodiscard]] Oscillation find_oscillation(std::span<const double> x, double period, double floor);
 
 struct WallCase {
   DeviceProfile device;

@@ -1,4 +1,4 @@
-#include "lab/hand/energy_cycle.h"
+#include "lab/hand/wall/energy_cycle.h"
 
 #include <algorithm>
 #include <cmath>

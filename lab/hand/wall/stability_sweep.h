@@ -8,7 +8,7 @@
 
 #include "common/base/progress.h"
 #include "lab/data/stability.h"
-#include "lab/hand/wall_run.h"
+#include "lab/hand/wall/wall_run.h"
 #include "lab/page/section.h"
 
 namespace palpate {

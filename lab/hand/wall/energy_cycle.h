@@ -10,7 +10,7 @@
 /// the bound of Colgate & Schenkel 1994, as long as p is a whole number of v T.
 #pragma once
 
-#include "lab/hand/wall_run.h"
+#include "lab/hand/wall/wall_run.h"
 
 namespace palpate {
 

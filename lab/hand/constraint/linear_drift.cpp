@@ -1,4 +1,4 @@
-#include "lab/hand/linear_drift.h"
+#include "lab/hand/constraint/linear_drift.h"
 
 #include <algorithm>
 #include <cmath>
