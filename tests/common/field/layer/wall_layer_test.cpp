@@ -110,7 +110,7 @@ TEST(WallLayer, ScaledDataHaveTheSameLayers) {
     const WallLayer scaled = make_wall_layer(shell(6, scale, 0.0, 360.0), "shell");
     for (std::size_t p = 0; p < unit.array.tuples; ++p) ASSERT_EQ(scaled.array.at(p), unit.array.at(p));
   }
-  for (const double scale : {1e30, 1e-30}) {  // whose squares no single precision holds
+  for (const double scale : {1e30, 1e-30, 1e150, 1e-150}) {
     const WallLayer scaled = make_wall_layer(shell(6, scale, 0.0, 360.0), "shell");
     for (std::size_t p = 0; p < unit.array.tuples; ++p)
       ASSERT_NEAR(scaled.array.at(p), unit.array.at(p), 1e-6);
@@ -149,17 +149,6 @@ TEST(WallLayer, CellsWithoutASayAreCounted) {
   const std::string notes =
       notes_of({0, 1, 2, 4, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4, 3, 0, 1, 3, 5, 0, 1, 5, 6});
   EXPECT_NE(notes.find(counted_text), std::string::npos) << notes;
-}
-
-TEST(WallLayer, ASystemBeyondDoublesIsRefusedAtOnce) {
-  DataSet mesh = shell(6, 1e160);
-  tag(mesh, 6);
-  try {
-    (void)make_wall_layer(mesh, "shell.vtk");
-    ADD_FAILURE() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("shell.vtk"), std::string::npos) << error.what();
-  }
 }
 
 TEST(WallLayer, AWallWithoutAnInsideIsRefused) {
