@@ -62,8 +62,11 @@ std::string random_text(const Setting& row, std::mt19937& random) {
         if constexpr (std::is_same_v<T, bool>) return default_text(row) == "on" ? "off" : "on";
         if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
           return exact_number(random_number(row.range, random));
-        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-          return whole_number<T>(row.range, random);
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+          std::string number = default_text(row);
+          while (number == default_text(row)) number = whole_number<T>(row.range, random);
+          return number;
+        }
         std::string text = "-\"w\" \\" + std::to_string(random() % 1000);
         if (row.several()) text += ";x" + std::to_string(random() % 1000);
         return text;
