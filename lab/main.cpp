@@ -10,6 +10,9 @@
 #include "common/load/helper/serve.h"
 #include "common/scene/report_request.h"
 #include "lab/study.h"
+#ifdef PALPATE_WITH_CALIBRATION
+#include "lab/bench/bench_studies.h"
+#endif
 
 namespace {
 
@@ -24,6 +27,13 @@ constexpr std::array kSubjects{
     Subject{"scalar", study_scalars},
     Subject{"tensor", study_tensors},
     Subject{"fibre", study_fibres},
+#ifdef PALPATE_WITH_CALIBRATION
+    Subject{"calibration", study_calibration},
+    Subject{"made table", study_made_table},
+    Subject{"made calibrations", study_made_calibrations},
+    Subject{"head errors", study_head_errors},
+    Subject{"walls", study_walls},
+#endif
 };
 
 std::string answer_to(std::string_view text) {

@@ -93,14 +93,15 @@ SceneView picture_of(const SpaceMenu& menu, const std::vector<PickBall>& balls, 
   return view;
 }
 
-}  // namespace
-
-void run_controls(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const std::vector<TrackedHands> hands = read_hands(options.file.string());
-  if (hands.empty())
-    throw input_error({options.file.string(), "", "no rows", "a stylus that is tracked", ""});
+ExitCode run_controls(const Document& options, const VerbContext& context) {
+  const std::filesystem::path& path = options.hand.path;
+  const std::filesystem::path& out = options.output.file;
+  const std::filesystem::path& picture = options.device_outputs.picture;
+  if (path.empty()) throw usage_error("controls needs recorded hands: a table t,x,y,z,qw,qx,qy,qz[,b0,...]");
+  const std::vector<TrackedHands> hands = read_hands(path.string());
+  if (hands.empty()) throw input_error({path.string(), "", "no rows", "a stylus that is tracked", ""});
   WorkbenchGeometry workbench;
-  if (!options.nominal.empty()) workbench = read_workbench(options.nominal);
+  if (!options.hand.workbench.empty()) workbench = read_workbench(options.hand.workbench);
   const Vec3 corner = workbench.interaction.middle;
   workbench.interaction.middle = Vec3{0.0};
   workbench.interaction.rotation = identity_rotation();
@@ -110,10 +111,10 @@ void run_controls(const WorkbenchOptions& options, const WorkbenchContext& conte
   menu.put(corner, Mat3(1.0), kEntry);
   const std::vector<PickBall> balls = sample_balls(corner);
 
-  if (!options.picture.empty()) check_output(options.picture, options.force);
+  if (!picture.empty()) check_output(picture, options.common.force);
   std::optional<OutputFile> log;
-  if (!options.out.empty()) {
-    log.emplace(options.out, options.force);
+  if (!out.empty()) {
+    log.emplace(out, options.common.force);
     log->write("t,x,y,z,dx,dy,dz,button,pointed,event,id,value,ray_pick,aperture_pick\n");
   }
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
@@ -165,12 +166,12 @@ void run_controls(const WorkbenchOptions& options, const WorkbenchContext& conte
     events.push_back(std::move(told));
   }
   if (log) log->finish();
-  if (!options.picture.empty()) {
+  if (!picture.empty()) {
     const RenderedImage drawn =
         render_image(picture_of(menu, balls, ray, picked), kPicture.width, kPicture.height);
-    write_png(options.picture, drawn.image,
-              {{"Software", version_text("workbench")}, {"Command", context.command_line}});
-    text += "-> " + options.picture.string() + "\n";
+    write_png(picture, drawn.image,
+              {{"Software", version_text(context.explorer.name)}, {"Command", context.command_line}});
+    text += "-> " + picture.string() + "\n";
   }
   context.console.print(text.empty() ? "nothing was chosen or set\n" : text);
   nlohmann::ordered_json json{{"steps", hands.size()},
@@ -179,6 +180,19 @@ void run_controls(const WorkbenchOptions& options, const WorkbenchContext& conte
                               {"width", menu.value(3)},
                               {"turn", menu.value(4)}};
   context.console.print_json(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb controls_verb(std::vector<UsageExample> examples) {
+  return {
+      .name = "controls",
+      .summary =
+          "work a menu in space, its sliders and knobs, with a recorded stylus, and pick by ray and aperture",
+      .groups = {Group::kMenu},
+      .examples = std::move(examples),
+      .run = run_controls};
 }
 
 }  // namespace palpate

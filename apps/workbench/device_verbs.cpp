@@ -184,16 +184,16 @@ std::vector<std::string> obstacles(const Survey& seen, Json& rules) {
   return lines;
 }
 
-}  // namespace
-
-void run_devices(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const Survey seen = survey(options.device);
+ExitCode run_devices(const Document& options, const VerbContext& context) {
+  const Survey seen = survey(options.trial.device);
   context.console.print(devices_text(seen));
   context.console.print_json(dumped(devices_json(seen)));
+  return ExitCode::kDone;
 }
 
-void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry workbench = workbench_of(options.workbench);
+ExitCode run_doctor(const Document& document, const VerbContext& context) {
+  const TrialOptions& options = document.trial;
+  const WorkbenchGeometry workbench = workbench_of(document.hand.workbench);
   const Survey seen = survey(options.device);
   std::string text = devices_text(seen);
   Json json = devices_json(seen);
@@ -234,6 +234,29 @@ void run_doctor(const WorkbenchOptions& options, const WorkbenchContext& context
   context.console.print(text);
   context.console.print_json(dumped(json));
   if (!usable) throw work_error("not all that was found can be used; the lines above say what to do");
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb devices_verb(std::vector<UsageExample> examples) {
+  return {.name = "devices",
+          .summary = "devices that are plugged in, and drivers for them",
+          .groups = {Group::kSurvey},
+          .examples = std::move(examples),
+          .run = run_devices};
+}
+
+Verb doctor_verb(std::vector<UsageExample> examples) {
+  return {
+      .name = "doctor",
+      .summary = "permissions, firmware, rate, jitter and latency of a device, and what to do about them",
+      .details =
+          "Without --device all that are plugged in. Ends with 0 where every device that it found, or the one of\n"
+          "--device, is ready, else with 1.",
+      .groups = {Group::kCheck},
+      .examples = std::move(examples),
+      .run = run_doctor};
 }
 
 }  // namespace palpate

@@ -9,18 +9,6 @@
 
 namespace palpate {
 
-std::string_view name_of(FeelEffect effect) noexcept {
-  switch (effect) {
-    case FeelEffect::kWall:
-      return "wall";
-    case FeelEffect::kGroove:
-      return "groove";
-    case FeelEffect::kSphere:
-      return "sphere";
-  }
-  return "";
-}
-
 std::unique_ptr<ProxyChain> feel_chain(FeelEffect effect, double stiffness, double damping) {
   std::vector<std::unique_ptr<Constraint>> links;
   constexpr double kHalf = 0.5 * kFeelGrooveLength;

@@ -8,7 +8,9 @@
 ///                      hand got energy from it [J]; the hold alone gives K v T p (haptics/coupling.h)
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,8 +22,8 @@
 
 namespace palpate {
 
-enum class FeelEffect : int { kWall, kGroove, kSphere };
-[[nodiscard]] std::string_view name_of(FeelEffect effect) noexcept;  ///< "wall"
+enum class FeelEffect : std::uint8_t { kWall, kGroove, kSphere };
+inline constexpr std::array<std::string_view, 3> kFeelEffectNames{"wall", "groove", "sphere"};
 
 /// Metres about the middle of the device; z runs towards the hand.
 inline constexpr double kFeelSphereRadius = 0.025;

@@ -12,6 +12,7 @@
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
+#include "common/base/figures.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/probe_log.h"
@@ -20,7 +21,6 @@
 #include "common/device/replay_device.h"
 #include "common/haptics/coupling.h"
 #include "common/servo/servo_loop.h"
-#include "lab/page/html.h"
 
 namespace palpate {
 namespace {
@@ -40,8 +40,8 @@ struct Timing {
 
 double histogram_ms(std::uint64_t ns) { return 1e-6 * static_cast<double>(ns); }
 
-std::string score_text(const FeelScore& score, const WorkbenchOptions& o, const Timing* timing) {
-  std::string text = std::string(name_of(o.effect)) + " of " + short_number(o.stiffness) +
+std::string score_text(const FeelScore& score, const TrialOptions& o, const Timing* timing) {
+  std::string text = o.effect + " of " + short_number(o.stiffness) +
                      " N/m: " + counted(score.steps(), "step") + ", " + std::to_string(score.in_contact()) +
                      " in contact\n";
   text += "  stretch    at most " + three_digits(kMilli * score.deepest()) + " mm under at most " +
@@ -63,7 +63,7 @@ std::string score_text(const FeelScore& score, const WorkbenchOptions& o, const 
   return text;
 }
 
-Json score_json(const FeelScore& score, const WorkbenchOptions& o, const std::string& device,
+Json score_json(const FeelScore& score, const TrialOptions& o, const std::string& device,
                 const Timing* timing) {
   Json cases = Json::array();
   for (const StabilityCase& c : score.cases()) {
@@ -73,7 +73,7 @@ Json score_json(const FeelScore& score, const WorkbenchOptions& o, const std::st
                      {"unit", c.unit},
                      {"holds", c.row.holds}});
   }
-  Json json{{"effect", name_of(o.effect)},
+  Json json{{"effect", o.effect},
             {"device", device},
             {"stiffness_n_per_m", o.stiffness},
             {"steps", score.steps()},
@@ -97,8 +97,8 @@ Json score_json(const FeelScore& score, const WorkbenchOptions& o, const std::st
   return json;
 }
 
-/// Stiffness of `options` held to what is known of the device.
-void hold_to_tuned(const WorkbenchGeometry& geometry, const std::string& key, WorkbenchOptions& o,
+/// The stiffness held to what is known of the device.
+void hold_to_tuned(const WorkbenchGeometry& geometry, const std::string& key, TrialOptions& o,
                    const Console& console) {
   const TunedDevice* tuned = find_tuned(geometry.tuned, key);
   if (tuned == nullptr || o.stiffness <= tuned->stiffness) return;
@@ -133,24 +133,29 @@ class StrokingHand final : public Device {
   double began_ = -1.0;  ///< [s] negative: not yet
 };
 
+FeelEffect effect_of(const TrialOptions& o) {
+  return static_cast<FeelEffect>(find_word(kFeelEffectNames, o.effect, "effect"));
+}
+
 std::string device_name(const std::optional<SimulatedDeviceOptions>& simulated) {
   return simulated ? device_key(*simulated) : "path";
 }
 
 /// A hand on a recorded path: the path itself, or a simulated hand that wants to be on it.
-FeelScore feel_path(const WorkbenchOptions& o, const std::optional<SimulatedDeviceOptions>& simulated,
-                    const WorkbenchContext& context) {
-  const std::vector<PathRow> path = read_probe_path(o.path.string());
+FeelScore feel_path(const Document& document, const TrialOptions& o,
+                    const std::optional<SimulatedDeviceOptions>& simulated, const VerbContext& context) {
+  const std::vector<PathRow> path = read_probe_path(document.hand.path.string());
+  const std::filesystem::path& out = document.output.file;
   const Workspace metres(1.0, LocalFrame{});
   std::optional<OutputFile> file;
   std::optional<ProbeLog> log;
-  if (!o.out.empty()) {
-    file.emplace(o.out, o.force);
+  if (!out.empty()) {
+    file.emplace(out, document.common.force);
     log.emplace(*file, metres, 1, ProbeLog::Measured{});
   }
   FeelScore score(o.stiffness);
   const DeviceLimits limits = simulated ? simulated->limits : DeviceLimits{};
-  HandStepper stepper(feel_chain(o.effect, o.stiffness, o.damping), limits);
+  HandStepper stepper(feel_chain(effect_of(o), o.stiffness, o.damping), limits);
   const auto take = [&](const HandInput& hand) {
     const HandStep step = stepper.step(hand);
     score.add(step);
@@ -169,7 +174,7 @@ FeelScore feel_path(const WorkbenchOptions& o, const std::optional<SimulatedDevi
     WorkbenchDevice workbench(*simulated, &leader);
     HandInput hand{.present = true};
     for (std::size_t n = 0;; ++n) {
-      hand.time = path.front().time + static_cast<double>(n) / o.servo_rate;
+      hand.time = path.front().time + static_cast<double>(n) / document.hand.rate;
       if (!workbench.device().read(hand.time, hand.sample)) break;
       workbench.device().command(take(hand));
       context.progress.check();
@@ -177,7 +182,7 @@ FeelScore feel_path(const WorkbenchOptions& o, const std::optional<SimulatedDevi
   }
   if (file) {
     file->finish();
-    context.console.note(o.out.string() + ": " + counted(score.steps(), "row"));
+    context.console.note(out.string() + ": " + counted(score.steps(), "row"));
   }
   return score;
 }
@@ -202,8 +207,8 @@ std::string readout(double time, const HandStep& step, double age, double rate) 
   return text + "\n";
 }
 
-FeelScore feel_live(WorkbenchDevice& workbench, const WorkbenchOptions& o, const WorkbenchContext& context,
-                    Timing& timing) {
+FeelScore feel_live(WorkbenchDevice& workbench, const TrialOptions& o, double servo_rate,
+                    const VerbContext& context, Timing& timing) {
   FeelScore score(o.stiffness);
   ForceKeys keys;
   if (keys.listening()) context.console.note("F12 or any key: no force; a: force again; q: end");
@@ -211,8 +216,8 @@ FeelScore feel_live(WorkbenchDevice& workbench, const WorkbenchOptions& o, const
   ServoState state;
   double elapsed = 0.0;
   {
-    ServoLoop servo(workbench.device(), feel_chain(o.effect, o.stiffness, o.damping), "feel",
-                    {.rate = o.servo_rate});
+    ServoLoop servo(workbench.device(), feel_chain(effect_of(o), o.stiffness, o.damping), "feel",
+                    {.rate = servo_rate});
     const std::int64_t start = monotonic_ns();
     std::string said;
     double next = 0.0;
@@ -260,28 +265,31 @@ FeelScore feel_live(WorkbenchDevice& workbench, const WorkbenchOptions& o, const
   return score;
 }
 
-}  // namespace
-
-void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
-  WorkbenchOptions options = given;
-  const WorkbenchGeometry geometry = workbench_of(options.workbench);
+ExitCode run_feel(const Document& document, const VerbContext& context) {
+  TrialOptions options = document.trial;
+  const bool recorded = !document.hand.path.empty();
+  if (options.device.empty() && !recorded)
+    throw usage_error("feel needs a device, or a recorded hand: try --device simulated, or --path hand.csv");
+  if (!document.output.file.empty() && !recorded)
+    throw usage_error("feel writes a log of a recorded hand alone: give --path, or leave --out away");
+  const WorkbenchGeometry geometry = workbench_of(document.hand.workbench);
   std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device);
   if (simulated) {
     simulated->limits = safe_limits(simulated->profile);
     hold_to_tuned(geometry, device_key(*simulated), options, context.console);
   }
-  if (!options.path.empty()) {
+  if (recorded) {
     if (!simulated && !options.device.empty())
       throw usage_error("a recorded hand is felt by itself, or on a simulated arm: leave --device " +
                         options.device + " away, or try --device simulated:falcon");
-    const FeelScore score = feel_path(options, simulated, context);
+    const FeelScore score = feel_path(document, options, simulated, context);
     context.console.print(score_text(score, options, nullptr));
     context.console.print_json(score_json(score, options, device_name(simulated), nullptr)
                                    .dump(2, ' ', false, Json::error_handler_t::replace));
-    return;
+    return ExitCode::kDone;
   }
   std::unique_ptr<WorkbenchDevice> workbench;
-  StrokingHand hand(options.effect == FeelEffect::kSphere ? kFeelSphereRadius : 0.0,
+  StrokingHand hand(effect_of(options) == FeelEffect::kSphere ? kFeelSphereRadius : 0.0,
                     simulated ? simulated->limits : DeviceLimits{});
   if (simulated) {
     workbench = std::make_unique<WorkbenchDevice>(*simulated, &hand);
@@ -290,10 +298,25 @@ void run_feel(const WorkbenchOptions& given, const WorkbenchContext& context) {
     hold_to_tuned(geometry, workbench->key(), options, context.console);
   }
   Timing timing;
-  const FeelScore score = feel_live(*workbench, options, context, timing);
+  const FeelScore score = feel_live(*workbench, options, document.hand.rate, context, timing);
   context.console.print(score_text(score, options, &timing));
   context.console.print_json(score_json(score, options, workbench->key(), &timing)
                                  .dump(2, ' ', false, Json::error_handler_t::replace));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb feel_verb(std::vector<UsageExample> examples) {
+  return {
+      .name = "feel",
+      .summary = "reference effects, to judge how truly a device shows them",
+      .details =
+          "With --path no device is needed. On a terminal F12 or any other key switches the force off, `a` on again,\n"
+          "`q` ends.",
+      .groups = {Group::kFeel},
+      .examples = std::move(examples),
+      .run = run_feel};
 }
 
 }  // namespace palpate

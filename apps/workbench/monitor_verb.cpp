@@ -10,6 +10,7 @@
 
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
@@ -143,10 +144,10 @@ Json atoms_json(double time, const DeviceAtoms& atoms, const WorkbenchReading& w
   return json;
 }
 
-}  // namespace
-
-void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry geometry = workbench_of(options.workbench);
+ExitCode run_monitor(const Document& document, const VerbContext& context) {
+  const TrialOptions& options = document.trial;
+  if (options.device.empty()) throw usage_error("monitor needs a device: try --device spacemouse");
+  const WorkbenchGeometry geometry = workbench_of(document.hand.workbench);
   const WorkbenchReading workbench(geometry);
   const std::unique_ptr<DriverLink> link =
       open_at_workbench(device_at_workbench(options.device, geometry), geometry,
@@ -167,7 +168,7 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
     if (!fresh || now < next) continue;
     next = now + 1.0 / options.rate;
     const PoseAtoms* const poses = link->poses();
-    if (options.json) {
+    if (document.common.json) {
       samples.push_back(atoms_json(now, link->atoms(), workbench));
       if (poses != nullptr) samples.back()["stations"] = poses_json(*poses, workbench);
     } else {
@@ -180,6 +181,17 @@ void run_monitor(const WorkbenchOptions& options, const WorkbenchContext& contex
                   {"advice", link->advice()},
                   {"samples", samples}};
   context.console.print_json(told.dump(2, ' ', false, Json::error_handler_t::replace));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb monitor_verb(std::vector<UsageExample> examples) {
+  return {.name = "monitor",
+          .summary = "read-outs of a device as it is moved; it shows no force",
+          .groups = {Group::kReadOut},
+          .examples = std::move(examples),
+          .run = run_monitor};
 }
 
 }  // namespace palpate

@@ -9,26 +9,26 @@
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
+#include "common/base/figures.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/simulated_option.h"
 #include "common/servo/servo_loop.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"
-#include "lab/page/html.h"
 
 namespace palpate {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-TuningPlan plan_of(const WorkbenchOptions& o, const DeviceLimits& limits) {
+TuningPlan plan_of(const TrialOptions& o, double rate, const DeviceLimits& limits) {
   // Half of the cap, so that a knock is shown as it is asked for.
-  return {.places = tuning_places(limits, o.tune.places),
-          .rate = o.servo_rate,
-          .least = o.tune.least,
-          .most = o.tune.most,
-          .knock = std::min(o.tune.knock, 0.5 * limits.force_cap)};
+  return {.places = tuning_places(limits, o.places),
+          .rate = rate,
+          .least = o.least,
+          .most = o.most,
+          .knock = std::min(o.knock, 0.5 * limits.force_cap)};
 }
 
 std::string place_text(const Vec3& x) {
@@ -70,8 +70,8 @@ Json result_json(const TuningResult& at) {
 }
 
 /// Works a real device until the tuner is done. @throws Error, Cancelled: without a force then.
-TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, const WorkbenchOptions& options,
-                     const WorkbenchContext& context) {
+TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, double patience,
+                     const VerbContext& context) {
   ForceKeys keys;
   const auto channel = std::make_shared<StiffnessTuner::Channel>();
   ServoLoop servo(workbench.device(), tuning_chain(plan, channel), "tune", {.rate = plan.rate});
@@ -104,7 +104,7 @@ TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, const W
                        "); nothing is written");
     }
     begun = begun || (shown && state.hand.present);
-    if (!begun && 1e-9 * static_cast<double>(monotonic_ns() - start) > options.patience)
+    if (!begun && 1e-9 * static_cast<double>(monotonic_ns() - start) > patience)
       throw work_error("the device did not become ready; `workbench doctor` says why");
     for (; told < news.place && told < news.count; ++told)
       context.console.print(result_text(news.results[told]));
@@ -112,19 +112,24 @@ TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, const W
   return news;
 }
 
-}  // namespace
-
-void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) {
-  const WorkbenchGeometry geometry = workbench_of(options.workbench);
+ExitCode run_tune(const Document& document, const VerbContext& context) {
+  const TrialOptions& options = document.trial;
+  const std::filesystem::path& out = document.device_outputs.section;
+  const bool force = document.common.force;
+  if (options.device.empty()) throw usage_error("tune needs a device: try --device simulated");
+  if (options.places != 1 && options.places != 7 && options.places != 27)
+    throw usage_error("--places " + std::to_string(options.places) + ": 1, 7 or 27 is expected");
+  if (options.least > options.most) throw usage_error("tune: --least is above --most");
+  const WorkbenchGeometry geometry = workbench_of(document.hand.workbench);
   TuningNews news;
   TuningPlan plan;
   std::string key, text;
   std::optional<StiffnessBound> bound;
   const auto check_out = [&] {
-    if (options.out.empty()) return;
-    check_output(options.out, true);
-    if (!options.force && has_section(options.out, "tuned." + key))
-      throw usage_error(options.out.string() + " has a section [tuned." + key +
+    if (out.empty()) return;
+    check_output(out, true);
+    if (!force && has_section(out, "tuned." + key))
+      throw usage_error(out.string() + " has a section [tuned." + key +
                         "] already; use --force to replace it");
   };
   if (std::optional<SimulatedDeviceOptions> simulated = simulated_option(options.device)) {
@@ -134,7 +139,7 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
     WorkbenchDevice workbench(*simulated, nullptr);
     key = workbench.key();
     check_out();
-    plan = plan_of(options, simulated->limits);
+    plan = plan_of(options, document.hand.rate, simulated->limits);
     plan.most = std::max(plan.least, std::min(plan.most, simulated->profile.max_stiffness));
     news = run_tuning(workbench.device(), plan, &context.progress);
     bound = stiffness_bound(wall_loop(simulated->profile, plan.rate), 0.0);
@@ -147,11 +152,11 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
       throw usage_error("tune moves the arm by itself, and there is force only " + workbench.held() +
                         ": put the switch on another device (--device " + key +
                         ":enable=pedal), or stay at the device's own switch (" + key + ":button=none)");
-    plan = plan_of(options, workbench.linked()->limits());
+    plan = plan_of(options, document.hand.rate, workbench.linked()->limits());
     context.console.note("the arm will move by itself; any key ends this without force");
-    news = tune_live(workbench, plan, options, context);
+    news = tune_live(workbench, plan, options.patience, context);
   }
-  const std::optional<double> found = tuned_stiffness(news, options.tune.margin);
+  const std::optional<double> found = tuned_stiffness(news, options.margin);
   Json places = Json::array();
   TunedDevice tuned{.device = key, .stiffness = 0.0, .rate = plan.rate, .places = {}};
   for (std::size_t i = 0; i < news.count; ++i) {
@@ -162,7 +167,7 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
   Json json{{"device", key},
             {"rate_hz", plan.rate},
             {"knock_n", plan.knock},
-            {"margin", options.tune.margin},
+            {"margin", options.margin},
             {"stiffness_n_per_m", found ? Json(*found) : Json(nullptr)},
             {"places", places}};
   if (bound) {
@@ -171,20 +176,36 @@ void run_tune(const WorkbenchOptions& options, const WorkbenchContext& context) 
   }
   if (found) {
     tuned.stiffness = *found;
-    if (!options.out.empty()) {
-      write_section(options.out, "tuned." + key, section_text(tuned), options.force);
-      json["out"] = options.out.string();
+    if (!out.empty()) {
+      write_section(out, "tuned." + key, section_text(tuned), force);
+      json["out"] = out.string();
     }
-    text += key + ": " + three_digits(*found) + " N/m may be used, " + short_number(options.tune.margin) +
+    text += key + ": " + three_digits(*found) + " N/m may be used, " + short_number(options.margin) +
             " of the least that it bears";
     text += bound ? "; passive up to " + three_digits(bound->stiffness) + " N/m (" +
                         std::string(name_of(bound->limit)) + ")\n"
                   : "\n";
-    if (!options.out.empty()) text += "  -> [tuned." + key + "] of " + options.out.string() + "\n";
+    if (!out.empty()) text += "  -> [tuned." + key + "] of " + out.string() + "\n";
   }
   context.console.print(text);
   context.console.print_json(json.dump(2, ' ', false, Json::error_handler_t::replace));
   if (!found) throw work_error(key + ": no stiffness was found that it bears; the lines above say why");
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb tune_verb(std::vector<UsageExample> examples) {
+  return {
+      .name = "tune",
+      .summary = "the stiffness that a device bears, unheld, at several places",
+      .details =
+          "The arm moves by itself: clear its way, let go of it, and keep a hand on F12; any key ends the run without\n"
+          "force. A point draws it to each place, is made stiffer by quarters and knocks, until the arm does not come\n"
+          "to rest. Explorers with --workbench use no more than the written stiffness on that device.",
+      .groups = {Group::kTune},
+      .examples = std::move(examples),
+      .run = run_tune};
 }
 
 }  // namespace palpate

@@ -30,6 +30,15 @@ const Verb* find_verb(const Explorer& explorer, std::string_view name) {
   return nullptr;
 }
 
+/// What `verb` takes, with what all take.
+Groups groups_of(const Verb& verb) { return verb.groups.with(Group::kCommon); }
+
+/// Whether the verb that needs no name takes files.
+bool opens_files(const Explorer& explorer) {
+  const Verb* verb = find_verb(explorer, explorer.default_verb);
+  return verb && verb->groups.has(Group::kInput);
+}
+
 /// A bare word that is no file was meant as a verb, or lacks its ending.
 /// @param alone no other word follows it, so that a file may have been meant.
 void refuse_unknown_verb(const Explorer& explorer, const std::string& word, bool alone) {
@@ -39,7 +48,7 @@ void refuse_unknown_verb(const Explorer& explorer, const std::string& word, bool
   if (!bare || std::filesystem::exists(word, ignored)) return;
   std::string verbs;
   for (const Verb& verb : explorer.verbs) verbs += (verbs.empty() ? "" : ", ") + verb.name;
-  if (!alone) throw usage_error(word + ": no such verb; verbs are " + verbs);
+  if (!alone || !opens_files(explorer)) throw usage_error(word + ": no such verb; verbs are " + verbs);
   throw input_error({word, "", "there is no such file, and no such verb", "", "verbs are " + verbs});
 }
 
@@ -73,22 +82,29 @@ class HelpText : public CLI::Formatter {
   explicit HelpText(const Explorer& explorer) : explorer_(explorer) {}
 
   std::string make_usage(const CLI::App* app, std::string name) const override {
-    if (const Verb* verb = find_verb(explorer_, app->get_name())) {
-      return "Usage: " + name + (verb->groups.has(Group::kInput) ? " FILE... | --example NAME" : "") +
-             " [options]\n";
-    }
-    return "Usage: " + name + " [VERB] FILE... [options]\n       " + name +
-           " [VERB] --example NAME [options]\n";
+    const Verb* verb = find_verb(explorer_, app->get_name());
+    const Verb* meant = verb ? verb : find_verb(explorer_, explorer_.default_verb);
+    return "Usage: " + name + (verb ? "" : " [VERB]") + (meant ? operands(*meant) : "") + " [options]\n";
   }
 
  private:
+  /// " FILE... | --example NAME"
+  std::string operands(const Verb& verb) const {
+    std::string text;
+    for (const Setting& row : settings()) {
+      if (row.spelling == Spelling::kPositional && row.belongs(explorer_.kind, groups_of(verb)))
+        text += " " + row.option() + (row.several() ? "..." : "");
+    }
+    return text + (verb.groups.has(Group::kInput) ? " | --example NAME" : "");
+  }
+
   const Explorer& explorer_;
 };
 
-/// "Examples:" and what follows it in a help text; empty where there are none.
-std::string examples_text(const std::vector<UsageExample>& examples) {
-  if (examples.empty()) return {};
-  std::string text = "Examples:";
+/// `before`, "Examples:" and what follows it in a help text; empty where there are none.
+std::string examples_text(const std::string& before, const std::vector<UsageExample>& examples) {
+  std::string text = before + (before.empty() || examples.empty() ? "" : "\n\n");
+  if (!examples.empty()) text += "Examples:";
   for (const UsageExample& example : examples) text += "\n  " + example.command + "\n      " + example.what;
   return text;
 }
@@ -127,10 +143,10 @@ void bind(CLI::App& app, const Setting& row, std::vector<Bound>& bound) {
       }
       return;
     case Spelling::kPositional:
-      add(app.add_option(std::string(row.value), taken, row.full_help()))
+      add(app.add_option(row.option(), taken, row.full_help()))
           ->type_name("")
-          ->expected(1, -1)
-          ->allow_extra_args();
+          ->expected(1, row.several() ? -1 : 1)
+          ->allow_extra_args(row.several());
       return;
     case Spelling::kOption:
       break;
@@ -144,9 +160,6 @@ void bind(CLI::App& app, const Setting& row, std::vector<Bound>& bound) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);  // or it would swallow the FILE behind it
 }
-
-/// What `verb` takes besides its own groups.
-Groups groups_of(const Verb& verb) { return verb.groups.with(Group::kCommon); }
 
 /// The text that was typed for an option; the parts of a list with ';' between.
 std::string typed_text(const Bound& bound) {
@@ -187,17 +200,18 @@ ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std
   app.set_version_flag("--version", version_text(explorer.name));
   app.require_subcommand(0, 1);
   app.formatter(std::make_shared<HelpText>(explorer));
-  const std::string footer = "'" + explorer.name + " FILE' is '" + explorer.name + " " +
-                             explorer.default_verb + " FILE'; '" + explorer.name +
-                             " VERB --help' lists a verb's options.\n\n";
-  app.footer(footer + examples_text(explorer.examples));
+  const std::string file = opens_files(explorer) ? " FILE'" : "'";
+  app.footer(examples_text("'" + explorer.name + file + " is '" + explorer.name + " " +
+                               explorer.default_verb + file + "; '" + explorer.name +
+                               " VERB --help' lists a verb's options.",
+                           explorer.examples));
 
   std::map<const CLI::App*, std::vector<Bound>> options;
   for (const Verb& verb : explorer.verbs) {
     CLI::App* sub = app.add_subcommand(verb.name, verb.summary)->group("Verbs");
     sub->set_help_flag("--help,-h", "print this help");
     sub->set_version_flag("--version", version_text(explorer.name));
-    sub->footer(examples_text(verb.examples));
+    sub->footer(examples_text(verb.details, verb.examples));
     for (const Setting& row : settings()) {
       if (row.belongs(explorer.kind, groups_of(verb))) bind(*sub, row, options[sub]);
     }

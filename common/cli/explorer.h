@@ -36,7 +36,8 @@ struct VerbContext {
 struct Verb {
   std::string name;
   std::string summary;
-  Groups groups;  ///< of settings that it takes besides the common ones
+  std::string details = {};  ///< what the help says before the examples; may be empty
+  Groups groups;             ///< of settings that it takes besides the common ones
   std::vector<UsageExample> examples;
   /// Does the work. @throws Error.
   std::function<ExitCode(const Document&, const VerbContext&)> run;

@@ -37,11 +37,13 @@ void check_outputs(const Document& options) {
        {options.input.tensor.bval, options.input.tensor.bvec,
         std::filesystem::path(options.input.tensor.mask), options.hand.path, options.hand.workbench,
         options.hand.replay, options.common.session, std::filesystem::path(options.tracing.seeds),
-        std::filesystem::path(device)}) {
+        std::filesystem::path(device), options.calibration.table, options.calibration.nominal}) {
     inputs.push_back(input);
   }
-  const std::array<std::filesystem::path, 3> outputs{options.output.file, options.hand.record,
-                                                     options.output.tract};
+  const DeviceOutputs& of_devices = options.device_outputs;  // of a section the rest stays: no output here
+  const std::array<std::filesystem::path, 6> outputs{options.output.file,  options.hand.record,
+                                                     options.output.tract, of_devices.report,
+                                                     of_devices.pictures,  of_devices.picture};
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     const std::filesystem::path& output = outputs[o];
     for (std::size_t other = 0; other < o; ++other) {

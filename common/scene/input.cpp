@@ -64,6 +64,8 @@ std::vector<ExampleInfo> examples_of(FieldKind kind) {
       return tensor_examples();
     case FieldKind::kFibre:
       return heart_examples();
+    case FieldKind::kNone:
+      return {};
     case FieldKind::kVector:
       break;
   }

@@ -103,6 +103,27 @@ TEST_F(Workbench, SweepsADeviceThatAFileDescribes) {
   EXPECT_EQ(run({"stability", "--model", "omega", "--out", "other"}).exit_code, 2);
 }
 
+TEST_F(Workbench, HasTheCommandLineOfTheExplorers) {
+  const Json out = json({"--seed", "3", "screen", "--distance", "0.5"});  // options may stand before the verb
+  EXPECT_EQ(out["settings"]["distance"], 0.5);
+  EXPECT_EQ(out["settings"]["seed"], 3);
+  EXPECT_EQ(run({"nose"}).exit_code, 2);
+  EXPECT_EQ(run({"example"}).exit_code, 2);
+  EXPECT_EQ(run({"example", "arm"}).exit_code, 2);
+  EXPECT_EQ(run({"stability"}).exit_code, 2);
+  EXPECT_EQ(run({"screen", "--position-error", "5"}).exit_code, 2);
+  EXPECT_EQ(run({"calibrate", "coregister", "--example", "--noise", "1,0,1"}).exit_code, 2);
+  EXPECT_EQ(
+      run({"calibrate", "tracker", "--example", "--method", "spline", "--out", "workbench.toml"}).exit_code,
+      2);
+  EXPECT_EQ(run({"example", "pivot", "-o", "table.csv", "-q"}).exit_code, 0);
+  const std::string table = read_file(folder_.path("table.csv"));
+  const ProgramResult over = run({"calibrate", "pivot", "table.csv", "--report", "table.csv", "--force"});
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_NE(over.err.find("is the input"), std::string::npos) << over.err;
+  EXPECT_EQ(read_file(folder_.path("table.csv")), table);
+}
+
 TEST_F(Workbench, ReadsOutTheEffectOfTrackingErrorsForAScreen) {
   const Json out = json({"screen", "--distance", "0.5", "--position-error", "10,0", "--behind", "0.5"});
   // Half a metre behind a screen half a metre away: the error itself (eq. 4.22).

@@ -40,7 +40,7 @@ const std::map<std::string, std::set<std::string>> kDirect{{"base", {}},
                                                            {"compose", {"scene", "render"}},
                                                            {"hand", {"compose", "servo"}},
                                                            {"window", {"hand"}},
-                                                           {"cli", {"hand", "calibration"}}};
+                                                           {"cli", {"hand"}}};
 
 std::set<std::string> closure(const std::string& folder) {
   std::set<std::string> reached{folder};
@@ -77,8 +77,7 @@ bool allowed(const std::string& from, const std::string& to) {
   if (from.starts_with("lab/")) {
     return to.starts_with("lab/") || (to_common && to != "common/window" && to != "common/cli");
   }
-  // workbench still shows calibrations by the pages of lab.
-  return from.starts_with("apps/") && (to_common || (from == "apps/workbench" && to.starts_with("lab/")));
+  return from.starts_with("apps/") && to_common;
 }
 
 struct Foreign {
@@ -192,6 +191,7 @@ TEST(IncludeArrows, RefuseAWrongArrow) {
   EXPECT_FALSE(allowed("common/compose", "common/hand"));
   EXPECT_FALSE(allowed("common/hand", "lab/hand"));
   EXPECT_FALSE(allowed("apps/flow", "lab/page"));
+  EXPECT_FALSE(allowed("apps/workbench", "lab/bench"));
   EXPECT_FALSE(allowed("lab/hand", "common/cli"));
   EXPECT_TRUE(allowed("apps/flow", "common/window"));
   EXPECT_TRUE(allowed("common/haptics", "common/ode"));

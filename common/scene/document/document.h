@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/document/device_options.h"
 #include "common/scene/document/input_options.h"
 #include "common/scene/touch_spec.h"
 
@@ -231,6 +232,10 @@ struct Document {
   TouchOptions touch;
   HandOptions hand;
   OutputOptions output;
+  CalibrationOptions calibration;
+  HeadErrorOptions head_errors;
+  TrialOptions trial;
+  DeviceOutputs device_outputs;
   /// Names of the settings that were given, by the command line or a session. They say nothing of the scene:
   /// documents that differ in them alone are equal.
   std::vector<std::string> given;

@@ -7,14 +7,15 @@
 
 namespace palpate {
 
-enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor, kFibre };
+/// kNone: a program of devices, which has no input of fields.
+enum class FieldKind : std::uint8_t { kVector, kScalar, kTensor, kFibre, kNone };
 
-inline constexpr std::array<FieldKind, 4> kFieldKinds{FieldKind::kVector, FieldKind::kScalar,
-                                                      FieldKind::kTensor, FieldKind::kFibre};
+inline constexpr std::array<FieldKind, 5> kFieldKinds{
+    FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor, FieldKind::kFibre, FieldKind::kNone};
 
-/// "vector", "scalar", "tensor", "fibre".
+/// "vector", "scalar", "tensor", "fibre", "none".
 [[nodiscard]] constexpr std::string_view name_of(FieldKind kind) noexcept {
-  constexpr std::array<std::string_view, 4> kNames{"vector", "scalar", "tensor", "fibre"};
+  constexpr std::array<std::string_view, 5> kNames{"vector", "scalar", "tensor", "fibre", "none"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

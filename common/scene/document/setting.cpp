@@ -148,7 +148,9 @@ std::string Setting::label() const {
   return text;
 }
 
-std::string Setting::option() const { return "--" + std::string(name); }
+std::string Setting::option() const {
+  return spelling == Spelling::kPositional ? std::string(value) : "--" + std::string(name);
+}
 
 std::string Setting::full_help() const {
   std::string text(help);
@@ -170,7 +172,8 @@ bool Setting::several() const noexcept {
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> kAll = [] {
     std::vector<Setting> all;
-    for (const auto table : {input_settings(), view_settings(), hand_settings(), output_settings()})
+    for (const auto table :
+         {input_settings(), view_settings(), hand_settings(), output_settings(), device_settings()})
       all.insert(all.end(), table.begin(), table.end());
     return all;
   }();

@@ -51,12 +51,23 @@ enum class Group : std::uint8_t {
   kSlice,        ///< which slice is written
   kPart,         ///< a part of a volume
   kFocal,        ///< where a view that a hand moves turns about
-  kTurn          ///< tracts that are compared and turned
+  kTurn,         ///< tracts that are compared and turned
+  kCalibrate,    ///< measurements, and how a model is fitted to them
+  kMade,         ///< made measurements
+  kHeadErrors,   ///< a head before a screen
+  kWalls,        ///< whose walls are swept
+  kSurvey,       ///< devices that are plugged in
+  kCheck,        ///< how well a device is linked
+  kReadOut,      ///< what a device tells
+  kFeel,         ///< an effect that a device shows
+  kTune,         ///< the stiffness that a device bears
+  kMenu          ///< a menu in space under a recorded hand
 };
 using Groups = EnumSet<Group>;
 using Kinds = EnumSet<FieldKind>;
-inline constexpr Kinds kAllKinds{FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor,
-                                 FieldKind::kFibre};
+inline constexpr Kinds kAllFields{FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor,
+                                  FieldKind::kFibre};
+inline constexpr Kinds kAllPrograms = kAllFields.with(FieldKind::kNone);
 
 /// Where a value of type T stands in a document.
 template <typename T>
@@ -109,7 +120,7 @@ struct Setting {
   std::string_view value = {};    ///< what stands for the value in the help, "MM"; empty: `words`
   std::string_view heading = {};  ///< under which the help lists it
   Groups groups = {};
-  Kinds kinds = kAllKinds;  ///< of fields: which programs have it
+  Kinds kinds = kAllFields;  ///< which programs have it
   std::string_view unit = {};
   Range range = {};                 ///< of numbers
   std::string_view words = {};      ///< those that a text may be, with '|' between; empty: any text
@@ -123,7 +134,7 @@ struct Setting {
 
   /// "Line width"
   [[nodiscard]] std::string label() const;
-  /// "--line-width"
+  /// "--line-width"; of one that stands alone "FILE"
   [[nodiscard]] std::string option() const;
   /// What stands for the value in the help.
   [[nodiscard]] std::string_view value_name() const noexcept { return value.empty() ? words : value; }

@@ -8,7 +8,8 @@
 namespace palpate {
 
 inline constexpr Kinds kFlows{FieldKind::kVector}, kVolumes{FieldKind::kScalar}, kTensors{FieldKind::kTensor},
-    kHearts{FieldKind::kFibre}, kFlowsAndVolumes{FieldKind::kVector, FieldKind::kScalar},
+    kHearts{FieldKind::kFibre}, kDevices{FieldKind::kNone},
+    kFlowsAndVolumes{FieldKind::kVector, FieldKind::kScalar},
     kAllButHearts{FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor};
 
 /// @name Places in the structs of a document
@@ -61,5 +62,7 @@ inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 [[nodiscard]] std::span<const Setting> hand_settings();
 /// Of what is written.
 [[nodiscard]] std::span<const Setting> output_settings();
+/// Of verbs of devices.
+[[nodiscard]] std::span<const Setting> device_settings();
 
 }  // namespace palpate

@@ -88,6 +88,58 @@ TEST(CommandLine, AnswersHelpAndVersionWithoutAVerb) {
   EXPECT_EQ(parse({"info", "--help"}).text.find("--seeds"), std::string::npos);
 }
 
+/// A program without files, whose verbs take words in an order.
+ParsedCommand parse_for_devices(const std::vector<std::string>& arguments) {
+  Explorer explorer{.name = "devices", .summary = "to test", .kind = FieldKind::kNone};
+  const auto nothing = [](const Document&, const VerbContext&) { return ExitCode::kDone; };
+  explorer.verbs.push_back({.name = "fit",
+                            .summary = "s",
+                            .details = "What a table holds.",
+                            .groups = {Group::kCalibrate},
+                            .examples = {{"devices fit arm a.csv", "e"}},
+                            .run = nothing});
+  explorer.verbs.push_back(
+      {.name = "report", .summary = "s", .groups = {Group::kReport}, .examples = {}, .run = nothing});
+  explorer.default_verb = "report";
+  return parse_command_line(explorer, arguments);
+}
+
+std::string refusal_for_devices(const std::vector<std::string>& arguments) {
+  try {
+    (void)parse_for_devices(arguments);
+  } catch (const Error& error) {
+    return std::to_string(static_cast<int>(error.code())) + " " + error.what();
+  }
+  return "accepted";
+}
+
+TEST(CommandLine, TakesWordsInTheirOrder) {
+  const ParsedCommand parsed = parse_for_devices({"fit", "arm", "--loss", "huber", "a.csv", "--json"});
+  EXPECT_EQ(parsed.options.calibration.kind, "arm");
+  EXPECT_EQ(parsed.options.calibration.table, "a.csv");
+  EXPECT_EQ(parsed.options.calibration.loss, "huber");
+  EXPECT_EQ(parsed.options.input.kind, FieldKind::kNone);
+  EXPECT_EQ(parse_for_devices({"fit", "arm"}).options.calibration.table, "");
+  EXPECT_EQ(parse_for_devices({}).verb->name, "report");
+  const std::string wrong = refusal_for_devices({"fit", "nose", "a.csv"});
+  EXPECT_TRUE(wrong.starts_with("2 KIND nose: tracker, ")) << wrong;
+  EXPECT_EQ(refusal_for_devices({"fit", "arm", "a.csv", "b.csv"}).front(), '2');
+  EXPECT_EQ(refusal_for_devices({"nose"}).front(), '2') << "no file was meant where none is taken";
+  EXPECT_EQ(refusal_for_devices({"fit", "arm", "--explain"}).front(), '2');
+  EXPECT_EQ(refusal_for_devices({"report", "--quick"}).front(), '2');
+}
+
+TEST(CommandLine, HelpsWithWordsInTheirOrder) {
+  const std::string help = parse_for_devices({"fit", "--help"}).text;
+  EXPECT_NE(help.find("Usage: devices fit KIND FILE [options]"), std::string::npos) << help;
+  EXPECT_NE(help.find("What a table holds.\n\nExamples:\n"), std::string::npos) << help;
+  const std::string all = parse_for_devices({"--help"}).text;
+  EXPECT_NE(all.find("Usage: devices [VERB] [options]"), std::string::npos) << all;
+  EXPECT_NE(all.find("'devices' is 'devices report'"), std::string::npos) << all;
+  EXPECT_NE(parse({"info", "--help"}).text.find("info FILE... | --example NAME [options]"),
+            std::string::npos);
+}
+
 class SessionOnTheCommandLine : public ::testing::Test {
  protected:
   std::string session(const std::string& scene) {

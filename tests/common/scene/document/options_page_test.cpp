@@ -19,10 +19,11 @@
 namespace palpate::test {
 namespace {
 
-constexpr std::array<std::pair<FieldKind, const char*>, 4> kPrograms{{{FieldKind::kVector, "flow"},
+constexpr std::array<std::pair<FieldKind, const char*>, 5> kPrograms{{{FieldKind::kVector, "flow"},
                                                                       {FieldKind::kFibre, "cardiac"},
                                                                       {FieldKind::kTensor, "dtmri"},
-                                                                      {FieldKind::kScalar, "grid"}}};
+                                                                      {FieldKind::kScalar, "grid"},
+                                                                      {FieldKind::kNone, "workbench"}}};
 
 /// In a cell of a table.
 std::string cell(std::string_view text) {
@@ -35,7 +36,8 @@ std::string cell(std::string_view text) {
 }
 
 std::string programs_of(const Setting& row) {
-  if (row.kinds == kAllKinds) return "all";
+  if (row.kinds == kAllPrograms) return "all";
+  if (row.kinds == kAllFields) return "all but workbench";
   std::string text;
   for (const auto& [kind, program] : kPrograms) {
     if (row.kinds.has(kind)) text += (text.empty() ? "" : ", ") + std::string(program);

@@ -106,6 +106,22 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     const auto& [a, b, c, d, e, f, g, h, i] = document.output;
     expect("output", a, b, c, d, e, f, g, h, i);
   }
+  {
+    const auto& [a, b, c, d, e, f, g, h, i, j] = document.calibration;
+    expect("calibration", a, b, c, d, e, f, g, h, i, j);
+  }
+  {
+    const auto& [a, b, c, d, e, f, g, h] = document.head_errors;
+    expect("head_errors", a, b, c, d, e, f, g, h);
+  }
+  {
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = document.trial;
+    expect("trial", a, b, c, d, e, f, g, h, i, j, k, l, m);
+  }
+  {
+    const auto& [a, b, c, d] = document.device_outputs;
+    expect("device_outputs", a, b, c, d);
+  }
   EXPECT_EQ(members, places.size());
 }
 
@@ -154,6 +170,14 @@ TEST(Settings, RefuseWhatTheyDoNotTake) {
   EXPECT_NE(refusal("shading", "maybe").find("on or off"), std::string::npos);
   EXPECT_NE(refusal("direction", "up").find("forward, backward, both"), std::string::npos);
   EXPECT_TRUE(document == Document()) << "what was refused has left no trace";
+}
+
+TEST(Settings, OfDevicesAreOfNoOtherProgram) {
+  for (const Setting& row : settings()) {
+    if (!row.kinds.has(FieldKind::kNone)) continue;
+    const bool shared = row.groups.meets({Group::kCommon, Group::kOut, Group::kReport});
+    EXPECT_EQ(row.kinds, shared ? kAllPrograms : Kinds{FieldKind::kNone}) << row.name;
+  }
 }
 
 TEST(Settings, FindTheOneThatWasMeant) {

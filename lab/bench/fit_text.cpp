@@ -1,11 +1,11 @@
-#include "apps/workbench/fit_text.h"
+#include "lab/bench/fit_text.h"
 
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
+#include "common/base/figures.h"
 #include "common/base/text.h"
-#include "lab/page/html.h"
 
 namespace palpate {
 namespace {

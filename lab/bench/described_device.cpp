@@ -1,4 +1,4 @@
-#include "apps/workbench/device_file.h"
+#include "lab/bench/described_device.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-/// A force device described in a file, for `workbench stability --model FILE.toml`.
+/// A force device described in a file, for sweeps of walls (`--model FILE.toml`).
 ///
 ///   title = "our arm"          # optional
 ///   mass = 0.2                 # [kg] apparent, at the tip

@@ -1,31 +1,29 @@
-/// Calibrations and the analysis of head tracking as parts of a report.
+/// What errors of head tracking do before a screen (calibration/head_error.h), as numbers and as a part of a report.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "common/calibration/fit_report.h"
-#include "common/calibration/head_error.h"
+#include "common/math/vec.h"
+#include "common/scene/document/device_options.h"
 #include "lab/page/section.h"
 
 namespace palpate {
 
-/// Errors before and after, on measurements seen and left out; condition, chi-square, what cannot be told
-/// apart and where to measure next; for a tracker with errors against the distance from the transmitter, and
-/// beside the printed table 4.1 of the reference.
-[[nodiscard]] ReportSection calibration_section(const FitReport& report);
-
 /// A head before a screen. Metres, radians.
 struct HeadErrorSetup {
-  double eye_distance = 0.6;        ///< from the screen
-  double separation = 0.063;        ///< of the eyes
-  Vec2 position_error{0.01, 0.01};  ///< of the tracked head, along the screen and away from it
-  double orientation_error = 2.0 * 0.017453292519943295;
-  double screen_width = 1.2;
-  double front = 0.2;   ///< how far objects stand out of the screen
-  double behind = 0.3;  ///< and lie behind it
+  double eye_distance = 0.0;  ///< from the screen
+  double separation = 0.0;    ///< of the eyes
+  Vec2 position_error{0.0};   ///< of the tracked head, along the screen and away from it
+  double orientation_error = 0.0;
+  double screen_width = 0.0;
+  double front = 0.0;   ///< how far objects stand out of the screen
+  double behind = 0.0;  ///< and lie behind it
   double pixel = 0.0;   ///< size of one; 0: not known
 };
+
+/// @throws Error (usage) where the position error is no pair of numbers.
+[[nodiscard]] HeadErrorSetup head_error_setup(const HeadErrorOptions& options);
 
 /// What a point of the read-out suffers.
 struct HeadErrorRow {

@@ -38,8 +38,9 @@ struct DistortionPicture {
 /// @}
 
 /// Draws them as PNGs.
-/// @param command_line for the files' texts. @throws Error (work failed) without OpenGL.
+/// @param program, command_line for the files' texts. @throws Error (work failed) without OpenGL.
 [[nodiscard]] std::vector<ReportPlot> drawn_pictures(const std::vector<DistortionPicture>& pictures,
+                                                     const std::string& program,
                                                      const std::string& command_line);
 
 /// Writes them into the folder, which is made.

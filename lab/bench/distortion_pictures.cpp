@@ -1,4 +1,4 @@
-#include "apps/workbench/distortion_pictures.h"
+#include "lab/bench/distortion_pictures.h"
 
 #include <algorithm>
 #include <array>
@@ -245,11 +245,11 @@ DistortionPicture field_distortion_icons(const std::vector<TrackerMeasurement>& 
 }
 
 std::vector<ReportPlot> drawn_pictures(const std::vector<DistortionPicture>& pictures,
-                                       const std::string& command_line) {
+                                       const std::string& program, const std::string& command_line) {
   std::vector<ReportPlot> drawn;
   for (const DistortionPicture& picture : pictures) {
     const auto png = encode_png(render_image(picture.view, kWidth, kHeight).image,
-                                {{"Software", version_text("workbench")}, {"Command", command_line}});
+                                {{"Software", version_text(program)}, {"Command", command_line}});
     drawn.push_back({picture.file, picture.view.title + ": " + picture.view.subtitle,
                      std::string(png.begin(), png.end())});
   }
