@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/workbench/feel_score.h"
 #include "apps/workbench/force_keys.h"
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
