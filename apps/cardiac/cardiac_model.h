@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/cardiac/heart_scene.h"
 #include "common/compose/input_model.h"
 #include "common/trace/layer_fibre.h"
+#include "common/window/panels/panel.h"
 
 namespace palpate {
 
@@ -31,5 +33,7 @@ class CardiacModel final : public InputModel<CardiacContent> {
                                    const SceneState* before, Progress& progress) const override;
   void complete(Document& document, Input& input, Progress& progress) const override;
 };
+
+[[nodiscard]] std::vector<PanelPart> cardiac_panels();
 
 }  // namespace palpate

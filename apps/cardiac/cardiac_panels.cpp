@@ -1,5 +1,3 @@
-#include "apps/cardiac/cardiac_panels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/text.h"

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/math/normal_length.h"
+#include "common/math/vec.h"
 
 namespace palpate {
 

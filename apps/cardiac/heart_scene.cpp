@@ -7,7 +7,6 @@
 
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/default_appearance.h"
-#include "apps/cardiac/series_range.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"

@@ -100,7 +100,7 @@ struct LayerColors {
 
 /// @param options which angle or scalar; that of the file is read at the input's time step.
 /// @param before what coloured this heart at another time step; the range of all steps goes on from it
-/// (series_range.h). Null: nothing.
+/// (default_appearance.h). Null: nothing.
 /// @throws Error, Cancelled.
 [[nodiscard]] LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>& heart,
                                       const LayerGeometry& layer, const HeartOptions& options, int threads,

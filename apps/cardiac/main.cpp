@@ -1,6 +1,5 @@
 /// cardiac: layers and fibres of a heart's wall, seen and felt.
 #include "apps/cardiac/cardiac_verbs.h"
-#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/scene/wall/remesh.h"

@@ -1,7 +1,6 @@
 #include <utility>
 
 #include "apps/cardiac/cardiac_model.h"
-#include "apps/cardiac/cardiac_panels.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"

@@ -18,10 +18,6 @@
 namespace palpate {
 namespace {
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
-  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
-}
-
 void check(const Document& options) {
   (void)layer_of(options.heart);
   (void)parse_cut(options.heart.cut);
@@ -29,7 +25,7 @@ void check(const Document& options) {
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
   if (!options.hand.path.empty()) (void)read_probe_path(options.hand.path.string());
-  (void)mode_of(modes_of(FieldKind::kFibre), options);
+  (void)find_mode(modes_of(FieldKind::kFibre), options.touch.mode);
   (void)touch_settings(options.touch);
 }
 
@@ -58,9 +54,9 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
                             heart->heart().layer,
                             heart->heart().fibres};
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
-    drawn.view.probe =
-        probe_after(read_probe_path(options.hand.path.string()), mode_of(modes, options).make(scene), scene,
-                    touch_limits(options.touch), drawn.view.style.color_by);
+    drawn.view.probe = probe_after(read_probe_path(options.hand.path.string()),
+                                   find_mode(modes, options.touch.mode).make(scene), scene,
+                                   touch_limits(options.touch), drawn.view.style.color_by);
   }
   return drawn;
 }

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "apps/dtmri/tensor_scene.h"
-#include "apps/dtmri/underlay.h"
-#include "apps/dtmri/view_tracts.h"
+#include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
 #include "common/compose/view_keep.h"
 #include "common/field/transfer/color_transfer.h"

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/compose/input_model.h"
+#include "common/window/panels/panel.h"
 
 namespace palpate {
 
@@ -28,5 +30,7 @@ class DtmriModel final : public InputModel<DtmriContent> {
   [[nodiscard]] std::optional<Document> join(const InputFiles& files, const Document& now,
                                              Progress& progress) const override;
 };
+
+[[nodiscard]] std::vector<PanelPart> dtmri_panels();
 
 }  // namespace palpate

@@ -1,5 +1,3 @@
-#include "apps/dtmri/dtmri_panels.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "apps/dtmri/dtmri_model.h"
 #include "common/base/text.h"
 #include "common/window/panels/lens_panel.h"
 #include "common/window/panels/panel_parts.h"

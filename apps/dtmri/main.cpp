@@ -1,6 +1,5 @@
 /// dtmri: images of diffusion tensors, seen and felt.
 #include "apps/dtmri/dtmri_verbs.h"
-#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 

@@ -1,10 +1,9 @@
 #include <utility>
 
 #include "apps/dtmri/dtmri_model.h"
-#include "apps/dtmri/dtmri_panels.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
-#include "apps/dtmri/view_tracts.h"
+#include "apps/dtmri/tract_request.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"

@@ -3,7 +3,7 @@
 
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
-#include "apps/dtmri/view_tracts.h"
+#include "apps/dtmri/tract_request.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/picture.h"

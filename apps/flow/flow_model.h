@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/compose/input_model.h"
+#include "common/window/panels/panel.h"
 
 namespace palpate {
 
@@ -28,5 +30,7 @@ class FlowModel final : public InputModel<FlowContent> {
                                    const SceneState* before, Progress& progress) const override;
   void complete(Document& document, Input& input, Progress& progress) const override;
 };
+
+[[nodiscard]] std::vector<PanelPart> flow_panels();
 
 }  // namespace palpate

@@ -1,5 +1,3 @@
-#include "apps/flow/flow_panels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "apps/flow/flow_model.h"
 #include "common/base/text.h"
 #include "common/window/panels/color_panel.h"
 #include "common/window/panels/panel_parts.h"

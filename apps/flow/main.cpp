@@ -1,6 +1,5 @@
 /// flow: streamlines of CFD data, seen and followed.
 #include "apps/flow/flow_verbs.h"
-#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 

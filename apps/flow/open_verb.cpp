@@ -1,5 +1,4 @@
 #include "apps/flow/flow_model.h"
-#include "apps/flow/flow_panels.h"
 #include "apps/flow/flow_verbs.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"

@@ -36,10 +36,6 @@ SeedSpec view_seeds(const Document& options) {
   return parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
 }
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
-  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
-}
-
 SceneUse use_of(const Document& options, const Input& input) {
   const LineColor color = line_color(options.view.color, input);
   const TraceOptions trace = trace_options(options, "both");
@@ -93,7 +89,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
   drawn.view = make_line_view(input, *field, lines, options, style, aspect);
   show_volume(drawn, input, field, options, context);
-  const HapticMode& mode = mode_of(modes, options);
+  const HapticMode& mode = find_mode(modes, options.touch.mode);
   const bool surfaces = wants_surfaces(options, mode.name);
   std::shared_ptr<const ScalarField> scalar;
   if (surfaces || (!options.hand.path.empty() && !options.touch.scalar.empty())) {
@@ -126,7 +122,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
                       check_flow_volume(given.volume);
                       (void)trace_options(given, "both");
                       if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
-                      (void)mode_of(modes, given);
+                      (void)find_mode(modes, given.touch.mode);
                       (void)touch_settings(given.touch);
                     },
                 .use = use_of,

@@ -22,10 +22,6 @@
 namespace palpate {
 namespace {
 
-bool is_picture(const std::filesystem::path& out) {
-  return out.extension() == ".png" || out.extension() == ".PNG";
-}
-
 void check_request(const Document& options) {
   check_volume_options(options.volume);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");

@@ -1,6 +1,5 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_verbs.h"
-#include "common/cli/report_verb.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
 

@@ -24,14 +24,10 @@ SceneUse use_of(const Document& options, const Input& input) {
           .secondary = secondary_names(input, options.volume)};
 }
 
-const HapticMode& mode_of(const std::vector<HapticMode>& modes, const Document& options) {
-  return options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
-}
-
 /// Adds the surfaces that are felt, and what a hand on the path has felt, where they are asked for.
 void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const TangibleVolume& volume,
                 const Document& options, const VerbContext& context) {
-  const HapticMode& mode = mode_of(modes, options);
+  const HapticMode& mode = find_mode(modes, options.touch.mode);
   if (wants_surfaces(options, mode.name)) {
     const std::string note = show_haptic_surfaces(view, *volume.field, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
@@ -47,7 +43,8 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
 DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,
                       const VerbContext& context, double aspect) {
   DrawnScene drawn;
-  const bool touched = !options.hand.path.empty() || wants_surfaces(options, mode_of(modes, options).name);
+  const bool touched =
+      !options.hand.path.empty() || wants_surfaces(options, find_mode(modes, options.touch.mode).name);
   TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
                                   : TangibleVolume{.image = load_volume(input, &context.progress)};
   volume.secondary = load_secondary(input, options.volume, &context.progress);
@@ -79,7 +76,7 @@ Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample>
                     [&modes](const Document& given) {
                       check_volume_options(given.volume);
                       if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
-                      (void)mode_of(modes, given);
+                      (void)find_mode(modes, given.touch.mode);
                       (void)touch_settings(given.touch);
                     },
                 .use = use_of,

@@ -30,10 +30,6 @@ namespace {
 
 constexpr int kMostPixels = 16384;  // an edge: more is a spacing that was not meant
 
-bool is_picture(const std::filesystem::path& out) {
-  return out.extension() == ".png" || out.extension() == ".PNG";
-}
-
 void check_request(const Document& options) {
   if (options.output.file.empty()) throw usage_error("slice needs an output: try --out slice.png");
   if (!parse_contours(options.slice.contours).empty()) {

@@ -14,7 +14,7 @@
 #include "common/base/version.h"
 #include "common/device/tracked_hands.h"
 #include "common/hand/technique/immersive_technique.h"
-#include "common/hand/technique/pick.h"
+#include "common/hand/technique/scene_pick.h"
 #include "common/render/label/label_pass.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"

@@ -5,7 +5,7 @@
 
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
-#include "common/cli/report_verb.h"
+#include "common/cli/verbs.h"
 
 namespace palpate {
 namespace {

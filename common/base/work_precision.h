@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace palpate {
 
@@ -29,5 +30,11 @@ struct StabilityCase {
   std::string unit;     ///< of measured and limit: "of the diagonal", "points"
   std::string meaning;  ///< what was done
 };
+
+/// One that holds where `measured` is no more than `limit`.
+[[nodiscard]] inline StabilityCase make_case(std::string name, double measured, double limit,
+                                             std::string unit, std::string meaning) {
+  return {{std::move(name), measured, limit, measured <= limit}, std::move(unit), std::move(meaning)};
+}
 
 }  // namespace palpate

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/base/text.h"
-#include "common/field/tensor/measures_at.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/field/value_histogram.h"
 
 namespace palpate {

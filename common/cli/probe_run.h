@@ -16,7 +16,6 @@
 #include "common/hand/drawn/drawn_tract.h"
 #include "common/hand/technique/box_hold.h"
 #include "common/hand/technique/immersive_technique.h"
-#include "common/hand/technique/view_hold.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/replay_source.h"

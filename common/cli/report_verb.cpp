@@ -1,4 +1,3 @@
-#include "common/cli/report_verb.h"
 
 #include <optional>
 #include <system_error>
@@ -7,7 +6,7 @@
 #include "common/base/find_helper.h"
 #include "common/cli/verbs.h"
 #include "common/load/helper/helper_process.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 #include "common/scene/report_request.h"
 
 namespace palpate {

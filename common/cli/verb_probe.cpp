@@ -180,7 +180,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
                    const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
-  const HapticMode& mode = options.touch.mode.empty() ? modes.front() : find_mode(modes, options.touch.mode);
+  const HapticMode& mode = find_mode(modes, options.touch.mode);
   check_request(options);
   ProbeSummary summary;
   summary.limits = touch_limits(options.touch);

@@ -1,7 +1,9 @@
 /// The verbs that all explorers share; each stands in a file of its own (verb_<name>.cpp).
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common/cli/explorer.h"
 #include "common/hand/mode/haptic_mode.h"
@@ -35,5 +37,15 @@ ExitCode headless_tour(const Verb& render, Document options, const VerbContext& 
 /// else.
 [[noreturn]] void refuse_window(const Document& options, const VerbContext& context);
 /// @}
+
+/// Starts the program of studies (scene/report_request.h), shows what it says and prints what it answers.
+/// Where this is cancelled, what it was writing is removed.
+/// @param subject as ReportRequest has it. @param outputs that it writes: files, or folders.
+/// @throws Error that it ended with; (work failed) where it is not installed or crashes; Cancelled.
+void run_study(const std::string& subject, const Document& document,
+               const std::vector<std::filesystem::path>& outputs, const VerbContext& context);
+
+/// The verb `report` of an explorer, about its input. @param groups besides those of all reports.
+[[nodiscard]] Verb report_verb(std::string summary, Groups groups, std::vector<UsageExample> examples);
 
 }  // namespace palpate

@@ -11,7 +11,7 @@
 #include "common/base/text.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
-#include "common/math/normal_length.h"
+#include "common/math/vec.h"
 #include "common/math/vec_text.h"
 
 namespace palpate {

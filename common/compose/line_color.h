@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/field/derived.h"
 #include "common/field/scalar_field.h"
+#include "common/field/vorticity_field.h"
 #include "common/render/scene_view.h"
 #include "common/scene/input.h"
 

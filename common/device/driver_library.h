@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/device/device_limits.h"
 #include "common/device/driver_link.h"
-#include "common/device/enabling_switch.h"
 
 namespace palpate {
 

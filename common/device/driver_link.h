@@ -125,4 +125,16 @@ inline constexpr const char* kDriverEntry = "palpate_driver_entry";
 /// Compiler, and a checksum of the headers that make the border: what a program and its modules must share.
 [[nodiscard]] const char* driver_build() noexcept;
 
+/// The button of some device that has to be held while there is force.
+struct EnablingSwitch {
+  int button = DeviceLimits::kNoButton;  ///< of the device, or of the one of `link`; kNoButton: none needed
+  std::shared_ptr<DriverLink> link;      ///< of the device that has the button; null: the device itself
+
+  /// The bit of a sample that says whether the button of another device is held: see linked_device.h.
+  static constexpr int kOtherBit = DeviceLimits::kButtons - 1;
+
+  /// The button of the samples that the safety stage looks at.
+  [[nodiscard]] int sample_button() const noexcept { return link ? kOtherBit : button; }
+};
+
 }  // namespace palpate

@@ -1,10 +1,12 @@
 /// A traced line: points with time, arc length, speed and error, and why it ends. Data units.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -22,8 +24,8 @@ enum class End : std::uint8_t {
   kBelowCutoff,  ///< tracts: the measure of anisotropy fell below its cut-off
   kSharpTurn     ///< tracts: it would have turned by more than allowed
 };
+
 inline constexpr int kEndCount = 10;
-[[nodiscard]] std::string_view name_of(End end) noexcept;  ///< "left_domain"
 
 struct LinePoint {
   Vec3 position{0.0};
@@ -41,5 +43,13 @@ struct Line {
   TraceDirection direction = TraceDirection::kForward;
   std::uint32_t seed = 0;  ///< index into the seeds
 };
+
+/// "left_domain"
+[[nodiscard]] inline std::string_view name_of(End end) noexcept {
+  static constexpr std::array<std::string_view, kEndCount> kNames{
+      "left_domain", "stagnation", "max_length",      "max_time",     "max_steps",
+      "loop",        "bad_data",   "stopped_by_rule", "below_cutoff", "sharp_turn"};
+  return kNames[as_size(end)];
+}
 
 }  // namespace palpate

@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
-#include "common/hand/technique/desktop_technique.h"
-#include "common/hand/technique/surface_drag.h"
+#include "common/hand/technique/interaction_technique.h"
+#include "common/hand/technique/probe_mouse.h"
 #include "common/servo/live_hands.h"
 
 namespace palpate {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "common/device/mouse_device.h"
 #include "common/device/replay_device.h"
@@ -12,12 +13,36 @@
 #include "common/hand/haptic_data.h"
 #include "common/hand/probe_options.h"
 #include "common/hand/probe_readout.h"
-#include "common/hand/technique/hand_planes.h"
 #include "common/hand/technique/immersive_technique.h"
 #include "common/haptics/widget/dial_chain.h"
+#include "common/haptics/widget/plane_widget.h"
 #include "common/servo/placed_device.h"
 
 namespace palpate {
+
+class HandPlanes {
+ public:
+  /// From now on those of the chain that is felt; null: it has none.
+  void follow(std::shared_ptr<WidgetNewsBuffer> told) {
+    reported_ = std::move(told);
+    news_.reset();
+  }
+  /// Takes what the servo has told since. What is told of an edit before `edit` says nothing.
+  void read(int edit) {
+    WidgetNews news;
+    if (!reported_ || !reported_->read(news) || news.edit != edit) return;
+    news_ = news;
+  }
+
+  /// Whether the chain has planes, told of or not.
+  [[nodiscard]] bool there() const noexcept { return reported_ != nullptr; }
+  /// What the servo told last; none in other modes, and before it tells.
+  [[nodiscard]] const std::optional<WidgetNews>& news() const noexcept { return news_; }
+
+ private:
+  std::shared_ptr<WidgetNewsBuffer> reported_;
+  std::optional<WidgetNews> news_;
+};
 
 class ProbeHand {
  public:

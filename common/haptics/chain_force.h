@@ -35,7 +35,6 @@ enum class ChainForceForm : std::uint8_t {
   kSum,        ///< (1)
   kConsistent  ///< (2)
 };
-[[nodiscard]] std::string_view name_of(ChainForceForm form) noexcept;  ///< "sum", "consistent"
 
 /// The form that hands feel: on the loops of report/chain_work.h it yields nothing, where the sum yields up
 /// to as much as the springs hold.
@@ -51,19 +50,34 @@ class ChainForce {
   /// @param stretched p_i - p_(i-1) [m]  @param stiffness k [N/m]
   /// @param damper [N] on p_(i-1), beside the spring
   void add(const LinkUpdate& link, const Vec3& stretched, double stiffness,
-           const Vec3& damper = Vec3{0.0}) noexcept;
+           const Vec3& damper = Vec3{0.0}) noexcept {
+    const Vec3 along_axes = stretched * link.frame;  // row vector times E is E^T times column
+    const Vec3 pull = stiffness * (link.frame * (link.kappa * along_axes)) + damper + link.extra_force;
+    force_ += form_ == ChainForceForm::kSum ? pull : carried_back(pull);
+    active_ += form_ == ChainForceForm::kSum ? link.extra_force : carried_back(link.extra_force);
+    lever_ = link.jacobian * lever_;
+  }
 
   [[nodiscard]] const Vec3& force() const noexcept { return force_; }  ///< F of the links so far [N]
   /// The part of F that comes of extra_i: meant to drive the hand, and not to hold it [N].
   [[nodiscard]] const Vec3& active() const noexcept { return active_; }
 
  private:
-  [[nodiscard]] Vec3 carried_back(const Vec3& pull) const noexcept;
+  [[nodiscard]] Vec3 carried_back(const Vec3& pull) const noexcept {
+    const Vec3 carried = pull * lever_;
+    const double most = kMostLever * glm::length(pull), size = glm::length(carried);
+    return size > most ? carried * (most / size) : carried;
+  }
 
   ChainForceForm form_;
   Mat3 lever_{1.0};  ///< L of the next link
   Vec3 force_{0.0};
   Vec3 active_{0.0};
 };
+
+/// "sum", "consistent"
+[[nodiscard]] inline std::string_view name_of(ChainForceForm form) noexcept {
+  return form == ChainForceForm::kSum ? "sum" : "consistent";
+}
 
 }  // namespace palpate

@@ -12,10 +12,55 @@
 #include "common/haptics/constraint/linear_settings.h"
 #include "common/haptics/constraint/link_settings.h"
 #include "common/haptics/constraint/plane_widget_settings.h"
-#include "common/haptics/force_field/force_field_settings.h"
-#include "common/haptics/passivity_settings.h"
+#include "common/haptics/transfer_function.h"
 
 namespace palpate {
+
+struct PassivitySettings {
+  double from_links = 2.0;    ///< chains of that many links and more are controlled; a large number: none
+  double max_damping = 20.0;  ///< largest alpha [N s/m]; safe while it stays below m / T of the device
+  double dead_speed = 1e-4;   ///< [m/s] a slower hand is not damped: there alpha would be that of noise
+
+  bool operator==(const PassivitySettings&) const = default;
+
+  [[nodiscard]] bool valid() const noexcept {
+    return std::isfinite(from_links) && std::isfinite(max_damping) && max_damping >= 0.0 &&
+           std::isfinite(dead_speed) && dead_speed >= 0.0;
+  }
+
+  /// See ChainSettings::each().
+  template <typename Self, typename Visit>
+  static void each(Self& self, Visit&& visit) {
+    visit("passivity.from_links", self.from_links);
+    visit("passivity.max_damping", self.max_damping);
+    visit("passivity.dead_speed", self.dead_speed);
+  }
+};
+
+struct ForceFieldSettings {
+  double strength = 1.0;     ///< [N] of direct display where the flow is fastest, and of a strong vortex
+  double damping = 5.0;      ///< [N s/m] of transverse damping and density drag, where they are full
+  double fade_speed = 0.05;  ///< part of the largest speed below which transverse damping fades, in (0, 1]
+
+  /// Part of the damping that density drag has, in [0, 1], by value from 0, the lowest, to 1, the highest.
+  HapticTransferFunction density{{0.0, 0.0}, {1.0, 1.0}};
+
+  bool operator==(const ForceFieldSettings&) const = default;
+
+  [[nodiscard]] bool valid() const noexcept {
+    return std::isfinite(strength) && std::isfinite(damping) && damping >= 0.0 && fade_speed > 0.0 &&
+           fade_speed <= 1.0 && density.lowest() >= 0.0 && density.highest() <= 1.0;
+  }
+
+  /// See ChainSettings::each().
+  template <typename Self, typename Visit>
+  static void each(Self& self, Visit&& visit) {
+    visit("force_field.strength", self.strength);
+    visit("force_field.damping", self.damping);
+    visit("force_field.fade_speed", self.fade_speed);
+    visit("force_field.density", self.density);
+  }
+};
 
 struct ChainSettings {
   double stiffness = 200.0;  ///< k of the coupling [N/m]

@@ -22,7 +22,7 @@
 /// stiffness, and no replacement: alpha is held a step long as well, and in a loop with delay it comes late.
 #pragma once
 
-#include "common/haptics/passivity_settings.h"
+#include "common/haptics/chain_settings.h"
 #include "common/math/vec.h"
 
 namespace palpate {

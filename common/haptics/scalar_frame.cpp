@@ -5,7 +5,7 @@
 
 #include "common/haptics/fade.h"
 #include "common/haptics/frame_along.h"
-#include "common/haptics/stencil.h"
+#include "common/haptics/measure.h"
 
 namespace palpate {
 

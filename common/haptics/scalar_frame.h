@@ -7,7 +7,7 @@
 ///   G = -P H P / |g|                                                                                  (1)
 ///
 /// on its tangent plane: eigenvectors the principal directions, eigenvalues the curvatures k_1 >= k_2,
-/// positive where the surface curves towards n. Derivatives are differences over a fixed spacing (stencil.h),
+/// positive where the surface curves towards n. Derivatives are differences over a fixed spacing (measure.h),
 /// which do not leap from cell to cell.
 ///
 /// e_1 fades where |g| vanishes. e_2 and e_3 fade into each other where k_1 = k_2, on planes and spheres;

@@ -5,7 +5,7 @@
 ///
 ///   [tracker]          # distortion: tracker_correction.h
 ///   degree = 4         # with center, scale, position, orientation: the polynomials
-///   position = [[x, y, z], …]      # coefficients, as vector_polynomial.h orders them; orientation likewise
+///   position = [[x, y, z], …]      # coefficients, as tracker_correction.h orders them; orientation likewise
 ///   table_count = [12, 10, 5]      # the table, with table_lower, table_spacing, table_position and
 ///                                  # table_orientation
 ///

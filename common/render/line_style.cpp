@@ -6,7 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
-#include "common/render/line/line_values.h"
+#include "common/render/line/line_geometry.h"
 
 namespace palpate {
 namespace {

@@ -7,6 +7,8 @@
 ///   l > (l_0 + f) / 2, kPatience in a row      what is opaque has come far from where it was: kept anew
 #pragma once
 
+#include <algorithm>
+
 namespace palpate {
 
 class LocalRedraw {
@@ -19,7 +21,21 @@ class LocalRedraw {
   [[nodiscard]] bool on() const noexcept { return on_; }
   /// A picture took so long [ms], while on(). @param kept it was drawn in full and kept.
   /// @return whether the next one is to be kept anew.
-  [[nodiscard]] bool drawn(double milliseconds, bool kept) noexcept;
+  [[nodiscard]] bool drawn(double milliseconds, bool kept) noexcept {
+    if (kept) {
+      full_ = first_ = milliseconds;
+      since_ = slow_ = 0;
+      return false;
+    }
+    ++since_;
+    if (since_ <= kFirst) {
+      first_ = since_ == 1 ? milliseconds : std::min(first_, milliseconds);
+      if (since_ == kFirst && first_ >= full_) on_ = false;
+      return false;
+    }
+    slow_ = milliseconds > 0.5 * (first_ + full_) ? slow_ + 1 : 0;
+    return slow_ == kPatience;
+  }
 
  private:
   bool on_ = true;

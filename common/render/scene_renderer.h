@@ -62,7 +62,7 @@ class SceneRenderer {
   /// From now on pictures keep what estimate_error() and estimate_savings() compare, where they show a
   /// volume: copies of them before and behind it; of two eyes that of the one drawn last.
   void keep_for_error(bool on);
-  /// Looks at some pixels of the last picture again (volume/error_estimate.h), as far as they were kept and
+  /// Looks at some pixels of the last picture again (volume/picture_estimates.h), as far as they were kept and
   /// the picture is complete. @return whether more are worth it.
   bool estimate_error();
   /// Of the pixels of the last picture that were looked at; nothing where none were.

@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/field/tensor/orientation_check.h"
 #include "common/math/symmetric3.h"
 

@@ -9,7 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/scene/fit_image.h"
 #include "common/scene/stored_tensors.h"
 

@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/output_file.h"
-#include "common/servo/recording_text.h"
+#include "common/servo/recording.h"
 
 namespace palpate {
 namespace {

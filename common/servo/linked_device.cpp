@@ -4,7 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/servo/real_time.h"
-#include "common/servo/safety_rules.h"
+#include "common/servo/safety_stage.h"
 
 namespace palpate {
 namespace {

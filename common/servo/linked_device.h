@@ -17,13 +17,13 @@
 
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
+#include "common/device/device_limits.h"
 #include "common/device/driver_link.h"
-#include "common/device/enabling_switch.h"
 
 namespace palpate {
 
 /// `buttons` with the bit EnablingSwitch::kOtherBit set while `button` of the other device is down and no
-/// older than kEnablingStale (safety_rules.h), else cleared. @param heard null: nothing is known of the
+/// older than kEnablingStale (safety_stage.h), else cleared. @param heard null: nothing is known of the
 /// other.
 [[nodiscard]] std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int button,
                                         double now) noexcept;

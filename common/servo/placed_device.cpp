@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/index.h"
-#include "common/servo/safety_rules.h"
+#include "common/servo/safety_stage.h"
 
 namespace palpate {
 

@@ -17,7 +17,6 @@
 #include "common/base/last_acts.h"
 #include "common/base/ring.h"
 #include "common/servo/recording.h"
-#include "common/servo/recording_text.h"
 
 namespace palpate {
 

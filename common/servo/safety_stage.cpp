@@ -1,8 +1,72 @@
 #include "common/servo/safety_stage.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "common/base/index.h"
 
 namespace palpate {
+
+std::string_view name_of(ForceCut cut) noexcept {
+  constexpr std::array<std::string_view, kForceCutCount> kNames{
+      "none",     "no_hand",  "start", "jump", "switched_off", "out_of_reach",
+      "released", "too_fast", "stale", "time", "not_finite",   "chain"};
+  return kNames[as_size(cut)];
+}
+
+Vec3 capped(const Vec3& force, double cap) noexcept {
+  // In units of the largest component: squares of it neither overflow nor vanish.
+  const double largest = std::max({std::abs(force.x), std::abs(force.y), std::abs(force.z)});
+  if (largest == 0.0) return Vec3{0.0};
+  const Vec3 scaled = force / largest;
+  const double length = glm::length(scaled);  // in [1, sqrt 3]
+  if (length <= cap / largest) return force;
+  return scaled * (cap / length);
+}
+
+Vec3 slewed(const Vec3& previous, const Vec3& wanted, double most) noexcept {
+  const Vec3 change = wanted - previous;
+  const double length = glm::length(change);
+  return length <= most ? wanted : previous + change * (most / length);
+}
+
+Vec3 faded(const Vec3& force, double dt, double left) noexcept {
+  return dt < left ? force * (1.0 - dt / left) : Vec3{0.0};
+}
+
+double warmed(double heat, const Vec3& force, double dt, double heating_time) noexcept {
+  return heat - (glm::dot(force, force) - heat) * std::expm1(-dt / heating_time);
+}
+
+double cap_after(const DeviceLimits& limits, double time, double heat) noexcept {
+  const double cap = limits.force_cap;
+  double allowed = time < limits.start_ramp ? cap * (time / limits.start_ramp) : cap;
+  if (limits.continuous_cap < cap) {
+    const double lasting = limits.continuous_cap * limits.continuous_cap;
+    const double cold = std::max(0.0, 1.0 - heat / lasting);
+    allowed = std::min(allowed, std::sqrt(lasting + (cap * cap - lasting) * cold));
+  }
+  return allowed;
+}
+
+Vec3 edge_push(const DeviceLimits& limits, const Vec3& x) noexcept {
+  const Vec3 from_lower = glm::min(x - limits.reach_lower, limits.edge_margin);
+  const Vec3 from_upper = glm::min(limits.reach_upper - x, limits.edge_margin);
+  return limits.edge_stiffness * (from_upper - from_lower);
+}
+
+bool within_reach(const DeviceLimits& limits, const Vec3& x) noexcept {
+  return glm::all(glm::greaterThanEqual(x, limits.reach_lower)) &&
+         glm::all(glm::lessThanEqual(x, limits.reach_upper));
+}
+
+bool is_enabled(const DeviceLimits& limits, std::uint32_t buttons, double age) noexcept {
+  if (limits.enabling_button == DeviceLimits::kNoButton) return true;
+  return ((buttons >> static_cast<unsigned>(limits.enabling_button)) & 1U) != 0 && age <= kEnablingStale;
+}
 
 Vec3 SafetyStage::apply(const ForceRequest& request) noexcept {
   const bool timed = request.dt > 0.0;  // false for NaN

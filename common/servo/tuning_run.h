@@ -8,7 +8,7 @@
 #include "common/base/progress.h"
 #include "common/device/device.h"
 #include "common/haptics/proxy_chain.h"
-#include "common/servo/safety_rules.h"
+#include "common/servo/safety_stage.h"
 #include "common/servo/stiffness_tuner.h"
 
 namespace palpate {

@@ -14,7 +14,7 @@
 #include "common/render/budget/frame_quality.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
-#include "common/render/tensor/tensor_pick.h"
+#include "common/render/tensor/tensor_view.h"
 #include "common/window/input_event.h"
 #include "common/window/panels/panel.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/calibration/measurements.h"
-#include "common/kinematics/vector_polynomial.h"
+#include "common/kinematics/tracker_correction.h"
 #include "common/render/scene_view.h"
 #include "lab/page/section.h"
 

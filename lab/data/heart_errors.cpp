@@ -13,6 +13,7 @@
 #include "common/field/grid/mesh_quality.h"
 #include "common/field/heart/fibre_angles.h"
 #include "common/field/layer/wall_layer.h"
+#include "common/math/quaternion.h"
 #include "common/math/symmetric3.h"
 #include "common/trace/fibre_lines.h"
 #include "lab/hand/constraint/fibre_feel.h"
@@ -23,7 +24,6 @@
 namespace palpate {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Places are drawn off the apex, where directions turn by any angle from cell to cell, and off the rims.
 constexpr double kOffApex = 0.9, kOffBase = 0.05, kOffSurface = 0.03;
 constexpr int kPlaces = 2000;

@@ -25,11 +25,6 @@ FieldPtr made_field(DataSet data) {
   return make_vector_field(blocks, choice, "made data");
 }
 
-StabilityCase make_case(std::string name, double measured, double limit, std::string unit,
-                        std::string meaning) {
-  return {{std::move(name), measured, limit, measured <= limit}, std::move(unit), std::move(meaning)};
-}
-
 // Linear fields v = R L R^T x with L = diag(l) and a fixed rotation R: x(t) = R exp(L t) R^T x_0.
 
 /// Axes that are aligned with no edge of the mesh.

@@ -11,7 +11,6 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/analytic/tensor_sampled.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/math/symmetric3.h"
 #include "common/ode/explicit_step.h"

@@ -10,8 +10,8 @@
 #include "common/base/text.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/estimate/image_error.h"
+#include "common/render/volume/table/gpu_preintegration.h"
 #include "common/render/volume/table/preintegration.h"
-#include "common/render/volume/table/table_timing.h"
 #include "common/render/volume/volume_picture.h"
 #include "common/render/volume/voxels/voxel_bricks.h"
 

@@ -175,11 +175,6 @@ double different_rows(const std::vector<DataSet>& blocks, const VectorChoice& ch
   return different;
 }
 
-StabilityCase make_case(std::string name, double measured, double limit, std::string unit,
-                        std::string meaning) {
-  return {{std::move(name), measured, limit, measured <= limit}, std::move(unit), std::move(meaning)};
-}
-
 void add_cases(const std::string& where, const Tally& tally, std::vector<StabilityCase>& cases) {
   if (tally.rows == 0) return;
   const std::string rows =

@@ -12,7 +12,7 @@
 #include "common/device/device_profile.h"
 #include "common/device/simulated_device.h"
 #include "common/haptics/constraint/grid_axis.h"
-#include "common/haptics/widget/plane_widget_link.h"
+#include "common/haptics/widget/plane_widget.h"
 #include "common/servo/hand_step.h"
 #include "lab/page/html.h"
 

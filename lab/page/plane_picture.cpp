@@ -14,12 +14,6 @@ constexpr double kPanelWidth = 300.0, kGap = 20.0, kTop = 64.0, kLegend = 44.0;
 constexpr double kMark = 2.2;
 constexpr std::size_t kPanelsInARow = 2;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
-
 /// Dark enough on white paper, and told apart by most eyes (Okabe and Ito 2008).
 const char* color_of(std::size_t index) {
   constexpr std::array<const char*, 6> kColors{"#777777", "#0072b2", "#d55e00",
@@ -28,8 +22,8 @@ const char* color_of(std::size_t index) {
 }
 
 std::string text_at(double x, double y, const std::string& text, int size, const char* more = "") {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + std::to_string(size) + "\"" +
-         more + ">" + escaped(text) + "</text>\n";
+  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" font-size=\"" + std::to_string(size) +
+         "\"" + more + ">" + escaped(text) + "</text>\n";
 }
 
 /// Where the plane lies in one panel.
@@ -38,7 +32,7 @@ struct Panel {
   double scale = 1.0;
   Vec2 lower{0.0}, upper{0.0};
   [[nodiscard]] std::string at(const Vec2& p) const {
-    return number(x + scale * (p.x - lower.x)) + "," + number(y + scale * (upper.y - p.y));
+    return svg_number(x + scale * (p.x - lower.x)) + "," + svg_number(y + scale * (upper.y - p.y));
   }
 };
 
@@ -54,7 +48,7 @@ std::string drawn(const PictureCurve& curve, const Panel& panel, const char* col
     const std::string place = panel.at(p);
     const std::size_t comma = place.find(',');
     out += "<circle cx=\"" + place.substr(0, comma) + "\" cy=\"" + place.substr(comma + 1) + "\" r=\"" +
-           number(kMark) + "\" fill=\"" + color + "\"/>\n";
+           svg_number(kMark) + "\" fill=\"" + color + "\"/>\n";
   }
   return out;
 }
@@ -82,8 +76,8 @@ std::string svg(const PlanePicture& picture) {
     const Panel panel{kGap + static_cast<double>(column) * (kPanelWidth + kGap),
                       kTop + static_cast<double>(row) * (height + kTop - kGap), kPanelWidth / size.x,
                       picture.lower, picture.upper};
-    const std::string box = "x=\"" + number(panel.x) + "\" y=\"" + number(panel.y) + "\" width=\"" +
-                            number(kPanelWidth) + "\" height=\"" + number(height) + "\"";
+    const std::string box = "x=\"" + svg_number(panel.x) + "\" y=\"" + svg_number(panel.y) + "\" width=\"" +
+                            svg_number(kPanelWidth) + "\" height=\"" + svg_number(height) + "\"";
     const std::string clip = "panel" + std::to_string(n);
     body += text_at(panel.x, panel.y - 8.0, content.title, 14);
     body.append("<clipPath id=\"").append(clip).append("\"><rect ").append(box);
@@ -91,8 +85,8 @@ std::string svg(const PlanePicture& picture) {
     for (const PictureCurve& curve : content.curves) body += drawn(curve, panel, color_of(index_of(curve)));
     body.append("</g>\n<rect ").append(box).append(" fill=\"none\" stroke=\"#444\"/>\n");
     const double bar_y = panel.y + height - 10.0, bar_x = panel.x + 10.0;
-    body += "<line x1=\"" + number(bar_x) + "\" y1=\"" + number(bar_y) + "\" x2=\"" +
-            number(bar_x + panel.scale * picture.bar) + "\" y2=\"" + number(bar_y) +
+    body += "<line x1=\"" + svg_number(bar_x) + "\" y1=\"" + svg_number(bar_y) + "\" x2=\"" +
+            svg_number(bar_x + panel.scale * picture.bar) + "\" y2=\"" + svg_number(bar_y) +
             "\" stroke=\"#222\" stroke-width=\"2.5\"/>\n" +
             text_at(bar_x, bar_y - 5.0, picture.bar_label, 11);
   }
@@ -107,8 +101,8 @@ std::string svg(const PlanePicture& picture) {
     constexpr double kPerLetter = 6.6;
     x += 44.0 + kPerLetter * static_cast<double>(sample.name.size());
   }
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(total) +
-         "\" width=\"" + number(width) + "\" height=\"" + number(total) +
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svg_number(width) + " " +
+         svg_number(total) + "\" width=\"" + svg_number(width) + "\" height=\"" + svg_number(total) +
          "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" "
          "fill=\"#fff\"/>\n" +
          text_at(kGap, 26.0, picture.title, 16, " font-weight=\"bold\"") + body + "</svg>\n";

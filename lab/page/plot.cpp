@@ -19,12 +19,6 @@ constexpr double kLetter = 7.4;  // of text 13 high, wide ones
 constexpr double kMarker = 4.5;
 constexpr int kMaxTicks = 12;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
-
 bool drawable(const PlotPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0.0 && p.y > 0.0;
 }
@@ -47,12 +41,12 @@ std::string marker(std::size_t series, double x, double y, const std::string& co
   const std::string style = "\" fill=\"" + color + "\" stroke=\"#222\" stroke-width=\"0.6\"/>";
   const auto polygon = [&](std::initializer_list<std::pair<double, double>> corners) {
     std::string text = "<polygon points=\"";
-    for (const auto& [dx, dy] : corners) text += number(x + r * dx) + "," + number(y + r * dy) + " ";
+    for (const auto& [dx, dy] : corners) text += svg_number(x + r * dx) + "," + svg_number(y + r * dy) + " ";
     return text + style;
   };
   switch (series % 6) {
     case 0:
-      return "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" + number(r) + style;
+      return "<circle cx=\"" + svg_number(x) + "\" cy=\"" + svg_number(y) + "\" r=\"" + svg_number(r) + style;
     case 1:
       return polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
     case 2:
@@ -79,13 +73,13 @@ std::string marker(std::size_t series, double x, double y, const std::string& co
 
 std::string text_at(double x, double y, const std::string& anchor, const std::string& text, int size = 13,
                     const std::string& more = "") {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\" font-size=\"" +
-         std::to_string(size) + "\"" + more + ">" + escaped(text) + "</text>\n";
+  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
+         "\" font-size=\"" + std::to_string(size) + "\"" + more + ">" + escaped(text) + "</text>\n";
 }
 
 std::string line_between(double x0, double y0, double x1, double y1, const std::string& style) {
-  return "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) + "\" y2=\"" +
-         number(y1) + "\" " + style + "/>\n";
+  return "<line x1=\"" + svg_number(x0) + "\" y1=\"" + svg_number(y0) + "\" x2=\"" + svg_number(x1) +
+         "\" y2=\"" + svg_number(y1) + "\" " + style + "/>\n";
 }
 
 /// A range of whole decades around the values.
@@ -117,11 +111,12 @@ std::string frame_of(const LogLogPlot& plot, const Axes& axes) {
     out += line_between(kLeft, axes.py(tick.value), kRight, axes.py(tick.value), grid);
     out += text_at(kLeft - 8, axes.py(tick.value) + 4, "end", tick.text);
   }
-  out += "<rect x=\"" + number(kLeft) + "\" y=\"" + number(kTop) + "\" width=\"" + number(kRight - kLeft) +
-         "\" height=\"" + number(kBottom - kTop) + "\" fill=\"none\" stroke=\"#444\"/>\n";
+  out += "<rect x=\"" + svg_number(kLeft) + "\" y=\"" + svg_number(kTop) + "\" width=\"" +
+         svg_number(kRight - kLeft) + "\" height=\"" + svg_number(kBottom - kTop) +
+         "\" fill=\"none\" stroke=\"#444\"/>\n";
   out += text_at(0.5 * (kLeft + kRight), kBottom + 42, "middle", plot.x_label, 14);
   out += text_at(22, 0.5 * (kTop + kBottom), "middle", plot.y_label, 14,
-                 " transform=\"rotate(-90 22 " + number(0.5 * (kTop + kBottom)) + ")\"");
+                 " transform=\"rotate(-90 22 " + svg_number(0.5 * (kTop + kBottom)) + ")\"");
   return out;
 }
 
@@ -131,7 +126,7 @@ std::string curve(const PlotSeries& series, std::size_t index, const Axes& axes)
   std::string markers;
   for (const PlotPoint& p : series.points) {
     if (!drawable(p)) continue;
-    path += number(axes.px(p.x)) + "," + number(axes.py(p.y)) + " ";
+    path += svg_number(axes.px(p.x)) + "," + svg_number(axes.py(p.y)) + " ";
     markers += marker(index, axes.px(p.x), axes.py(p.y), color) + "\n";
   }
   return "<polyline points=\"" + path + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"1.8\"/>\n" +
@@ -182,8 +177,8 @@ std::string svg(const LogLogPlot& plot) {
   const double width =
       std::max(kWidth, kLegendX + kLegendText + kLetter * static_cast<double>(longest) + kLegendGap);
   std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(width) + " " + number(kHeight) +
-      "\" width=\"" + number(width) + "\" height=\"" + number(kHeight) +
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svg_number(width) + " " +
+      svg_number(kHeight) + "\" width=\"" + svg_number(width) + "\" height=\"" + svg_number(kHeight) +
       "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   out += text_at(kLeft, 28, "start", plot.title, 16, " font-weight=\"bold\"");
   if (!(highest_x > 0.0)) return out + text_at(kLeft, 80, "start", "nothing to draw") + "</svg>\n";
@@ -218,6 +213,12 @@ std::string svg(const LogLogPlot& plot) {
     legend_y += kLegendStep;
   }
   return out + "</svg>\n";
+}
+
+std::string svg_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", value);
+  return text.data();
 }
 
 }  // namespace palpate

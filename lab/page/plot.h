@@ -30,6 +30,9 @@ struct LogLogPlot {
 /// An SVG document. A diagram without a single point says so.
 [[nodiscard]] std::string svg(const LogLogPlot& plot);
 
+/// A place in an SVG, to two decimals.
+[[nodiscard]] std::string svg_number(double value);
+
 /// Text with &, <, > and quotes replaced, for SVG and HTML.
 [[nodiscard]] std::string escaped(const std::string& text);
 

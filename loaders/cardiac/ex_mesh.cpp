@@ -12,7 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/grid/point_merge.h"
+#include "common/field/grid/block_join.h"
 #include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex_element.h"
 #include "loaders/cardiac/mesh_text.h"

@@ -8,7 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/load/find_format.h"
 
 namespace palpate {

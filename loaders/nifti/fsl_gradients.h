@@ -1,7 +1,7 @@
 /// Gradients as FSL writes them: a text file of b-values and one of directions (.bval, .bvec).
 ///
 /// Directions are in the image's axes, the first one turned around where the image is right-handed
-/// (image_axes.h). They stand in three lines or in three columns; b-values on a line or one a line.
+/// (gradient_table.h). They stand in three lines or in three columns; b-values on a line or one a line.
 #pragma once
 
 #include <optional>

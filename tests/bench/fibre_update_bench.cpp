@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "common/field/analytic/ventricle.h"
-#include "common/haptics/constraint/fibre_friction.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/math/counter_random.h"

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/analytic/tensor_sampled.h"
 #include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/math/counter_random.h"
 #include "common/servo/hand_step.h"

@@ -27,7 +27,6 @@
 #include <sched.h>
 
 #include "apps/flow/flow_model.h"
-#include "apps/flow/flow_panels.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
 #include "common/cli/simulated_option.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/cardiac/cardiac_model.h"
-#include "apps/cardiac/cardiac_panels.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/vec_text.h"
 #include "common/scene/session.h"

@@ -9,12 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "common/device/driver/dataglove/dataglove_report.h"
+#include "common/device/driver/dataglove/dataglove_link.h"
 #include "common/device/driver/falcon/falcon_packet.h"
-#include "common/device/driver/pedal/pedal_report.h"
-#include "common/device/driver/pinchglove/pinch_message.h"
+#include "common/device/driver/pedal/pedal_link.h"
+#include "common/device/driver/pinchglove/pinch_link.h"
 #include "common/device/driver/polhemus/polhemus_record.h"
-#include "common/device/driver/spacemouse/spacemouse_report.h"
+#include "common/device/driver/spacemouse/spacemouse_link.h"
 
 using namespace palpate;
 

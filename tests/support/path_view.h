@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "common/render/probe_path.h"
 #include "common/render/probe_view.h"
 
 namespace palpate::test {

@@ -1,6 +1,9 @@
 /// The clock of links whose bus has none of its own: that of the system, or one that tests move.
 #pragma once
 
+#include <chrono>
+#include <thread>
+
 namespace palpate {
 
 class LinkClock {
@@ -17,8 +20,12 @@ class LinkClock {
 
 class SystemLinkClock final : public LinkClock {
  public:
-  [[nodiscard]] double now() const noexcept override;
-  void sleep(double seconds) noexcept override;
+  [[nodiscard]] double now() const noexcept override {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  void sleep(double seconds) noexcept override {
+    if (seconds > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  }
 };
 
 }  // namespace palpate

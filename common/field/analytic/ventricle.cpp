@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "common/field/grid/cell_faces.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint8_t kHexahedron = 12, kWedge = 13;  // VTK's numbers
 
 /// Points of one layer: the apex, then rings towards the base.
 struct Numbering {

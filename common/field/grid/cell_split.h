@@ -1,6 +1,6 @@
 /// Splitting curvilinear and mixed cells into tetrahedra so that shared faces agree.
 ///
-/// Both cells beside a face see the same keys of its vertices, so they agree on the diagonals (cell_cone.h).
+/// Both cells beside a face see the same keys of its vertices, so they agree on the diagonals (cell_split.h).
 /// In structured blocks the key puts points with even i + j + k first, which gives five tetrahedra a
 /// hexahedron; where no such order exists it is the point's index.
 #pragma once

@@ -16,7 +16,7 @@ namespace palpate {
 namespace {
 
 // Points this near to a border, in voxels, are on it: a slice of the outermost layer is not outside.
-constexpr double kRounding = 1e-6;
+constexpr double kGridRounding = 1e-6;
 
 double length_of(const Vec3& v) {
   const double unit = power_of_two(binary_exponent(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})));
@@ -41,7 +41,7 @@ std::vector<Vec3> meeting_points(const UniformTopology& image, const ImagePlane&
   std::vector<Vec3> met;
   double size = 0.0;
   for (int axis = 0; axis < 3; ++axis) size = std::max(size, last[axis] * length_of(image.axes[axis]));
-  const double near = kRounding * size;
+  const double near = kGridRounding * size;
   for (int axis = 0; axis < 3; ++axis) {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     for (unsigned corner = 0; corner < 4; ++corner) {
@@ -84,7 +84,7 @@ std::optional<UniformTopology> plane_lattice(const UniformTopology& image, const
                step_v = spacing.value_or(step_along(image, v));
   constexpr double kMostPoints = 1e9;
   const auto points = [&](double extent, double step) {
-    return static_cast<int>(std::min(kMostPoints, std::floor(extent / step + kRounding))) + 1;
+    return static_cast<int>(std::min(kMostPoints, std::floor(extent / step + kGridRounding))) + 1;
   };
   UniformTopology lattice;
   lattice.points = {points(high_u - low_u, step_u), points(high_v - low_v, step_v), 1};
@@ -104,8 +104,8 @@ std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) 
   IndexBox part;
   for (int axis = 0; axis < 3; ++axis) {
     const double last = image.points[axis] - 1;
-    const double from = std::max(0.0, std::ceil(reach.lower[axis] - kRounding));
-    const double to = std::min(last, std::floor(reach.upper[axis] + kRounding));
+    const double from = std::max(0.0, std::ceil(reach.lower[axis] - kGridRounding));
+    const double to = std::min(last, std::floor(reach.upper[axis] + kGridRounding));
     if (!(from <= to)) return std::nullopt;
     part.first[axis] = static_cast<int>(from);
     part.last[axis] = static_cast<int>(to);
@@ -132,10 +132,10 @@ ResampledImage resample(const UniformTopology& image, const DataArray& values, i
     Vec3 part{0.0};
     for (int axis = 0; axis < 3; ++axis) {
       const double last = n[axis] - 1;
-      if (!(g[axis] >= -kRounding && g[axis] <= last + kRounding)) return std::nan("");
+      if (!(g[axis] >= -kGridRounding && g[axis] <= last + kGridRounding)) return std::nan("");
       g[axis] = std::clamp(g[axis], 0.0, last);
       // On a point the others have no say.
-      if (std::abs(g[axis] - std::round(g[axis])) <= kRounding) g[axis] = std::round(g[axis]);
+      if (std::abs(g[axis] - std::round(g[axis])) <= kGridRounding) g[axis] = std::round(g[axis]);
       low[axis] = static_cast<int>(std::floor(g[axis]));
       part[axis] = g[axis] - low[axis];
     }

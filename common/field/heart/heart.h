@@ -6,6 +6,7 @@
 /// all over their cell, as they were given.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -62,7 +63,7 @@ struct Heart {
 /// Heart says why; or their surfaces alone are found, which takes little time, where they are not kept.
 enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible, kSurfaces };
 
-/// Points at the very same place count as one (same_points.h).
+/// Points at the very same place count as one (heart.h).
 /// @param kept where layers are looked for before they are solved, and kept when they were; null: nowhere.
 /// @throws Error (bad input) with `file` for images (a heart is a mesh), meshes without a volume, and as
 /// make_field_grid(); where layers are needed also for meshes without an inner and an outer surface that come
@@ -70,5 +71,10 @@ enum class LayersNeeded : std::uint8_t { kAlways, kIfPossible, kSurfaces };
 [[nodiscard]] Heart make_heart(const DataSet& mesh, const HeartChoice& choice, const std::string& file,
                                int threads = 0, LayersNeeded layers = LayersNeeded::kAlways,
                                CachedLayers* kept = nullptr);
+
+/// Lets the cells of an unstructured mesh name the first of all points at one place (equal coordinates, to
+/// the last bit); the others stay, without a cell. Other topologies are left as they are.
+/// @return how many points are named no more.
+std::size_t join_same_points(DataSet& mesh);
 
 }  // namespace palpate

@@ -1,12 +1,14 @@
 /// The inner and the outer surface of a wall.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "common/field/data_set.h"
 #include "common/field/field_grid.h"
+#include "common/field/grid/tet_mesh.h"
 
 namespace palpate {
 
@@ -27,5 +29,20 @@ struct WallSurfaces {
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".
 [[nodiscard]] WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh,
                                               const std::string& file);
+
+// The border of a tetrahedral mesh, parted at its creases.
+
+/// A smooth part of the border.
+struct BoundaryPatch {
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< points of the mesh, the normal outwards
+  double area = 0.0;                                    ///< frame L
+  Vec3 normal{
+      0.0};    ///< the sum of the triangles' normals over `area`: of unit length where the patch is flat
+  Box bounds;  ///< frame L
+};
+
+/// Faces of the border belong to one patch where their normals differ by less than `crease` [rad] over the
+/// edge that they share. Patches by falling area. Faces of zero-volume cells are border like any others.
+[[nodiscard]] std::vector<BoundaryPatch> boundary_patches(const TetMesh& mesh, double crease);
 
 }  // namespace palpate

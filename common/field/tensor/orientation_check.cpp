@@ -6,7 +6,7 @@
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/tensor/diffusion_measures.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 

@@ -13,7 +13,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/block_join.h"
-#include "common/field/tensor/tensor_function.h"
+#include "common/field/tensor/eigenframe.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 

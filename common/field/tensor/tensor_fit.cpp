@@ -9,8 +9,8 @@
 
 #include "common/base/check.h"
 #include "common/base/parallel.h"
+#include "common/field/tensor/eigenframe.h"
 #include "common/field/tensor/fit_kernel.h"
-#include "common/field/tensor/tensor_function.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {

@@ -49,6 +49,13 @@ Vec3 triple_of(TensorMeasure measure, const SymmetricEigen& eigen) {
 
 }  // namespace
 
+TensorMeasures measures_at(const TensorField& field, const Vec3& x, CellHint& hint) noexcept {
+  const TensorSample sample = field.sample(x, hint);
+  if (sample.status != SampleStatus::kOk) return {};
+  const Vec3 eigenvalues = symmetric_eigenvalues(sample.value);
+  return {anisotropy(eigenvalues), fractional_anisotropy(eigenvalues)};
+}
+
 std::string_view name_of(TensorMeasure measure) noexcept { return kNames[as_size(measure)]; }
 
 TensorMeasure measure_from_name(std::string_view name) {

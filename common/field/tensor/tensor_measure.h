@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/tensor_field.h"
 
 namespace palpate {
@@ -34,5 +36,14 @@ inline constexpr int kTensorMeasureCount = 8;
 /// @pre `image` has the array of `choice`.
 [[nodiscard]] std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice,
                                                  TensorMeasure measure, int threads);
+
+struct TensorMeasures {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Anisotropy parts{kNone, kNone, kNone};
+  double fractional_anisotropy = kNone;
+};
+
+/// NaN, all of them, where there is no tensor. @param x data coordinates. @rt Safe.
+[[nodiscard]] TensorMeasures measures_at(const TensorField& field, const Vec3& x, CellHint& hint) noexcept;
 
 }  // namespace palpate

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "common/field/tensor/measures_at.h"
 #include "common/field/tensor/tensor_field.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/geometry/line.h"
 
 namespace palpate {

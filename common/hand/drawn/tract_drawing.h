@@ -11,7 +11,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/drawn/drawn_tract.h"
-#include "common/render/probe_path.h"
+#include "common/render/probe_view.h"
 #include "common/servo/hand_step.h"
 
 namespace palpate {

@@ -3,7 +3,7 @@
 
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/mode/texture_link.h"
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/haptics/force_field/force_field.h"
 
 namespace palpate {

@@ -41,6 +41,7 @@ std::shared_ptr<const ScalarField> scalar_or_speed(const HapticScene& scene) {
 }
 
 const HapticMode& find_mode(std::span<const HapticMode> modes, const std::string& name) {
+  if (name.empty()) return modes.front();
   std::string known;
   for (const HapticMode& mode : modes) {
     if (mode.name == name) return mode;

@@ -77,6 +77,7 @@ struct HapticMode {
 /// scene.scalar, or the speed of the flow where no scalar was chosen. @pre There is one of them.
 [[nodiscard]] std::shared_ptr<const ScalarField> scalar_or_speed(const HapticScene& scene);
 
+/// @param name empty: the first of `modes`, the default one.
 /// @throws Error (usage) that lists the known modes.
 [[nodiscard]] const HapticMode& find_mode(std::span<const HapticMode> modes, const std::string& name);
 

@@ -2,8 +2,8 @@
 #include <utility>
 
 #include "common/hand/mode/haptic_mode.h"
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/haptics/constraint/tick_marks.h"
 
 namespace palpate {
 

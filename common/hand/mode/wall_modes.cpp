@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "common/hand/mode/haptic_mode.h"
-#include "common/haptics/constraint/fibre_friction.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
 

@@ -19,6 +19,18 @@ double distance_to(BoxFace face, const Box& box, const Vec3& x) noexcept {
 
 }  // namespace
 
+std::optional<Vec3> ViewHold::follow(bool pressed, const Vec3& proxy) noexcept {
+  if (pressed) {
+    now_ = proxy;
+    if (!from_) from_ = proxy;
+    return std::nullopt;
+  }
+  if (!from_) return std::nullopt;
+  const Vec3 left = moved();
+  from_.reset();
+  return left;
+}
+
 std::string box_text(const Box& box) { return exact_text(box.lower) + "," + exact_text(box.upper); }
 
 void move_face(BoxFace face, double to, const Box& bounds, Box& box) noexcept {

@@ -3,7 +3,7 @@
 ///
 /// Symbols. q place of a tip or sensor in the tracker's frame [m], after the correction of its distortion; e
 /// the offset from the tip to its picture; (n, d) the plane that the tip moves on, where there is one; B the
-/// similarity to the data (workbench_place.h), with the turn R.
+/// similarity to the data (interaction_technique.h), with the turn R.
 ///
 ///   x = o + B(P(q + e)),   P(q) = q - (n.q - d) n, or q where there is no plane                      (1)
 ///

@@ -13,7 +13,7 @@
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
 #include "common/haptics/workspace.h"
-#include "common/servo/station_poses.h"
+#include "common/servo/live_hands.h"
 
 namespace palpate {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/base/text.h"
 #include "common/haptics/workspace.h"
-#include "common/render/stereo/screen_camera.h"
+#include "common/render/stereo/stereo_view.h"
 
 namespace palpate {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/hand/technique/workbench_place.h"
+#include "common/hand/technique/interaction_technique.h"
 #include "common/hand/workbench/head_tracker.h"
 #include "common/render/scene_view.h"
 

@@ -6,14 +6,21 @@
 /// force is that of eq. 6.7 without a threshold: continuous, and never a pull.
 #pragma once
 
+#include <algorithm>
+
+#include "common/base/check.h"
 #include "common/haptics/constraint.h"
+#include "common/haptics/frame_along.h"
 
 namespace palpate {
 
 class HalfSpaceConstraint final : public Constraint {
  public:
   /// @param point o on the plane [m]  @param outward n, not zero.
-  HalfSpaceConstraint(const Vec3& point, const Vec3& outward);
+  HalfSpaceConstraint(const Vec3& point, const Vec3& outward)
+      : point_(point), axes_(frame_along(glm::normalize(outward))) {
+    PALPATE_CHECK(glm::length(outward) > 0.0);
+  }
 
   void apply(const ChainSettings& /*settings*/) noexcept override {}
   void reset() noexcept override {}
@@ -23,5 +30,16 @@ class HalfSpaceConstraint final : public Constraint {
   Vec3 point_;
   Mat3 axes_;  ///< n first
 };
+
+inline void HalfSpaceConstraint::update(const Vec3& probe, const UpdateBudget& /*budget*/,
+                                        LinkUpdate& link) noexcept {
+  const Vec3& outward = axes_[0];
+  const double depth = std::min(0.0, glm::dot(probe - point_, outward));
+  link.proxy = probe - depth * outward;
+  link.frame = axes_;
+  if (!(depth < 0.0)) return;
+  link.state = HoldState::kHeld;
+  link.jacobian = Mat3{1.0} - glm::outerProduct(outward, outward);
+}
 
 }  // namespace palpate

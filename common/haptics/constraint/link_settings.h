@@ -27,7 +27,7 @@ struct StreamlineSettings {
   }
 };
 
-/// What can be edited of tick marks. Apart from tick_marks.h, which needs all settings.
+/// What can be edited of tick marks. Apart from detent_marks.h, which needs all settings.
 struct TickSettings {
   double interval = 0.0;    ///< time of the flow between two marks [data units]; 0: none
   double stiffness = 0.25;  ///< kappa of the marks, in [0, 1]
@@ -46,7 +46,7 @@ struct TickSettings {
   }
 };
 
-/// What can be edited of isotropic drag. Apart from isotropic_drag.h, which needs all settings.
+/// What can be edited of isotropic drag. Apart from anisotropy_drag.h, which needs all settings.
 struct DragSettings {
   double threshold = 0.004;  ///< tau: distance at which the proxy follows [m]
 

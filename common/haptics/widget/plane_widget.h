@@ -1,5 +1,5 @@
 /// The cutting-plane widget: its planes, the state machine (widget_state.h) and the constraints that the
-/// links of a chain take up (plane_widget_link.h). README.md has the tables.
+/// links of a chain take up (plane_widget.h). README.md has the tables.
 ///
 /// Symbols. x probe, p proxies, c centre of the plane, R = (e_1 e_2 e_3) its axes with e_3 the normal, g the
 /// place of the grip, r radius of the sphere, w reach. Workspace [m].
@@ -22,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "common/base/index.h"
 #include "common/base/triple_buffer.h"
@@ -110,6 +111,31 @@ class PlaneWidget {
   std::uint64_t signature_ = kChanged;                          ///< of the constraints of the last step
   Vec3 total_{0.0};                                             ///< force of the last step [N]
   Vec3 offset_{0.0};                                            ///< by which it is off since the last change
+};
+
+class PlaneWidgetLink final : public Constraint {
+ public:
+  /// @param place in the chain, from 0 to PlaneWidget::kLinks - 1; all of them stand in it, in order.
+  PlaneWidgetLink(std::shared_ptr<PlaneWidget> widget, int place)
+      : widget_(std::move(widget)), place_(place) {}
+
+  void apply(const ChainSettings& settings) noexcept override {
+    if (place_ == 0) widget_->apply(settings);
+  }
+  void reset() noexcept override {
+    if (place_ == 0) widget_->lose();
+  }
+  void press(std::uint32_t buttons) noexcept override {
+    if (place_ == 0) widget_->press((buttons & 1U) != 0);
+  }
+  void update(const Vec3& probe, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
+    if (place_ == 0) widget_->update(probe);
+    link = widget_->link(place_);
+  }
+
+ private:
+  std::shared_ptr<PlaneWidget> widget_;
+  int place_;
 };
 
 }  // namespace palpate

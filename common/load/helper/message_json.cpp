@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 
 namespace palpate::message {
 namespace {

@@ -31,6 +31,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -40,9 +41,13 @@
 #include "common/load/format.h"
 #include "common/load/helper/memory_file.h"
 #include "common/load/load.h"
-#include "common/load/protocol_error.h"
 
 namespace palpate {
+
+class ProtocolError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 struct OpenMessage {
   Format format = Format::kLegacyVtk;

@@ -15,7 +15,7 @@
 #include "common/base/index.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/math/lattice.h"
 #include "common/math/vec_text.h"
 

@@ -45,6 +45,33 @@ GlFramebuffer make_framebuffer(const GlRenderbuffer& color, const GlRenderbuffer
 
 }  // namespace
 
+GlTexture make_picture_texture(std::uint32_t format, int width, int height, std::string_view what) {
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &name);
+  GlTexture texture(name);
+  label_object(GpuObject::Kind::kTexture, name, what);
+  glTextureStorage2D(name, 1, format, width, height);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+GlFramebuffer make_framebuffer() {
+  GLuint name = 0;
+  glCreateFramebuffers(1, &name);
+  return GlFramebuffer(name);
+}
+
+FramebufferGuard::FramebufferGuard() {
+  glGetIntegerv(GL_VIEWPORT, viewport_.data());
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name_);
+}
+
+FramebufferGuard::~FramebufferGuard() {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(name_));
+  glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+}
+
 bool RenderTarget::resize(int width, int height, double resolution) {
   PALPATE_CHECK(resolution > 0.0 && resolution <= 1.0);
   const int scene_width = std::max(1, static_cast<int>(std::lround(resolution * width)));

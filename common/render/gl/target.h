@@ -1,7 +1,9 @@
 /// Where a picture is drawn: a multisampled framebuffer, and the plain one that it is resolved to.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "common/render/gl/object.h"
 #include "common/render/scene_view.h"
@@ -59,6 +61,26 @@ class RenderTarget {
   GlFramebuffer averaged_;  // between the two where their sizes differ
   GlTexture depth_copy_;
   GlFramebuffer depth_framebuffer_;
+};
+
+/// A texture of one level that is looked up texel by texel. @param format an internal format of OpenGL.
+/// @param what its label (gpu_objects.h).
+[[nodiscard]] GlTexture make_picture_texture(std::uint32_t format, int width, int height,
+                                             std::string_view what);
+
+[[nodiscard]] GlFramebuffer make_framebuffer();
+
+/// Comes back, at its end, to the framebuffer and viewport that were drawn to at its beginning.
+class FramebufferGuard {
+ public:
+  FramebufferGuard();
+  ~FramebufferGuard();
+  FramebufferGuard(const FramebufferGuard&) = delete;
+  FramebufferGuard& operator=(const FramebufferGuard&) = delete;
+
+ private:
+  std::array<std::int32_t, 4> viewport_{};
+  std::int32_t name_ = 0;
 };
 
 }  // namespace palpate

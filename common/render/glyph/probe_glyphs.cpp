@@ -7,7 +7,8 @@
 
 #include "common/math/symmetric3.h"
 #include "common/render/color/palette.h"
-#include "common/render/line/line_values.h"
+#include "common/render/line/line_geometry.h"
+#include "common/render/scene_view.h"
 
 namespace palpate {
 namespace {

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "common/render/camera.h"
-#include "common/render/glyph/arrow_pass.h"
-#include "common/render/glyph/sphere_pass.h"
+#include "common/render/glyph/glyph_pass.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_glyphs.h"
 

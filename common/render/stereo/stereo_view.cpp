@@ -6,7 +6,6 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/render/stereo/screen_camera.h"
 
 namespace palpate {
 

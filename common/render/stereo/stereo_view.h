@@ -14,8 +14,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
+#include "common/base/check.h"
 #include "common/geometry/screen.h"
 #include "common/math/vec.h"
 #include "common/render/camera.h"
@@ -68,5 +70,27 @@ struct EyePictureSize {
 
 /// Width / height of it.
 [[nodiscard]] double eye_aspect(StereoMode mode, double width, double height) noexcept;
+
+/// The camera whose picture's rectangle is the screen, of an eye straight before its middle.
+/// @pre fault_of(screen) is empty; all in data coordinates.
+[[nodiscard]] inline Camera screen_camera(const Screen& screen) {
+  Camera camera;
+  camera.focal_point = center(screen);
+  camera.axes = axes(screen);
+  camera.view_height = height(screen);
+  return camera;
+}
+
+/// Moves the eye of a perspective camera to `eye` and leaves the picture's rectangle on the focal plane where
+/// it is.
+/// @pre the eye is before that plane: glm::dot(eye - focal_point, axes[2]) > 0.
+[[nodiscard]] inline Camera seen_from(const Camera& camera, const Vec3& eye) {
+  const Vec3 v = (eye - camera.focal_point) * camera.axes;  // along right, up, back
+  PALPATE_CHECK(v.z > 0.0);
+  Camera moved = camera;
+  moved.field_of_view = 2.0 * std::atan(0.5 * camera.view_height / v.z);
+  moved.eye_offset = {v.x, v.y};
+  return moved;
+}
 
 }  // namespace palpate

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/render/color/color_map.h"
+#include "common/render/probe_view.h"
 #include "common/trace/isosurface/isosurface_mesh.h"
 
 namespace palpate {
@@ -26,7 +27,19 @@ struct SurfaceView {
 /// The surfaces of a set, as they are shown together: one alone opaque, several in colours of their own and
 /// half covering.
 /// @param meshes may be null each.
-[[nodiscard]] std::vector<SurfaceView> show_surfaces(
-    const std::vector<std::shared_ptr<const IsosurfaceMesh>>& meshes);
+[[nodiscard]] inline std::vector<SurfaceView> show_surfaces(
+    const std::vector<std::shared_ptr<const IsosurfaceMesh>>& meshes) {
+  constexpr double kHalf = 0.5;
+  std::vector<SurfaceView> surfaces;
+  for (const auto& mesh : meshes) {
+    SurfaceView surface{.mesh = mesh};
+    if (meshes.size() > 1) {
+      surface.color = cached_color(static_cast<int>(surfaces.size()) + 1);
+      surface.opacity = kHalf;
+    }
+    surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
 
 }  // namespace palpate

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "common/render/gl/object.h"
-#include "common/render/glyph/glyph_draw.h"
+#include "common/render/glyph/glyph_pass.h"
 #include "common/render/tensor/tensor_glyphs.h"
 
 namespace palpate {

@@ -7,10 +7,36 @@
 #include <optional>
 #include <string_view>
 
+#include "common/field/value_histogram.h"
+#include "common/render/camera.h"
 #include "common/render/tensor/tensor_voxels.h"
-#include "common/render/tensor/underlay_view.h"
+#include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
+
+/// How the colours of tensors lie over the image below them.
+enum class UnderlayBlend : std::uint8_t {
+  kAnisotropy,  ///< as opaque as FA says: grey c of the image becomes FA colour + (1 - FA) c
+  kSolid,       ///< they hide the image; it shows where there is no tensor
+  kNone         ///< the image alone
+};
+inline constexpr int kUnderlayBlendCount = 3;
+[[nodiscard]] std::string_view name_of(UnderlayBlend blend) noexcept;  ///< "anisotropy"
+/// @throws Error (usage) that lists the known ones.
+[[nodiscard]] UnderlayBlend underlay_blend_from_name(std::string_view name);
+
+/// The slices are those of a TensorView; what they show of this image is sampled at their positions in data
+/// coordinates, whatever its resolution and orientation.
+struct UnderlayView {
+  std::shared_ptr<const VolumeImage> image;  ///< not null
+  ValueWindow window;                        ///< from black to white
+  UnderlayBlend blend = UnderlayBlend::kAnisotropy;
+
+  bool operator==(const UnderlayView&) const = default;  ///< images are the same where the objects are
+};
+
+/// The value of the voxel of `image` that x lies in; nothing outside, or where the value is not finite.
+[[nodiscard]] std::optional<double> voxel_value(const VolumeImage& image, const Vec3& x) noexcept;
 
 enum class TensorColor : std::uint8_t {
   kDirection,  ///< direction_color() of the main eigenvector; on slices times FA
@@ -57,5 +83,18 @@ struct TensorView {
 /// `position` moved by `steps` voxels along the image's axis `axis`, from voxel to voxel; it stays in the
 /// image.
 [[nodiscard]] Vec3 moved_position(const TensorVoxels& image, const Vec3& position, int axis, int steps);
+
+struct TensorPick {
+  Vec3 position{0.0};  ///< on a slice, data coordinates
+  Index3 voxel{0};
+  int axis = 0;                    ///< of the image, across which the slice lies
+  std::optional<Mat3> tensor;      ///< of the voxel, where it shows
+  std::optional<double> underlay;  ///< the value there of the image below
+};
+
+/// The nearest slice under the pixel (x, y) from the top left corner that shows something there; none where
+/// the ray of the pixel meets none.
+[[nodiscard]] std::optional<TensorPick> pick_slice(const TensorView& view, const Camera& camera, int width,
+                                                   int height, double x, double y);
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/field/tensor/tensor_field.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/math/vec.h"
 #include "common/render/color/color_map.h"
 #include "common/render/volume/voxels/volume_image.h"
@@ -53,5 +54,15 @@ struct TensorVoxels {
 
 /// The lattice of `image` alone, for slices through it.
 [[nodiscard]] std::shared_ptr<const TensorVoxels> make_slice_lattice(const VolumeImage& image);
+
+/// FA at the centres of the voxels, 0 where there is no tensor; colours are direction_color() of the main
+/// eigenvectors, at full strength: how strong a direction is, opacity says. Shares the numbers of `voxels`.
+[[nodiscard]] std::shared_ptr<const VolumeImage> make_anisotropy_volume(
+    std::shared_ptr<const TensorVoxels> voxels);
+
+/// Of FA for a context: a faint grey veil of what has a direction at all.
+[[nodiscard]] ColorTransfer anisotropy_veil();
+/// Of FA for a focus: solid where fibres run.
+[[nodiscard]] ColorTransfer anisotropy_body();
 
 }  // namespace palpate

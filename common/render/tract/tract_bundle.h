@@ -10,6 +10,7 @@
 
 #include "common/geometry/tractogram.h"
 #include "common/math/vec.h"
+#include "common/render/camera.h"
 
 namespace palpate {
 
@@ -50,5 +51,23 @@ struct TractView {
   bool operator==(const TractView&) const =
       default;  ///< bundles count as the same where they are the same object
 };
+
+/// One point, as laid out in the shader's buffer: half of what it takes as three numbers and three more.
+struct TractPoint {
+  Vec3f position{0.0F};       ///< scene frame
+  std::uint32_t tangent = 0;  ///< packed_tangent(), or kBetweenLines
+
+  static constexpr std::uint32_t kBetweenLines = 1U << 30U;
+};
+
+/// A unit vector, or zero, in three signed numbers of ten bits, of 511; x in the lowest ones. Each component
+/// is off by 1/1022 at most, an eighth of what a screen shows of the colour made of it.
+[[nodiscard]] std::uint32_t packed_tangent(const Vec3f& tangent) noexcept;
+
+/// The lines of a piece, each without the points that a picture does not need, and a point between every two
+/// of them: what is left lies within `tolerance` (scene frame) of the lines, with tangents of the whole ones.
+/// Segments whose ends coincide, or are not finite, are left out. @pre piece < bundle.pieces.size().
+[[nodiscard]] std::vector<TractPoint> piece_points(const TractBundle& bundle, std::size_t piece,
+                                                   const SceneFrame& frame, double tolerance);
 
 }  // namespace palpate

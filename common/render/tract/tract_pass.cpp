@@ -8,7 +8,6 @@
 #include "common/base/clock.h"
 #include "common/render/gl/program.h"
 #include "common/render/tract/tract_bundle.h"
-#include "common/render/tract/tract_points.h"
 
 namespace palpate {
 namespace {
@@ -19,7 +18,7 @@ constexpr double kBetweenQuestions = 30.0;
 
 // Locations and bindings of shaders/tract/.
 enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4 };
-constexpr GLuint kPoints = 0;
+constexpr GLuint kPointBuffer = 0;
 
 }  // namespace
 
@@ -40,7 +39,7 @@ void TractPass::draw_piece(const TractDraw& how, std::size_t number) {
     piece.vertices = static_cast<int>(2 * points.size());
     piece.tolerance = how.tolerance;
   }
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPoints, piece.points.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPointBuffer, piece.points.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, piece.vertices);
 }
 

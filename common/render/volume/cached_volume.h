@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "common/render/frame_block.h"
-#include "common/render/gl/framebuffer.h"
 #include "common/render/gl/object.h"
+#include "common/render/gl/target.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {

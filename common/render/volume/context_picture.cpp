@@ -12,8 +12,8 @@
 #include <epoxy/gl.h>
 
 #include "common/base/check.h"
-#include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
+#include "common/render/gl/target.h"
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/voxels/coarse_image.h"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include <epoxy/gl.h>
 #include <glm/mat4x4.hpp>
@@ -14,6 +15,7 @@
 #include "common/base/index.h"
 #include "common/math/power_of_two.h"
 #include "common/render/volume/volume_bindings.h"
+#include "common/render/volume/volume_block.h"
 
 namespace palpate {
 namespace {
@@ -76,6 +78,21 @@ class Arrays {
 };
 
 }  // namespace
+
+void VolumeVariant::update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole) {
+  textures.update(view, {}, &whole);
+  room = ShapeRoom::of(view);
+  std::vector<std::string> wanted = textures.shader_defines();
+  wanted.push_back(room.shader_define());
+  if (wanted != defines) {
+    program.reset();
+    defines = std::move(wanted);
+  }
+  VolumeBlock told = make_volume_block(view, frame, textures.field_bricks());
+  told.asks_tiles = 0.0F;  // rays of all pixels: the tiles are those of another picture
+  volume_block = volume_shader::make_block_buffer(told);
+  shape_block = make_buffer(make_shape_block(view, frame, room));
+}
 
 ShapeRoom ShapeRoom::of(const VolumeView& view) {
   std::size_t faces = 0;

@@ -8,6 +8,7 @@
 
 #include "common/render/camera.h"
 #include "common/render/gl/object.h"
+#include "common/render/volume/volume_textures.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -39,5 +40,16 @@ struct ShapeRoom {
 
 /// For shaders compiled with `room`.
 void bind_shape_block(const GlBuffer& block, ShapeRoom room);
+
+struct VolumeVariant {
+  VolumeTextures textures;
+  GlBuffer volume_block, shape_block;
+  ShapeRoom room;
+  std::vector<std::string> defines;
+  GlProgram program;  ///< where its defines are others than those of what is shown
+
+  /// @param view VolumeTextures::drawn() of `whole`, whose voxels are taken, but for samples and tables.
+  void update(const VolumeView& view, const SceneFrame& frame, const VolumeTextures& whole);
+};
 
 }  // namespace palpate

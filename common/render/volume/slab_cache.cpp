@@ -9,7 +9,7 @@
 #include "common/base/check.h"
 #include "common/base/index.h"
 #include "common/math/power_of_two.h"
-#include "common/render/gl/framebuffer.h"
+#include "common/render/gl/target.h"
 #include "common/render/volume/volume_block.h"
 
 namespace palpate {

@@ -9,8 +9,8 @@
 #include "common/base/check.h"
 #include "common/base/index.h"
 #include "common/math/power_of_two.h"
-#include "common/render/gl/framebuffer.h"
 #include "common/render/gl/program.h"
+#include "common/render/gl/target.h"
 #include "common/render/volume/voxels/brick_map.h"
 
 namespace palpate {

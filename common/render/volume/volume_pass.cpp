@@ -30,7 +30,6 @@
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_textures.h"
-#include "common/render/volume/volume_variant.h"
 
 namespace palpate {
 namespace {

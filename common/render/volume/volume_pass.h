@@ -68,7 +68,7 @@ class VolumePass {
   /// The volume of the last draw(), with what was drawn in place of its images. @pre draw().
   [[nodiscard]] const VolumeView& drawn_view() const;
   /// Draws rays through that volume again, with other samples and tables, over the framebuffer that is bound:
-  /// for a sparse set of its pixels (sparse_rays.h), or to refine it. Needs the block of that frame bound to
+  /// for a sparse set of its pixels (saving_estimate.h), or to refine it. Needs the block of that frame bound to
   /// 0.
   /// @param as drawn_view() but for samples, tables, what is left out and what is kept; a context that is
   /// drawn alone, and fewer samples far from the viewer, it has not.

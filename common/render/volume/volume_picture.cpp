@@ -14,6 +14,7 @@
 #include "common/render/frame_block.h"
 #include "common/render/gl/context.h"
 #include "common/render/gl/object.h"
+#include "common/render/scene_view.h"
 
 namespace palpate {
 

@@ -10,7 +10,6 @@
 
 #include "common/render/gl/object.h"
 #include "common/render/volume/table/gpu_preintegration.h"
-#include "common/render/volume/table/table_choice.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_view.h"

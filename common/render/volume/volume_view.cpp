@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/math/power_of_two.h"
-#include "common/render/lens/plane_section.h"
+#include "common/render/lens/lens.h"
 
 namespace palpate {
 

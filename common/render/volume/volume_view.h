@@ -84,7 +84,7 @@ struct VolumeField {
 };
 inline constexpr std::size_t kMostFields = 4;  ///< of one picture, that of the context included
 
-/// Who fills preintegrated tables (table_choice.h); the numbers are the same.
+/// Who fills preintegrated tables (gpu_preintegration.h); the numbers are the same.
 enum class TableMaker : std::uint8_t { kFaster, kProcessor, kGpu };
 inline constexpr std::array<const char*, 3> kTableMakerNames{"faster", "processor", "gpu"};
 

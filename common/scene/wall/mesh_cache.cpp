@@ -9,7 +9,7 @@
 #include "common/base/clock.h"
 #include "common/base/text.h"
 #include "common/load/helper/message_json.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 #include "common/scene/mesh_digest.h"
 
 namespace palpate {

@@ -6,7 +6,7 @@
 #include "common/base/find_helper.h"
 #include "common/base/memory.h"
 #include "common/load/helper/helper_process.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 
 namespace palpate {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "common/load/helper/message_json.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 
 namespace palpate {
 namespace {

@@ -10,7 +10,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/tet_shape.h"
-#include "common/field/heart/same_points.h"
+#include "common/field/heart/heart.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/remesher.h"

@@ -10,7 +10,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/tensor/diffusion_measures.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {

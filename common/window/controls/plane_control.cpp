@@ -6,7 +6,7 @@
 
 #include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/widget/widget_text.h"
-#include "common/render/lens/plane_section.h"
+#include "common/render/lens/lens.h"
 #include "common/window/controls/pick_volume.h"
 
 namespace palpate {

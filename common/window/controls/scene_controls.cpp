@@ -6,7 +6,7 @@
 #include "common/base/text.h"
 #include "common/geometry/box_edges.h"
 #include "common/hand/drawn/annotation_list.h"
-#include "common/render/stereo/screen_camera.h"
+#include "common/render/stereo/stereo_view.h"
 #include "common/window/controls/plane_control.h"
 
 namespace palpate {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "common/hand/technique/view_hold.h"
+#include "common/hand/technique/box_hold.h"
 #include "common/hand/workbench/workbench_display.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/controls/lens_control.h"

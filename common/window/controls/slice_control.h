@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "common/render/camera.h"
-#include "common/render/tensor/tensor_pick.h"
+#include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/input_event.h"
 #include "common/window/keys.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/field/value_histogram.h"
-#include "common/render/tensor/tensor_pick.h"
+#include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/pick_volume.h"
 #include "common/window/controls/plane_control.h"
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "common/hand/technique/pick.h"
+#include "common/hand/technique/scene_pick.h"
 #include "common/haptics/widget/dial_chain.h"
 #include "common/render/label/label_view.h"
 #include "common/window/immersive/dial.h"

@@ -10,7 +10,7 @@
 
 #include "common/compose/window_model.h"
 #include "common/render/scene_view.h"
-#include "common/render/tensor/tensor_pick.h"
+#include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/seed_choice.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/live_picture.h"

@@ -8,7 +8,7 @@
 
 #include <imgui.h>
 
-#include "common/hand/mode/grid_landmarks.h"
+#include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/window/panels/panel_parts.h"

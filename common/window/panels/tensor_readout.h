@@ -1,7 +1,7 @@
 /// The numbers of a tensor beside the picture.
 #pragma once
 
-#include "common/render/tensor/tensor_pick.h"
+#include "common/render/tensor/tensor_view.h"
 
 namespace palpate {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/proxy_chain.h"

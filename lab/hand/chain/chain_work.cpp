@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "common/field/analytic/analytic_scalar.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/isosurface.h"
-#include "common/haptics/constraint/isotropic_drag.h"
 #include "common/haptics/constraint/shape.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/haptics/constraint/tick_marks.h"
 #include "common/haptics/proxy_chain.h"
 #include "lab/data/formula_flow.h"
 #include "lab/hand/probe_run.h"

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <utility>
 
 #include "common/base/text.h"
 #include "common/field/analytic/ventricle.h"
+#include "common/math/quaternion.h"
 #include "lab/hand/probe_run.h"
 #include "lab/page/html.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMillimetres = 1e3;
 constexpr double kClearGap = 0.5;  // below it the threshold fades
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/base/progress.h"
-#include "common/haptics/constraint/fibre_friction.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/haptics/proxy_chain.h"

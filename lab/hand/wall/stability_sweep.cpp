@@ -96,11 +96,6 @@ std::vector<LedgerRow> ledger_rows() {
   return rows;
 }
 
-StabilityCase make_case(std::string name, double measured, double limit, std::string unit,
-                        std::string meaning) {
-  return {{std::move(name), measured, limit, measured <= limit}, std::move(unit), std::move(meaning)};
-}
-
 /// What the bench must be able to see, and what the controller must be able to do.
 std::vector<StabilityCase> wall_cases() {
   std::vector<StabilityCase> cases;

@@ -2,7 +2,7 @@
 ///
 /// The wall is the half space x > 0, a spring of stiffness K; the arm starts at rest outside of it, and is
 /// pushed in by a constant force, with or without a hand that holds it. All of it is in simulated time, and
-/// the arm's motion is exact (device/simulated_axis.h), so what swings does so because of the loop.
+/// the arm's motion is exact (device/simulated_arm.h), so what swings does so because of the loop.
 ///
 /// Theory. Pushed, the arm rests at F/K inside the wall, where the wall is two-sided for small motions. Held
 /// over each period T, its force is late by T/2 on average, which takes K T/2 off the arm's damping b. With

@@ -16,7 +16,6 @@
 #include <sys/resource.h>
 
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/analytic/tensor_sampled.h"
 #include "common/load/write/write_tractogram.h"
 #include "common/ode/tableau.h"
 #include "common/trace/tract/trace_tracts.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/calibration/synthetic_arm.h"
+#include "common/calibration/synthetic.h"
 
 namespace palpate::test {
 namespace {

@@ -1,14 +1,14 @@
 // Registration of instruments with unknown markers, coregistration, and poses from markers.
 
+#include "common/calibration/registration.h"
+
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/calibration/point_alignment.h"
-#include "common/calibration/synthetic_poses.h"
-#include "common/calibration/synthetic_tracker.h"
+#include "common/calibration/synthetic.h"
 
 namespace palpate::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/calibration/synthetic_poses.h"
+#include "common/calibration/synthetic.h"
 
 namespace palpate::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/calibration/synthetic_tracker.h"
+#include "common/calibration/synthetic.h"
 
 namespace palpate::test {
 namespace {

@@ -1,11 +1,10 @@
-#include "common/device/simulated_axis.h"
-
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "common/device/simulated_arm.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpate::test {

@@ -1,11 +1,10 @@
-#include "common/field/derived.h"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/examples.h"
+#include "common/field/vorticity_field.h"
 #include "tests/support/sampled.h"
 
 namespace palpate {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 
 namespace palpate::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/field/value_histogram.h"
 
 namespace palpate {

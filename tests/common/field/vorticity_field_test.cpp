@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/examples.h"
-#include "common/field/derived.h"
 #include "common/field/grid/tet_mesh.h"
 #include "tests/common/field/sampled_fields.h"
 

@@ -15,7 +15,7 @@
 #include "common/base/error.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/hand/mode/texture_link.h"
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/servo/recording.h"
 #include "tests/common/hand/sample_modes.h"
 #include "tests/common/trace/helix_field.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
 #include "tests/common/haptics/straight_links.h"
 
 namespace palpate {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/haptics/constraint/tick_marks.h"
 #include "common/haptics/proxy_chain.h"
 #include "tests/common/trace/linear_fields.h"
 

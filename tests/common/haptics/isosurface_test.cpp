@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/settings_text.h"

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/haptics/constraint/tick_marks.h"
 #include "tests/common/trace/helix_field.h"
 
 namespace palpate {

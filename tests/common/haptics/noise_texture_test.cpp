@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/analytic_scalar.h"
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/haptics/proxy_chain.h"
 #include "tests/support/allocation_guard.h"
 

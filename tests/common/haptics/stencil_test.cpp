@@ -1,8 +1,6 @@
 // Derivatives by differences, and the measures that rest on them: exact on quadratics, and without leaps on
 // tetrahedra, where the gradient of the interpolant leaps from cell to cell.
 
-#include "common/haptics/stencil.h"
-
 #include <algorithm>
 #include <cmath>
 

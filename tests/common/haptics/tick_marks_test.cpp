@@ -1,12 +1,11 @@
 // Tick marks on a rotation, where equal times are equal angles.
 
-#include "common/haptics/constraint/tick_marks.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "common/haptics/constraint/detent_marks.h"
 #include "tests/common/haptics/followed_flow.h"
 
 namespace palpate {

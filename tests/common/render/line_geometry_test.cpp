@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/render/line/line_values.h"
 #include "tests/common/render/sample_scenes.h"
 
 namespace palpate {

@@ -1,4 +1,3 @@
-#include "common/render/probe_path.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/load/protocol_error.h"
+#include "common/load/helper/protocol.h"
 
 namespace palpate::test {
 namespace {

@@ -15,7 +15,6 @@
 #include "common/servo/live_hands.h"
 #include "common/servo/placed_device.h"
 #include "common/servo/real_time.h"
-#include "common/servo/station_poses.h"
 
 namespace palpate::test {
 namespace {

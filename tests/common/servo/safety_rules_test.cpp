@@ -1,10 +1,10 @@
-#include "common/servo/safety_rules.h"
-
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "common/servo/safety_stage.h"
 
 namespace palpate::test {
 namespace {

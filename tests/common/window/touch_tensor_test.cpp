@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/dtmri/dtmri_panels.h"
+#include "apps/dtmri/dtmri_model.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/symmetric3.h"

@@ -113,4 +113,12 @@ class FalconLink final : public DriverLink {
   int misses_ = 0;          ///< in a row
 };
 
+// The options of `--device falcon:NAME=VALUE,…`.
+
+/// Reads the image of the firmware, where one is named.
+/// @throws Error (usage) for an unknown name or a value out of bounds, (bad input) for a file that cannot be
+/// an image.
+[[nodiscard]] FalconSettings falcon_settings(const DriverOptions& options);
+[[nodiscard]] std::string falcon_help();
+
 }  // namespace palpate

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "common/device/driver/falcon/falcon_options.h"
+#include "common/device/driver/falcon/falcon_link.h"
 #include "common/device/driver/transport/libusb_transport.h"
 #include "common/device/driver/transport/usb_module.h"
 

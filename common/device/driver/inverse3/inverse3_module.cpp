@@ -4,7 +4,7 @@
 
 #include "common/device/driver/inverse3/inverse3_link.h"
 #include "common/device/driver/link_module.h"
-#include "common/device/driver/transport/beast_transport.h"
+#include "common/device/driver/transport/web_transport.h"
 
 namespace palpate {
 namespace {

@@ -5,9 +5,15 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/device/driver/vendor_library.h"
 
 namespace palpate {
 namespace {
+
+constexpr std::array kHdNames{"libHD.so", "libHD.so.3.4", "libHD.so.3.0"};
+constexpr const char* kHdRemedy =
+    "install OpenHaptics and the driver of the device from 3D Systems, or name the library: --device "
+    "openhaptics:library=FILE";
 
 constexpr double kMillimetre = 1e-3;     // [m]
 constexpr double kHdRefusedPause = 0.5;  // [s] between two tries to open a device
@@ -18,6 +24,30 @@ constexpr double kHdFarthest = 2.0;      // [m] none of them reaches so far
 constexpr unsigned kHdWarm = 0x0200, kHdTooFast = 0x0203, kHdDeviceFault = 0x0300, kHdLost = 0x0302;
 
 }  // namespace
+
+HdFunctions open_hd_library(const std::string& file) {
+  const VendorLibrary library(file, kHdNames, kHdRemedy);
+  HdFunctions hd;
+  library.require(hd.init, "hdInitDevice");
+  library.require(hd.disable_device, "hdDisableDevice");
+  library.require(hd.make_current, "hdMakeCurrentDevice");
+  library.require(hd.enable, "hdEnable");
+  library.require(hd.disable, "hdDisable");
+  library.require(hd.begin_frame, "hdBeginFrame");
+  library.require(hd.end_frame, "hdEndFrame");
+  library.require(hd.get_doubles, "hdGetDoublev");
+  library.require(hd.get_integers, "hdGetIntegerv");
+  library.require(hd.get_string, "hdGetString");
+  library.require(hd.set_doubles, "hdSetDoublev");
+  library.require(hd.error, "hdGetError");
+  library.require(hd.start_scheduler, "hdStartScheduler");
+  library.require(hd.stop_scheduler, "hdStopScheduler");
+  library.require(hd.schedule, "hdScheduleAsynchronous");
+  library.require(hd.unschedule, "hdUnschedule");
+  library.require(hd.check_calibration, "hdCheckCalibration");
+  library.require(hd.update_calibration, "hdUpdateCalibration");
+  return hd;
+}
 
 HdSettings::HdSettings() {
   arm.force_cap = 3.3;

@@ -1,4 +1,4 @@
-#include "common/device/driver/transport/beast_transport.h"
+#include "common/device/driver/transport/web_transport.h"
 
 #include <chrono>
 #include <exception>

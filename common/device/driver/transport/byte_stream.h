@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "common/device/driver/transport/transfer.h"
+#include "common/device/driver/transport/usb.h"
 
 namespace palpate {
 

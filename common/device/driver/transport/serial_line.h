@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/device/driver/transport/byte_stream.h"
+#include "common/device/driver/transport/usb.h"
 
 namespace palpate {
 
@@ -30,5 +31,13 @@ class SerialLine final : public StreamPlace {
 
 /// The value of `baud=`, for `driver`. @throws Error (usage), which names the rates that there are.
 [[nodiscard]] int baud_of(std::string_view driver, const std::string& value);
+
+/// [s] of CLOCK_MONOTONIC.
+[[nodiscard]] double steady_seconds() noexcept;
+
+/// Waits until `file` can be read (POLLIN) or written to (POLLOUT), as `events` of poll() says, at least one
+/// look and no later than `until` [s of steady_seconds()].
+/// @return kGone: the other side has closed, or nobody was there; what came before that is still read.
+[[nodiscard]] TransferStatus wait_for(int file, short events, double until) noexcept;
 
 }  // namespace palpate

@@ -12,7 +12,7 @@
 
 #include "common/base/index.h"
 #include "common/base/unique_fd.h"
-#include "common/device/driver/transport/file_wait.h"
+#include "common/device/driver/transport/serial_line.h"
 
 namespace palpate {
 namespace {

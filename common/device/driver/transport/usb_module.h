@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "common/device/driver/link_module.h"
-#include "common/device/driver/transport/known_devices.h"
 #include "common/device/driver/transport/usb.h"
+#include "common/device/driver/transport/usb_search.h"
 
 namespace palpate {
 

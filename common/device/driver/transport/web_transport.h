@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "common/device/driver/link_clock.h"
-#include "common/device/driver/transport/transfer.h"
+#include "common/device/driver/transport/usb.h"
 
 namespace palpate {
 
@@ -50,5 +50,7 @@ class WebTransport : public LinkClock {
   [[nodiscard]] virtual std::optional<std::string> get(const WebAddress& address, const std::string& path,
                                                        double seconds) noexcept = 0;
 };
+
+[[nodiscard]] std::unique_ptr<WebTransport> make_beast_transport();
 
 }  // namespace palpate

@@ -7,13 +7,28 @@
 
 #include "common/render/budget/quality_errors.h"
 #include "common/render/camera.h"
-#include "common/render/volume/estimate/error_estimate.h"
 #include "common/render/volume/estimate/image_error.h"
 #include "common/render/volume/estimate/saving_estimate.h"
-#include "common/render/volume/estimate/sparse_rays.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
+
+class ErrorEstimate {
+ public:
+  explicit ErrorEstimate(std::shared_ptr<const StillPicture> picture);
+
+  /// Looks at the pixels of one more round, as cast_sparse_rays().
+  /// @return whether more are worth it: the error is not known to a tenth.
+  bool add(VolumePass& pass);
+
+  [[nodiscard]] ImageError error() const noexcept;
+
+ private:
+  std::shared_ptr<const StillPicture> picture_;
+  int rounds_ = 0;
+  double milliseconds_ = 0.0;
+  ErrorSum sum_;
+};
 
 class PictureEstimates {
  public:

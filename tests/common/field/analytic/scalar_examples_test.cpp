@@ -1,10 +1,9 @@
-#include "common/field/analytic/scalar_examples.h"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "common/field/analytic/volume_examples.h"
 #include "common/field/scalar_field.h"
 #include "tests/support/torus_scalar.h"
 

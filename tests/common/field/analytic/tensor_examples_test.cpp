@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/field/analytic/tensor_sampled.h"
 #include "common/field/data_set_check.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/tensor_field.h"

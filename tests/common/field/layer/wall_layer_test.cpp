@@ -9,7 +9,6 @@
 
 #include "common/base/error.h"
 #include "common/field/field_grid.h"
-#include "common/field/layer/boundary_patches.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {

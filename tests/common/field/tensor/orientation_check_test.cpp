@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/tensor/image_axes.h"
+#include "common/field/tensor/gradient_table.h"
 #include "common/field/tensor/tensor_field.h"
 
 namespace palpate::test {

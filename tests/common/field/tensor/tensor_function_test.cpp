@@ -1,11 +1,10 @@
-#include "common/field/tensor/tensor_function.h"
-
 #include <array>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "common/field/tensor/eigenframe.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/tensor_examples.h"
-#include "common/field/analytic/tensor_sampled.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {

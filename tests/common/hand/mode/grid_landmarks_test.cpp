@@ -1,8 +1,6 @@
 // Landmarks of a haptic grid at a place: whichever way the grid's axes run, the planes of all three go
 // through it, and the mode that they are given to has them there.
 
-#include "common/hand/mode/grid_landmarks.h"
-
 #include <random>
 
 #include <gtest/gtest.h>

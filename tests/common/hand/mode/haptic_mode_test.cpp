@@ -113,6 +113,7 @@ TEST(HapticModes, EachMakesAChainThatStepsFinitelyWithoutAllocating) {
 TEST(HapticModes, AnUnknownOneListsTheKnown) {
   const std::vector<HapticMode> modes = modes_of(FieldKind::kTensor);
   EXPECT_EQ(find_mode(modes, "anisotropy-point").name, "anisotropy-point");
+  EXPECT_EQ(find_mode(modes, "").name, modes.front().name) << "the default one";
   try {
     (void)find_mode(modes, "streamline");
     ADD_FAILURE() << "tensors have no streamline";

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "tests/support/torus_scalar.h"
 
 namespace palpate {

@@ -1,11 +1,9 @@
-#include "common/hand/mode/measured_noise.h"
-
 #include <atomic>
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
 #include "common/field/analytic/volume_examples.h"
+#include "common/hand/haptic_data.h"
 
 namespace palpate::test {
 namespace {

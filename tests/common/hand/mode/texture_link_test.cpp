@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/field/analytic/scalar_examples.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/hand/touch_options.h"
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
 
 namespace palpate::test {
 namespace {

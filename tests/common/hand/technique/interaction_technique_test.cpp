@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/hand/technique/desktop_technique.h"
 #include "common/hand/technique/immersive_technique.h"
 
 namespace palpate {

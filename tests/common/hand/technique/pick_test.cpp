@@ -1,13 +1,13 @@
 // Picking by a ray and through an aperture, against what geometry says.
 
-#include "common/hand/technique/pick.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "common/hand/technique/scene_pick.h"
 
 namespace palpate {
 namespace {

@@ -1,10 +1,8 @@
 // A mouse leads a probe along a surface: around a sphere, which bends away from the plane of the view.
 
-#include "common/hand/technique/surface_drag.h"
-
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/hand/technique/probe_mouse.h"
 #include "tests/common/trace/sampled_scalars.h"
 

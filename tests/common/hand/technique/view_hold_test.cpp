@@ -1,6 +1,6 @@
-#include "common/hand/technique/view_hold.h"
-
 #include <gtest/gtest.h>
+
+#include "common/hand/technique/box_hold.h"
 
 namespace palpate::test {
 namespace {

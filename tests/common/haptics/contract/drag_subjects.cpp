@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/haptics/constraint/isotropic_drag.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 
 namespace palpate::test {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "common/field/heart/heart.h"
-#include "common/haptics/constraint/fibre_friction.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/math/power_of_two.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/streamline.h"
 #include "tests/common/haptics/contract/constraint_contract.h"

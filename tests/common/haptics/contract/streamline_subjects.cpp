@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "common/haptics/constraint/detent_marks.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/haptics/constraint/tick_marks.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 #include "tests/common/haptics/contract/moved_fields.h"
 #include "tests/common/trace/helix_field.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "common/haptics/constraint/noise_texture.h"
 #include "tests/common/haptics/contract/constraint_contract.h"
 #include "tests/common/haptics/contract/moved_fields.h"

@@ -1,9 +1,9 @@
-#include "common/haptics/force_field/force_law.h"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "common/haptics/force_field/force_field.h"
 
 namespace palpate::test {
 namespace {

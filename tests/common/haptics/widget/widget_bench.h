@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/haptics/proxy_chain.h"
-#include "common/haptics/widget/plane_widget_link.h"
+#include "common/haptics/widget/plane_widget.h"
 
 namespace palpate::test {
 

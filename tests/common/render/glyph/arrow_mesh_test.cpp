@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/render/glyph/arrow_pass.h"
+#include "common/render/glyph/glyph_pass.h"
 
 namespace palpate {
 namespace {

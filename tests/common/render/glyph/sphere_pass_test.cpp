@@ -1,5 +1,3 @@
-#include "common/render/glyph/sphere_pass.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "common/render/frame_block.h"
 #include "common/render/gl/context.h"
+#include "common/render/glyph/glyph_pass.h"
 
 namespace palpate {
 namespace {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/render/stereo/screen_camera.h"
 
 namespace palpate {
 namespace {

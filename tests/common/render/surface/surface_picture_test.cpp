@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/support/torus_scalar.h"
 

@@ -1,9 +1,8 @@
-#include "common/render/tensor/tensor_pick.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "common/render/tensor/tensor_view.h"
 #include "tests/common/render/tensor/sample_tensors.h"
 
 namespace palpate::test {

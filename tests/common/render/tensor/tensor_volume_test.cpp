@@ -1,8 +1,6 @@
 // Anisotropy as a volume, with directions as colours in a lens: numbers, pixels that are known, and a picture
 // kept beside the tests, looked at by people.
 
-#include "common/render/tensor/tensor_volume.h"
-
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -11,6 +9,7 @@
 
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
+#include "common/render/tensor/tensor_voxels.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/tensor/sample_tensors.h"
 #include "tests/support/half_space.h"

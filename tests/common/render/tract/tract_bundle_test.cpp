@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/render/tract/tract_points.h"
 #include "common/render/tract/tract_progress.h"
 
 namespace palpate::test {

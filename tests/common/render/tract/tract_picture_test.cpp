@@ -8,7 +8,7 @@
 
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
-#include "common/render/tensor/tensor_volume.h"
+#include "common/render/tensor/tensor_voxels.h"
 #include "tests/common/render/picture_checks.h"
 #include "tests/common/render/tensor/sample_tensors.h"
 

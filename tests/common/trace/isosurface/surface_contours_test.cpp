@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/analytic/scalar_examples.h"
+#include "common/field/analytic/volume_examples.h"
 #include "tests/common/trace/sampled_scalars.h"
 
 namespace palpate {

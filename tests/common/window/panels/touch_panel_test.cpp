@@ -5,7 +5,7 @@
 
 #include <stb_image.h>
 
-#include "apps/flow/flow_panels.h"
+#include "apps/flow/flow_model.h"
 #include "tests/common/window/touch_window.h"
 
 namespace palpate::test {

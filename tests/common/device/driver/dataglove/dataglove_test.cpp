@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/device/driver/dataglove/dataglove_link.h"
-#include "common/device/driver/dataglove/dataglove_report.h"
-#include "common/device/driver/transport/known_devices.h"
+#include "common/device/driver/transport/usb_search.h"
 #include "tests/common/device/driver/dataglove/dataglove_emulator.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_usb.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "common/device/driver/falcon/falcon_options.h"
+#include "common/device/driver/falcon/falcon_link.h"
 #include "common/device/driver/transport/usb_module.h"
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
 #include "tests/common/device/driver/transport/fake_usb.h"

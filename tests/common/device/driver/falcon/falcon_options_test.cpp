@@ -1,10 +1,9 @@
 // Words of `--device falcon:…`, and what they refuse.
 
-#include "common/device/driver/falcon/falcon_options.h"
-
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/device/driver/falcon/falcon_link.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/device/driver/pedal/pedal_link.h"
-#include "common/device/driver/transport/known_devices.h"
+#include "common/device/driver/transport/usb_search.h"
 #include "common/servo/linked_device.h"
 #include "common/servo/safety_stage.h"
 #include "tests/common/device/driver/pedal/pedal_emulator.h"

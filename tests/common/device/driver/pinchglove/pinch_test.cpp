@@ -11,7 +11,6 @@
 
 #include "common/base/error.h"
 #include "common/device/driver/pinchglove/pinch_link.h"
-#include "common/device/driver/pinchglove/pinch_message.h"
 #include "common/device/driver/transport/serial_line.h"
 #include "tests/common/device/driver/pinchglove/pinch_emulator.h"
 #include "tests/common/device/driver/soak.h"

@@ -13,8 +13,8 @@
 
 #include "common/base/error.h"
 #include "common/device/driver/polhemus/polhemus_link.h"
-#include "common/device/driver/transport/known_devices.h"
 #include "common/device/driver/transport/serial_line.h"
+#include "common/device/driver/transport/usb_search.h"
 #include "tests/common/device/driver/polhemus/polhemus_emulator.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/pty_pair.h"

@@ -10,8 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/device/driver/spacemouse/spacemouse_link.h"
-#include "common/device/driver/spacemouse/spacemouse_report.h"
-#include "common/device/driver/transport/known_devices.h"
+#include "common/device/driver/transport/usb_search.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/spacemouse/spacemouse_emulator.h"
 #include "tests/common/device/driver/transport/fake_usb.h"

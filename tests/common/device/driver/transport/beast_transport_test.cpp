@@ -1,14 +1,13 @@
 // The Haply Inverse3 over real sockets: the library's WebSocket against a server that is written by hand, one
 // that behaves and ones that do not.
 
-#include "common/device/driver/transport/beast_transport.h"
-
 #include <chrono>
 #include <mutex>
 
 #include <gtest/gtest.h>
 
 #include "common/device/driver/inverse3/inverse3_link.h"
+#include "common/device/driver/transport/web_transport.h"
 #include "tests/common/device/driver/inverse3/haply_emulator.h"
 #include "tests/common/device/driver/transport/web_server.h"
 

@@ -11,7 +11,6 @@
 
 #include "common/render/gl/context.h"
 #include "common/render/volume/table/gpu_preintegration.h"
-#include "common/render/volume/table/table_choice.h"
 
 namespace palpate {
 namespace {

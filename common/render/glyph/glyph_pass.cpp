@@ -1,4 +1,4 @@
-#include "common/render/glyph/arrow_pass.h"
+#include "common/render/glyph/glyph_pass.h"
 
 #include <array>
 #include <cmath>
@@ -13,6 +13,23 @@
 namespace palpate {
 namespace {
 
+// Over what is there, where the depth test `passes`, leaving depths as they are.
+void draw_faintly(GLenum passes, float opacity, const std::function<void(float opacity)>& draw) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(passes);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  draw(opacity);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+// Of shaders/glyph/sphere.vert.
+constexpr GLint kHaloUniform = 0, kOpacityUniform = 1;
+constexpr GLuint kSpheresBinding = 0;
+constexpr GLsizei kCorners = 4;
+
 // Of shaders/glyph/arrow.vert.
 constexpr GLint kOpacity = 0;
 constexpr GLuint kArrowsBinding = 0;
@@ -20,6 +37,39 @@ constexpr GLuint kArrowsBinding = 0;
 constexpr int kSides = 32;
 
 }  // namespace
+
+void draw_seen_again(float opacity, const std::function<void(float opacity)>& draw) {
+  draw_faintly(GL_LEQUAL, opacity, draw);
+}
+
+void draw_hidden_then_seen(float hidden_opacity, const std::function<void(float opacity)>& draw) {
+  if (hidden_opacity > 0.0F) draw_faintly(GL_GREATER, hidden_opacity, draw);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  draw(1.0F);
+}
+
+void draw_glyph_part(GlyphPart part, float opacity, const std::function<void(float opacity)>& draw) {
+  (part == GlyphPart::kAll ? draw_hidden_then_seen : draw_seen_again)(opacity, draw);
+}
+
+void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width, float hidden_opacity,
+                      GlyphPart part) {
+  if (spheres.empty()) return;
+  if (!program_) {
+    program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag");
+    no_vertices_ = make_vertex_array();
+  }
+  const GlBuffer instances = make_buffer(spheres);
+  glUseProgram(program_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpheresBinding, instances.name());
+  glBindVertexArray(no_vertices_.name());
+  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
+    glUniform1f(kHaloUniform, opacity < 1.0F ? 0.0F : halo_width);
+    glUniform1f(kOpacityUniform, opacity);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));
+  });
+}
 
 void ArrowPass::draw(std::span<const ArrowInstance> arrows, float hidden_opacity, GlyphPart part) {
   if (arrows.empty()) return;
