@@ -8,11 +8,12 @@
 /// integral by the node 0 more in every set. Nothing is divided by a difference of eigenvalues, so defective
 /// and singular matrices are no exception; and what has decayed in one direction is not brought back by
 /// rounding of another, however stiff (Davies and Higham 2003 on Schur-Parlett methods). The first exit is
-/// that of first_zero.h.
+/// that of first_zero.h, held against the position then.
 ///
-/// Computed from the vertices in `R`, long double or double. Rounding of a double moves the line by some
-/// 2^-53 of the cell for each unit of rate() times time, so that beside a rate of 1e12 a slow one has no
-/// digits left: doubles do for a short while only, see certain().
+/// Rates, their Schur form and y are computed in doubles first. Their rounding moves the line by some 2^-53
+/// of the cell for each unit of rate() times time, so that beside a rate of 1e12 a slow one has no digits
+/// left: where the line stays longer than kDoublesReach they are computed once more in numbers of twice the
+/// digits. (1) itself loses nothing to stiffness and is evaluated in doubles.
 #pragma once
 
 #include <array>
@@ -20,59 +21,66 @@
 #include <optional>
 
 #include "common/field/grid/tet_mesh.h"
+#include "common/math/vec.h"
 #include "common/trace/exact/exact_cell.h"
 #include "common/trace/exact/exponential_form.h"
 
 namespace palpate {
 
-template <class R>
 class AffineModes {
  public:
-  using Nodes = ExponentialNodes<R>;
-  using Form = ExponentialForm<R>;
-  using Real = R;
-  using Complex = typename Nodes::Complex;
-  using Four = typename Form::Four;
+  using Four = ExponentialForm::Four;
+
+  /// Rate times time after which rounding of doubles would have moved the line by 2^-35 of the cell.
+  static constexpr double kDoublesReach = 0x1p18;
 
   struct Exit {
-    int face = -1;  ///< -1: never
-    Real time = 0;
+    int face = -1;      ///< -1: none up to `time`
+    double time = 0.0;  ///< what is beyond is unknown
   };
 
-  /// Solves the cell from `b`. `ignore`: a face that the line is not to leave by, or -1.
+  /// Solves the cell from `b`.
   /// @param sign 1, or -1 to trace backward.
-  AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b, int ignore);
+  AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b);
 
   [[nodiscard]] const Exit& exit() const noexcept { return exit_; }
-  /// Whether exit() and rest() can be relied upon: of doubles only where the line leaves or rests before
-  /// 2^18 / rate().
-  [[nodiscard]] bool certain() const noexcept { return certain_; }
-  /// Barycentric coordinates at time `t` >= 0.
-  [[nodiscard]] Four at(Real t) const;
-  /// Their rates of change then, to full relative precision however stiff the cell is.
-  [[nodiscard]] Four rate_at(Real t) const;
-  /// Where a small displacement `d` (barycentric, sum 0) of the line is after `t`.
-  [[nodiscard]] Four carried(const Four& d, Real t) const;
-  /// Where the line comes to rest if it never leaves; absent where it circles or leaves.
+  /// Where the line comes to rest, at exit().time but for rounding; absent where it circles or leaves.
   [[nodiscard]] const std::optional<Four>& rest() const noexcept { return rest_; }
   /// Largest |B_ij|.
-  [[nodiscard]] Real rate() const noexcept { return rate_; }
+  [[nodiscard]] double rate() const noexcept { return rate_; }
+  /// Whether the digits of doubles were not enough.
+  [[nodiscard]] bool is_long() const noexcept { return is_long_; }
+
+  /// Barycentric coordinates at time `t` >= 0.
+  [[nodiscard]] Four at(double t) const;
+  /// Their rates of change then, to full relative precision however stiff the cell is.
+  [[nodiscard]] Four rate_at(double t) const;
+  /// Where a small displacement `d` (barycentric, sum 0) of the line is after `t`.
+  [[nodiscard]] Four carried(const Four& d, double t) const;
+  /// Rounding of at(t), as a part of the cell.
+  [[nodiscard]] double rounding(double t) const;
+  /// Leaves earlier than exit() says: a coordinate is beyond its face at time `to` that was not at `from`.
+  /// @return whether there is such a face, and exit() is changed.
+  bool leave_earlier(double from, double to);
 
  private:
-  void make_rates(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign);
-  void make_schur();
-  [[nodiscard]] Four rates_of(const Four& z) const;  ///< B z
-  [[nodiscard]] Form make_rate_form(const Four& w) const;
-  void find_rest(const Four& slope, Real horizon);
+  // All by the scaled time rate() t.
+  template <class Real>
+  void make_modes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b);
+  [[nodiscard]] ExponentialForm make_rate_form(const std::array<std::complex<double>, 3>& y) const;
+  void find_exit(const Four& b, double horizon);
+  void find_rest();
 
-  std::array<Four, 4> matrix_{};  ///< B, rows first
-  std::array<std::array<Complex, 3>, 3> q_{}, t_{};
-  Nodes nodes_;          ///< 0 and the eigenvalues, in the order of T
-  int annihilated_ = 1;  ///< the node that the chain of first_zero.h takes out
-  Real rate_ = 0;
-  Form position_, rate_form_;
+  std::array<std::array<std::complex<double>, 3>, 3> q_{}, t_{};
+  std::array<std::complex<double>, 3> y_{};
+  ExponentialNodes nodes_;  ///< 0 and the eigenvalues, in the order of T
+  int annihilated_ = 1;     ///< the node that the chain of first_zero.h takes out
+  double rate_ = 0.0;
+  std::array<Vec3, 3> edge_{};  ///< x_j - x_3
+  double resolution_ = 0.0;     ///< slower than this is at rest: the largest of the vertices
+  ExponentialForm position_, rate_form_;
   Exit exit_;
-  bool certain_ = true;
+  bool is_long_ = false;
   std::optional<Four> rest_;
 };
 

@@ -40,6 +40,7 @@ bool load_cell(AffineCell& cell, const PackedVertex* vertices, const std::uint32
   }
   offset.store(cell.offset);
   cell.norm = max_lane(sum);
+  cell.resolution = max_lane(Pack4{at[0]->v[3], at[1]->v[3], at[2]->v[3], at[3]->v[3]});
 
   const double m01 = c[0][0] * c[1][1] - c[0][1] * c[1][0];
   const double m02 = c[0][0] * c[1][2] - c[0][2] * c[1][0];

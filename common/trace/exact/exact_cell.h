@@ -28,10 +28,13 @@
 
 namespace palpate {
 
+/// A barycentric coordinate down to minus this is zero but for rounding.
+inline constexpr double kFaceRounding = 0x1p-47;
+
 /// Position and vector of a mesh point in one cache line: a cell gathers four.
 struct alignas(64) PackedVertex {
   double x[4];  ///< last lane 0
-  double v[4];  ///< last lane 0
+  double v[4];  ///< last lane: speeds below it are rounding of v
 };
 
 /// One tetrahedron with its rates: plain numbers, four lanes a row, the same for every kind of Pack4.
@@ -43,6 +46,7 @@ struct AffineCell {
   alignas(32) double gradient[3][4];  ///< component x, y or z of g_0 ... g_3
   double p, q, r;                     ///< of the characteristic polynomial of C
   double norm;                        ///< largest row sum of |C|
+  double resolution;                  ///< speeds below it are rounding of the vectors at the vertices
   double size;  ///< no edge at vertex 3 is longer; at most sqrt(3) times the longest edge
 };
 
@@ -94,6 +98,7 @@ struct Flow {
   Pack4 b;
   Pack4 w;
   Pack4 squared_speed;  ///< at kArcNodes
+  double power[3];      ///< exp(h C) = power[0] + power[1] C + power[2] C^2
 };
 
 /// Evaluates (2). `pairs`: at least pair_count(|h| cell.norm). @pre h > 0, h cell.norm <= kMaxRate.
@@ -108,6 +113,9 @@ struct Flow {
   Flow out;
   out.w = a0[3] * u + (a1[3] * a + a2[3] * j);
   out.b = course.b + h * ((1.0 + r * s.s2[3]) * u + ((s.s0[3] - p * s.s1[3]) * a + s.s1[3] * j));
+  out.power[0] = a0[3];
+  out.power[1] = h * a1[3];
+  out.power[2] = (h * h) * a2[3];
   const Pack4 vu = velocity(cell, u), va = velocity(cell, a), vj = velocity(cell, j);
   out.squared_speed = a0 * (dot3(vu, vu) * a0 + ((2.0 * dot3(vu, va)) * a1 + (2.0 * dot3(vu, vj)) * a2)) +
                       (a1 * (dot3(va, va) * a1 + (2.0 * dot3(va, vj)) * a2) + dot3(vj, vj) * (a2 * a2));

@@ -36,6 +36,7 @@ struct ExactPiece {
   alignas(32) double b_end[4]{}, w_end[4]{};
   double time = 0.0, arc = 0.0;
   double theta = 0.0;  ///< time |C|
+  double power[3]{};   ///< exp(time C), see Flow
   int face = -1;       ///< the face reached, or -1
 };
 

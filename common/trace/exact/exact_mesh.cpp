@@ -1,12 +1,21 @@
 #include "common/trace/exact/exact_mesh.h"
 
+#include <algorithm>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <variant>
 
 #include "common/base/parallel.h"
 #include "common/field/grid/tet_mesh.h"
 
 namespace palpate {
+namespace {
+
+// Speeds in frame L are near 1. What is slower by so much is no flow, and its square would be no number.
+constexpr double kSlowest = 0x1p-300;
+
+}  // namespace
 
 const ExactMesh& ExactMesh::of(const VectorField& field, int threads) {
   return field.prepared().get<ExactMesh>([&] { return std::make_shared<const ExactMesh>(field, threads); });
@@ -18,10 +27,14 @@ ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_me
   const PointVectors& values = field.values();
   std::visit(
       [&](const auto& stored) {
+        using Stored = std::remove_cvref_t<decltype(stored[0])>;
+        constexpr double kResolution = std::numeric_limits<Stored>::epsilon();
         parallel_for(points.size(), threads, [&](std::size_t first, std::size_t last) {
           for (std::size_t i = first; i < last; ++i) {
             const Vec3 v = values.scale * Vec3{stored[3 * i], stored[3 * i + 1], stored[3 * i + 2]};
-            vertices_[i] = {.x = {points[i].x, points[i].y, points[i].z, 0.0}, .v = {v.x, v.y, v.z, 0.0}};
+            const double resolution = std::max(kResolution * glm::length(v), kSlowest);
+            vertices_[i] = {.x = {points[i].x, points[i].y, points[i].z, 0.0},
+                            .v = {v.x, v.y, v.z, resolution}};
           }
         });
       },

@@ -87,6 +87,9 @@ PieceOutcome advance_piece(const AffineCell& cell, const ExactMeshView& mesh, Ex
   const Mask4 possible = (zero < exits) & ((zero < begin.b) | (tangent < begin.w));
   const Pack4 times = select(possible, exits, Pack4::all(kInfinity));
   const double first = min_lane(times);
+  // A cell that takes many pieces at this rate is for the other path, whose steps do not depend on it.
+  constexpr double kManyPieces = 16.0;
+  if (first > kManyPieces * longest && first < kInfinity) return PieceOutcome::kRobust;
   if (first < h) {
     face = __builtin_ctz(bits(times == Pack4::all(first)));
     alignas(32) double a[4], j[4];
@@ -142,6 +145,12 @@ PieceOutcome advance_piece(const AffineCell& cell, const ExactMeshView& mesh, Ex
       end.b += d * (end.w + (0.5 * d) * (end.a + (d * (1.0 / 3)) * end.j));
       end.w += d * (end.a + (0.5 * d) * end.j);
       end.a += d * end.j;
+      // The series is short where the slope nearly vanishes: the point is to lie on the face.
+      end.b.store(b);
+      if (!(__builtin_fabs(b[face]) <= kFaceRounding)) {
+        h += d;
+        continue;
+      }
       time += d;
       const Pack4 v = velocity(cell, end.w);
       length += 0.5 * d * (speeds[3] + __builtin_sqrt(dot3(v, v)));
@@ -183,6 +192,7 @@ PieceOutcome advance_piece(const AffineCell& cell, const ExactMeshView& mesh, Ex
     piece.time = time;
     piece.arc = length;
     piece.theta = theta;
+    for (int i = 0; i < 3; ++i) piece.power[i] = at_h.power[i];
     piece.face = face;
     return PieceOutcome::kPiece;
   }

@@ -37,8 +37,7 @@ bool ExactWalk::start(const Vec3& seed) {
   exit_face_ = -1;
   pieces_in_cell_ = 0;
   standing_ = 0;
-  ignored_face_ = -1;
-  leave_robust();
+  modes_.reset();
   robust_pieces_ = long_cells_ = 0;
   has_piece_ = false;
   b_ = Pack4{std::max(found.b[0], 0.0), std::max(found.b[1], 0.0), std::max(found.b[2], 0.0),
@@ -69,8 +68,8 @@ std::optional<End> ExactWalk::advance() {
       w_ = rate(cell_, b_);
     }
     if (!finite_) return End::kBadData;
-    if (robust_.modes) return robust_piece(robust_);
-    if (long_.modes) return robust_piece(long_);
+    if (end_.speed <= cell_.resolution) return End::kStagnation;
+    if (modes_) return robust_piece();
     switch (fast_piece()) {
       case PieceOutcome::kPiece:
         return std::nullopt;
@@ -86,6 +85,7 @@ std::optional<End> ExactWalk::advance() {
         break;
       }
     }
+    if (work_ > kMaxWork) return std::nullopt;
   }
 }
 
@@ -94,15 +94,14 @@ std::optional<End> ExactWalk::advance() {
 std::optional<End> ExactWalk::cross_standing(int face) {
   constexpr int kWalk = 8;
   constexpr double kAhead = 1e-8;  // of the cell: beyond rounding, well within the next cell
-  if (++standing_ > kMaxStandingSteps) return End::kStagnation;
+  ++work_;
+  // It moves, but nobody can say where to.
+  if (++standing_ > kMaxStandingSteps) return End::kBadData;
   if (standing_ % kWalk != 0) return cross(face);
   const Vec3 x = position(cell_, b_).xyz();
   TetPoint ahead;
   const double distance = kAhead * cell_.size;
   if (!mesh_->mesh().locate(x + distance * direction_, cell_index_, ahead)) return cross(face);
-  leave_robust();
-  ignored_face_ = -1;
-  pieces_in_cell_ = 0;
   settle(ahead.cell, x);
   return std::nullopt;
 }
@@ -123,7 +122,7 @@ PieceOutcome ExactWalk::fast_piece() {
   const PieceOutcome outcome = kernel_.advance(cell_, mesh_->view(), piece_);
   exit_face_ = piece_.face;
   if (outcome == PieceOutcome::kPiece) {
-    piece_path_ = Path::kFast;
+    robust_piece_ = false;
     close_piece(Pack4::load(piece_.b_end), Pack4::load(piece_.w_end), piece_.time, piece_.arc,
                 kRoundingPerCell * kUlp * cell_.size * (1.0 + piece_.theta));
   }
@@ -137,22 +136,25 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   w_ = w;
   entry_ = -1;
   ++pieces_in_cell_;
-  standing_ = 0;
+  // What moves by rounding makes no progress.
+  if (arc > 16.0 * kUlp * cell_.size) standing_ = 0;
   const Vec3 v = velocity(cell_, w).xyz();
   const double speed = glm::length(v);
   if (speed > 0.0) direction_ = v * (1.0 / speed);
   turn_cosine_ = glm::dot(before, direction_);
 
-  // (1) of error_transport.h by two terms; on the robust path the modes carry it.
-  if (piece_path_ == Path::kFast) {
+  // (1) of error_transport.h; on the robust path the modes carry it.
+  if (!robust_piece_) {
     const Vec3& e = error_.vector();
-    const Pack4 first = time * apply(cell_, along(cell_, Pack4{e, 0.0}));
-    Pack4 change = velocity(cell_, first);
-    constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which the second term is left out
+    const Pack4 d = along(cell_, Pack4{e, 0.0}), first = apply(cell_, d);
+    const Pack4 change = velocity(cell_, time * first);
+    constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which one term is enough
     if (dot3(change, change) > kSmall * glm::dot(e, e)) {
-      change += velocity(cell_, (0.5 * time) * apply(cell_, first));
+      const double* power = piece_.power;
+      error_.set(velocity(cell_, power[0] * d + (power[1] * first + power[2] * apply(cell_, first))).xyz());
+    } else {
+      error_.set(e + change.xyz());
     }
-    error_.set(e + change.xyz());
   }
   error_.add(local_error);
   end_.position = position(cell_, b_).xyz();
@@ -160,7 +162,8 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   end_.arc = begin_.arc + arc;
   end_.speed = speed;
   const double of_point = std::abs(end_.position.x) + std::abs(end_.position.y) + std::abs(end_.position.z);
-  end_.error = error_.across(direction_) + kRoundingOfPoint * kUlp * of_point;
+  // What this piece adds may lie in any direction, whatever that of the error so far.
+  end_.error = error_.across(direction_) + local_error + kRoundingOfPoint * kUlp * of_point;
   has_piece_ = true;
 }
 
@@ -169,8 +172,7 @@ std::optional<End> ExactWalk::cross(int face) {
   const CellIndex from = cell_index_;
   const CellIndex next = neighbors(from)[as_size(face)];
   if (next == kNoCell) return End::kLeftDomain;
-  leave_robust();
-  ignored_face_ = -1;
+  modes_.reset();
   pieces_in_cell_ = 0;
   loaded_ = false;
   if (mesh.zero_volume(next)) {
@@ -200,6 +202,7 @@ std::optional<End> ExactWalk::cross(int face) {
   return std::nullopt;
 }
 
+/// Begins in `cell` at its point nearest to x, as far as clamped coordinates tell.
 void ExactWalk::settle(CellIndex cell, const Vec3& x) {
   const Vec4 b = mesh_->mesh().barycentric(cell, x);
   double kept[4];
@@ -211,7 +214,11 @@ void ExactWalk::settle(CellIndex cell, const Vec3& x) {
   b_ = (1.0 / sum) * Pack4{kept[0], kept[1], kept[2], kept[3]};
   cell_index_ = cell;
   entry_ = -1;
-  loaded_ = false;
+  modes_.reset();
+  pieces_in_cell_ = 0;
+  enter_cell();
+  w_ = rate(cell_, b_);
+  error_.add(glm::distance(position(cell_, b_).xyz(), x));
 }
 
 LinePoint ExactWalk::at(double theta) const {
@@ -220,8 +227,8 @@ LinePoint ExactWalk::at(double theta) const {
   LinePoint point = begin_;
   const double h = theta * piece_.time;
   Pack4 b, speeds;
-  if (piece_path_ != Path::kFast) {
-    const RobustFlow flow = robust_flow_to(h);
+  if (robust_piece_) {
+    const RobustFlow flow = robust_flow(piece_start_, h, piece_start_ + h);
     b = flow.b;
     speeds = flow.speed;
   } else {

@@ -25,7 +25,7 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] bool start(const Vec3& seed) override;
   [[nodiscard]] std::optional<End> advance() override;
   [[nodiscard]] LinePoint at(double theta) const override;
-  /// Pieces that took the robust path, and cells that took it in long double, for reports.
+  /// Pieces that took the robust path, and cells that took it with twice the digits, for reports.
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
   [[nodiscard]] std::int64_t long_cells() const noexcept { return long_cells_; }
 
@@ -38,18 +38,9 @@ class ExactWalk final : public LineWalk {
   /// robust path is to judge it before rounding drowns the rate.
   static constexpr double kSlowed = 1.0 / 64;
   static constexpr int kMaxStandingSteps =
-      256;  ///< crossings without progress: more than cells meet at a point
+      256;                               ///< crossings without progress: more than cells meet at a point
+  static constexpr int kMaxWork = 4096;  ///< of one advance() that finds no piece: the next goes on
 
-  enum class Path : std::uint8_t { kFast, kRobust, kLong };
-
-  /// A cell solved by its modes.
-  template <class Real>
-  struct Robust {
-    std::optional<AffineModes<Real>> modes;
-    Real time = 0;         ///< since the modes began
-    Real step = 0;         ///< of the last piece
-    Real piece_start = 0;  ///< its beginning
-  };
   struct RobustFlow {
     Pack4 b, w;
     std::array<Pack4, 4> velocity;  ///< at the inner nodes of the rule for the arc length, and at the end
@@ -61,24 +52,15 @@ class ExactWalk final : public LineWalk {
     return mesh_->mesh().neighbors()[as_size(cell)];
   }
   [[nodiscard]] PieceOutcome fast_piece();
-  template <class Real>
-  [[nodiscard]] std::optional<End> robust_piece(Robust<Real>& robust);
+  [[nodiscard]] std::optional<End> robust_piece();
   /// From `start` to `stop` = start + h, times of the modes.
-  template <class Real>
-  [[nodiscard]] RobustFlow robust_flow(const AffineModes<Real>& modes, Real start, Real h, Real stop) const;
-  [[nodiscard]] RobustFlow robust_flow_to(double h) const;  ///< from the beginning of the last piece
+  [[nodiscard]] RobustFlow robust_flow(double start, double h, double stop) const;
+  void move_onto_face(RobustFlow& flow, int face) const;
   [[nodiscard]] std::optional<End> cross(int face);
   [[nodiscard]] std::optional<End> cross_standing(int face);
   void settle(CellIndex cell, const Vec3& x);
   void close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error);
   void enter_robust();
-  template <class Real>
-  void solve(Robust<Real>& robust);
-  /// The next cell, or the same one from another point, begins on the fast path.
-  void leave_robust() {
-    robust_.modes.reset();
-    long_.modes.reset();
-  }
 
   const ExactMesh* mesh_;
   const ExactKernel& kernel_;
@@ -94,13 +76,14 @@ class ExactWalk final : public LineWalk {
   int pieces_in_cell_ = 0;
   double rate_at_entry_ = 0.0;
   int standing_ = 0;
-  int ignored_face_ = -1;
 
-  Robust<double> robust_;     ///< tried first
-  Robust<long double> long_;  ///< where doubles are not certain
+  std::optional<AffineModes> modes_;  ///< of the cell, where the robust path took it
+  double modes_time_ = 0.0;           ///< since the modes began
+  double piece_start_ = 0.0;          ///< the last piece's beginning
+  double longest_ = 0.0;              ///< how long a piece is tried
+  bool robust_piece_ = false;         ///< the last piece is one of the modes
 
   ExactPiece piece_;  ///< the last one; of a robust one only the time
-  Path piece_path_ = Path::kFast;
 
   ErrorTransport error_;
   std::int64_t robust_pieces_ = 0, long_cells_ = 0;

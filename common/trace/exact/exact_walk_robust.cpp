@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "common/base/index.h"
 #include "common/trace/exact/exact_walk.h"
@@ -11,50 +10,30 @@ namespace palpate {
 namespace {
 
 // Cost of the robust path, in fast pieces.
-template <class Real>
-constexpr int kCellWork = std::is_same_v<Real, double> ? 24 : 160;
-template <class Real>
-constexpr int kPieceWork = std::is_same_v<Real, double> ? 4 : 16;
+constexpr int kCellWork = 24, kLongCellWork = 160, kTryWork = 4;
 
-template <class Real>
-Pack4 to_pack(const std::array<Real, 4>& b) {
-  return {static_cast<double>(b[0]), static_cast<double>(b[1]), static_cast<double>(b[2]),
-          static_cast<double>(b[3])};
-}
+Pack4 to_pack(const AffineModes::Four& b) { return {b[0], b[1], b[2], b[3]}; }
 
 }  // namespace
 
-/// Doubles first: they answer ten times sooner, and for all but the stiffest cells.
 void ExactWalk::enter_robust() {
-  solve(robust_);
-  if (robust_.modes->certain()) return;
-  robust_.modes.reset();
-  solve(long_);
-  ++long_cells_;
+  AffineModes::Four b{};
+  const double sum = (b_[0] + b_[1]) + (b_[2] + b_[3]);
+  for (int i = 0; i < 4; ++i) b[as_size(i)] = b_[i] / sum;
+  modes_.emplace(mesh_->vertices(), mesh_->mesh().cells()[as_size(cell_index_)], sign_, b);
+  work_ += modes_->is_long() ? kLongCellWork : kCellWork;
+  if (modes_->is_long()) ++long_cells_;
+  modes_time_ = 0.0;
+  longest_ = std::numeric_limits<double>::infinity();
 }
 
-template <class Real>
-void ExactWalk::solve(Robust<Real>& robust) {
-  work_ += kCellWork<Real>;
-  std::array<Real, 4> b{};
-  Real sum = 0;
-  for (int i = 0; i < 4; ++i) sum += b[as_size(i)] = b_[i];
-  for (Real& value : b) value /= sum;
-  robust.modes.emplace(mesh_->vertices(), mesh_->mesh().cells()[as_size(cell_index_)], sign_, b,
-                       ignored_face_);
-  robust.time = 0;
-  robust.step = Real(0.25) / robust.modes->rate();
-}
-
-template <class Real>
-ExactWalk::RobustFlow ExactWalk::robust_flow(const AffineModes<Real>& modes, Real start, Real h,
-                                             Real stop) const {
+ExactWalk::RobustFlow ExactWalk::robust_flow(double start, double h, double stop) const {
   RobustFlow flow;
-  flow.b = to_pack(modes.at(stop));
-  flow.w = to_pack(modes.rate_at(stop));
+  flow.b = to_pack(modes_->at(stop));
+  flow.w = to_pack(modes_->rate_at(stop));
   Pack4 squared;
   for (int m = 0; m < 4; ++m) {
-    const Pack4 w = m == 3 ? flow.w : to_pack(modes.rate_at(start + kArcNodes[m] * h));
+    const Pack4 w = m == 3 ? flow.w : to_pack(modes_->rate_at(start + kArcNodes[m] * h));
     const Pack4 v = velocity(cell_, w);
     flow.velocity[as_size(m)] = v;
     squared.set(m, dot3(v, v));
@@ -63,49 +42,48 @@ ExactWalk::RobustFlow ExactWalk::robust_flow(const AffineModes<Real>& modes, Rea
   return flow;
 }
 
-ExactWalk::RobustFlow ExactWalk::robust_flow_to(double h) const {
-  if (piece_path_ == Path::kRobust) {
-    return robust_flow(*robust_.modes, robust_.piece_start, h, robust_.piece_start + h);
+/// A time has no more digits than a double, so a fast line is on its face only within them: by the flow itself, which moves
+/// the point along its curve. What is left is moved straight.
+void ExactWalk::move_onto_face(RobustFlow& flow, int face) const {
+  for (int n = 0; n < 2; ++n) {
+    const Pack4 a = apply(cell_, flow.w), j = apply(cell_, a);
+    const double d = -flow.b[face] / flow.w[face];
+    constexpr double kNear = 0x1p-8;  // of the time in which the flow changes
+    if (!(std::abs(d) * cell_.norm <= kNear)) break;
+    flow.b += d * (flow.w + (0.5 * d) * (a + (d * (1.0 / 3)) * j));
+    flow.w += d * (a + (0.5 * d) * j);
   }
-  return robust_flow<long double>(*long_.modes, long_.piece_start, h, long_.piece_start + h);
 }
 
-template <class Real>
-std::optional<End> ExactWalk::robust_piece(Robust<Real>& robust) {
+std::optional<End> ExactWalk::robust_piece() {
   ++robust_pieces_;
-  work_ += kPieceWork<Real>;
-  const AffineModes<Real>& modes = *robust.modes;
-  const typename AffineModes<Real>::Exit exit = modes.exit();
-  const bool leaves = exit.face >= 0;
-  if (leaves && !(exit.time > robust.time)) {
-    // Sent on at once. Where two cells send the line back and forth it slides along their common face: the
-    // second time it stays, and leaves by another face.
-    if (exit.face == entry_ && standing_ > 1) {
-      ++standing_;
-      ignored_face_ = entry_;
-      leave_robust();
-      enter_robust();
-      return std::nullopt;
-    }
-    const int face = exit.face;
-    if (const std::optional<End> ended = cross_standing(face)) return ended;
-    return std::nullopt;
-  }
-
-  // Rest within reach: the line is drawn to the distance asked for and ends.
+  // The modes knew no further.
+  if (modes_->exit().face < 0 && !modes_->rest() && !(modes_time_ < modes_->exit().time)) enter_robust();
+  AffineModes& modes = *modes_;
+  if (modes.exit().face >= 0 && !(modes.exit().time > modes_time_)) return cross_standing(modes.exit().face);
+  // At rest, as far as the values at the vertices tell.
+  if (modes.rest() && !(modes_time_ < modes.exit().time)) return End::kStagnation;
+  const std::optional<Vec3> rest =
+      modes.rest() ? std::optional(position(cell_, to_pack(*modes.rest())).xyz()) : std::nullopt;
   const Vec3 x0 = end_.position;
-  std::optional<Vec3> rest;
-  if (modes.rest()) rest = position(cell_, to_pack(*modes.rest())).xyz();
+  // Rest within reach: the line is drawn to the distance asked for and ends.
   if (rest && glm::distance(*rest, x0) <= rest_distance_) return End::kStagnation;
 
-  constexpr int kMaxTries = 200;
-  constexpr double kMaxTurn = 0.9;  // cosine of 26 degrees
-  const Real remaining = leaves ? exit.time - robust.time : std::numeric_limits<Real>::infinity();
-  Real h = std::min(2 * robust.step, remaining);
-  for (int attempt = 0; attempt < kMaxTries; ++attempt, h *= Real(0.5)) {
-    const bool last = leaves && h >= remaining;
-    const Real stop = last ? exit.time : robust.time + h;
-    const RobustFlow flow = robust_flow(modes, robust.time, h, stop);
+  constexpr int kMaxTries = 100;
+  constexpr double kMaxTurn = 0.9;   // cosine of 26 degrees
+  constexpr double kMinChord = 0.8;  // of the arc: turns between the nodes of the rule show here
+  constexpr double kShorter = 1.0 / 8, kLonger = 4.0;
+  double h = longest_;
+  for (int attempt = 0; attempt < kMaxTries; ++attempt) {
+    work_ += kTryWork;
+    const AffineModes::Exit& exit = modes.exit();
+    const bool leaves = exit.face >= 0;
+    const double remaining = exit.time - modes_time_;
+    const bool whole = h >= remaining;
+    h = std::min(h, remaining);
+    const double stop = whole ? exit.time : modes_time_ + h;
+    RobustFlow flow = robust_flow(modes_time_, h, stop);
+    if (modes.leave_earlier(modes_time_, stop)) continue;
     Vec3 before = direction_;
     double turn = 1.0;
     for (int m = 0; m < 4; ++m) {
@@ -116,44 +94,37 @@ std::optional<End> ExactWalk::robust_piece(Robust<Real>& robust) {
         before = v / speed;
       }
     }
-    const Arc arc = arc_length(end_.speed, flow.speed, static_cast<double>(h));
-    const bool still = max_abs(flow.w) <= 0.0 || arc.length <= kUlp * cell_.size;
-    if ((turn < kMaxTurn || !arc.sound) && !still && attempt + 1 < kMaxTries) continue;
-    // A step that no longer moves the line, away from any exit: it has come to rest to rounding.
-    if (arc.length <= kUlp * kUlp * cell_.size && !last) return End::kStagnation;
-
-    piece_.time = static_cast<double>(h);
-    robust.piece_start = robust.time;
-    piece_path_ = std::is_same_v<Real, double> ? Path::kRobust : Path::kLong;
-    // The error is carried by the modes themselves.
-    const Vec3& e = error_.vector();
-    std::array<Real, 4> d{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      d[i] = glm::dot(barycentric_gradient(cell_, static_cast<int>(i)), e);
-      d[3] -= d[i];
+    const Arc arc = arc_length(end_.speed, flow.speed, h);
+    const bool last = whole && leaves;
+    if (last) move_onto_face(flow, exit.face);
+    const double chord = glm::distance(position(cell_, flow.b).xyz(), x0);
+    const bool still = arc.length <= kUlp * cell_.size;
+    const bool sound = turn >= kMaxTurn && arc.sound && chord >= kMinChord * arc.length;
+    if (!sound && !still) {
+      h *= kShorter;
+      continue;
     }
-    const Pack4 carried = to_pack(modes.carried(d, h));
-    error_.set(velocity(cell_, carried).xyz());
-    Pack4 b = flow.b;
+    piece_.time = h;
+    piece_start_ = modes_time_;
+    robust_piece_ = true;
+    // The error is carried by the modes themselves.
+    const Pack4 d = along(cell_, Pack4{error_.vector(), 0.0});
+    error_.set(velocity(cell_, to_pack(modes.carried({d[0], d[1], d[2], d[3]}, h))).xyz());
+    double moved = std::max(0.0, -std::min(std::min(flow.b[0], flow.b[1]), std::min(flow.b[2], flow.b[3])));
     if (last) {
-      b.set(exit.face, 0.0);
+      moved = std::max(moved, std::abs(flow.b[exit.face]));
+      flow.b.set(exit.face, 0.0);
       exit_face_ = exit.face;
     }
-    robust.time = stop;
-    robust.step = h;
+    modes_time_ = stop;
+    longest_ = kLonger * h;
     const int entry = entry_;
-    // Rounding of a double for each unit of rate times time, see affine_modes.h.
-    const double roundings = std::is_same_v<Real, double> ? 1.0 + static_cast<double>(modes.rate() * h) : 1.0;
-    close_piece(b, flow.w, static_cast<double>(h), arc.length,
-                kRoundingPerCell * kUlp * cell_.size * roundings);
+    close_piece(flow.b, flow.w, h, arc.length, (kRoundingPerCell * modes.rounding(h) + moved) * cell_.size);
     if (!last) entry_ = entry;
     if (rest && glm::distance(*rest, end_.position) <= rest_distance_) return End::kStagnation;
     return std::nullopt;
   }
-  return End::kStagnation;
+  return End::kBadData;
 }
-
-template std::optional<End> ExactWalk::robust_piece(Robust<double>& robust);
-template std::optional<End> ExactWalk::robust_piece(Robust<long double>& robust);
 
 }  // namespace palpate

@@ -14,42 +14,38 @@ namespace {
 constexpr std::size_t kTerms = 24;
 
 /// 1 / k.
-template <class Real>
-constexpr auto kInverses = [] {
-  std::array<Real, kTerms + 4> inverse{};
-  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = Real(1) / static_cast<Real>(k);
+constexpr auto kInverse = [] {
+  std::array<double, kTerms + 4> inverse{};
+  for (std::size_t k = 1; k < inverse.size(); ++k) inverse[k] = 1.0 / static_cast<double>(k);
   return inverse;
 }();
 
 }  // namespace
 
-template <class R>
 template <class Number>
-Number DividedDifferences<R>::node(int k) const {
-  if constexpr (std::is_same_v<Number, Real>) {
+Number DividedDifferences::node(int k) const {
+  if constexpr (std::is_same_v<Number, double>) {
     return nodes_.nu[as_size(k)].real();
   } else {
     return nodes_.nu[as_size(k)];
   }
 }
 
-template <class R>
 template <class Number>
-Number DividedDifferences<R>::get(unsigned set) {
+Number DividedDifferences::get(unsigned set) {
   if ((known_ & (1u << set)) == 0u) {
     values_[set] = compute<Number>(set);
     known_ |= 1u << set;
   }
-  if constexpr (std::is_same_v<Number, Real>) {
+  if constexpr (std::is_same_v<Number, double>) {
     return values_[set].real();
   } else {
     return values_[set];
   }
 }
 
-template <class R>
 template <class Number>
-Number DividedDifferences<R>::compute(unsigned set) {
+Number DividedDifferences::compute(unsigned set) {
   std::array<int, 4> index{};
   int count = 0;
   for (int k = 0; k < 4; ++k) {
@@ -59,11 +55,11 @@ Number DividedDifferences<R>::compute(unsigned set) {
 
   // The recurrence over the two nodes farthest apart, unless all are so close that it would cancel.
   int p = index[0], q = index[1];
-  Real farthest = -1;
+  double farthest = -1;
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
       const int a = index[as_size(i)], b = index[as_size(j)];
-      const Real distance = std::abs(node<Number>(a) - node<Number>(b));
+      const double distance = std::abs(node<Number>(a) - node<Number>(b));
       if (distance > farthest) {
         farthest = distance;
         p = a;
@@ -80,28 +76,26 @@ Number DividedDifferences<R>::compute(unsigned set) {
 
 /// exp(m t) t^n sum_k h_k((nu - m) t) / (k + n)!, n = count - 1, with the complete homogeneous symmetric
 /// polynomials h_k and the mean m.
-template <class R>
 template <class Number>
-Number DividedDifferences<R>::series(const std::array<int, 4>& index, int count) const {
-  constexpr const auto& kInverse = kInverses<Real>;
-  constexpr Real kNegligible = std::numeric_limits<Real>::epsilon() / 16;
+Number DividedDifferences::series(const std::array<int, 4>& index, int count) const {
+  constexpr double kNegligible = std::numeric_limits<double>::epsilon() / 16;
   Number mean{};
   for (int i = 0; i < count; ++i) mean += node<Number>(index[as_size(i)]);
-  mean /= static_cast<Real>(count);
+  mean /= static_cast<double>(count);
   std::array<Number, 4> shift{}, h{};
-  Real widest = 0;
+  double widest = 0;
   for (std::size_t i = 0; i < as_size(count); ++i) {
     shift[i] = (node<Number>(index[i]) - mean) * t_;
     h[i] = Number(1);
     widest = std::max(widest, std::abs(shift[i]));
   }
-  Real factor = 1;  // t^n / (k + n)!
+  double factor = 1;  // t^n / (k + n)!
   for (int i = 1; i < count; ++i) factor *= t_ * kInverse[as_size(i)];
   Number sum = Number(factor);
   // |h_k| <= (k + n)! / (k! n!) widest^k, so the k-th term is at most widest^k / k! of the first; widest is
   // at most 1. A vanishing term ends nothing, since h_k of symmetric nodes is zero for every other k, or two
   // in three.
-  Real bound = 1;
+  double bound = 1;
   for (std::size_t k = 1; k < kTerms; ++k) {
     bound *= widest * kInverse[k];
     if (bound < kNegligible) break;
@@ -117,14 +111,12 @@ Number DividedDifferences<R>::series(const std::array<int, 4>& index, int count)
   return std::exp(mean * t_) * sum;
 }
 
-template <class R>
-void ExponentialForm<R>::add(unsigned set, const std::array<Complex, 4>& c) {
+void ExponentialForm::add(unsigned set, const std::array<Complex, 4>& c) {
   for (std::size_t i = 0; i < 4; ++i) coefficient_[set][i] += c[i];
   used_ |= 1u << set;
 }
 
-template <class R>
-ExponentialForm<R> ExponentialForm<R>::annihilated(const Nodes& nodes, int node) const {
+ExponentialForm ExponentialForm::annihilated(const Nodes& nodes, int node) const {
   ExponentialForm out;
   const unsigned bit = 1u << node;
   for (unsigned set = 1u; set < 16u; ++set) {
@@ -143,42 +135,37 @@ ExponentialForm<R> ExponentialForm<R>::annihilated(const Nodes& nodes, int node)
   return out;
 }
 
-template <class R>
-typename ExponentialForm<R>::Four ExponentialForm<R>::value(const Nodes& nodes, Real t) const {
-  DividedDifferences<R> e(nodes, t);
+ExponentialForm::Four ExponentialForm::value(const Nodes& nodes, double t) const {
+  DividedDifferences e(nodes, t);
   Four sum{};
   for (unsigned set = 1u; set < 16u; ++set) {
     if ((used_ & (1u << set)) == 0u) continue;
     const std::array<Complex, 4>& c = coefficient_[set];
     if (nodes.complex) {
-      const Complex factor = e.template get<Complex>(set);
+      const Complex factor = e.get<Complex>(set);
       for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor.real() - c[i].imag() * factor.imag();
     } else {
-      const Real factor = e.template get<Real>(set);
+      const double factor = e.get<double>(set);
       for (std::size_t i = 0; i < 4; ++i) sum[i] += c[i].real() * factor;
     }
   }
   return sum;
 }
 
-template <class R>
-R ExponentialForm<R>::value(const Nodes& nodes, Real t, std::size_t face) const {
-  DividedDifferences<R> e(nodes, t);
-  Real sum = 0;
+double ExponentialForm::value(const Nodes& nodes, double t, std::size_t face) const {
+  DividedDifferences e(nodes, t);
+  double sum = 0;
   for (unsigned set = 1u; set < 16u; ++set) {
     if ((used_ & (1u << set)) == 0u) continue;
     const Complex c = coefficient_[set][face];
     if (nodes.complex) {
-      const Complex factor = e.template get<Complex>(set);
+      const Complex factor = e.get<Complex>(set);
       sum += c.real() * factor.real() - c.imag() * factor.imag();
     } else {
-      sum += c.real() * e.template get<Real>(set);
+      sum += c.real() * e.get<double>(set);
     }
   }
   return sum;
 }
-
-template class ExponentialForm<double>;
-template class ExponentialForm<long double>;
 
 }  // namespace palpate

@@ -8,8 +8,6 @@
 ///
 ///   (D - nu_a) E[S] = E[S without a]                            if a is in S,
 ///                   = (nu_s - nu_a) E[S] + E[S without s]         for any s in S                       (2)
-///
-/// `R` is double or long double.
 #pragma once
 
 #include <array>
@@ -18,26 +16,22 @@
 namespace palpate {
 
 /// Four nodes, real or with one complex pair.
-template <class R>
 struct ExponentialNodes {
-  using Real = R;
-  using Complex = std::complex<R>;
+  using Complex = std::complex<double>;
 
   std::array<Complex, 4> nu{};
   bool complex = false;  ///< if not, all imaginary parts are zero
 };
 
 /// Divided differences at one time, computed when asked for.
-template <class R>
 class DividedDifferences {
  public:
-  using Nodes = ExponentialNodes<R>;
-  using Real = R;
-  using Complex = typename Nodes::Complex;
+  using Nodes = ExponentialNodes;
+  using Complex = Nodes::Complex;
 
-  DividedDifferences(const Nodes& nodes, Real t) : nodes_(nodes), t_(t) {}
+  DividedDifferences(const Nodes& nodes, double t) : nodes_(nodes), t_(t) {}
 
-  /// E[S], S given by its bits. `Number` is Real where the nodes are real, else Complex.
+  /// E[S], S given by its bits. `Number` is double where the nodes are real, else Complex.
   template <class Number>
   [[nodiscard]] Number get(unsigned set);
 
@@ -50,19 +44,17 @@ class DividedDifferences {
   [[nodiscard]] Number series(const std::array<int, 4>& index, int count) const;
 
   const Nodes& nodes_;
-  Real t_;
+  double t_;
   unsigned known_ = 0u;
   std::array<Complex, 16> values_{};
 };
 
 /// Four functions (1), one a face, over the same nodes.
-template <class R>
 class ExponentialForm {
  public:
-  using Nodes = ExponentialNodes<R>;
-  using Real = R;
-  using Complex = typename Nodes::Complex;
-  using Four = std::array<Real, 4>;
+  using Nodes = ExponentialNodes;
+  using Complex = Nodes::Complex;
+  using Four = std::array<double, 4>;
 
   [[nodiscard]] std::array<Complex, 4>& operator[](unsigned set) { return coefficient_[set]; }
   [[nodiscard]] const std::array<Complex, 4>& operator[](unsigned set) const { return coefficient_[set]; }
@@ -72,9 +64,9 @@ class ExponentialForm {
   /// (D - nu_node) f, by (2).
   [[nodiscard]] ExponentialForm annihilated(const Nodes& nodes, int node) const;
 
-  [[nodiscard]] Four value(const Nodes& nodes, Real t) const;
+  [[nodiscard]] Four value(const Nodes& nodes, double t) const;
   /// Of one face.
-  [[nodiscard]] Real value(const Nodes& nodes, Real t, std::size_t face) const;
+  [[nodiscard]] double value(const Nodes& nodes, double t, std::size_t face) const;
 
  private:
   std::array<std::array<Complex, 4>, 16> coefficient_{};

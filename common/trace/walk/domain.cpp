@@ -19,7 +19,7 @@ void TetDomain::load(CellIndex cell) {
   bad_ = !load_cell(affine, mesh_->vertices(), tet.data(), sign_);
   const PackedVertex& corner = mesh_->vertices()[tet[3]];
   corner_ = Pack4::load(corner.x);
-  origin_ = sign_ * Pack4::load(corner.v);
+  origin_ = sign_ * Pack4{corner.v[0], corner.v[1], corner.v[2], 0.0};
   Mat3 gradient{0.0};
   for (int j = 0; j < 3; ++j) {
     const Vec3 g = barycentric_gradient(affine, j);

@@ -1,0 +1,63 @@
+// Lines of affine fields, however stiff, on meshes of every kind against their closed form.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/trace/trace.h"
+#include "tests/common/trace/exact/affine_cases.h"
+
+namespace palpate::test {
+namespace {
+
+class ExactOnAffineFields : public testing::TestWithParam<int> {};
+
+// Rates up to 2^exponent: points lie on the curve within the error that they state, which says no more than it has to, and
+// lines end where the curve ends.
+TEST_P(ExactOnAffineFields, StatesItsErrorAndEndsWhereTheCurveEnds) {
+  constexpr int kFields = 40, kSeeds = 10, kSteps = 500;
+  const int exponent = GetParam();
+  std::size_t points = 0, understated = 0, bad = 0, lines = 0;
+  std::vector<float> overstated;
+  for (std::uint64_t n = 0; n < kFields; ++n) {
+    std::mt19937_64 random{static_cast<std::uint64_t>(1000 * exponent) + n};
+    AffineField field;
+    AffineMesh mesh;
+    std::shared_ptr<const VectorField> flow;
+    while (!flow) {
+      field = draw_field(random, exponent);
+      mesh = draw_mesh(random);
+      flow = sampled(field, mesh);
+    }
+    std::vector<Vec3> seeds;
+    for (int i = 0; i < kSeeds; ++i) seeds.push_back(draw_seed(random, mesh));
+    TraceOptions options;
+    options.backward = true;
+    options.max_steps = kSteps;
+    options.threads = 1;
+    const TraceResult result = trace_lines(*flow, seeds, options);
+    for (const Line& line : result.lines) {
+      const LineVerdict verdict = judge(line, field, mesh, seeds[line.seed], flow->diagonal());
+      ++lines;
+      points += verdict.points;
+      understated += verdict.understated;
+      bad += verdict.wrong_end.empty() ? 0u : 1u;
+      overstated.insert(overstated.end(), verdict.overstated.begin(), verdict.overstated.end());
+    }
+  }
+  EXPECT_LE(understated, points / 1000);
+  EXPECT_LE(bad, lines / 100);
+  std::nth_element(overstated.begin(),
+                   overstated.begin() + static_cast<std::ptrdiff_t>(overstated.size() / 2), overstated.end());
+  EXPECT_LE(overstated[overstated.size() / 2], 2000.0f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, ExactOnAffineFields, testing::Values(0, 4, 10, 20, 30, 40, 47, 54, 60));
+
+}  // namespace
+}  // namespace palpate::test
