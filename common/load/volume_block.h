@@ -10,6 +10,9 @@
 
 namespace palpate {
 
+/// The array that holds red, green, blue and perhaps opacity, 0 to 255 each.
+inline constexpr const char* kColorArray = "colors";
+
 /// The smallest box around all samples.
 [[nodiscard]] Box sample_bounds(const UniformTopology& topology) noexcept;
 

@@ -10,6 +10,7 @@
 #include "common/base/file_numbers.h"
 #include "common/base/mapped_file.h"
 #include "common/load/gzip_head.h"
+#include "common/load/voxel_bytes.h"
 
 namespace palpate {
 namespace {
@@ -108,12 +109,17 @@ DataArray read_mif_values(const MifHeader& header, const std::vector<std::uint64
   const MappedFile mapped(header.data_file);
   const std::uint64_t wanted = header.data_at + header.data_bytes();
   std::string unpacked;
-  if (header.packed) unpacked = gzip_head(mapped.text(), wanted);
-  std::string_view bytes = header.packed ? std::string_view(unpacked) : mapped.text();
-  if (bytes.size() < wanted) {
-    throw input_error({header.data_file, "", "ends after " + std::to_string(bytes.size()) + " bytes",
-                       std::to_string(wanted), "the file may be cut off"});
+  std::string_view bytes = mapped.text();
+  if (header.packed) {
+    unpacked.resize(wanted);
+    const Unpacked done = unpack(bytes, std::as_writable_bytes(std::span(unpacked)));
+    check_voxel_counts(header.data_file, {.wanted = wanted, .unpacked = done.bytes});
+    if (!done.ended && !done.more)
+      throw input_error(
+          {header.data_file, "", "holds gzip data that are damaged or cut off", "a whole file"});
+    bytes = unpacked;
   }
+  check_voxel_counts(header.data_file, {.wanted = wanted, .found = bytes.size()});
   bytes = bytes.substr(header.data_at);
   const std::size_t count = header.voxels() * volumes.size();
 

@@ -1,6 +1,7 @@
 #include "loaders/nifti/nifti_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -11,6 +12,8 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/volume_block.h"
+#include "common/load/voxel_bytes.h"
 #include "loaders/nifti/nifti_check.h"
 #include "loaders/nifti/nifti_place.h"
 
@@ -73,10 +76,11 @@ class VoxelFile {
   VoxelFile(const VoxelFile&) = delete;
   VoxelFile& operator=(const VoxelFile&) = delete;
 
-  /// False where the file ends before.
-  bool read(std::uint64_t offset, std::span<std::byte> out) {
-    if (znz_isnull(file_) || znzseek(file_, static_cast<znz_off_t>(offset), SEEK_SET) < 0) return false;
-    return znzread(out.data(), 1, out.size(), file_) == out.size();
+  /// How many bytes were there.
+  std::uint64_t read(std::uint64_t offset, std::span<std::byte> out) {
+    if (znz_isnull(file_) || znzseek(file_, static_cast<znz_off_t>(offset), SEEK_SET) < 0) return 0;
+    const std::size_t got = znzread(out.data(), 1, out.size(), file_);
+    return got <= out.size() ? got : 0;  // znzlib says -1 of an error
   }
 
   /// Reads on to the end, where gzip keeps its checksum, and closes the file. False where it is damaged or
@@ -156,6 +160,7 @@ struct NiftiFile::Image {
                     static_cast<std::size_t>(image.nz);
     array_.name = "scalars";
     if (array_.components > 1) array_.name = volumes_ == 3 ? "vectors" : "components";
+    if (stored_.components > 1 && volumes_ == 1) array_.name = kColorArray;
     if (volumes_ == 3)
       place_.notes.emplace_back("vectors as stored: the header does not say along which axes");
     array_.type = stored_.type;
@@ -180,42 +185,32 @@ struct NiftiFile::Image {
   void read_volume(VoxelFile& file, std::int64_t index, std::span<std::byte> out) const {
     const std::uint64_t at =
         static_cast<std::uint64_t>(image_->iname_offset) + static_cast<std::uint64_t>(index) * out.size();
-    if (!file.read(at, out)) {
-      throw input_error({image_->iname, "", "ends before its last voxel, or cannot be unpacked", "",
-                         "the file may be truncated"});
-    }
-    if (image_->swapsize > 1 && image_->byteorder != nifti_short_order()) {
-      nifti_swap_Nbytes(static_cast<std::int64_t>(out.size()) / image_->swapsize, image_->swapsize,
-                        out.data());
-    }
+    check_voxel_counts(image_->iname, {.wanted = out.size(), .unpacked = file.read(at, out)});
+    const bool same = image_->byteorder == nifti_short_order();
+    to_native(out, byte_size(stored_.type), same == (std::endian::native == std::endian::big));
   }
 
   DataArray values(std::int64_t step, const std::function<void(double)>& on_progress) const {
     (void)check_nifti(file_);
     const std::size_t bytes =
         array_.tuples * byte_size(stored_.type) * static_cast<std::size_t>(stored_.components);
-    const auto stored = std::make_shared<std::vector<std::byte>>(bytes * static_cast<std::size_t>(volumes_));
+    VoxelMemory stored(bytes * static_cast<std::size_t>(volumes_));
     VoxelFile file(*image_);
     std::vector<std::byte> volume(volumes_ > 1 ? bytes : 0);
     for (std::int64_t v = 0; v < volumes_; ++v) {
       if (volumes_ == 1) {
-        read_volume(file, step, *stored);
+        read_volume(file, step, stored.bytes());
       } else {
         read_volume(file, step + steps_ * v, volume);
-        interleave(volume, static_cast<std::size_t>(v), *stored);
+        interleave(volume, static_cast<std::size_t>(v), stored.bytes());
       }
       if (on_progress) on_progress(static_cast<double>(v + 1) / static_cast<double>(volumes_));
     }
     if (step + 1 == steps_ && !file.ends_well())
       throw input_error(
           {image_->iname, "", "holds gzip data that are damaged or cut off", "a whole file", ""});
-    DataArray array;
+    DataArray array = std::move(stored).finish(image_->iname, stored_.type, array_.components);
     array.name = array_.name;
-    array.components = array_.components;
-    array.tuples = array_.tuples;
-    array.type = stored_.type;
-    array.bytes = std::as_const(*stored);
-    array.owner = stored;
     if (!scaled_) return array;
     return array_.type == ScalarType::kFloat32 ? scaled<float>(array) : scaled<double>(array);
   }

@@ -17,6 +17,7 @@
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
+#include "common/load/voxel_bytes.h"
 
 namespace palpate {
 namespace {
@@ -192,6 +193,13 @@ std::string check_nrrd(const std::string& file) {
   }
   const std::string problem = nrrd_size_problem(claims, available);
   if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+  const std::string& encoding = claims.encoding;
+  const bool text = encoding == "txt" || encoding == "text" || encoding == "ascii";
+  if (text && claims.data_files.size() < 2) {
+    return text_end_note(
+        claims.detached ? (std::filesystem::path(file).parent_path() / claims.data_files.front()).string()
+                        : file);
+  }
   const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
   if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
   std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()

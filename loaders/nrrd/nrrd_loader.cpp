@@ -4,13 +4,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <teem/nrrd.h>
 
 #include "common/base/error.h"
 #include "common/load/volume_block.h"
+#include "common/load/voxel_bytes.h"
+#include "loaders/nrrd/nrrd_axes.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/nrrd/nrrd_gradients.h"
 #include "loaders/nrrd/nrrd_tuples.h"
@@ -21,6 +25,12 @@ namespace {
 constexpr const char* kUnturned = "values are left in the measurement frame of the file";
 
 using NrrdPtr = std::unique_ptr<Nrrd, Nrrd* (*)(Nrrd*)>;
+using IoPtr = std::unique_ptr<NrrdIoState, NrrdIoState* (*)(NrrdIoState*)>;
+
+struct NrrdShape {
+  int type = nrrdTypeUnknown;
+  std::vector<std::size_t> size;
+};
 
 /// Teem's error, several lines of "[nrrd] function: what", as its innermost one.
 std::string teem_error() {
@@ -33,13 +43,44 @@ std::string teem_error() {
   return line.substr(0, 200);
 }
 
-NrrdPtr load_nrrd(const std::string& file, bool header_only) {
+void load(Nrrd* nrrd, NrrdIoState* io, const std::string& file) {
+  if (nrrdLoad(nrrd, file.c_str(), io) != 0)
+    throw input_error({file, "", "Teem says: " + teem_error(), "", "the file may be damaged"});
+}
+
+NrrdPtr load_header(const std::string& file) {
   NrrdPtr nrrd(nrrdNew(), nrrdNuke);
-  NrrdIoState* io = nrrdIoStateNew();
-  io->skipData = header_only ? AIR_TRUE : AIR_FALSE;
-  const int failed = nrrdLoad(nrrd.get(), file.c_str(), io);
-  nrrdIoStateNix(io);
-  if (failed != 0) throw input_error({file, "", "Teem says: " + teem_error(), "", "the file may be damaged"});
+  const IoPtr io(nrrdIoStateNew(), nrrdIoStateNix);
+  io->skipData = AIR_TRUE;
+  load(nrrd.get(), io.get(), file);
+  return nrrd;
+}
+
+/// All values, read into memory of our own, which Teem is given for `shape`.
+NrrdPtr load_values(const std::string& file, const NrrdShape& shape) {
+  NrrdPtr nrrd(nrrdNew(), nrrdNuke);
+  const IoPtr io(nrrdIoStateNew(), nrrdIoStateNix);
+  if (nrrdMaybeAlloc_nva(nrrd.get(), shape.type, static_cast<unsigned>(shape.size.size()),
+                         shape.size.data()) != 0) {
+    (void)teem_error();
+    throw std::bad_alloc();
+  }
+  const auto bytes = [&nrrd] {
+    return std::span(static_cast<std::byte*>(nrrd->data),
+                     nrrdElementNumber(nrrd.get()) * nrrdElementSize(nrrd.get()));
+  };
+  const std::size_t wanted = bytes().size();
+  const void* const given = nrrd->data;
+  fill_with_pattern(bytes());
+  load(nrrd.get(), io.get(), file);
+  if (nrrd->data != given || bytes().size() != wanted || nrrd->type != shape.type)
+    throw input_error({file, "", "has changed since it was opened", "", "open it again"});
+  // What was not read was turned into this machine's byte order with the rest.
+  const bool turned =
+      io->encoding->endianMatters != 0 && io->endian != airEndianUnknown && io->endian != airMyEndian();
+  if (turned) nrrdSwapEndian(nrrd.get());
+  check_voxel_counts(file, {.wanted = wanted, .written = written_bytes(bytes())});
+  if (turned) nrrdSwapEndian(nrrd.get());
   return nrrd;
 }
 
@@ -70,63 +111,8 @@ ScalarType scalar_type(int type, const std::string& file) {
   }
 }
 
-/// Turns the header's medical space into RAS: which axes change sign. Nothing where the space is not medical.
-std::optional<Vec3> ras_signs(int space) {
-  switch (space) {
-    case nrrdSpaceRightAnteriorSuperior:
-    case nrrdSpaceRightAnteriorSuperiorTime:
-      return Vec3{1.0, 1.0, 1.0};
-    case nrrdSpaceLeftAnteriorSuperior:
-    case nrrdSpaceLeftAnteriorSuperiorTime:
-      return Vec3{-1.0, 1.0, 1.0};
-    case nrrdSpaceLeftPosteriorSuperior:
-    case nrrdSpaceLeftPosteriorSuperiorTime:
-    case nrrdSpaceScannerXYZ:
-    case nrrdSpaceScannerXYZTime:
-      return Vec3{-1.0, -1.0, 1.0};
-    default:
-      return std::nullopt;
-  }
-}
-
-/// How the axes are used: one for the components, or none, and three for space.
-struct Axes {
-  std::optional<unsigned> components;
-  std::array<unsigned, 3> space{};
-};
-
-Axes sort_axes(const Nrrd& nrrd, const std::string& file) {
-  const auto has_direction = [&nrrd](unsigned axis) {
-    return !std::isnan(nrrd.axis[axis].spaceDirection[0]);
-  };
-  std::vector<unsigned> spatial;
-  for (unsigned axis = 0; axis < nrrd.dim; ++axis) {
-    const int kind = nrrd.axis[axis].kind;
-    const bool by_kind = kind == nrrdKindSpace || kind == nrrdKindDomain || kind == nrrdKindUnknown;
-    if (nrrd.spaceDim > 0 ? has_direction(axis) : by_kind) spatial.push_back(axis);
-  }
-  // Without any word on it, the first of four axes is taken for the components, as NRRD files have it.
-  if (nrrd.dim == 4 && spatial.size() == 4) spatial.erase(spatial.begin());
-  Axes axes;
-  if (spatial.size() != 3 || nrrd.dim > 4 || nrrd.dim < 3) {
-    throw input_error(
-        {file, "",
-         "has " + std::to_string(nrrd.dim) + " axes, " + std::to_string(spatial.size()) + " of them spatial",
-         "three spatial axes, and one more at most for components"});
-  }
-  std::copy(spatial.begin(), spatial.end(), axes.space.begin());
-  for (unsigned axis = 0; axis < nrrd.dim; ++axis) {
-    if (std::find(spatial.begin(), spatial.end(), axis) == spatial.end()) axes.components = axis;
-  }
-  for (const unsigned axis : axes.space) {
-    if (nrrd.axis[axis].size > (std::size_t{1} << 30))
-      throw input_error({file, "", "has too many samples along axis " + std::to_string(axis)});
-  }
-  return axes;
-}
-
 /// "coordinates in mm, values in m/s": what the header states of them.
-std::string units_of(const Nrrd& nrrd, const Axes& axes) {
+std::string units_of(const Nrrd& nrrd, const NrrdAxes& axes) {
   const auto text = [](const char* units) { return std::string(units != nullptr ? units : ""); };
   std::array<std::string, 3> lengths;
   for (std::size_t i = 0; i < 3; ++i)
@@ -151,14 +137,20 @@ class NrrdLoader : public Loader {
     }
     file_ = request.files.front().string();
     const std::string rest = check_nrrd(file_);
-    const NrrdPtr nrrd = load_nrrd(file_, true);
-    axes_ = sort_axes(*nrrd, file_);
+    const NrrdPtr nrrd = load_header(file_);
+    axes_ = sort_nrrd_axes(*nrrd, request.diffusion.has_value(), file_);
+    shape_ = {nrrd->type, {}};
+    for (unsigned axis = 0; axis < nrrd->dim; ++axis) shape_.size.push_back(nrrd->axis[axis].size);
 
     FileInfo info;
     info.units = units_of(*nrrd, axes_);
     if (!rest.empty()) info.notes.push_back(rest);
-    place(*nrrd, info.notes);
-    info.anatomical = anatomical_;
+    NrrdPlace place = place_nrrd(*nrrd, axes_, file_);
+    topology_ = place.topology;
+    signs_ = place.signs;
+    info.anatomical = place.anatomical;
+    info.notes.insert(info.notes.end(), place.notes.begin(), place.notes.end());
+    info.times = nrrd_times(*nrrd, axes_);
     describe_values(*nrrd, info.notes);
     if (request.diffusion) describe_gradients(*nrrd, info);
 
@@ -166,51 +158,11 @@ class NrrdLoader : public Loader {
     return info;
   }
 
-  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    return read_image(topology_, array_.name, names, [this] { return values(); });
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    return read_image(topology_, array_.name, names, [&] { return values(step); });
   }
 
  private:
-  /// Origin and axes, in RAS where the space is known.
-  void place(const Nrrd& nrrd, std::vector<std::string>& notes) {
-    const std::optional<Vec3> signs = ras_signs(nrrd.space);
-    signs_ = signs.value_or(Vec3{1.0});
-    Vec3 origin{0.0};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto a = static_cast<int>(i);
-      const NrrdAxisInfo& axis = nrrd.axis[axes_.space[i]];
-      topology_.points[a] = static_cast<int>(axis.size);
-      if (nrrd.spaceDim >= 3) {
-        topology_.axes[a] =
-            signs_ * Vec3{axis.spaceDirection[0], axis.spaceDirection[1], axis.spaceDirection[2]};
-        if (!std::isnan(nrrd.spaceOrigin[0])) origin[a] = nrrd.spaceOrigin[i];
-      } else {
-        double spacing = 1.0;
-        double unused[NRRD_SPACE_DIM_MAX];
-        (void)nrrdSpacingCalculate(&nrrd, axes_.space[i], &spacing, unused);
-        if (std::isnan(spacing)) spacing = 1.0;
-        topology_.axes[a] = Vec3{0.0};
-        topology_.axes[a][a] = spacing;
-        // The lower end of an axis of cells lies half a cell before its first sample.
-        if (!std::isnan(axis.min))
-          origin[a] = axis.min + (axis.center == nrrdCenterCell ? 0.5 * spacing : 0.0);
-      }
-    }
-    topology_.origin = signs_ * origin;
-    const double volume = std::abs(glm::determinant(topology_.axes));
-    if (!(volume > 0.0) || !std::isfinite(volume) || !is_finite(topology_.origin)) {
-      throw input_error({file_, "header", "its axes span no volume",
-                         "three independent, finite space directions or spacings"});
-    }
-    anatomical_ = signs.has_value();
-    if (signs) {
-      notes.emplace_back(std::string("space ") + airEnumStr(nrrdSpace, nrrd.space) +
-                         (*signs == Vec3{1.0} ? "" : ", turned into RAS"));
-    } else {
-      notes.emplace_back("no medical space: coordinates as they are, no orientation known");
-    }
-  }
-
   /// Name and shape of the values, and whether they are vectors or tensors to be turned into RAS.
   void describe_values(const Nrrd& nrrd, std::vector<std::string>& notes) {
     array_.association = Association::kPoint;
@@ -231,6 +183,7 @@ class NrrdLoader : public Loader {
     stored_components_ = array_.components = static_cast<int>(axis.size);
     kind_ = tuple_kind(axis.kind, axis.size);
     array_.name = array_name(kind_);
+    if (axis.kind == nrrdKindRGBColor || axis.kind == nrrdKindRGBAColor) array_.name = kColorArray;
     const bool has_frame = nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]);
     if (kind_ == TupleKind::kNumbers) {
       if (has_frame) notes.emplace_back(kUnturned);
@@ -267,13 +220,7 @@ class NrrdLoader : public Loader {
   /// Diffusion-weighted volumes with their gradients, where the header states them.
   void describe_gradients(const Nrrd& nrrd, FileInfo& info) {
     if (kind_ != TupleKind::kNumbers || !axes_.components) return;
-    const NrrdKeys keys = [&nrrd](const std::string& key) -> std::optional<std::string> {
-      char* const text = nrrdKeyValueGet(&nrrd, key.c_str());
-      if (text == nullptr) return std::nullopt;
-      std::string value(text);
-      std::free(text);
-      return value;
-    };
+    const NrrdKeys keys = [&nrrd](const std::string& key) { return nrrd_key(nrrd, key); };
     Mat3 frame{1.0};
     for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
       for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
@@ -286,44 +233,48 @@ class NrrdLoader : public Loader {
     std::erase(info.notes, kUnturned);  // signals have no directions; their gradients were turned
   }
 
-  DataArray values() const {
-    (void)check_nrrd(file_);
-    NrrdPtr nrrd = load_nrrd(file_, false);
-    if (axes_.components && *axes_.components != 0) {
-      // Components first, the others in their order.
-      std::array<unsigned, NRRD_DIM_MAX> order{};
-      order[0] = *axes_.components;
-      std::copy(axes_.space.begin(), axes_.space.end(), order.begin() + 1);
-      NrrdPtr permuted(nrrdNew(), nrrdNuke);
-      if (nrrdAxesPermute(permuted.get(), nrrd.get(), order.data()) != 0) {
-        throw input_error({file_, "", "Teem says: " + teem_error()});
-      }
-      nrrd = std::move(permuted);
-    }
-    const std::size_t count = array_.tuples * static_cast<std::size_t>(stored_components_);
-    if (nrrdElementNumber(nrrd.get()) != count || scalar_type(nrrd->type, file_) != stored_type_) {
-      throw input_error({file_, "", "has changed since it was opened", "", "open it again"});
-    }
+  DataArray values(std::size_t step) {
+    if (!values_) read_values();
     DataArray array;
     array.components = array_.components;
     array.tuples = array_.tuples;
-    if (turned_) return turned(*nrrd, std::move(array));
+    const std::size_t count = array_.tuples * static_cast<std::size_t>(stored_components_);
+    if (turned_) return turned(step * count, std::move(array));
     array.type = array_.type;
-    array.bytes = {static_cast<const std::byte*>(nrrd->data), count * byte_size(array_.type)};
-    array.owner = std::shared_ptr<Nrrd>(nrrd.release(), nrrdNuke);
+    const std::size_t bytes = count * byte_size(array_.type);
+    array.bytes = {static_cast<const std::byte*>(values_->data) + step * bytes, bytes};
+    array.owner = values_;
+    if (!axes_.time) values_.reset();  // of one state nobody asks twice
     return array;
   }
 
+  /// Components first, space in its order, time last.
+  void read_values() {
+    (void)check_nrrd(file_);
+    NrrdPtr nrrd = load_values(file_, shape_);
+    std::vector<unsigned> order;
+    if (axes_.components) order.push_back(*axes_.components);
+    order.insert(order.end(), axes_.space.begin(), axes_.space.end());
+    if (axes_.time) order.push_back(*axes_.time);
+    if (!std::is_sorted(order.begin(), order.end())) {
+      NrrdPtr permuted(nrrdNew(), nrrdNuke);
+      if (nrrdAxesPermute(permuted.get(), nrrd.get(), order.data()) != 0)
+        throw input_error({file_, "", "Teem says: " + teem_error()});
+      nrrd = std::move(permuted);
+    }
+    values_ = std::shared_ptr<Nrrd>(nrrd.release(), nrrdNuke);
+  }
+
   /// Vectors and tensors in RAS: stored in single precision where the file is no more precise.
-  DataArray turned(const Nrrd& nrrd, DataArray array) const {
+  DataArray turned(std::size_t first, DataArray array) const {
     const auto fill = [&]<typename T>(T, ScalarType type) {
       const auto from = static_cast<std::size_t>(stored_components_);
       const auto to = static_cast<std::size_t>(array.components);
       const auto values = std::make_shared<std::vector<T>>(to * array.tuples);
-      const auto lookup = nrrdDLookup[nrrd.type];
+      const auto lookup = nrrdDLookup[values_->type];
       std::vector<double> tuple(from), result(to);
       for (std::size_t p = 0; p < array.tuples; ++p) {
-        for (std::size_t c = 0; c < from; ++c) tuple[c] = lookup(nrrd.data, from * p + c);
+        for (std::size_t c = 0; c < from; ++c) tuple[c] = lookup(values_->data, first + from * p + c);
         turn_tuple(kind_, turn_, tuple.data(), result.data());
         for (std::size_t c = 0; c < to; ++c) (*values)[to * p + c] = static_cast<T>(result[c]);
       }
@@ -336,9 +287,9 @@ class NrrdLoader : public Loader {
   }
 
   std::string file_;
-  Axes axes_;
+  NrrdAxes axes_;
+  NrrdShape shape_;
   Vec3 signs_{1.0};
-  bool anatomical_ = false;
   Mat3 turn_{1.0};
   bool turned_ = false;
   TupleKind kind_ = TupleKind::kNumbers;
@@ -346,6 +297,7 @@ class NrrdLoader : public Loader {
   UniformTopology topology_;
   ArrayInfo array_;
   ScalarType stored_type_ = ScalarType::kFloat32;
+  std::shared_ptr<Nrrd> values_;  ///< of all steps, once one was asked for
 };
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "loaders/raw/raw_loader.h"
 
-#include <algorithm>
-#include <bit>
 #include <fstream>
 #include <span>
 #include <utility>
@@ -12,16 +10,10 @@
 #include "common/load/find_format.h"
 #include "common/load/raw_layout.h"
 #include "common/load/volume_block.h"
+#include "common/load/voxel_bytes.h"
 
 namespace palpate {
 namespace {
-
-/// Turns the bytes of every number around.
-void swap_bytes(std::span<std::byte> bytes, std::size_t size) {
-  for (std::size_t at = 0; at + size <= bytes.size(); at += size)
-    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                 bytes.begin() + static_cast<std::ptrdiff_t>(at + size));
-}
 
 class RawLoader : public Loader {
  public:
@@ -72,19 +64,14 @@ class RawLoader : public Loader {
 
   DataArray values() const {
     (void)check_size();
-    const auto bytes = std::make_shared<std::vector<std::byte>>(byte_count(layout_));
+    VoxelMemory memory(byte_count(layout_));
+    const std::span<std::byte> bytes = memory.bytes();
     std::ifstream in(file_, std::ios::binary);
     in.seekg(static_cast<std::streamoff>(layout_.skip));
-    in.read(reinterpret_cast<char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-    if (!in) throw input_error({file_, "", "cannot be read to the end of its voxels"});
-    const bool native = layout_.big_endian == (std::endian::native == std::endian::big);
-    if (!native) swap_bytes(*bytes, byte_size(layout_.type));
-    DataArray array;
-    array.type = array_.type;
-    array.tuples = array_.tuples;
-    array.bytes = std::as_const(*bytes);
-    array.owner = bytes;
-    return array;
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    check_voxel_counts(file_, {.wanted = bytes.size(), .found = static_cast<std::uint64_t>(in.gcount())});
+    to_native(bytes, byte_size(layout_.type), layout_.big_endian);
+    return std::move(memory).finish(file_, array_.type, 1);
   }
 
   std::string file_;

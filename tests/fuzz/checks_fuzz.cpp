@@ -6,10 +6,10 @@
 
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
+#include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/legacy_check.h"
-#include "loaders/vtk/meta_check.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/xml_scan.h"
 
@@ -53,11 +53,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       (void)ensight_variables(text);
       break;
     case 7: {
-      const MetaClaims claims = read_meta_claims(text);
-      if (claims.header_bytes > text.size()) __builtin_trap();
-      if (!claims.problem.empty()) break;
-      if (claims.piece_count != claims.pieces.size()) __builtin_trap();
-      (void)meta_size_problem(claims, text.size() - claims.header_bytes);
+      const MetaHeader header = read_meta_header(text);
+      if (header.header_bytes > text.size()) __builtin_trap();
+      if (!header.problem.empty()) break;
+      if (header.piece_count != header.pieces.size()) __builtin_trap();
+      (void)meta_size_problem(header, text.size() - header.header_bytes);
       break;
     }
     default: {

@@ -1,4 +1,5 @@
 // MetaImage files, written by hand and by VTK, read through the helper program.
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vtkImageData.h>
 #include <vtkMetaImageWriter.h>
 #include <vtkNew.h>
+#include <zlib.h>
 
 #include "common/base/error.h"
 #include "common/load/load.h"
@@ -82,6 +84,7 @@ TEST(MetaImage, InListedAndNumberedFiles) {
   big.replace(big.find("MSB = False"), 11, "MSB = True");
   for (const std::string& content :
        {kHead + listed, kHead + plain, kHead + lines, kHead + "ElementDataFile = LIST 3\nwhole\n",
+        kHead + "ElementDataFile = LIST 2D\ns0.raw\ns1.raw\ns2.raw\ns3.raw\n",
         kHead + "ElementDataFile = s%d.raw 0\n", kHead + "ElementDataFile = s%d.raw 0 3 1\n",
         big + "ElementDataFile = sub/big%03d.raw 10 4 -2\n",
         kHead + "HeaderSize = 4\nElementDataFile = skip%d\n",
@@ -89,6 +92,103 @@ TEST(MetaImage, InListedAndNumberedFiles) {
     Source source = Source::open({{folder.write("a.mhd", content)}, {}});
     expect_counting(read_block(source), content);
   }
+}
+
+// A % stands for itself, but for one that makes numbers, and there too where a file has that very name.
+TEST(MetaImage, NamesMayHoldAPercentSign) {
+  for (const char* name : {"gain 77%.raw", "50%.raw", "a%20b.raw", "%s%n.raw", "100%d.raw", "%"}) {
+    const test::TempFolder folder;
+    folder.write(name, counting(24));
+    const auto file = folder.write("a%d.mhd", kHead + "ElementDataFile = " + name + "\n");
+    Source source = Source::open({{file}, {}});
+    expect_counting(read_block(source), name);
+  }
+}
+
+std::string deflated(const std::string& content, int wrapper) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + wrapper, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string out(content.size() + 100, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+// The packed data say themselves where they end, whatever CompressedDataSize says.
+TEST(MetaImage, PackedVoxelsAreInflatedWhateverTheirSizeIsSaidToBe) {
+  const test::TempFolder folder;
+  for (const int wrapper : {0, 16}) {
+    const std::string packed = deflated(counting(24), wrapper);
+    for (const std::string& size : {std::string(), std::string("0"), std::string("5"), std::string("999999"),
+                                    std::to_string(packed.size())}) {
+      std::string head = kHead + "CompressedData = True\n";
+      if (!size.empty()) head += "CompressedDataSize = " + size + "\n";
+      Source source =
+          Source::open({{folder.write("a.mha", head + "ElementDataFile = LOCAL\n" + packed)}, {}});
+      expect_counting(read_block(source), size);
+    }
+  }
+  Source source =
+      Source::open({{folder.write("more.mha", kHead + "CompressedData = True\nElementDataFile = LOCAL\n" +
+                                                  deflated(counting(25), 0))},
+                    {}});
+  EXPECT_THROW((void)read_block(source), Error);
+}
+
+TEST(MetaImage, AFourthAxisIsTime) {
+  const test::TempFolder folder;
+  const std::string head =
+      "NDims = 4\nDimSize = 2 1 2 3\nElementType = MET_SHORT\nElementSpacing = 1 2 3 0.5\n"
+      "Offset = 7 8 9 10\n";
+  const std::string raw = counting(12), zip = deflated(raw, 0);
+  std::string text;
+  for (int i = 0; i < 12; ++i) text += std::to_string(i) + " ";
+  for (int t = 0; t < 3; ++t)
+    folder.write("t" + std::to_string(t), raw.substr(8 * static_cast<std::size_t>(t), 8));
+  for (int p = 0; p < 6; ++p)
+    folder.write("p" + std::to_string(p), raw.substr(4 * static_cast<std::size_t>(p), 4));
+  for (const std::string& data :
+       {"ElementDataFile = LOCAL\n" + raw, "CompressedData = True\nElementDataFile = LOCAL\n" + zip,
+        "BinaryData = False\nElementDataFile = LOCAL\n" + text,
+        std::string("ElementDataFile = LIST\nt0\nt1\nt2\n"), std::string("ElementDataFile = t%d 0\n"),
+        std::string("ElementDataFile = LIST 2\np0\np1\np2\np3\np4\np5\n")}) {
+    Source source = Source::open({{folder.write("a.mhd", head + data)}, {}});
+    EXPECT_EQ(source.info().times, (std::vector<double>{10.0, 10.5, 11.0}));
+    for (const std::size_t t : {2U, 0U, 1U}) {
+      const DataSet block = source.read({"scalars"}, t).at(0);
+      const auto& grid = std::get<UniformTopology>(block.topology);
+      EXPECT_EQ(grid.points, Index3(2, 1, 2));
+      EXPECT_EQ(grid.axes, Mat3(Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)));
+      EXPECT_EQ(grid.origin, Vec3(7, 8, 9));
+      for (std::size_t p = 0; p < 4; ++p)
+        ASSERT_EQ(block.arrays.at(0).at(p), static_cast<double>(4 * t + p)) << data;
+    }
+  }
+}
+
+TEST(MetaImage, NumbersOfAllTypesAndColours) {
+  const test::TempFolder folder;
+  const auto read = [&](const std::string& type, const std::string& more, const std::string& data) {
+    const std::string head = "NDims = 3\nDimSize = 2 1 1\nElementType = " + type + "\n" + more;
+    Source source = Source::open({{folder.write("a.mha", head + "ElementDataFile = LOCAL\n" + data)}, {}});
+    return read_block(source).arrays.at(0);
+  };
+  EXPECT_EQ(read("MET_LONG", "", std::string("\1\0\0\0\2\0\0\0", 8)).type, ScalarType::kInt32);
+  EXPECT_EQ(read("MET_ULONG_LONG", "BinaryData = False\n", "18446744073709551615 7").type,
+            ScalarType::kUint64);
+  const DataArray text = read("MET_FLOAT", "BinaryData = False\n", " -1.5e3\nnan\n");
+  EXPECT_EQ(text.at(0), -1500.0);
+  EXPECT_TRUE(std::isnan(text.at(1)));
+  EXPECT_THROW((void)read("MET_UCHAR", "BinaryData = False\n", "1 256"), Error);
+  EXPECT_THROW((void)read("MET_UCHAR", "BinaryData = False\n", "1 2.5"), Error);
+  const DataArray colors = read("MET_UCHAR", "ElementNumberOfChannels = 3\n", "abcdef");
+  EXPECT_EQ(colors.name, "colors");
+  EXPECT_EQ(colors.at(1, 2), 'f');
 }
 
 TEST(MetaImage, LpsOfAPatientIsTurnedIntoRas) {
@@ -164,12 +264,15 @@ TEST(MetaImage, WhatCannotBeReadIsNamed) {
   expect_named("ElementDataFile = LIST\np1\np2\np3\nshort", "claims 48 bytes of voxels");
   expect_named("ElementDataFile = LIST\np1\np2\nlong\nshort", "long has 14 bytes");
   expect_named("ElementDataFile = LIST\np1\np2\nlong\np3", "HeaderSize = -1");
-  expect_named("ElementDataFile = LIST 4\np1", "'LIST 4'");
+  expect_named("ElementDataFile = LIST 5\np1", "'LIST 5'");
+  expect_named("ElementDataFile = LIST 2X\np1", "'LIST 2X'");
   expect_named("ElementDataFile = LIST -1\np1", "'LIST -1'");
   expect_named("ElementDataFile = p%d 1 4 1", "p4");
-  for (const char* senseless : {"p%s 1 4 1", "p%n 1 4 1", "p%d%d 1 4 1", "p%d 1 4 0", "p%9999d 1 4 1",
-                                "p%d 1 x 1", "p% 1 4 1", "p%d 99999999999 4 1"})
+  for (const char* senseless : {"p%d 1 4 0", "p%9999d 1 4 1", "p%d 1 x 1", "p%d 99999999999 4 1"})
     expect_named("ElementDataFile = " + std::string(senseless), "makes no sense");
+  for (const char* literal : {"p%s 1 4 1", "p%n 1 4 1", "p%d%d 1 4 1", "p% 1 4 1"})
+    expect_named("ElementDataFile = " + std::string(literal),
+                 (std::string(literal) + ": no such file").c_str());
   expect_named("ElementDataFile = p%d 1 900000000 1", "too many data files");
   expect_named("CompressedData = True\nElementDataFile = p%d 1 4 1", "plain bytes");
   expect_named("ElementDataFile =", "names no file");

@@ -132,6 +132,110 @@ TEST(Nrrd, SpacingsAndAxisMinimaPlaceTheSamples) {
   EXPECT_EQ(grid.origin, Vec3(1, 2, 3));
 }
 
+// Teem's own answers (nrrdSpacingCalculate, nrrdOriginCalculate): without centerings samples are in the middle of
+// cells, which is where ITK puts them, too.
+TEST(Nrrd, EndsOfAxesPlaceTheSamplesByTheirCenterings) {
+  const test::TempFolder folder;
+  const auto grid = [&](const std::string& fields) {
+    const auto file = folder.write("a.nrrd", kScalarHead + fields + "encoding: raw\n\n" + raw(counting(24)));
+    return std::get<UniformTopology>(read_all(file).at(0).topology);
+  };
+  const std::string ends = "axis mins: 0 -3 10\naxis maxs: 2 3 2\n";
+  const UniformTopology nodes = grid(ends + "centers: node node node\n");
+  EXPECT_EQ(nodes.axes, Mat3(Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, -8.0 / 3.0)));
+  EXPECT_EQ(nodes.origin, Vec3(0, -3, 10));
+  for (const char* centers : {"", "centers: cell cell cell\n"}) {
+    const UniformTopology cells = grid(ends + centers);
+    EXPECT_EQ(cells.axes, Mat3(Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, -2)));
+    EXPECT_EQ(cells.origin, Vec3(0.5, -2, 9));
+  }
+  EXPECT_EQ(grid("spacings: 1 2 4\naxis mins: 1 2 3\n").origin, Vec3(1.5, 3, 5));
+  EXPECT_EQ(grid("axis mins: 1 2 3\n").axes, Mat3(1.0));
+}
+
+TEST(Nrrd, SpacingsInANamedSpaceRunAlongIt) {
+  const test::TempFolder folder;
+  for (const bool lps : {false, true}) {
+    const auto file = folder.write(
+        "a.nrrd", kScalarHead + "space: " + (lps ? "left-posterior-superior" : "right-anterior-superior") +
+                      "\nspacings: 1.5 2 3\nencoding: raw\n\n" + raw(counting(24)));
+    Source source = Source::open({{file}, {}});
+    EXPECT_TRUE(source.info().anatomical);
+    const auto grid = std::get<UniformTopology>(source.read({"scalars"}).at(0).topology);
+    const double sign = lps ? -1.0 : 1.0;
+    EXPECT_EQ(grid.axes, Mat3(Vec3(sign * 1.5, 0, 0), Vec3(0, sign * 2, 0), Vec3(0, 0, 3)));
+  }
+}
+
+// Times of whatever axis: of kind `time`, along the fourth direction of space, or the index of a sequence.
+TEST(Nrrd, TimesAreTimeSteps) {
+  const test::TempFolder folder;
+  struct Case {
+    const char *fields, *sizes;
+    std::vector<double> times;
+    bool first;  ///< the axis that runs fastest
+  };
+  const std::vector<Case> cases{
+      {"kinds: domain domain domain time\n", "2 3 4 3", {0, 1, 2}, false},
+      {"kinds: time domain domain domain\nspacings: 0.5 1 1 1\naxis mins: 0 0 0 0\n",
+       "3 2 3 4",
+       {0.25, 0.75, 1.25},
+       true},
+      {"space: left-posterior-superior\nkinds: domain domain domain time\n"
+       "space directions: (1,0,0) (0,1,0) (0,0,1) none\n",
+       "2 3 4 3",
+       {0, 1, 2},
+       false},
+      {"space dimension: 4\nkinds: domain domain domain domain\nspace origin: (1,2,3,10)\n"
+       "space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,2)\n",
+       "2 3 4 3",
+       {10, 12, 14},
+       false},
+      {"space: right-anterior-superior\nkinds: list domain domain domain\n"
+       "space directions: none (1,0,0) (0,1,0) (0,0,1)\naxis 0 index type:=numeric\n"
+       "axis 0 index values:=5 7 11\n",
+       "3 2 3 4",
+       {5, 7, 11},
+       true}};
+  for (const Case& one : cases) {
+    std::vector<float> values;
+    for (int i = 0; i < 72; ++i)
+      values.push_back(static_cast<float>(one.first ? 100 * (i % 3) + i / 3 : 100 * (i / 24) + i % 24));
+    const auto file =
+        folder.write("a.nrrd", std::string("NRRD0005\ntype: float\ndimension: 4\nsizes: ") + one.sizes +
+                                   "\nendian: little\n" + one.fields + "encoding: raw\n\n" + raw(values));
+    Source source = Source::open({{file}, {}});
+    SCOPED_TRACE(one.fields);
+    for (std::size_t t = 0; t < 3; ++t) EXPECT_NEAR(source.info().times.at(t), one.times[t], 1e-12);
+    for (const std::size_t t : {2U, 0U, 1U}) {
+      const DataSet block = source.read({"scalars"}, t).at(0);
+      ASSERT_EQ(block.arrays.at(0).components, 1);
+      ASSERT_EQ(block.arrays[0].tuples, 24U);
+      for (std::size_t p = 0; p < 24; ++p)
+        ASSERT_EQ(block.arrays[0].at(p), 100.0 * static_cast<double>(t) + static_cast<double>(p));
+    }
+  }
+  EXPECT_THROW(
+      (void)Source::open({{folder.write("b.nrrd",
+                                        "NRRD0005\ntype: float\ndimension: 4\nsizes: 2 3 4 3\n"
+                                        "endian: little\nspace dimension: 4\nspace directions: "
+                                        "(1,0,0,1) (0,1,0,0) (0,0,1,0) (0,0,0,2)\nencoding: raw\n\n" +
+                                            raw(counting(72)))},
+                          {}}),
+      Error);
+}
+
+TEST(Nrrd, ColoursAreColours) {
+  const test::TempFolder folder;
+  const auto file = folder.write("a.nrrd",
+                                 "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 2 1\n"
+                                 "kinds: RGB-color domain domain domain\nencoding: raw\n\nabcdefghijkl");
+  const DataArray colors = read_all(file).at(0).arrays.at(0);
+  EXPECT_EQ(colors.name, "colors");
+  EXPECT_EQ(colors.components, 3);
+  EXPECT_EQ(colors.at(1, 1), 'e');
+}
+
 TEST(Nrrd, UnitsAreThoseThatTheHeaderStates) {
   const test::TempFolder folder;
   const auto units = [&folder](const std::string& fields) {

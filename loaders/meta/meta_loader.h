@@ -1,4 +1,4 @@
-/// MetaImage volumes (.mha, .mhd) through MetaIO, VTK's copy of it. Positions come out in RAS+ millimetres
+/// MetaImage volumes (.mha, .mhd), the fourth axis as time. Positions come out in RAS+ millimetres
 /// where the header says how the patient lies; ITK, which writes most of these files, means LPS.
 #pragma once
 

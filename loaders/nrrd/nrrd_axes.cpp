@@ -1,0 +1,174 @@
+#include "loaders/nrrd/nrrd_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+/// Turns the header's medical space into RAS: which axes change sign. Nothing where the space is not medical.
+std::optional<Vec3> ras_signs(int space) {
+  switch (space) {
+    case nrrdSpaceRightAnteriorSuperior:
+    case nrrdSpaceRightAnteriorSuperiorTime:
+      return Vec3{1.0, 1.0, 1.0};
+    case nrrdSpaceLeftAnteriorSuperior:
+    case nrrdSpaceLeftAnteriorSuperiorTime:
+      return Vec3{-1.0, 1.0, 1.0};
+    case nrrdSpaceLeftPosteriorSuperior:
+    case nrrdSpaceLeftPosteriorSuperiorTime:
+    case nrrdSpaceScannerXYZ:
+    case nrrdSpaceScannerXYZTime:
+      return Vec3{-1.0, -1.0, 1.0};
+    default:
+      return std::nullopt;
+  }
+}
+
+bool has_direction(const NrrdAxisInfo& axis) { return !std::isnan(axis.spaceDirection[0]); }
+
+bool has_directions(const Nrrd& nrrd) {
+  return nrrd.spaceDim >= 3 && std::any_of(nrrd.axis, nrrd.axis + nrrd.dim, has_direction);
+}
+
+/// Whether an axis runs along the fourth direction of space alone.
+bool runs_in_time(const Nrrd& nrrd, const NrrdAxisInfo& axis) {
+  const double* const d = axis.spaceDirection;
+  return nrrd.spaceDim == 4 && has_direction(axis) && d[0] == 0.0 && d[1] == 0.0 && d[2] == 0.0 &&
+         d[3] != 0.0;
+}
+
+/// The key that says of an axis of a Slicer sequence that it counts states.
+std::string sequence_key(unsigned axis, const char* what) {
+  return "axis " + std::to_string(axis) + " index " + what;
+}
+
+/// Of the axis, from its spacing or its ends; NaN where the header states neither.
+double spacing_of(const NrrdAxisInfo& axis) {
+  if (!std::isnan(axis.spacing)) return axis.spacing;
+  const std::size_t steps = axis.center == nrrdCenterNode ? axis.size - 1 : axis.size;
+  return steps > 0 ? (axis.max - axis.min) / static_cast<double>(steps) : std::nan("");
+}
+
+/// Where the first sample lies; NaN where the header does not state it.
+double first_of(const NrrdAxisInfo& axis, double spacing) {
+  return axis.min + (axis.center == nrrdCenterNode ? 0.0 : 0.5 * spacing);
+}
+
+}  // namespace
+
+std::optional<std::string> nrrd_key(const Nrrd& nrrd, const std::string& key) {
+  char* const text = nrrdKeyValueGet(&nrrd, key.c_str());
+  if (text == nullptr) return std::nullopt;
+  std::string value(text);
+  std::free(text);
+  return value;
+}
+
+NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string& file) {
+  NrrdAxes axes;
+  std::vector<unsigned> spatial, others;
+  const bool directed = has_directions(nrrd);
+  for (unsigned a = 0; a < nrrd.dim; ++a) {
+    const NrrdAxisInfo& axis = nrrd.axis[a];
+    const bool by_kind =
+        axis.kind == nrrdKindSpace || axis.kind == nrrdKindDomain || axis.kind == nrrdKindUnknown;
+    const bool in_time = axis.kind == nrrdKindTime || runs_in_time(nrrd, axis) ||
+                         (axis.kind == nrrdKindList && nrrd_key(nrrd, sequence_key(a, "type")));
+    if (in_time && !axes.time) {
+      axes.time = a;
+    } else if (directed ? has_direction(axis) : by_kind) {
+      spatial.push_back(a);
+    } else {
+      others.push_back(a);
+    }
+  }
+  if (nrrd.dim == 4 && spatial.size() == 4) {
+    others.push_back(spatial.front());
+    spatial.erase(spatial.begin());
+  }
+  if (spatial.size() != 3 || others.size() > 1) {
+    throw input_error(
+        {file, "",
+         "has " + std::to_string(nrrd.dim) + " axes, " + std::to_string(spatial.size()) + " of them spatial",
+         "three spatial axes, and one more at most for components and one for time"});
+  }
+  if (!others.empty()) axes.components = others.front();
+  if (as_components && axes.time && !axes.components) std::swap(axes.time, axes.components);
+  std::copy(spatial.begin(), spatial.end(), axes.space.begin());
+  for (const unsigned a : axes.space) {
+    const NrrdAxisInfo& axis = nrrd.axis[a];
+    if (axis.size > (std::size_t{1} << 30))
+      throw input_error({file, "", "has too many samples along axis " + std::to_string(a)});
+    if (directed && nrrd.spaceDim == 4 && axis.spaceDirection[3] != 0.0)
+      throw input_error({file, "space directions", "lead from space into time", "axes along one of them"});
+  }
+  constexpr std::size_t kMostSteps = 1'000'000;
+  if (axes.time && nrrd.axis[*axes.time].size > kMostSteps)
+    throw input_error({file, "", "has " + std::to_string(nrrd.axis[*axes.time].size) + " time steps"});
+  return axes;
+}
+
+NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& file) {
+  NrrdPlace place;
+  UniformTopology& topology = place.topology;
+  const std::optional<Vec3> signs = ras_signs(nrrd.space);
+  place.signs = signs.value_or(Vec3{1.0});
+  const bool directed = has_directions(nrrd);
+  const bool placed = nrrd.spaceDim >= 3 && !std::isnan(nrrd.spaceOrigin[0]);
+  Vec3 origin{0.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto a = static_cast<int>(i);
+    const NrrdAxisInfo& axis = nrrd.axis[axes.space[i]];
+    topology.points[a] = static_cast<int>(axis.size);
+    topology.axes[a] = Vec3{0.0};
+    if (directed) {
+      for (int row = 0; row < 3; ++row) topology.axes[a][row] = place.signs[row] * axis.spaceDirection[row];
+    } else {
+      const double spacing = spacing_of(axis);
+      topology.axes[a][a] = place.signs[a] * (std::isnan(spacing) ? 1.0 : spacing);
+      const double first = first_of(axis, std::isnan(spacing) ? 1.0 : spacing);
+      if (!std::isnan(first)) origin[a] = first;
+    }
+    if (placed) origin[a] = nrrd.spaceOrigin[i];
+  }
+  topology.origin = place.signs * origin;
+  const double volume = std::abs(glm::determinant(topology.axes));
+  if (!(volume > 0.0) || !std::isfinite(volume) || !is_finite(topology.origin)) {
+    throw input_error({file, "header", "its axes span no volume",
+                       "three independent, finite space directions or spacings"});
+  }
+  place.anatomical = signs.has_value();
+  if (signs) {
+    place.notes.emplace_back(std::string("space ") + airEnumStr(nrrdSpace, nrrd.space) +
+                             (*signs == Vec3{1.0} ? "" : ", turned into RAS"));
+    if (!directed) place.notes.emplace_back("no space directions: axes taken along those of the space");
+  } else {
+    place.notes.emplace_back("no medical space: coordinates as they are, no orientation known");
+  }
+  return place;
+}
+
+std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes) {
+  std::vector<double> times;
+  if (!axes.time || nrrd.axis[*axes.time].size < 2) return times;
+  const NrrdAxisInfo& axis = nrrd.axis[*axes.time];
+  double step = spacing_of(axis), first = first_of(axis, step);
+  if (runs_in_time(nrrd, axis)) step = axis.spaceDirection[3], first = nrrd.spaceOrigin[3];
+  if (!std::isfinite(step) || step == 0.0) step = 1.0;
+  if (!std::isfinite(first)) first = 0.0;
+  for (std::size_t t = 0; t < axis.size; ++t) times.push_back(first + step * static_cast<double>(t));
+  const auto values = nrrd_key(nrrd, sequence_key(*axes.time, "values"));
+  if (!values) return times;
+  std::vector<double> stated;
+  for (const std::string_view word : words(*values)) stated.push_back(number(word).value_or(std::nan("")));
+  const bool good = stated.size() == times.size() &&
+                    std::all_of(stated.begin(), stated.end(), [](double t) { return std::isfinite(t); });
+  return good ? stated : times;
+}
+
+}  // namespace palpate
