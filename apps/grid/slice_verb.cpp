@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -56,7 +58,9 @@ struct Greys {
   double window = 1.0, level = 0.5;
 };
 
-Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) {
+/// @param stated black and white by the file; taken where the options name neither.
+Greys greys_of(const DataArray& values, const SliceOptions& slice,
+               const std::optional<std::array<double, 2>>& stated, int threads) {
   Greys greys{HUGE_VAL, -HUGE_VAL, 1.0, 0.0};
   if (values.sparse) {
     const SparseRange range = range_of(*values.sparse, threads);
@@ -71,6 +75,11 @@ Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) 
     }
   }
   if (greys.lowest > greys.highest) greys.lowest = greys.highest = 0.0;
+  if (stated && !slice.window && !slice.level && (*stated)[0] < (*stated)[1]) {
+    greys.window = (*stated)[1] - (*stated)[0];
+    greys.level = 0.5 * ((*stated)[0] + (*stated)[1]);
+    return greys;
+  }
   ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
   constexpr std::size_t kBins = 1024;
   if (greys.lowest < greys.highest) {
@@ -176,7 +185,8 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = lattice_of(grid, options, bounds_of(grid));
-  const Greys greys = greys_of(values, options.slice, options.common.threads);
+  const auto stated = input.file() != nullptr ? input.file()->window : std::nullopt;
+  const Greys greys = greys_of(values, options.slice, stated, options.common.threads);
   const std::vector<double> contour_values = parse_contours(options.slice.contours);
   const bool as_lines = !contour_values.empty();
   const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);

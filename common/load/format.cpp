@@ -8,6 +8,7 @@
 
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/load/dicom_mark.h"
 #include "common/load/gzip_head.h"
 #include "common/load/plot3d_layout.h"
 
@@ -131,27 +132,24 @@ bool is_trx_folder(const std::filesystem::path& folder) {
                      [&](const char* name) { return std::filesystem::exists(folder / name, ignored); });
 }
 
-constexpr std::size_t kDicomPreamble = 128;  ///< bytes of anything, before the mark
-constexpr std::string_view kDicomMark = "DICM";
-bool is_dicom(const FileHead& head, const FormatRow&) {
-  const std::string_view text = text_of(head);
-  return text.size() > kDicomPreamble && text.substr(kDicomPreamble, kDicomMark.size()) == kDicomMark;
-}
-/// Whether one of the first files of the folder is DICOM.
+bool is_dicom(const FileHead& head, const FormatRow&) { return is_dicom_start(text_of(head)); }
+/// Whether one of the first files of the folder, and of those in it, is DICOM.
 bool is_dicom_folder(const std::filesystem::path& folder) {
-  constexpr int kMostFiles = 64;
+  constexpr int kMostFiles = 256, kDeepest = 6;
   std::error_code error;
   int files = 0;
-  for (auto it = std::filesystem::directory_iterator(folder, error);
-       !error && it != std::filesystem::directory_iterator() && files < kMostFiles; it.increment(error)) {
+  std::filesystem::recursive_directory_iterator it(
+      folder, std::filesystem::directory_options::skip_permission_denied, error);
+  for (; !error && it != std::filesystem::recursive_directory_iterator() && files < kMostFiles;
+       it.increment(error)) {
+    if (it.depth() >= kDeepest) it.disable_recursion_pending();
     std::error_code ignored;
     if (!it->is_regular_file(ignored)) continue;
     ++files;
     std::ifstream file(it->path(), std::ios::binary);
-    std::array<char, kDicomPreamble + kDicomMark.size()> head{};
-    if (file.read(head.data(), head.size()) &&
-        std::string_view(head.data(), head.size()).substr(kDicomPreamble) == kDicomMark)
-      return true;
+    std::array<char, kDicomHeadBytes> head{};
+    file.read(head.data(), head.size());
+    if (is_dicom_start({head.data(), as_size(file.gcount())})) return true;
   }
   return false;
 }

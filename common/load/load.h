@@ -4,6 +4,7 @@
 /// The helper stays alive while a Source does, so that a time series is read step by step.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -33,6 +34,7 @@ struct LoadRequest {
   std::optional<DiffusionRequest> diffusion;
   int refine = 0;      ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
   std::string series;  ///< DICOM: a series of the folder by its number there or its UID; empty: the only one
+  bool allow_gaps = false;  ///< DICOM: slices may be missing, and hold no values
   /// TetGen: which markers of a .face file mean the inner and the outer surface, "1,4/2"; empty: by shape.
   std::string surface_markers;
 };
@@ -56,16 +58,17 @@ struct BlockInfo {
 };
 
 struct FileInfo {
-  std::string format;              ///< FormatRow::name, set by serve_loader(); empty: made on the fly
-  std::string loader;              ///< helper program that read it, likewise
-  std::vector<BlockInfo> blocks;   ///< volumes; where the file has none, what else it holds
-  std::vector<double> times;       ///< empty for a single state
-  std::string units;               ///< as the file states them ("coordinates in mm"), or empty
-  bool anatomical = false;         ///< coordinates are RAS+: x to the right, y to the front, z up
-  std::vector<std::string> notes;  ///< byte order found, blocks skipped, orientation
-  DiffusionInfo diffusion;         ///< where the file holds tensors or what they are fitted to
-  double exact_volume = 0.0;       ///< of a model of curved elements, by quadrature; 0: not known
-  std::optional<Vec3> long_axis;   ///< of a heart, from apex to base, where the file's coordinates have one
+  std::string format;             ///< FormatRow::name, set by serve_loader(); empty: made on the fly
+  std::string loader;             ///< helper program that read it, likewise
+  std::vector<BlockInfo> blocks;  ///< volumes; where the file has none, what else it holds
+  std::vector<double> times;      ///< empty for a single state
+  std::string units;              ///< as the file states them ("coordinates in mm"), or empty
+  bool anatomical = false;        ///< coordinates are RAS+: x to the right, y to the front, z up
+  std::optional<std::array<double, 2>> window;  ///< values that the file wants shown black and white
+  std::vector<std::string> notes;               ///< byte order found, blocks skipped, orientation
+  DiffusionInfo diffusion;                      ///< where the file holds tensors or what they are fitted to
+  double exact_volume = 0.0;      ///< of a model of curved elements, by quadrature; 0: not known
+  std::optional<Vec3> long_axis;  ///< of a heart, from apex to base, where the file's coordinates have one
 };
 
 /// The field data of a VTK file that hold FileInfo::long_axis: three numbers.

@@ -148,6 +148,7 @@ void Input::part_fields() {
 void Input::open_files(Progress* progress) {
   LoadRequest request{.files = spec_.files, .solution = spec_.solution, .refine = spec_.refine};
   request.series = spec_.series;
+  request.allow_gaps = spec_.allow_gaps;
   request.surface_markers = spec_.surface_markers;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {

@@ -5,24 +5,25 @@
 #include <string>
 #include <vector>
 
-#include <gdcmDataSet.h>
+#include "loaders/dicom/dicom_file.h"
 
 namespace palpate {
 
 /// The data sets in which an attribute of a frame is looked for, the likeliest first: the frame's own item,
 /// the one shared by all frames, the file.
-using DicomScope = std::vector<const gdcm::DataSet*>;
+using DicomScope = std::vector<const DicomSet*>;
 
-/// Words with the padding of DICOM taken off; empty where the element is not there. Nested items are
-/// searched.
-[[nodiscard]] std::string dicom_text(const DicomScope& scope, const gdcm::Tag& tag);
+/// The element that is not empty, in the first of the sets that has one; else null. Nested items are searched.
+[[nodiscard]] const DicomElement* find_dicom(const DicomScope& scope, DicomTag tag);
+
+/// Words with the padding of DICOM taken off; empty where the element is not there.
+[[nodiscard]] std::string dicom_text(const DicomScope& scope, DicomTag tag);
 
 /// The numbers of an element, of whatever type it is; none where it is not there or holds something else.
-/// @param binary what the bytes are where the file does not say their type: doubles, else text.
-[[nodiscard]] std::vector<double> dicom_numbers(const DicomScope& scope, const gdcm::Tag& tag,
-                                                bool binary = false);
+/// @param binary what the bytes are where neither the file nor the dictionary says their type: doubles, else text.
+[[nodiscard]] std::vector<double> dicom_numbers(const DicomScope& scope, DicomTag tag, bool binary = false);
 
-/// The first of them.
-[[nodiscard]] std::optional<double> dicom_number(const DicomScope& scope, const gdcm::Tag& tag);
+/// The first of them, where it is finite.
+[[nodiscard]] std::optional<double> dicom_number(const DicomScope& scope, DicomTag tag);
 
 }  // namespace palpate

@@ -4,7 +4,10 @@
 /// rows count, in the patient's LPS frame [mm]; d_i, d_j steps between columns and between rows [mm].
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +22,22 @@ struct DicomGradient {
   Vec3 direction{0.0};
 };
 
+/// How the numbers of a pixel become colours.
+enum class DicomColors : std::uint8_t {
+  kNone,     ///< one number a pixel
+  kRgb,      ///< three
+  kYbr,      ///< three: luminance and two differences of colour (PS3.3 C.7.6.3.1.2)
+  kPalette,  ///< one, by a table
+};
+/// Red, green and blue of the stored numbers from `first` on; those below and above have the first and last one.
+struct DicomPalette {
+  int first = 0;
+  std::array<std::vector<std::uint8_t>, 3> parts;
+};
+
 /// A slice: an image, or a frame of an image that has several.
 struct DicomFrame {
-  std::string file;
+  std::string file;        ///< empty: missing, where gaps are allowed
   std::size_t number = 0;  ///< of the frame in its file
   std::string series;      ///< its UID
   std::string title;       ///< "301 T1 mprage"
@@ -33,22 +49,41 @@ struct DicomFrame {
   /// By which volumes of one series follow each other: time, acquisition, number.
   double temporal = 0.0, acquisition = 0.0, instance = 0.0;
   std::optional<DicomGradient> gradient;
-  std::string notes;  ///< about how it was understood; the same for all of a kind
-  int bits = 16;      ///< a number takes: 8, 16 or 32
+  std::string notes;     ///< about how it was understood; the same for all of a kind
+  int bits = 16;         ///< a number takes: 8, 16 or 32
+  int bits_stored = 16;  ///< of them belong to it, the highest at `high_bit`
+  int high_bit = 15;
   bool is_signed = false;
   double slope = 1.0, intercept = 0.0;
   bool inverted = false;  ///< MONOCHROME1: large numbers are dark
+  DicomColors colors = DicomColors::kNone;
+  bool planar = false;                          ///< colours plane by plane
+  std::shared_ptr<const DicomPalette> palette;  ///< of kPalette
+  std::optional<std::uint64_t> pixels_at;       ///< of all frames in the file; none: packed
+  bool big_endian = false;
+  std::string units;                            ///< of rescaled numbers: "Gy", "HU", or empty
+  std::optional<std::array<double, 2>> window;  ///< rescaled numbers that are black and white
+
+  [[nodiscard]] int samples() const noexcept {
+    return colors == DicomColors::kRgb || colors == DicomColors::kYbr ? 3 : 1;
+  }
+  /// Of the frame, as stored without packing.
+  [[nodiscard]] std::uint64_t bytes() const noexcept {
+    return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) *
+           static_cast<std::uint64_t>(samples() * bits / 8);
+  }
 };
 
-/// Series UID and title, for finding out what a folder holds; empty where the file has no image.
+/// What a file holds, for finding out what a folder does.
 struct DicomLabel {
-  std::string series, title;
+  std::string series, title;        ///< empty where the file has no image
+  std::vector<std::string> listed;  ///< of a DICOMDIR: the files that it lists, as they lie beside it
 };
-/// @throws Error (bad input) as check_dicom(), or where GDCM cannot read it.
+/// @throws Error (bad input) as DicomFile.
 [[nodiscard]] DicomLabel read_dicom_label(const std::string& file);
 
-/// @throws Error (bad input) naming the file: as check_dicom(), a mosaic, colours, sizes that the pixels do
-/// not have, or no place in the patient.
+/// @throws Error (bad input) naming the file: as DicomFile, a mosaic, colours of another kind, sizes that the pixels
+/// do not have, or frames without a place in the patient.
 [[nodiscard]] std::vector<DicomFrame> read_dicom_frames(const std::string& file);
 
 }  // namespace palpate

@@ -6,10 +6,10 @@
 namespace palpate {
 namespace {
 
-bool has_creator(const DicomScope& scope, std::uint16_t group, std::string_view creator) {
-  constexpr std::uint16_t kFirst = 0x0010, kLast = 0x0020;
-  for (std::uint16_t element = kFirst; element < kLast; ++element) {
-    if (dicom_text(scope, gdcm::Tag(group, element)) == creator) return true;
+bool has_creator(const DicomScope& scope, DicomTag group, std::string_view creator) {
+  constexpr DicomTag kFirst = 0x0010, kLast = 0x0020;
+  for (DicomTag element = kFirst; element < kLast; ++element) {
+    if (dicom_text(scope, group << 16U | element) == creator) return true;
   }
   return false;
 }
@@ -22,21 +22,21 @@ Vec3 unit_or_zero(const std::vector<double>& numbers) {
 }
 
 std::optional<DicomGradient> of_standard(const DicomScope& scope) {
-  const auto b = dicom_number(scope, gdcm::Tag(0x0018, 0x9087));
+  const auto b = dicom_number(scope, 0x00189087);
   if (!b) return std::nullopt;
-  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, gdcm::Tag(0x0018, 0x9089), true))};
+  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x00189089, true))};
 }
 
 std::optional<DicomGradient> of_siemens(const DicomScope& scope) {
   if (!has_creator(scope, 0x0019, "SIEMENS MR HEADER")) return std::nullopt;
-  const auto b = dicom_number(scope, gdcm::Tag(0x0019, 0x100c));
+  const auto b = dicom_number(scope, 0x0019100c);
   if (!b) return std::nullopt;
-  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, gdcm::Tag(0x0019, 0x100e), true))};
+  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x0019100e, true))};
 }
 
 std::optional<DicomGradient> of_ge(const DicomScope& scope, DicomFrame& frame) {
   if (!has_creator(scope, 0x0043, "GEMS_PARM_01")) return std::nullopt;
-  auto b = dicom_number(scope, gdcm::Tag(0x0043, 0x1039));
+  auto b = dicom_number(scope, 0x00431039);
   if (!b) return std::nullopt;
   // Some of its software adds 1e9 to mark the value.
   constexpr double kMark = 1e9;
@@ -44,11 +44,11 @@ std::optional<DicomGradient> of_ge(const DicomScope& scope, DicomFrame& frame) {
   DicomGradient gradient{*b, Vec3(0.0)};
   if (!has_creator(scope, 0x0019, "GEMS_ACQU_01")) return gradient;
   std::vector<double> numbers;
-  for (const std::uint16_t element : {0x10bb, 0x10bc, 0x10bd}) {
-    if (const auto number = dicom_number(scope, gdcm::Tag(0x0019, element))) numbers.push_back(*number);
+  for (const DicomTag tag : {0x001910bbU, 0x001910bcU, 0x001910bdU}) {
+    if (const auto number = dicom_number(scope, tag)) numbers.push_back(*number);
   }
   const Vec3 g = unit_or_zero(numbers);
-  const bool rows = dicom_text(scope, gdcm::Tag(0x0018, 0x1312)).starts_with("ROW");
+  const bool rows = dicom_text(scope, 0x00181312).starts_with("ROW");
   const Vec3 normal = glm::cross(frame.along_row, frame.along_column);
   gradient.direction = rows ? g.y * frame.along_row - g.x * frame.along_column - g.z * normal
                             : g.x * frame.along_row + g.y * frame.along_column - g.z * normal;

@@ -11,7 +11,9 @@
 #include <gdcmTrace.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/load/dicom_mark.h"
 #include "common/load/volume_block.h"
 #include "common/math/lattice.h"
 #include "loaders/dicom/dicom_pixels.h"
@@ -22,26 +24,39 @@ namespace {
 
 constexpr std::size_t kMostFiles = 200'000;
 
+struct Found {
+  std::vector<std::string> files;
+  std::size_t others = 0;  ///< that are no DICOM
+};
+
 bool is_dicom(const std::filesystem::path& path) {
-  constexpr std::size_t kHead = 132;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  std::string head(kHead, '\0');
+  std::string head(kDicomHeadBytes, '\0');
   std::ifstream file(path, std::ios::binary);
-  return file.read(head.data(), kHead) && head.ends_with("DICM");
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(as_size(file.gcount()));
+  return is_dicom_start(head);
 }
 
-/// DICOM files of a folder by name.
-std::vector<std::string> files_in(const std::filesystem::path& folder) {
-  std::vector<std::string> files;
+/// DICOM files of a folder by name, those of folders in it too where `deep`.
+Found files_in(const std::filesystem::path& folder, bool deep) {
+  constexpr int kDeepest = 12;
+  Found found;
   std::error_code error;
-  for (auto it = std::filesystem::directory_iterator(folder, error);
-       !error && it != std::filesystem::directory_iterator() && files.size() < kMostFiles;
+  std::filesystem::recursive_directory_iterator it(
+      folder, std::filesystem::directory_options::skip_permission_denied, error);
+  for (; !error && it != std::filesystem::recursive_directory_iterator() && found.files.size() < kMostFiles;
        it.increment(error)) {
-    if (is_dicom(it->path())) files.push_back(it->path().string());
+    if (!deep || it.depth() >= kDeepest) it.disable_recursion_pending();
+    std::error_code ignored;
+    if (!it->is_regular_file(ignored)) continue;
+    if (is_dicom(it->path())) {
+      found.files.push_back(it->path().string());
+    } else {
+      ++found.others;
+    }
   }
-  std::sort(files.begin(), files.end());
-  return files;
+  std::sort(found.files.begin(), found.files.end());
+  return found;
 }
 
 struct Listed {
@@ -58,20 +73,38 @@ std::string list_of(const std::vector<Listed>& all) {
   return text;
 }
 
-/// Series with images, in the order of their first files.
-std::vector<Listed> list_series(const std::vector<std::string>& files) {
+/// Series with images, in the order of their first files. A file that is damaged costs that file and a word in `notes`.
+std::vector<Listed> list_series(const Found& found, std::vector<std::string>& notes) {
   std::vector<Listed> all;
-  for (const std::string& file : files) {
-    DicomLabel label = read_dicom_label(file);
-    if (label.series.empty() && label.title.empty()) continue;
-    const auto found =
+  std::string damaged;
+  std::size_t damaged_count = 0, without_image = 0;
+  for (const std::string& file : found.files) {
+    DicomLabel label;
+    try {
+      label = read_dicom_label(file);
+    } catch (const Error& error) {
+      if (damaged_count++ == 0) damaged = error.what();
+      continue;
+    }
+    if (label.series.empty() && label.title.empty()) {
+      if (label.listed.empty()) ++without_image;
+      continue;
+    }
+    const auto known =
         std::find_if(all.begin(), all.end(), [&](const Listed& one) { return one.series == label.series; });
-    if (found == all.end()) {
+    if (known == all.end()) {
       all.push_back({std::move(label.series), std::move(label.title), {file}});
     } else {
-      found->files.push_back(file);
+      known->files.push_back(file);
     }
   }
+  if (all.empty() && damaged_count > 0) throw Error(ExitCode::kBadInput, damaged);
+  if (damaged_count > 0) {
+    notes.push_back(counted(damaged_count, "damaged file") + " left out: " + damaged +
+                    (damaged_count > 1 ? ", …" : ""));
+  }
+  if (without_image > 0) notes.push_back(counted(without_image, "DICOM file") + " without an image left out");
+  if (found.others > 0) notes.push_back(counted(found.others, "file") + " of other kinds left out");
   return all;
 }
 
@@ -89,23 +122,28 @@ class DicomLoader : public Loader {
   FileInfo open(const LoadRequest& request, Format) override {
     gdcm::Trace::WarningOff();
     gdcm::Trace::ErrorOff();
+    FileInfo info;
     std::string title;
-    const std::vector<std::string> files = choose_files(request, title);
+    const std::vector<std::string> files = choose_files(request, title, info.notes);
     std::vector<DicomFrame> frames;
     for (const std::string& file : files) {
       const std::vector<DicomFrame> of_file = read_dicom_frames(file);
       frames.insert(frames.end(), of_file.begin(), of_file.end());
     }
-    series_ = sort_dicom_series(std::move(frames));
+    series_ = sort_dicom_series(std::move(frames), request.allow_gaps);
 
-    FileInfo info;
     info.anatomical = true;
     info.units = "coordinates in mm";
-    info.notes.push_back("series " + title + ", " + counted(files.size(), "file") + "; LPS turned into RAS+");
+    info.notes.insert(info.notes.begin(),
+                      "series " + title + ", " + counted(files.size(), "file") + "; LPS turned into RAS+");
     info.notes.insert(info.notes.end(), series_.notes.begin(), series_.notes.end());
     const Index3& n = series_.topology.points;
     const auto points = count_of(n);
-    array_ = {"scalars", Association::kPoint, 1, dicom_value_type(series_), points};
+    array_ = {"scalars", Association::kPoint, dicom_components(series_), dicom_value_type(series_), points};
+    if (array_.components > 1) array_.name = kColorArray;
+    const DicomFrame& middle = series_.frames[as_size(n.z) / 2];
+    if (!middle.units.empty()) info.units += ", values in " + middle.units;
+    info.window = middle.window;
     volumes_ = {0};
     if (request.diffusion) {
       describe_diffusion(info);
@@ -125,27 +163,36 @@ class DicomLoader : public Loader {
 
  private:
   /// The files of the series that is meant: all of a folder's one, that of a file, or those that are named.
-  static std::vector<std::string> choose_files(const LoadRequest& request, std::string& title) {
+  static std::vector<std::string> choose_files(const LoadRequest& request, std::string& title,
+                                               std::vector<std::string>& notes) {
     const std::filesystem::path& first = request.files.front();
     std::error_code ignored;
     const bool folder = std::filesystem::is_directory(first, ignored);
-    std::vector<std::string> files;
+    const std::string place = first.string();
+    Found found;
+    bool several = folder;
     if (request.files.size() > 1) {
       for (const auto& file : request.files) {
         if (std::filesystem::is_directory(file, ignored))
           throw input_error({file.string(), "", "is a folder among files", "one folder, or files", ""});
-        files.push_back(file.string());
+        found.files.push_back(file.string());
       }
+      several = true;
+    } else if (folder) {
+      found = files_in(first, true);
     } else {
-      files = files_in(folder ? first : first.has_parent_path() ? first.parent_path() : ".");
+      const DicomLabel label = read_dicom_label(place);  // refuses a damaged file that is named
+      several = !label.listed.empty();
+      found = several ? listed_files(label, place, notes)
+                      : files_in(first.has_parent_path() ? first.parent_path() : ".", false);
+      if (!several) found.others = 0;  // nobody asked for them
     }
-    const std::vector<Listed> all = list_series(files);
-    const std::string place = first.string();
+    const std::vector<Listed> all = list_series(found, notes);
     if (all.empty()) throw input_error({place, "", "holds no image", "DICOM images", ""});
     const Listed* series = nullptr;
     if (!request.series.empty()) {
       series = &chosen(all, request.series, place);
-    } else if (folder || request.files.size() > 1) {
+    } else if (several) {
       if (all.size() > 1) {
         throw usage_error(place + ": holds " + std::to_string(all.size()) + " series: " + list_of(all) +
                           "; choose one by --series NUMBER");
@@ -162,7 +209,27 @@ class DicomLoader : public Loader {
     return series->files;
   }
 
+  static Found listed_files(const DicomLabel& label, const std::string& file,
+                            std::vector<std::string>& notes) {
+    Found found;
+    std::size_t missing = 0;
+    for (const std::string& name : label.listed) {
+      std::error_code ignored;
+      if (std::filesystem::is_regular_file(name, ignored)) {
+        found.files.push_back(name);
+      } else {
+        ++missing;
+      }
+    }
+    if (found.files.empty())
+      throw input_error(
+          {file, "", "lists " + counted(missing, "file") + ", of which none is there", "them beside it"});
+    if (missing > 0) notes.push_back(counted(missing, "file") + " that DICOMDIR lists not there");
+    return found;
+  }
+
   void describe_diffusion(FileInfo& info) {
+    if (array_.components > 1) return;  // colours
     if (series_.volumes > kMostGradients) {
       throw input_error({series_.frames.front().file, "",
                          "belongs to a series of " + std::to_string(series_.volumes) + " volumes",

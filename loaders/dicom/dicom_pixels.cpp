@@ -1,16 +1,22 @@
 #include "loaders/dicom/dicom_pixels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <gdcmImageReader.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/mapped_file.h"
+#include "common/load/voxel_bytes.h"
 
 namespace palpate {
 namespace {
@@ -20,78 +26,160 @@ namespace {
   throw input_error({file, "pixels", found, "", remedy});
 }
 
-/// The decoded bytes of all frames of a file.
-std::vector<char> decode(const DicomFrame& frame, gdcm::PixelFormat& format) {
-  const auto pixels = static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows);
+/// All frames of a file, and how their numbers lie.
+struct Pixels {
+  std::vector<std::byte> bytes;
+  int bits_stored = 16, high_bit = 15;
+  bool planar = false, ybr = false;
+};
+
+Pixels decode(const DicomFrame& frame) {
+  Pixels pixels;
   gdcm::ImageReader reader;
   reader.SetFileName(frame.file.c_str());
-  std::vector<char> bytes;
   try {
     if (!reader.Read())
       refuse_pixels(frame.file, "cannot be read", "their transfer syntax may be unknown to GDCM");
     const gdcm::Image& image = reader.GetImage();
     const unsigned int* size = image.GetDimensions();
-    format = image.GetPixelFormat();
-    const bool same = size[0] == static_cast<unsigned>(frame.columns) &&
-                      size[1] == static_cast<unsigned>(frame.rows) && format.GetSamplesPerPixel() == 1 &&
-                      format.GetBitsAllocated() == frame.bits;
+    const gdcm::PixelFormat format = image.GetPixelFormat();
+    const bool same =
+        size[0] == static_cast<unsigned>(frame.columns) && size[1] == static_cast<unsigned>(frame.rows) &&
+        format.GetSamplesPerPixel() == frame.samples() && format.GetBitsAllocated() == frame.bits;
     const std::uint64_t frames = image.GetNumberOfDimensions() > 2 ? size[2] : 1;
-    if (!same || frame.number >= frames) refuse_pixels(frame.file, "are not as many as the header says");
-    const std::uint64_t wanted = pixels * frames * static_cast<std::uint64_t>(frame.bits / 8);
-    if (image.GetBufferLength() != wanted) refuse_pixels(frame.file, "are not as many as the header says");
-    bytes.resize(wanted);
-    if (!image.GetBuffer(bytes.data()))
+    const std::uint64_t wanted = frame.bytes() * frames;
+    if (!same || frame.number >= frames || image.GetBufferLength() != wanted)
+      refuse_pixels(frame.file, "are not as many as the header says");
+    pixels.bytes.resize(wanted);
+    fill_with_pattern(pixels.bytes);
+    if (!image.GetBuffer(reinterpret_cast<char*>(pixels.bytes.data())))
       refuse_pixels(frame.file, "cannot be decoded",
                     "the file may be cut off, or its transfer syntax unknown to GDCM");
+    check_voxel_counts(frame.file, {.wanted = wanted, .written = written_bytes(pixels.bytes)});
+    pixels.bits_stored = format.GetBitsStored();
+    pixels.high_bit = format.GetHighBit();
+    pixels.planar = image.GetPlanarConfiguration() == 1;
+    const auto meaning = image.GetPhotometricInterpretation();
+    pixels.ybr = meaning == gdcm::PhotometricInterpretation::YBR_FULL ||
+                 meaning == gdcm::PhotometricInterpretation::YBR_FULL_422;
   } catch (const Error&) {
     throw;
   } catch (const std::exception&) {
     refuse_pixels(frame.file, "cannot be decoded", "the file may be damaged");
   }
-  return bytes;
+  return pixels;
 }
 
-/// A number as stored: bits above the stored ones are not part of it.
+/// The bytes of all frames of the file, in this machine's byte order.
+Pixels pixels_of(const DicomFrame& frame, std::size_t frames) {
+  if (!frame.pixels_at) return decode(frame);
+  Pixels pixels{.bytes = {},
+                .bits_stored = frame.bits_stored,
+                .high_bit = frame.high_bit,
+                .planar = frame.planar,
+                .ybr = frame.colors == DicomColors::kYbr};
+  const MappedFile mapped(frame.file);
+  const std::string_view text =
+      mapped.text().substr(std::min<std::size_t>(*frame.pixels_at, mapped.text().size()));
+  const std::uint64_t wanted = frame.bytes() * frames;
+  check_voxel_counts(frame.file, {.wanted = wanted, .found = text.size()});
+  pixels.bytes.resize(wanted);
+  std::memcpy(pixels.bytes.data(), text.data(), wanted);
+  to_native(pixels.bytes, as_size(frame.bits / 8), frame.big_endian);
+  return pixels;
+}
+
+/// A number as stored: bits beside the stored ones are not part of it.
 template <typename T>
-T stored_number(const char* bytes, int unused) noexcept {
+T stored_number(const std::byte* bytes, int above, int beside) noexcept {
   T number;
   std::memcpy(&number, bytes, sizeof(T));
   using Unsigned = std::make_unsigned_t<T>;
-  const auto shifted = static_cast<T>(static_cast<Unsigned>(static_cast<Unsigned>(number) << unused));
-  return static_cast<T>(shifted >> unused);
+  const auto shifted = static_cast<T>(static_cast<Unsigned>(static_cast<Unsigned>(number) << above));
+  return static_cast<T>(shifted >> beside);
 }
 
+/// Hands `take` the numbers of a frame, sample by sample of pixel after pixel.
 template <typename T, typename Take>
-void for_each_number(const std::vector<char>& bytes, std::size_t first, std::size_t count, int unused,
-                     const Take& take) {
-  for (std::size_t i = 0; i < count; ++i)
-    take(i, stored_number<T>(bytes.data() + (first + i) * sizeof(T), unused));
+void for_each_number(const DicomFrame& frame, const Pixels& pixels, const Take& take) {
+  const int above = frame.bits - 1 - pixels.high_bit, beside = frame.bits - pixels.bits_stored;
+  const auto samples = as_size(frame.samples()), count = as_size(frame.columns) * as_size(frame.rows);
+  const std::byte* const first = pixels.bytes.data() + frame.number * frame.bytes();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t s = 0; s < samples; ++s) {
+      const std::size_t at = pixels.planar ? s * count + i : samples * i + s;
+      take(samples * i + s, stored_number<T>(first + at * sizeof(T), above, beside));
+    }
+  }
 }
 
 template <typename Take>
-void visit(const DicomFrame& frame, const std::vector<char>& bytes, int unused, const Take& take) {
-  const std::size_t count = static_cast<std::size_t>(frame.columns) * static_cast<std::size_t>(frame.rows);
-  const std::size_t first = frame.number * count;
+void visit(const DicomFrame& frame, const Pixels& pixels, const Take& take) {
   switch (frame.bits) {
     case 8:
-      return frame.is_signed ? for_each_number<std::int8_t>(bytes, first, count, unused, take)
-                             : for_each_number<std::uint8_t>(bytes, first, count, unused, take);
+      return frame.is_signed ? for_each_number<std::int8_t>(frame, pixels, take)
+                             : for_each_number<std::uint8_t>(frame, pixels, take);
     case 16:
-      return frame.is_signed ? for_each_number<std::int16_t>(bytes, first, count, unused, take)
-                             : for_each_number<std::uint16_t>(bytes, first, count, unused, take);
+      return frame.is_signed ? for_each_number<std::int16_t>(frame, pixels, take)
+                             : for_each_number<std::uint16_t>(frame, pixels, take);
     default:
-      return frame.is_signed ? for_each_number<std::int32_t>(bytes, first, count, unused, take)
-                             : for_each_number<std::uint32_t>(bytes, first, count, unused, take);
+      return frame.is_signed ? for_each_number<std::int32_t>(frame, pixels, take)
+                             : for_each_number<std::uint32_t>(frame, pixels, take);
+  }
+}
+
+std::uint8_t color_byte(double value) noexcept {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+}
+
+/// PS3.3 C.7.6.3.1.2, turned around.
+void to_rgb(std::uint8_t* ybr) noexcept {
+  const double y = ybr[0], b = ybr[1] - 128.0, r = ybr[2] - 128.0;
+  ybr[0] = color_byte(y + 1.402 * r);
+  ybr[1] = color_byte(y - 0.344136 * b - 0.714136 * r);
+  ybr[2] = color_byte(y + 1.772 * b);
+}
+
+/// Puts the numbers of a frame where tuples want them: the first one at `out`, the next `stride` numbers on.
+template <typename T>
+void put(const DicomFrame& frame, const Pixels& pixels, T* out, std::size_t stride) {
+  if (frame.colors == DicomColors::kPalette) {
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      visit(frame, pixels, [&](std::size_t i, auto number) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto& part = frame.palette->parts[c];
+          const std::int64_t at = static_cast<std::int64_t>(number) - frame.palette->first;
+          out[3 * i + c] =
+              part[as_size(std::clamp<std::int64_t>(at, 0, static_cast<std::int64_t>(part.size()) - 1))];
+        }
+      });
+    }
+    return;
+  }
+  const auto samples = as_size(frame.samples());
+  visit(frame, pixels, [&](std::size_t i, auto number) {
+    T& value = out[i / samples * stride + i % samples];
+    const double rescaled = frame.slope * static_cast<double>(number) + frame.intercept;
+    if constexpr (std::is_floating_point_v<T>) {
+      value = static_cast<T>(rescaled);
+    } else {
+      value =
+          frame.slope == 1.0 && frame.intercept == 0.0 ? static_cast<T>(number) : static_cast<T>(rescaled);
+    }
+  });
+  if constexpr (std::is_same_v<T, std::uint8_t>) {
+    if (!pixels.ybr || samples != 3) return;
+    for (std::size_t i = 0; i < as_size(frame.columns) * as_size(frame.rows); ++i) to_rgb(out + 3 * i);
   }
 }
 
 template <typename T>
 DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>& volumes,
                       const std::function<void(double)>& on_progress) {
-  const auto slices = static_cast<std::size_t>(series.topology.points.z);
-  const std::size_t pixels =
-      static_cast<std::size_t>(series.topology.points.x) * static_cast<std::size_t>(series.topology.points.y);
-  auto values = std::make_shared<std::vector<T>>(pixels * slices * volumes.size());
+  const auto slices = as_size(series.topology.points.z);
+  const std::size_t pixels = as_size(series.topology.points.x) * as_size(series.topology.points.y);
+  const std::size_t stride = volumes.size() * as_size(dicom_components(series));
+  auto values = std::make_shared<std::vector<T>>(pixels * slices * stride);
   // Files with several frames are decoded once.
   std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> by_file;
   for (std::size_t c = 0; c < volumes.size(); ++c) {
@@ -100,26 +188,25 @@ DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>&
   }
   std::size_t done = 0;
   for (const auto& [file, parts] : by_file) {
-    gdcm::PixelFormat format;
-    const DicomFrame& any = series.frames[volumes[parts.front().first] * slices + parts.front().second];
-    const std::vector<char> bytes = decode(any, format);
-    const int unused = std::clamp(format.GetBitsAllocated() - format.GetBitsStored(), 0, any.bits - 1);
-    for (const auto& [c, k] : parts) {
-      const DicomFrame& frame = series.frames[volumes[c] * slices + k];
-      visit(frame, bytes, unused, [&, c = c, k = k](std::size_t i, auto number) {
-        T& value = (*values)[(k * pixels + i) * volumes.size() + c];
-        if constexpr (std::is_floating_point_v<T>) {
-          value = static_cast<T>(frame.slope * static_cast<double>(number) + frame.intercept);
-        } else {
-          value =
-              static_cast<T>(number);  // NOLINT(bugprone-signed-char-misuse): signed voxels keep their sign
-        }
-      });
+    const auto frame_of = [&](const auto& part) -> const DicomFrame& {
+      return series.frames[volumes[part.first] * slices + part.second];
+    };
+    if (file.empty()) {
+      for (const auto& [c, k] : parts) {
+        for (std::size_t i = 0; i < pixels; ++i)
+          (*values)[(k * pixels + i) * stride + c] = std::numeric_limits<T>::quiet_NaN();
+      }
+      continue;
     }
+    std::size_t frames = 0;
+    for (const auto& part : parts) frames = std::max(frames, frame_of(part).number + 1);
+    const Pixels decoded = pixels_of(frame_of(parts.front()), frames);
+    for (const auto& part : parts)
+      put(frame_of(part), decoded, values->data() + part.second * pixels * stride + part.first, stride);
     if (on_progress) on_progress(static_cast<double>(++done) / static_cast<double>(by_file.size()));
   }
   DataArray array;
-  array.components = static_cast<int>(volumes.size());
+  array.components = static_cast<int>(stride);
   array.type = dicom_value_type(series);
   array.tuples = pixels * slices;
   array.bytes = std::as_bytes(std::span<const T>(*values));
@@ -127,16 +214,42 @@ DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>&
   return array;
 }
 
+/// The least and the largest number that a frame may hold, rescaled.
+std::pair<double, double> range_of(const DicomFrame& frame) noexcept {
+  const double steps = std::ldexp(1.0, frame.bits_stored);
+  const double low = frame.is_signed ? -0.5 * steps : 0.0, high = low + steps - 1.0;
+  const double a = frame.slope * low + frame.intercept, b = frame.slope * high + frame.intercept;
+  return {std::min(a, b), std::max(a, b)};
+}
+
 }  // namespace
 
+int dicom_components(const DicomSeries& series) noexcept {
+  return series.frames.front().colors == DicomColors::kNone ? 1 : 3;
+}
+
 ScalarType dicom_value_type(const DicomSeries& series) noexcept {
+  const DicomFrame& first = series.frames.front();
+  if (first.colors == DicomColors::kPalette) return ScalarType::kUint8;
+  bool missing = false, rescaled = false, whole = true;
+  double low = HUGE_VAL, high = -HUGE_VAL;
   for (const DicomFrame& frame : series.frames) {
-    if (frame.slope != 1.0 || frame.intercept != 0.0) return ScalarType::kFloat32;
+    missing = missing || frame.file.empty();
+    if (frame.file.empty()) continue;
+    rescaled = rescaled || frame.slope != 1.0 || frame.intercept != 0.0;
+    whole = whole && frame.slope == std::round(frame.slope) && frame.intercept == std::round(frame.intercept);
+    low = std::min(low, range_of(frame).first);
+    high = std::max(high, range_of(frame).second);
   }
-  const DicomFrame& frame = series.frames.front();
-  if (frame.bits == 8) return frame.is_signed ? ScalarType::kInt8 : ScalarType::kUint8;
-  if (frame.bits == 16) return frame.is_signed ? ScalarType::kInt16 : ScalarType::kUint16;
-  return frame.is_signed ? ScalarType::kInt32 : ScalarType::kUint32;
+  if (rescaled || missing) {
+    const bool small = whole && !missing;
+    if (small && low >= -32768.0 && high <= 32767.0) return ScalarType::kInt16;
+    if (small && low >= 0.0 && high <= 65535.0) return ScalarType::kUint16;
+    return first.bits > 16 ? ScalarType::kFloat64 : ScalarType::kFloat32;
+  }
+  if (first.bits == 8) return first.is_signed ? ScalarType::kInt8 : ScalarType::kUint8;
+  if (first.bits == 16) return first.is_signed ? ScalarType::kInt16 : ScalarType::kUint16;
+  return first.is_signed ? ScalarType::kInt32 : ScalarType::kUint32;
 }
 
 DataArray read_dicom_values(const DicomSeries& series, const std::vector<std::size_t>& volumes,
@@ -154,8 +267,10 @@ DataArray read_dicom_values(const DicomSeries& series, const std::vector<std::si
       return read_values<std::int32_t>(series, volumes, on_progress);
     case ScalarType::kUint32:
       return read_values<std::uint32_t>(series, volumes, on_progress);
-    default:
+    case ScalarType::kFloat32:
       return read_values<float>(series, volumes, on_progress);
+    default:
+      return read_values<double>(series, volumes, on_progress);
   }
 }
 

@@ -1,4 +1,4 @@
-/// The numbers of DICOM images, of any transfer syntax that GDCM decodes.
+/// The numbers of DICOM images: as they stand in the file, or of any packing that GDCM decodes.
 #pragma once
 
 #include <functional>
@@ -9,10 +9,15 @@
 
 namespace palpate {
 
-/// The type that numbers have: as stored where nothing is rescaled, else single precision.
+/// The type that numbers have: as stored where nothing is rescaled, whole numbers of 16 bits where all rescaled ones
+/// are, else floating-point numbers that hold them; floating-point ones, too, where slices are missing.
 [[nodiscard]] ScalarType dicom_value_type(const DicomSeries& series) noexcept;
 
-/// @param volumes component c of a tuple is volume volumes[c], each below series.volumes.
+/// Numbers of a pixel: 3 of colours.
+[[nodiscard]] int dicom_components(const DicomSeries& series) noexcept;
+
+/// Missing slices are NaN.
+/// @param volumes component c of a tuple is volume volumes[c], each below series.volumes; one of colours.
 /// @throws Error (bad input) where pixels cannot be decoded or are not as many as the header says.
 [[nodiscard]] DataArray read_dicom_values(const DicomSeries& series, const std::vector<std::size_t>& volumes,
                                           const std::function<void(double)>& on_progress);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -15,6 +16,7 @@ namespace {
 constexpr double kSameDirection = 1e-3, kSameStep = 1e-3;
 // Of the distance of slices: closer ones are at one place, and those farther from an even place are not even.
 constexpr double kSamePlace = 0.05, kEven = 0.05;
+constexpr int kMostMissing = 1000;  // between two slices
 
 [[noreturn]] void refuse(const DicomFrame& frame, const std::string& found, const std::string& expected,
                          const std::string& remedy = "") {
@@ -28,7 +30,7 @@ void check_alike(const std::vector<DicomFrame>& frames) {
     const char* differs = nullptr;
     if (b.rows != a.rows || b.columns != a.columns) {
       differs = "size";
-    } else if (b.bits != a.bits || b.is_signed != a.is_signed) {
+    } else if (b.bits != a.bits || b.is_signed != a.is_signed || b.colors != a.colors) {
       differs = "type of pixels";
     } else if (glm::distance(a.along_row, b.along_row) > kSameDirection ||
                glm::distance(a.along_column, b.along_column) > kSameDirection) {
@@ -60,31 +62,42 @@ std::vector<double> places_of(const std::vector<std::pair<double, std::size_t>>&
   return places;
 }
 
-void check_even(const std::vector<double>& places, const DicomFrame& first) {
-  if (places.size() < 3) return;
+/// Which step along the normal each place is, from 0 on; those between are missing.
+std::vector<std::size_t> steps_of(const std::vector<double>& places, const DicomFrame& first,
+                                  bool allow_gaps) {
+  std::vector<std::size_t> steps(std::min<std::size_t>(places.size(), 2));
+  if (steps.size() == 2) steps[1] = 1;
+  if (places.size() < 3) return steps;
   std::vector<double> gaps;
   for (std::size_t k = 1; k < places.size(); ++k) gaps.push_back(places[k] - places[k - 1]);
   std::vector<double> sorted = gaps;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                    sorted.end());
   const double step = sorted[sorted.size() / 2];
+  steps = {0};
   for (std::size_t k = 0; k < gaps.size(); ++k) {
+    const double across = gaps[k] / step;
+    const bool sensible = across < static_cast<double>(kMostMissing);
+    const auto missing = sensible ? static_cast<long>(std::lround(across)) - 1 : 0;
+    steps.push_back(steps.back() + as_size(std::max(0L, missing)) + 1);
     if (std::abs(gaps[k] - step) <= kEven * step) continue;
-    const double steps = gaps[k] / step;
-    const auto missing = static_cast<long>(std::lround(steps)) - 1;
     const std::string between = "between " + short_number(places[k]) + " and " + short_number(places[k + 1]) +
                                 " mm along the normal of the slices";
-    if (missing > 0 && std::abs(steps - static_cast<double>(missing) - 1.0) <= kEven * steps) {
+    const bool lacking =
+        missing > 0 && std::abs(across - static_cast<double>(missing) - 1.0) <= kEven * across;
+    if (lacking && allow_gaps) continue;
+    if (lacking) {
       refuse(first,
-             "belongs to a series in which " + counted(static_cast<std::size_t>(missing), "slice") + " of " +
+             "belongs to a series in which " + counted(as_size(missing), "slice") + " of " +
                  short_number(step) + " mm lack" + (missing == 1 ? "s " : " ") + between,
-             "all slices of the volume", "copy the missing files here");
+             "all slices of the volume", "copy the missing files here, or leave gaps with --allow-gaps");
     }
     refuse(first,
            "belongs to a series that is not evenly spaced: " + short_number(gaps[k]) + " mm " + between +
                ", " + short_number(step) + " mm elsewhere",
            "slices at even distances", "name the files that belong together");
   }
+  return steps;
 }
 
 Vec3 ras(const Vec3& lps) { return {-lps.x, -lps.y, lps.z}; }
@@ -128,7 +141,7 @@ void take_gradients(DicomSeries& series, std::size_t slices) {
 
 }  // namespace
 
-DicomSeries sort_dicom_series(std::vector<DicomFrame> frames) {
+DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
   check_alike(frames);
   const DicomFrame first = frames.front();
   const Vec3 normal = glm::normalize(glm::cross(first.along_row, first.along_column));
@@ -136,7 +149,7 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames) {
   for (std::size_t i = 0; i < frames.size(); ++i) along.emplace_back(glm::dot(normal, frames[i].position), i);
   std::sort(along.begin(), along.end());
   const std::vector<double> places = places_of(along);
-  check_even(places, first);
+  const std::vector<std::size_t> steps = steps_of(places, first, allow_gaps);
 
   // The images of each place in the order in which they were taken: the same number of each is a volume.
   std::vector<std::vector<DicomFrame>> at(places.size());
@@ -162,17 +175,24 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames) {
              std::tie(b.temporal, b.acquisition, b.instance, b.number);
     });
   }
+  const std::size_t slices = steps.back() + 1;
+  DicomFrame missing = first;
+  missing.file.clear();
+  series.frames.assign(series.volumes * slices, missing);
   for (std::size_t v = 0; v < series.volumes; ++v) {
-    for (const auto& images : at) series.frames.push_back(images[v]);
+    for (std::size_t k = 0; k < at.size(); ++k) series.frames[v * slices + steps[k]] = at[k][v];
+  }
+  if (slices > at.size()) {
+    series.notes.push_back(counted(slices - at.size(), "slice") + " of " + std::to_string(slices) +
+                           " missing: no values there");
   }
 
-  const std::size_t slices = at.size();
   Vec3 step = normal;
   if (slices > 1) {
     const Vec3 low = at.front().front().position, high = at.back().front().position;
     step = (high - low) / static_cast<double>(slices - 1);
-    for (std::size_t k = 0; k < slices; ++k) {
-      const double off = glm::distance(at[k].front().position, low + step * static_cast<double>(k));
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double off = glm::distance(at[k].front().position, low + step * static_cast<double>(steps[k]));
       if (off > kEven * glm::length(step) + 0.1 * std::min(first.row_step, first.column_step))
         refuse(at[k].front(), "lies beside the row of the other slices by " + short_number(off) + " mm",
                "slices in a straight row");
@@ -185,7 +205,7 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames) {
   series.topology.axes[2] = ras(step);
   if (!first.notes.empty()) series.notes.push_back(first.notes);
   if (first.inverted) series.notes.emplace_back("large numbers are dark by its photometric interpretation");
-  take_gradients(series, slices);
+  if (slices == at.size()) take_gradients(series, slices);
   return series;
 }
 

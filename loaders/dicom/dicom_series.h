@@ -25,8 +25,9 @@ struct DicomSeries {
 };
 
 /// Sorts the frames of one series. @pre not empty.
+/// @param allow_gaps slices may be missing: their frames have no file. Diffusion gradients are left aside then.
 /// @throws Error (bad input) naming a file: images of different sizes, orientations or steps; missing or
 /// doubled slices; slices that are not evenly spaced; different gradients within a volume.
-[[nodiscard]] DicomSeries sort_dicom_series(std::vector<DicomFrame> frames);
+[[nodiscard]] DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps = false);
 
 }  // namespace palpate

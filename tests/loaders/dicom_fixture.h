@@ -1,8 +1,11 @@
 /// DICOM images written byte by byte (PS3.5), for tests of their reader.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +30,13 @@ inline std::string dicom_element(std::uint16_t group, std::uint16_t element, con
     put(bytes, static_cast<std::uint16_t>(value.size()));
   }
   return bytes + value;
+}
+
+/// What stands before the elements (PS3.10).
+inline std::string dicom_preamble() {
+  std::string bytes(132, '\0');
+  bytes.replace(128, 4, "DICM");
+  return bytes;
 }
 
 template <typename T>
@@ -58,7 +68,10 @@ struct DicomImage {
   int instance = 1;
   std::string series = "1.2.3", title = "T1", image_type = "ORIGINAL\\PRIMARY\\M\\ND";
   std::string syntax = "1.2.840.10008.1.2.1";
-  int bits_stored = 16;
+  std::string modality = "MR", photometric = "MONOCHROME2";
+  std::string more_of_28, more;                    ///< further elements, of group 28 and from 3000 on
+  std::optional<std::array<double, 2>> window;     ///< middle and width
+  int bits = 16, bits_stored = 16, high_bit = -1;  ///< -1: of the stored ones the highest
   bool is_signed = false;
   std::optional<double> slope, intercept;
   DicomVendor vendor = DicomVendor::kNone;
@@ -87,20 +100,25 @@ struct DicomImage {
     return bytes;
   }
 
-  [[nodiscard]] std::string bytes() const {
+  /// The group of file meta information.
+  [[nodiscard]] std::string meta() const {
+    const std::string uid = series + "." + std::to_string(instance);
+    const std::string meta = dicom_element(0x0002, 0x0001, "OB", std::string("\0\1", 2)) +
+                             dicom_element(0x0002, 0x0002, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+                             dicom_element(0x0002, 0x0003, "UI", uid) +
+                             dicom_element(0x0002, 0x0010, "UI", syntax);
+    return dicom_element(0x0002, 0x0000, "UL", as_bytes_of({static_cast<std::uint32_t>(meta.size())})) + meta;
+  }
+  [[nodiscard]] std::string bytes() const { return dicom_preamble() + meta() + elements(); }
+
+  /// All others.
+  [[nodiscard]] std::string elements() const {
     const std::string uid = series + "." + std::to_string(instance);
     const auto whole = [](int value) { return as_bytes_of({static_cast<std::uint16_t>(value)}); };
-    std::string meta = dicom_element(0x0002, 0x0001, "OB", std::string("\0\1", 2)) +
-                       dicom_element(0x0002, 0x0002, "UI", "1.2.840.10008.5.1.4.1.1.4") +
-                       dicom_element(0x0002, 0x0003, "UI", uid) + dicom_element(0x0002, 0x0010, "UI", syntax);
-    std::string file(128, '\0');
-    file += "DICM" +
-            dicom_element(0x0002, 0x0000, "UL", as_bytes_of({static_cast<std::uint32_t>(meta.size())})) +
-            meta;
-    file += dicom_element(0x0008, 0x0008, "CS", image_type);
+    std::string file = dicom_element(0x0008, 0x0008, "CS", image_type);
     file += dicom_element(0x0008, 0x0016, "UI", "1.2.840.10008.5.1.4.1.1.4");
     file += dicom_element(0x0008, 0x0018, "UI", uid);
-    file += dicom_element(0x0008, 0x0060, "CS", "MR");
+    file += dicom_element(0x0008, 0x0060, "CS", modality);
     file += dicom_element(0x0008, 0x103e, "LO", title);
     file += gradient_elements();
     file += dicom_element(0x0020, 0x000e, "UI", series);
@@ -109,27 +127,64 @@ struct DicomImage {
     file += dicom_element(
         0x0020, 0x0037, "DS",
         decimals({along_row.x, along_row.y, along_row.z, along_column.x, along_column.y, along_column.z}));
-    file += dicom_element(0x0028, 0x0002, "US", whole(1));
-    file += dicom_element(0x0028, 0x0004, "CS", "MONOCHROME2");
+    file += dicom_element(0x0028, 0x0002, "US",
+                          whole(photometric.starts_with("MONO") || photometric.starts_with("P") ? 1 : 3));
+    file += dicom_element(0x0028, 0x0004, "CS", photometric);
+    file += more_of_28;
     file += dicom_element(0x0028, 0x0010, "US", whole(rows));
     file += dicom_element(0x0028, 0x0011, "US", whole(columns));
     file += dicom_element(0x0028, 0x0030, "DS", decimals({row_step, column_step}));
-    file += dicom_element(0x0028, 0x0100, "US", whole(16));
+    file += dicom_element(0x0028, 0x0100, "US", whole(bits));
     file += dicom_element(0x0028, 0x0101, "US", whole(bits_stored));
-    file += dicom_element(0x0028, 0x0102, "US", whole(bits_stored - 1));
+    file += dicom_element(0x0028, 0x0102, "US", whole(high_bit < 0 ? bits_stored - 1 : high_bit));
     file += dicom_element(0x0028, 0x0103, "US", whole(is_signed ? 1 : 0));
+    if (window) file += dicom_element(0x0028, 0x1050, "DS", decimals({(*window)[0]}));
+    if (window) file += dicom_element(0x0028, 0x1051, "DS", decimals({(*window)[1]}));
     if (intercept) file += dicom_element(0x0028, 0x1052, "DS", decimals({*intercept}));
     if (slope) file += dicom_element(0x0028, 0x1053, "DS", decimals({*slope}));
     if (vendor == DicomVendor::kGe) {
       file += dicom_element(0x0043, 0x0010, "LO", "GEMS_PARM_01");
       file += dicom_element(0x0043, 0x1039, "IS", decimals({weighting + 1e9, 8, 0, 0}));
     }
+    file += more;
     if (pixel_bytes) return file + *pixel_bytes;
     std::string numbers;
     for (const std::uint16_t pixel : pixels) put(numbers, pixel);
     return file + dicom_element(0x7fe0, 0x0010, "OW", numbers);
   }
 };
+
+/// Elements of explicit types as those of an implicit transfer syntax; `big`: in big endian, with types.
+/// @param sequences left as they are: there are none.
+inline std::string retyped(const std::string& elements, bool big) {
+  std::string bytes;
+  const auto turned = [](std::string part, std::size_t size) {
+    for (std::size_t at = 0; at + size <= part.size(); at += size)
+      std::reverse(part.begin() + static_cast<std::ptrdiff_t>(at),
+                   part.begin() + static_cast<std::ptrdiff_t>(at + size));
+    return part;
+  };
+  for (std::size_t at = 0; at + 8 <= elements.size();) {
+    const std::string tag = elements.substr(at, 4), type = elements.substr(at + 4, 2);
+    const bool wide = type == "OB" || type == "OW" || type == "UN" || type == "UT" || type == "SQ";
+    std::uint32_t length = 0;
+    std::memcpy(&length, elements.data() + at + (wide ? 8 : 6), wide ? 4 : 2);
+    at += wide ? 12 : 8;
+    std::string value = elements.substr(at, length);
+    at += length;
+    std::string size;
+    put(size, length);
+    if (!big) {
+      bytes += tag + size + value;
+      continue;
+    }
+    if (type == "US" || type == "SS" || type == "OW") value = turned(value, 2);
+    if (type == "FD") value = turned(value, 8);
+    bytes += turned(tag, 2) + type +
+             (wide ? std::string(2, '\0') + turned(size, 4) : turned(size.substr(0, 2), 2)) + value;
+  }
+  return bytes;
+}
 
 /// A sequence of the given items, each the bytes of its elements.
 inline std::string dicom_sequence(std::uint16_t group, std::uint16_t element,
@@ -181,7 +236,7 @@ inline std::string enhanced_dicom(const std::vector<DicomImage>& frames, const s
                      dicom_element(0x0002, 0x0002, "UI", kEnhanced) +
                      dicom_element(0x0002, 0x0003, "UI", first.series + ".1") +
                      dicom_element(0x0002, 0x0010, "UI", first.syntax);
-  return std::string(128, '\0') + "DICM" +
+  return dicom_preamble() +
          dicom_element(0x0002, 0x0000, "UL", as_bytes_of({static_cast<std::uint32_t>(meta.size())})) + meta +
          dicom_element(0x0008, 0x0008, "CS", first.image_type) +
          dicom_element(0x0008, 0x0016, "UI", kEnhanced) +

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/load/find_format.h"
 #include "common/load/load.h"
 #include "tests/loaders/dicom_fixture.h"
 #include "tests/support/temp_folder.h"
@@ -62,8 +63,9 @@ class DicomTest : public ::testing::Test {
     return write(images);
   }
   static Source open(const std::filesystem::path& path, bool diffusion = false,
-                     const std::string& series = "") {
+                     const std::string& series = "", bool allow_gaps = false) {
     LoadRequest request;
+    request.allow_gaps = allow_gaps;
     request.files = {path};
     request.series = series;
     if (diffusion) request.diffusion.emplace();
@@ -153,6 +155,265 @@ TEST_F(DicomTest, RescalesAndExtendsTheSign) {
       pixel = static_cast<std::uint16_t>(((2 * (pixel - 600)) & 0x0FFF) | 0x5000);
   });
   expect_truth(open(folder_.path()).read({"scalars"}).front(), -500.0);
+}
+
+// Types that the file does not say are those of the dictionary: "1 " and "-1024 " are words. Neither preamble nor
+// meta information is needed to see how a file is written.
+TEST_F(DicomTest, TypesFollowFromTheDictionaryWhereTheFileDoesNotSayThem) {
+  for (const char* way :
+       {"implicit", "unknown", "big", "no preamble", "implicit, no meta", "explicit, no meta"}) {
+    const std::string how = way;
+    const TempFolder folder;
+    for (int k : {2, 0, 3, 1}) {
+      DicomImage image = slice(k);
+      image.is_signed = true;
+      image.slope = 1.0;
+      image.intercept = -1024.0;
+      if (how.starts_with("implicit")) image.syntax = "1.2.840.10008.1.2";
+      if (how == "big") image.syntax = "1.2.840.10008.1.2.2";
+      const std::string start = dicom_preamble() + image.meta();
+      std::string file = image.elements();
+      if (how == "unknown") {
+        // All numbers of group 28, as of a program that does not know them.
+        const std::string all = file;
+        file.clear();
+        for (std::size_t at = 0; at + 8 <= all.size();) {
+          std::uint16_t group = 0, element = 0, length = 0;
+          std::memcpy(&group, all.data() + at, 2);
+          std::memcpy(&element, all.data() + at + 2, 2);
+          std::memcpy(&length, all.data() + at + 6, 2);
+          const bool last = group == 0x7fe0;
+          const std::size_t size = last ? all.size() - at : 8U + length;
+          file += group == 0x0028 ? dicom_element(group, element, "UN", all.substr(at + 8, length))
+                                  : all.substr(at, size);
+          at += size;
+        }
+      }
+      if (how.starts_with("implicit")) file = retyped(file, false);
+      if (how == "big") file = retyped(file, true);
+      if (how == "no preamble") file = image.meta() + file;
+      if (how.find("no meta") == std::string::npos && how != "no preamble") file = start + file;
+      folder.write("s" + std::to_string(k), file);
+    }
+    SCOPED_TRACE(how);
+    Source source = open(folder.path());
+    expect_truth(source.read({"scalars"}).front(), -1024.0);
+    EXPECT_TRUE(find_format(folder.path("s0")) == Format::kDicom);
+  }
+}
+
+// Bits beside the stored ones may be above and below them.
+TEST_F(DicomTest, StoredBitsMayLieAnywhere) {
+  (void)write_volume([](DicomImage& image) {
+    image.bits_stored = 12;
+    image.high_bit = 14;
+    for (auto& pixel : image.pixels) pixel = static_cast<std::uint16_t>((pixel & 0x0FFF) << 3U | 0x8005);
+  });
+  expect_truth(open(folder_.path()).read({"scalars"}).front());
+}
+
+TEST_F(DicomTest, ADamagedOrForeignFileCostsThatFileAndAWord) {
+  (void)write_volume();
+  const std::string good = slice(0).bytes();
+  folder_.write("zz cut", good.substr(0, good.size() - 9));
+  folder_.write("zz magic", good.substr(0, 132));
+  folder_.write("zz notes.txt", "no image");
+  DicomImage other = slice(9);
+  other.series = "1.2.9";
+  folder_.write("zz other", other.bytes().substr(0, 400));
+  Source source = open(folder_.path());
+  expect_truth(source.read({"scalars"}).front());
+  std::string notes;
+  for (const std::string& note : source.info().notes) notes += note + "\n";
+  for (const char* words :
+       {"2 damaged files left out: ", "zz cut", "1 DICOM file without an image", "1 file of other kinds"})
+    EXPECT_NE(notes.find(words), std::string::npos) << notes;
+  // Named, it is refused.
+  EXPECT_NE(refusal(folder_.path("zz cut")).find("zz cut"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path("zz magic")).find("holds no image"), std::string::npos);
+  const TempFolder none;
+  none.write("cut", good.substr(0, 500));
+  EXPECT_NE(refusal(none.path()).find("cut"), std::string::npos);
+}
+
+TEST_F(DicomTest, FoldersOfFoldersAndDicomdirHoldSeries) {
+  std::vector<std::string> names;
+  for (int k = 0; k < 4; ++k) {
+    names.push_back("PAT/ST" + std::to_string(k % 2) + "/IM" + std::to_string(k));
+    folder_.write(names.back(), slice(k).bytes());
+  }
+  DicomImage other = slice(0);
+  other.series = "1.2.9";
+  other.title = "localizer";
+  folder_.write("PAT/EXTRA/IM9", other.bytes());
+  const std::string line = refusal(folder_.path(), ExitCode::kUsage);
+  EXPECT_NE(line.find("2 series"), std::string::npos) << line;
+  expect_truth(open(folder_.path(), false, "1.2.3").read({"scalars"}).front());
+
+  // The folder's index names the files of one series, one that is not there, and one outside.
+  std::vector<std::string> records{dicom_element(0x0004, 0x1430, "CS", "PATIENT")};
+  names.emplace_back("PAT/LOST");
+  names.emplace_back("../PAT/EXTRA/IM9");
+  for (std::string name : names) {
+    std::replace(name.begin(), name.end(), '/', '\\');
+    records.push_back(dicom_element(0x0004, 0x1430, "CS", "IMAGE") +
+                      dicom_element(0x0004, 0x1500, "CS", name));
+  }
+  DicomImage index;
+  const auto dicomdir =
+      folder_.write("DICOMDIR", dicom_preamble() + index.meta() + dicom_element(0x0004, 0x1130, "CS", "SET") +
+                                    dicom_sequence(0x0004, 0x1220, records));
+  Source source = open(dicomdir);
+  expect_truth(source.read({"scalars"}).front());
+  std::string notes;
+  for (const std::string& note : source.info().notes) notes += note + "\n";
+  EXPECT_NE(notes.find("1 file that DICOMDIR lists not there"), std::string::npos) << notes;
+}
+
+TEST_F(DicomTest, GapsAreLeftWhereTheyAreAllowed) {
+  (void)write({slice(0), slice(1), slice(2), slice(5), slice(6)});
+  Source source = open(folder_.path(), false, "", true);
+  const DataSet block = source.read({"scalars"}).front();
+  const auto& grid = std::get<UniformTopology>(block.topology);
+  EXPECT_EQ(grid.points, Index3(4, 3, 7));
+  EXPECT_NEAR(glm::length(grid.axes[2]), kStep, 1e-6);
+  const DataArray& values = block.arrays.front();
+  for (std::size_t p = 0; p < values.tuples; ++p) {
+    const std::size_t k = p / 12;
+    const Vec3 ras = grid.origin + grid.axes * Vec3(p % 4, p / 4 % 3, k);
+    if (k == 3 || k == 4) {
+      EXPECT_TRUE(std::isnan(values.at(p))) << k;
+    } else {
+      EXPECT_NEAR(values.at(p), truth({-ras.x, -ras.y, ras.z}), 0.5 + 1e-6) << k;
+    }
+  }
+  EXPECT_NE(source.info().notes.back().find("2 slices of 7 missing"), std::string::npos);
+  EXPECT_NE(refusal(folder_.path()).find("--allow-gaps"), std::string::npos);
+}
+
+/// Frames of the function one after another, in one file.
+std::string dose(const std::vector<double>& offsets, std::optional<double> first, bool flat = false) {
+  DicomImage image = slice(0);
+  image.modality = "RTDOSE";
+  if (flat) {
+    image.along_row = {1, 0, 0};
+    image.along_column = {0, -1, 0};  // the normal leads down
+  }
+  const Vec3 normal = glm::cross(image.along_row, image.along_column);
+  std::string numbers, places;
+  for (const double offset : offsets) {
+    for (int j = 0; j < image.rows; ++j) {
+      for (int i = 0; i < image.columns; ++i) {
+        const Vec3 x = image.position + normal * offset + image.along_row * (image.column_step * i) +
+                       image.along_column * (image.row_step * j);
+        put(numbers, static_cast<std::uint16_t>(std::lround(truth(x))));
+      }
+    }
+    const double stated = first ? *first + (flat ? -offset : offset) : offset;
+    places += (places.empty() ? "" : "\\") + decimals({stated});
+  }
+  image.more_of_28 = dicom_element(0x0028, 0x0008, "IS", std::to_string(offsets.size()));
+  image.more = dicom_element(0x3004, 0x0002, "CS", "GY") + dicom_element(0x3004, 0x000c, "DS", places) +
+               dicom_element(0x3004, 0x000e, "DS", "0.5");
+  image.pixel_bytes = dicom_element(0x7fe0, 0x0010, "OW", numbers);
+  return image.bytes();
+}
+
+TEST_F(DicomTest, ADoseIsPlacedByTheOffsetsOfItsFramesAndScaled) {
+  const std::vector<std::string> files{dose({0, 2.5, 5}, {}), dose({0, -2.5, -5}, {}),
+                                       dose({0, 3, 6}, 5.0, true)};
+  for (const std::string& bytes : files) {
+    const TempFolder folder;
+    Source source = open(folder.write("d.dcm", bytes));
+    EXPECT_EQ(source.info().units, "coordinates in mm, values in Gy");
+    const DataSet block = source.read({"scalars"}).front();
+    const auto& grid = std::get<UniformTopology>(block.topology);
+    ASSERT_EQ(grid.points, Index3(4, 3, 3));
+    for (std::size_t p = 0; p < 36; ++p) {
+      const Vec3 ras = grid.origin + grid.axes * Vec3(p % 4, p / 4 % 3, p / 12);
+      ASSERT_NEAR(block.arrays.front().at(p), 0.5 * truth({-ras.x, -ras.y, ras.z}), 0.26) << p;
+    }
+  }
+  const TempFolder single, far, apart;
+  const Source one = open(single.write("one.dcm", dose({0}, {})));
+  EXPECT_EQ(one.info().blocks.front().points, Index3(4, 3, 1));
+  EXPECT_NE(refusal(far.write("far.dcm", dose({7, 9.5}, {}))).find("begin with 7"), std::string::npos);
+  DicomImage frames = slice(0);
+  frames.more_of_28 = dicom_element(0x0028, 0x0008, "IS", "2");
+  frames.pixels.resize(24);
+  EXPECT_NE(refusal(apart.write("frames.dcm", frames.bytes())).find("no place for each of them"),
+            std::string::npos);
+}
+
+TEST_F(DicomTest, SaysUnitAndWindow) {
+  (void)write_volume([](DicomImage& image) {
+    image.modality = "CT";
+    image.slope = 1.0;
+    image.intercept = -1024.0;
+    image.bits_stored = 12;
+    image.window = {40.0, 401.0};
+  });
+  Source source = open(folder_.path());
+  EXPECT_EQ(source.info().units, "coordinates in mm, values in HU");
+  ASSERT_TRUE(source.info().window);
+  EXPECT_EQ(*source.info().window, (std::array<double, 2>{-160.5, 239.5}));
+  EXPECT_EQ(source.arrays().front().type, ScalarType::kInt16);  // -1024 to 3071
+  expect_truth(source.read({"scalars"}).front(), -1024.0);
+}
+
+TEST_F(DicomTest, ReadsColours) {
+  const auto color = [](int i, int part) { return static_cast<std::uint8_t>((13 * i + 70 * part) % 256); };
+  for (const char* kind : {"RGB", "planar", "YBR_FULL", "PALETTE COLOR"}) {
+    const TempFolder folder;
+    for (int k = 0; k < 2; ++k) {
+      DicomImage image = slice(k);
+      image.photometric = std::string(kind) == "planar" ? "RGB" : kind;
+      image.bits = image.bits_stored = 8;
+      image.more_of_28 =
+          dicom_element(0x0028, 0x0006, "US", as_bytes_of<std::uint16_t>({std::string(kind) == "planar"}));
+      std::string numbers(image.photometric == "PALETTE COLOR" ? 12 : 36, '\0');
+      for (int i = 0; i < 12; ++i) {
+        const int n = 12 * k + i;
+        const double r = color(n, 0), g = color(n, 1), b = color(n, 2);
+        for (int c = 0; c < 3; ++c) {
+          double value = color(n, c);
+          // PS3.3 C.7.6.3.1.2
+          if (image.photometric == "YBR_FULL") {
+            value = c == 0   ? 0.299 * r + 0.587 * g + 0.114 * b
+                    : c == 1 ? -0.1687 * r - 0.3313 * g + 0.5 * b + 128
+                             : 0.5 * r - 0.4187 * g - 0.0813 * b + 128;
+          }
+          const int at = std::string(kind) == "planar" ? 12 * c + i : 3 * i + c;
+          if (image.photometric != "PALETTE COLOR")
+            numbers[static_cast<std::size_t>(at)] =
+                static_cast<char>(std::clamp(std::lround(value), 0L, 255L));
+        }
+        if (image.photometric == "PALETTE COLOR") numbers[static_cast<std::size_t>(i)] = static_cast<char>(n);
+      }
+      for (int c = 0; c < 3 && image.photometric == "PALETTE COLOR"; ++c)
+        image.more += dicom_element(0x0028, static_cast<std::uint16_t>(0x1101 + c), "US",
+                                    as_bytes_of<std::uint16_t>({24, 0, 16}));
+      for (int c = 0; c < 3 && image.photometric == "PALETTE COLOR"; ++c) {
+        std::string table;
+        for (int n = 0; n < 24; ++n) put(table, static_cast<std::uint16_t>(color(n, c) << 8U | 0x7F));
+        image.more += dicom_element(0x0028, static_cast<std::uint16_t>(0x1201 + c), "OW", table);
+      }
+      image.pixel_bytes = dicom_element(0x7fe0, 0x0010, "OB", numbers);
+      folder.write(std::to_string(k), image.bytes());
+    }
+    SCOPED_TRACE(kind);
+    Source source = open(folder.path());
+    const DataSet block = source.read({"colors"}).front();
+    const DataArray& colors = block.arrays.at(0);
+    ASSERT_EQ(colors.components, 3);
+    EXPECT_EQ(colors.type, ScalarType::kUint8);
+    for (int n = 0; n < 24; ++n) {
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(colors.at(static_cast<std::size_t>(n), c), color(n, c),
+                    std::string(kind) == "YBR_FULL" ? 2 : 0)
+            << n;
+    }
+  }
 }
 
 TEST_F(DicomTest, ReadsCompressedPixels) {

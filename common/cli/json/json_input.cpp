@@ -53,6 +53,7 @@ std::string info_json(const InfoSummary& summary) {
     json["times"] = file->times;
     json["orientation"] = summary.orientation;
     json["units"] = file->units.empty() ? Json(nullptr) : Json(file->units);
+    json["window"] = file->window ? Json::array({(*file->window)[0], (*file->window)[1]}) : Json(nullptr);
     json["space"] = file->anatomical ? Json("RAS") : Json(nullptr);
   } else {
     json["format"] = "formula";

@@ -76,6 +76,7 @@ std::string encode(const RequestMessage& request) {
     message["files"] = json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
+    if (open->request.allow_gaps) message["allow_gaps"] = true;
     if (!open->request.surface_markers.empty())
       message["surface_markers"] = text_from_bytes(open->request.surface_markers);
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
@@ -105,6 +106,7 @@ RequestMessage decode_request(std::string_view text) {
     open.format = static_cast<Format>(format);
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("series")) open.request.series = string_at(message, "series");
+    if (message.contains("allow_gaps")) open.request.allow_gaps = bool_at(message, "allow_gaps");
     if (message.contains("surface_markers"))
       open.request.surface_markers = string_at(message, "surface_markers");
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
@@ -149,6 +151,7 @@ std::string encode_info(const FileInfo& info) {
               {"loader", text_from_bytes(info.loader)},
               {"exact_volume", info.exact_volume},
               {"long_axis", info.long_axis ? vector_json(*info.long_axis) : json(nullptr)},
+              {"window", info.window ? json::array({(*info.window)[0], (*info.window)[1]}) : json(nullptr)},
               {"times", info.times},
               {"units", text_from_bytes(info.units)},
               {"anatomical", info.anatomical},
@@ -176,6 +179,11 @@ FileInfo decode_info(std::string_view text) {
   info.diffusion = decode_diffusion(member(answer, "diffusion"));
   info.exact_volume = number_of(member(answer, "exact_volume"), "exact_volume");
   if (!member(answer, "long_axis").is_null()) info.long_axis = vector_at(answer, "long_axis");
+  if (!member(answer, "window").is_null()) {
+    const json& window = array_at(answer, "window");
+    if (window.size() != 2) malformed("'window' has not two numbers");
+    info.window = {number_of(window[0], "window"), number_of(window[1], "window")};
+  }
   for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
   for (const json& object : array_at(answer, "blocks")) {
     BlockInfo block;

@@ -2,12 +2,12 @@
 ///
 /// Requests
 ///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
-///   "refine": n?, "series": text?, "surface_markers": text?}
+///   "refine": n?, "series": text?, "allow_gaps": bool?, "surface_markers": text?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
 ///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool, "diffusion": G,
-///   "exact_volume": v, "long_axis": [x, y, z] or null,
+///   "exact_volume": v, "long_axis": [x, y, z] or null, "window": [a, b] or null,
 ///   "blocks": [{"name", "grid", "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"
