@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "apps/grid/grid_verbs.h"
 #include "common/base/clock.h"
@@ -17,6 +19,7 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/field/grid/image_resample.h"
+#include "common/load/volume_block.h"
 #include "common/load/write/write_image.h"
 
 namespace palpate {
@@ -29,7 +32,7 @@ void check_request(const Document& options) {
     throw usage_error("clip needs something to cut with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
 }
 
-/// The voxels in `--box`, all of them without one, as single-precision numbers; NaN where there is no value.
+/// The voxels in `--box`, all of them without one, in their type.
 DataSet cropped(const DataSet& block, const Document& options) {
   const auto& grid = std::get<UniformTopology>(block.topology);
   IndexBox part{Index3(0), grid.points - 1};
@@ -38,15 +41,23 @@ DataSet cropped(const DataSet& block, const Document& options) {
     if (!found) throw usage_error("--box " + options.slice.box + ": no voxel of the volume lies in it");
     part = *found;
   }
-  const UniformTopology lattice = part_of(grid, part);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  const ResampledImage values =
-      resample(grid, block.arrays.front(), 0, lattice, kNone, options.common.threads);
   DataSet result = block;
-  result.topology = lattice;
+  result.topology = part_of(grid, part);
   result.visible.clear();
-  result.arrays = {make_array(block.arrays.front().name, Association::kPoint, 1, values.values)};
+  result.arrays = {values_of(grid, block.arrays.front(), part)};
   return result;
+}
+
+/// What is written: colours where the volume has them and nothing else is asked for, else its scalar.
+DataSet written_block(Input& input, Progress* progress) {
+  const ScalarChoice choice = input.scalar_choice();
+  if (choice.array != kColorArray || choice.component != ScalarChoice::kMagnitude)
+    return load_volume_block(input, progress);
+  std::vector<DataSet> blocks = input.read({choice.array}, progress);
+  const bool bytes = blocks.size() == 1 && blocks.front().arrays.size() == 1 &&
+                     blocks.front().arrays.front().type == ScalarType::kUint8 &&
+                     std::holds_alternative<UniformTopology>(blocks.front().topology);
+  return bytes ? blocks.front() : load_volume_block(input, progress);
 }
 
 /// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
@@ -75,44 +86,51 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
     throw usage_error("clip needs something to cut voxels with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
-  const DataSet block = cropped(load_volume_block(input, &context.progress), options);
+  const DataSet block = cropped(written_block(input, &context.progress), options);
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = std::get<UniformTopology>(block.topology);
-  const DataArray& array = block.arrays.front();
-  std::vector<float> values(array.tuples);
-  float lowest = HUGE_VALF, highest = -HUGE_VALF;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = static_cast<float>(array.at(i));
-    if (!std::isfinite(values[i])) continue;
-    lowest = std::min(lowest, values[i]);
-    highest = std::max(highest, values[i]);
+  DataArray array = block.arrays.front();
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  std::vector<std::byte> filler(array.bytes.size() /
+                                std::max<std::size_t>(1, array.tuples));  // a voxel: black, or
+  for (std::size_t i = 0; i < array.tuples; ++i) {                        // the lowest value
+    const double value = array.at(i);
+    if (!std::isfinite(value)) continue;
+    highest = std::max(highest, value);
+    if (value >= lowest) continue;
+    lowest = value;
+    const auto voxel = array.bytes.subspan(i * filler.size(), filler.size());
+    if (array.components == 1) std::copy(voxel.begin(), voxel.end(), filler.begin());
   }
-  if (lowest > highest) lowest = highest = 0.0F;
+  if (lowest > highest) lowest = highest = 0.0;
   const Index3 n = summary.lattice.points;
+  const auto bytes = std::make_shared<std::vector<std::byte>>(array.bytes.begin(), array.bytes.end());
   std::size_t i = 0;
-  for (int z = 0; z < n.z; ++z) {
+  for (int z = 0; z < n.z && !beyond.empty(); ++z) {
     for (int y = 0; y < n.y; ++y) {
       for (int x = 0; x < n.x; ++x, ++i) {
         const Vec3 at = summary.lattice.origin + summary.lattice.axes * Vec3(x, y, z);
         const bool cut = std::any_of(beyond.begin(), beyond.end(),
                                      [&](const ConvexShape& shape) { return shape.contains(at); });
-        if (!cut && std::isfinite(values[i])) continue;
-        values[i] = lowest;
+        if (!cut) continue;
+        std::copy(filler.begin(), filler.end(),
+                  bytes->begin() + static_cast<std::ptrdiff_t>(i * filler.size()));
         ++summary.outside;
       }
     }
   }
+  array.bytes = std::as_const(*bytes);
+  array.owner = bytes;
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
-  write_image(options.output.file, summary.lattice, ImageContent::kScalar, values, ImageConvention::kMrtrix,
-              options.common.force, space_of(input));
+  write_image(options.output.file, summary.lattice, array, options.common.force, space_of(input));
   context.interrupt.keep(options.output.file);
   summary.input = input.title();
   summary.field = input.field_label();
   summary.output = options.output.file.string();
-  summary.lowest = static_cast<double>(lowest);
-  summary.highest = static_cast<double>(highest);
+  summary.lowest = lowest;
+  summary.highest = highest;
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   summary.seconds_made = watch.seconds();
   context.console.print(summary.input + ": " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +

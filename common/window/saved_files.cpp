@@ -78,15 +78,8 @@ std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Bo
       }
     }
   }
-  float lowest = HUGE_VALF;
-  for (const float value : values) {
-    if (std::isfinite(value)) lowest = std::min(lowest, value);
-  }
-  for (float& value : values) {
-    if (!std::isfinite(value)) value = std::isfinite(lowest) ? lowest : 0.0F;
-  }
   std::filesystem::path path = free_name("crop", ending);
-  write_image(path, part_of(grid, *part), ImageContent::kScalar, values, ImageConvention::kMrtrix, false,
+  write_image(path, part_of(grid, *part), make_array("scalars", Association::kPoint, 1, values), false,
               space);
   return path;
 }

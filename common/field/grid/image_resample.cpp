@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/base/index.h"
@@ -115,6 +118,29 @@ std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) 
 
 UniformTopology part_of(const UniformTopology& image, const IndexBox& part) noexcept {
   return {part.points(), image.origin + image.axes * Vec3(part.first), image.axes};
+}
+
+DataArray values_of(const UniformTopology& image, const DataArray& values, const IndexBox& part) {
+  const Index3 n = part.points();
+  DataArray result = values;
+  result.tuples = count_of(n);
+  result.sparse = nullptr;
+  const std::size_t size = byte_size(values.type) * as_size(values.components), row = as_size(n.x) * size;
+  auto bytes = std::make_shared<std::vector<std::byte>>(result.tuples * size);
+  std::byte* to = bytes->data();
+  for (int k = part.first.z; k <= part.last.z; ++k) {
+    for (int j = part.first.y; j <= part.last.y; ++j, to += row) {
+      const std::size_t from = index_in(image.points, {part.first.x, j, k});
+      for (std::size_t i = 0; values.sparse && i < as_size(n.x); ++i) {
+        const float value = (*values.sparse)[from + i];
+        std::memcpy(to + i * size, &value, size);
+      }
+      if (!values.sparse) std::memcpy(to, values.bytes.data() + from * size, row);
+    }
+  }
+  result.bytes = std::as_const(*bytes);
+  result.owner = std::move(bytes);
+  return result;
 }
 
 ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,

@@ -40,6 +40,10 @@ struct IndexBox {
 /// The lattice of that part. @pre it lies in the image.
 [[nodiscard]] UniformTopology part_of(const UniformTopology& image, const IndexBox& part) noexcept;
 
+/// The values of that part, of all components, in their type; sparse ones in single precision. @pre it lies in the image.
+[[nodiscard]] DataArray values_of(const UniformTopology& image, const DataArray& values,
+                                  const IndexBox& part);
+
 struct ResampledImage {
   std::vector<float> values;  ///< at the points of the lattice, x fastest
   std::size_t outside = 0;    ///< points beyond the image, or with a voxel about them that has no value

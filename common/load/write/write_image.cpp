@@ -101,13 +101,58 @@ class Bytes {
   std::string bytes_;
 };
 
-constexpr int kFloat = 16;  ///< DT_FLOAT32 of nifti1.h
-constexpr int kRgb = 128;   ///< DT_RGB24
+/// What the numbers of a voxel are, and how they are stored.
+struct Stored {
+  ImageContent content = ImageContent::kScalar;
+  ScalarType type = ScalarType::kFloat32;
+  int components = 1;
+
+  [[nodiscard]] bool colors() const noexcept { return content == ImageContent::kColor; }
+};
+
+Stored stored_as(ImageContent content) {
+  const bool colors = content == ImageContent::kColor;
+  return {content, colors ? ScalarType::kUint8 : ScalarType::kFloat32, component_count(content)};
+}
+
+/// How the formats call a number type: the code of nifti1.h, the names of NRRD and of VTK.
+struct TypeNames {
+  std::int16_t nifti;
+  const char *nrrd, *vtk;
+};
+TypeNames names_of(ScalarType type) {
+  switch (type) {
+    case ScalarType::kInt8:
+      return {256, "int8", "Int8"};
+    case ScalarType::kUint8:
+      return {2, "uint8", "UInt8"};
+    case ScalarType::kInt16:
+      return {4, "int16", "Int16"};
+    case ScalarType::kUint16:
+      return {512, "uint16", "UInt16"};
+    case ScalarType::kInt32:
+      return {8, "int32", "Int32"};
+    case ScalarType::kUint32:
+      return {768, "uint32", "UInt32"};
+    case ScalarType::kInt64:
+      return {1024, "int64", "Int64"};
+    case ScalarType::kUint64:
+      return {1280, "uint64", "UInt64"};
+    case ScalarType::kFloat32:
+      return {16, "float", "Float32"};
+    case ScalarType::kFloat64:
+      break;
+  }
+  return {64, "double", "Float64"};
+}
+
+constexpr std::int16_t kRgb = 128, kRgba = 2304;  ///< DT_RGB24, DT_RGBA32
 
 /// The header of nifti1.h (348 bytes) with its 4 bytes of extension flags; the affine is the sform.
-std::string nifti_header(const UniformTopology& topology, ImageContent content, ImageSpace space) {
-  const int volumes = content == ImageContent::kColor ? 1 : component_count(content);
-  const bool rgb = content == ImageContent::kColor;
+std::string nifti_header(const UniformTopology& topology, const Stored& stored, ImageSpace space) {
+  const int volumes = stored.colors() ? 1 : stored.components;
+  const std::int16_t colors = stored.components == 4 ? kRgba : kRgb;
+  const std::size_t bytes = byte_size(stored.type) * (stored.colors() ? as_size(stored.components) : 1);
   Bytes header(352);
   header.put(0, std::int32_t{348});
   header.put(40, static_cast<std::int16_t>(volumes > 1 ? 4 : 3));
@@ -115,8 +160,8 @@ std::string nifti_header(const UniformTopology& topology, ImageContent content, 
     header.put(42 + 2 * as_size(axis), static_cast<std::int16_t>(topology.points[axis]));
   header.put(48, static_cast<std::int16_t>(volumes));
   for (std::size_t axis = 4; axis < 7; ++axis) header.put(42 + 2 * axis, std::int16_t{1});
-  header.put(70, static_cast<std::int16_t>(rgb ? kRgb : kFloat));
-  header.put(72, static_cast<std::int16_t>(rgb ? 24 : 32));  // bits a voxel
+  header.put(70, stored.colors() ? colors : names_of(stored.type).nifti);
+  header.put(72, static_cast<std::int16_t>(8 * bytes));  // bits a voxel
   header.put(76, 1.0F);
   for (std::size_t axis = 0; axis < 7; ++axis) {
     const double step = axis < 3 ? glm::length(topology.axes[static_cast<int>(axis)]) : 1.0;
@@ -139,8 +184,9 @@ std::string nifti_header(const UniformTopology& topology, ImageContent content, 
 
 std::string vector_text(const Vec3& v) { return "(" + exact_text(v) + ")"; }
 
-std::string nrrd_header(const UniformTopology& topology, ImageContent content, ImageSpace space) {
+std::string nrrd_header(const UniformTopology& topology, const Stored& stored, ImageSpace space) {
   const bool patient = space == ImageSpace::kPatient;
+  const ImageContent content = stored.content;
   const bool scalar = content == ImageContent::kScalar;
   std::string kind, size;
   switch (content) {
@@ -153,17 +199,17 @@ std::string nrrd_header(const UniformTopology& topology, ImageContent content, I
       kind = "3D-masked-symmetric-matrix ", size = "7 ";
       break;
     case ImageContent::kColor:
-      kind = "RGB-color ", size = "3 ";
+      kind = stored.components == 4 ? "RGBA-color " : "RGB-color ";
+      size = std::to_string(stored.components) + " ";
       break;
   }
-  std::string text = "NRRD0005\ntype: " + std::string(content == ImageContent::kColor ? "uint8" : "float") +
-                     "\ndimension: " + (scalar ? "3" : "4") +
-                     (patient ? "\nspace: right-anterior-superior" : "\nspace dimension: 3") +
-                     "\nsizes: " + size + std::to_string(topology.points.x) + " " +
-                     std::to_string(topology.points.y) + " " + std::to_string(topology.points.z) +
-                     "\nspace directions: " + (scalar ? "" : "none ") + vector_text(topology.axes[0]) + " " +
-                     vector_text(topology.axes[1]) + " " + vector_text(topology.axes[2]) +
-                     "\nkinds: " + kind + "space space space\n";
+  std::string text =
+      "NRRD0005\ntype: " + std::string(names_of(stored.type).nrrd) + "\ndimension: " + (scalar ? "3" : "4") +
+      (patient ? "\nspace: right-anterior-superior" : "\nspace dimension: 3") + "\nsizes: " + size +
+      std::to_string(topology.points.x) + " " + std::to_string(topology.points.y) + " " +
+      std::to_string(topology.points.z) + "\nspace directions: " + (scalar ? "" : "none ") +
+      vector_text(topology.axes[0]) + " " + vector_text(topology.axes[1]) + " " +
+      vector_text(topology.axes[2]) + "\nkinds: " + kind + "space space space\n";
   // Tensors and directions are in the axes of the space.
   if (!scalar && content != ImageContent::kColor) text += "measurement frame: (1,0,0) (0,1,0) (0,0,1)\n";
   if (patient) text += "space units: \"mm\" \"mm\" \"mm\"\n";
@@ -197,7 +243,7 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
                  std::span<const float> values, ImageConvention convention, ImageSpace space) {
   const auto components = as_size(component_count(content));
   const std::size_t voxels = values.size() / components;
-  sink.write(nifti_header(topology, content, space));
+  sink.write(nifti_header(topology, stored_as(content), space));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -222,7 +268,7 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
 
 void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent content,
                 std::span<const float> values, ImageSpace space) {
-  sink.write(nrrd_header(topology, content, space));
+  sink.write(nrrd_header(topology, stored_as(content), space));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -245,7 +291,8 @@ void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent conten
 }
 
 /// VTK XML, ImageData, raw appended data. Its Direction has the unit axes as columns.
-std::string vti_head(const UniformTopology& topology, ImageContent content) {
+std::string vti_head(const UniformTopology& topology, const Stored& stored) {
+  const ImageContent content = stored.content;
   std::string extent, spacing, direction, name;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string blank = axis > 0 ? " " : "";
@@ -258,7 +305,6 @@ std::string vti_head(const UniformTopology& topology, ImageContent content) {
                    exact_number(topology.axes[axis][row] / glm::length(topology.axes[axis]));
     }
   }
-  const bool colors = content == ImageContent::kColor;
   const char* role = content == ImageContent::kTensor   ? "Tensors"
                      : content == ImageContent::kVector ? "Vectors"
                                                         : "Scalars";
@@ -271,15 +317,15 @@ std::string vti_head(const UniformTopology& topology, ImageContent content) {
          extent + "\" Origin=\"" + exact_number(topology.origin.x) + " " + exact_number(topology.origin.y) +
          " " + exact_number(topology.origin.z) + "\" Spacing=\"" + spacing + "\" Direction=\"" + direction +
          "\">\n<Piece Extent=\"" + extent + "\">\n<PointData " + role + "=\"" + name +
-         "\">\n<DataArray type=\"" + (colors ? "UInt8" : "Float32") + "\" Name=\"" + name +
-         "\" NumberOfComponents=\"" + std::to_string(component_count(content)) +
+         "\">\n<DataArray type=\"" + names_of(stored.type).vtk + "\" Name=\"" + name +
+         "\" NumberOfComponents=\"" + std::to_string(stored.components) +
          "\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n</ImageData>\n"
          "<AppendedData encoding=\"raw\">\n_";
 }
 
 void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content,
                std::span<const float> values) {
-  sink.write(vti_head(topology, content));
+  sink.write(vti_head(topology, stored_as(content)));
   std::string bytes;
   if (content == ImageContent::kColor) {
     bytes.resize(values.size());
@@ -303,6 +349,14 @@ void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content
   sink.write({reinterpret_cast<const char*>(&size), sizeof size});
   sink.write(bytes);
   sink.write("\n</AppendedData>\n</VTKFile>\n");
+}
+
+void check_size(const std::filesystem::path& path, Ending ending, const Index3& n) {
+  constexpr int kMostNifti = 32767;
+  const bool nifti = ending == Ending::kNifti || ending == Ending::kPackedNifti;
+  if (nifti && std::max({n.x, n.y, n.z}) > kMostNifti)
+    throw usage_error(path.string() +
+                      ": too many voxels along an axis for NIfTI-1; take a name ending in .nrrd");
 }
 
 }  // namespace
@@ -329,12 +383,7 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
   const std::size_t voxels = count_of(topology.points);
   PALPATE_CHECK(values.size() == voxels * as_size(component_count(content)));
   const Ending ending = ending_of(path);
-  constexpr int kMostNifti = 32767;
-  const Index3& n = topology.points;
-  const bool nifti = ending == Ending::kNifti || ending == Ending::kPackedNifti;
-  if (nifti && std::max({n.x, n.y, n.z}) > kMostNifti)
-    throw usage_error(path.string() +
-                      ": too many voxels along an axis for NIfTI-1; take a name ending in .nrrd");
+  check_size(path, ending, topology.points);
   Sink sink(path, overwrite, ending == Ending::kPackedNifti);
   if (ending == Ending::kNrrd) {
     write_nrrd(sink, topology, content, values, space);
@@ -342,6 +391,32 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
     write_vti(sink, topology, content, values);
   } else {
     write_nifti(sink, topology, content, values, convention, space);
+  }
+  sink.finish();
+}
+
+void write_image(const std::filesystem::path& path, const UniformTopology& topology, const DataArray& values,
+                 bool overwrite, ImageSpace space) {
+  PALPATE_CHECK(values.tuples == count_of(topology.points) && !values.sparse);
+  const bool colors = values.components == 3 || values.components == 4;
+  PALPATE_CHECK(values.components == 1 || (colors && values.type == ScalarType::kUint8));
+  const Stored stored{colors ? ImageContent::kColor : ImageContent::kScalar, values.type, values.components};
+  const Ending ending = ending_of(path);
+  check_size(path, ending, topology.points);
+  Sink sink(path, overwrite, ending == Ending::kPackedNifti);
+  const std::string_view bytes(reinterpret_cast<const char*>(values.bytes.data()), values.bytes.size());
+  if (ending == Ending::kNrrd) {
+    sink.write(nrrd_header(topology, stored, space));
+    sink.write(bytes);
+  } else if (ending == Ending::kVti) {
+    const std::uint64_t size = bytes.size();
+    sink.write(vti_head(topology, stored));
+    sink.write({reinterpret_cast<const char*>(&size), sizeof size});
+    sink.write(bytes);
+    sink.write("\n</AppendedData>\n</VTKFile>\n");
+  } else {
+    sink.write(nifti_header(topology, stored, space));
+    sink.write(bytes);
   }
   sink.finish();
 }

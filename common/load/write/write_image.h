@@ -46,4 +46,10 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
                  std::span<const float> values, ImageConvention convention, bool overwrite,
                  ImageSpace space = ImageSpace::kPatient);
 
+/// Writes single numbers, or colours of three or four bytes, in the type in which they are; what is not finite stays
+/// so. @pre not sparse.
+/// @throws Error as above.
+void write_image(const std::filesystem::path& path, const UniformTopology& topology, const DataArray& values,
+                 bool overwrite, ImageSpace space = ImageSpace::kPatient);
+
 }  // namespace palpate

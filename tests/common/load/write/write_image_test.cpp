@@ -2,9 +2,14 @@
 
 #include "common/load/write/write_image.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -138,6 +143,48 @@ TEST(WriteImage, ColoursAreBytes) {
     EXPECT_EQ(image.arrays.front().at(2, 2), 255.0);
     EXPECT_EQ(image.arrays.front().at(3, 0), 0.0);
   }
+}
+
+// Arrays keep their type, whatever is in them.
+TEST(WriteImage, ArraysComeBackAsTheyAre) {
+  const TempFolder folder;
+  const auto check = [&]<typename T>(T, ScalarType type, int components) {
+    const std::size_t count = kVoxels * static_cast<std::size_t>(components);
+    const auto numbers = std::make_shared<std::vector<T>>(count);
+    for (std::size_t i = 0; i < count; ++i) (*numbers)[i] = static_cast<T>(3 * i + 1);
+    (*numbers)[0] = std::numeric_limits<T>::lowest();
+    (*numbers)[1] = std::numeric_limits<T>::max();
+    if (std::numeric_limits<T>::has_quiet_NaN) (*numbers)[7] = std::numeric_limits<T>::quiet_NaN();
+    DataArray array;
+    array.type = type;
+    array.components = components;
+    array.tuples = kVoxels;
+    array.bytes = std::as_bytes(std::span(std::as_const(*numbers)));
+    array.owner = numbers;
+    for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.vti"}) {
+      write_image(folder.path(name), grid(false), array, true);
+      Input input = open(folder.path(name), FieldKind::kScalar);
+      const DataSet image = input.read({input.arrays().front().name}).front();
+      expect_same_grid(image, grid(false));
+      const DataArray& read = image.arrays.front();
+      EXPECT_EQ(read.type, type) << name;
+      EXPECT_EQ(read.components, components) << name;
+      EXPECT_TRUE(std::equal(read.bytes.begin(), read.bytes.end(), array.bytes.begin(), array.bytes.end()))
+          << name << " " << name_of(type);
+    }
+  };
+  check(std::int8_t{}, ScalarType::kInt8, 1);
+  check(std::uint8_t{}, ScalarType::kUint8, 1);
+  check(std::int16_t{}, ScalarType::kInt16, 1);
+  check(std::uint16_t{}, ScalarType::kUint16, 1);
+  check(std::int32_t{}, ScalarType::kInt32, 1);
+  check(std::uint32_t{}, ScalarType::kUint32, 1);
+  check(std::int64_t{}, ScalarType::kInt64, 1);
+  check(std::uint64_t{}, ScalarType::kUint64, 1);
+  check(float{}, ScalarType::kFloat32, 1);
+  check(double{}, ScalarType::kFloat64, 1);
+  check(std::uint8_t{}, ScalarType::kUint8, 3);
+  check(std::uint8_t{}, ScalarType::kUint8, 4);
 }
 
 TEST(WriteImage, RefusesUnknownEndingsAndExistingFiles) {
