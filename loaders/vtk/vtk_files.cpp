@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/load/find_format.h"
+#include "common/load/voxel_bytes.h"
 #include "loaders/vtk/file_index.h"
 #include "loaders/vtk/legacy_file.h"
 #include "loaders/vtk/vtk_convert.h"
@@ -169,6 +170,11 @@ class VtkFiles : public Loader {
   void describe(const FilePiece& piece, FileInfo& info, std::string& why) {
     const std::string file = piece.file.string();
     OpenFile& opened = open_file(file);
+    constexpr std::size_t kThreeLines = 512;
+    if (!opened.xml && read_head(file, kThreeLines).bytes.find("\nASCII") != std::string::npos) {
+      const std::string note = text_end_note(file);
+      if (!note.empty()) info.notes.push_back(note);
+    }
     for (const VtkBlock& block : leaves_of(opened.xml ? opened.xml->read({}) : opened.legacy.Get())) {
       const std::string name = name_of_block(piece, block);
       if (std::string reason = why_not_readable(block.data); !reason.empty()) {
