@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -52,15 +51,24 @@ void check_request(const Document& options) {
   if (slice.level && !std::isfinite(*slice.level)) throw usage_error("--level: a finite number is expected");
 }
 
+/// What the file states of black and white, where the options name neither.
+SliceOptions with_window_of(const Input& input, SliceOptions slice) {
+  const FileInfo* const file = input.file();
+  if (file == nullptr || !file->window || slice.window || slice.level) return slice;
+  const std::array<double, 2>& stated = *file->window;
+  if (!(stated[0] < stated[1])) return slice;
+  slice.window = stated[1] - stated[0];
+  slice.level = 0.5 * (stated[0] + stated[1]);
+  return slice;
+}
+
 /// Lowest and highest of the finite values, and where black and white lie.
 struct Greys {
   double lowest = 0.0, highest = 0.0;
   double window = 1.0, level = 0.5;
 };
 
-/// @param stated black and white by the file; taken where the options name neither.
-Greys greys_of(const DataArray& values, const SliceOptions& slice,
-               const std::optional<std::array<double, 2>>& stated, int threads) {
+Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) {
   Greys greys{HUGE_VAL, -HUGE_VAL, 1.0, 0.0};
   if (values.sparse) {
     const SparseRange range = range_of(*values.sparse, threads);
@@ -75,11 +83,6 @@ Greys greys_of(const DataArray& values, const SliceOptions& slice,
     }
   }
   if (greys.lowest > greys.highest) greys.lowest = greys.highest = 0.0;
-  if (stated && !slice.window && !slice.level && (*stated)[0] < (*stated)[1]) {
-    greys.window = (*stated)[1] - (*stated)[0];
-    greys.level = 0.5 * ((*stated)[0] + (*stated)[1]);
-    return greys;
-  }
   ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
   constexpr std::size_t kBins = 1024;
   if (greys.lowest < greys.highest) {
@@ -185,8 +188,7 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = lattice_of(grid, options, bounds_of(grid));
-  const auto stated = input.file() != nullptr ? input.file()->window : std::nullopt;
-  const Greys greys = greys_of(values, options.slice, stated, options.common.threads);
+  const Greys greys = greys_of(values, with_window_of(input, options.slice), options.common.threads);
   const std::vector<double> contour_values = parse_contours(options.slice.contours);
   const bool as_lines = !contour_values.empty();
   const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
