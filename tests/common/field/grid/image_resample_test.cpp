@@ -1,7 +1,11 @@
 #include "common/field/grid/image_resample.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <random>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -132,6 +136,43 @@ TEST(Resample, IsTheSameForScaledSpace) {
   EXPECT_EQ(small->points, lattice->points);
   EXPECT_EQ(resample(scaled(image, tiny), values, 0, *small, 0.0F, 1).values,
             resample(image, values, 0, *lattice, 0.0F, 1).values);
+}
+
+// A part holds the bytes that the voxels have in the whole: wide numbers, NaN and colours stay what they are.
+TEST(ValuesOf, APartKeepsTypeAndBits) {
+  const UniformTopology image = aligned();
+  const IndexBox part{{1, 0, 2}, {3, 3, 5}};
+  const auto expect_kept = [&]<typename T>(std::vector<T> numbers, ScalarType type, int components) {
+    DataArray all;
+    all.type = type;
+    all.components = components;
+    all.tuples = numbers.size() / static_cast<std::size_t>(components);
+    all.bytes = std::as_bytes(std::span(std::as_const(numbers)));
+    const DataArray some = values_of(image, all, part);
+    EXPECT_EQ(some.type, type);
+    EXPECT_EQ(some.components, components);
+    ASSERT_EQ(some.tuples, 3U * 4U * 4U);
+    std::size_t to = 0;
+    for (int z = 2; z <= 5; ++z) {
+      for (int y = 0; y <= 3; ++y) {
+        for (int x = 1; x <= 3; ++x, ++to) {
+          const auto from = static_cast<std::size_t>(x + 4 * (y + 5 * z));
+          const std::size_t size = sizeof(T) * static_cast<std::size_t>(components);
+          EXPECT_EQ(std::memcmp(some.bytes.data() + to * size, all.bytes.data() + from * size, size), 0);
+        }
+      }
+    }
+  };
+  std::vector<std::int64_t> wide(120);
+  std::vector<double> real(120);
+  std::vector<std::uint8_t> colors(360);
+  for (std::size_t i = 0; i < 120; ++i) wide[i] = (std::int64_t{1} << 60U) + static_cast<std::int64_t>(i);
+  for (std::size_t i = 0; i < 120; ++i)
+    real[i] = i % 3 == 0 ? std::nan("") : 1.0 + 1e-15 * static_cast<double>(i);
+  for (std::size_t i = 0; i < 360; ++i) colors[i] = static_cast<std::uint8_t>(7 * i);
+  expect_kept(wide, ScalarType::kInt64, 1);
+  expect_kept(real, ScalarType::kFloat64, 1);
+  expect_kept(colors, ScalarType::kUint8, 3);
 }
 
 }  // namespace
