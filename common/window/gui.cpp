@@ -135,14 +135,16 @@ void Gui::begin_frame(const std::vector<InputEvent>& events, int width, int heig
         io.MouseWheel += static_cast<float>(event.y);
         break;
       case InputKind::kKeyDown:
-      case InputKind::kKeyUp:
+      case InputKind::kKeyUp: {
+        const int modifiers = modifiers_after(event);
         if (event.key >= 0 && event.key < static_cast<int>(std::size(io.KeysDown))) {
           io.KeysDown[event.key] = event.kind == InputKind::kKeyDown;
         }
-        io.KeyCtrl = (event.modifiers & kModifierControl) != 0;
-        io.KeyShift = (event.modifiers & kModifierShift) != 0;
-        io.KeyAlt = (event.modifiers & kModifierAlt) != 0;
+        io.KeyCtrl = (modifiers & kModifierControl) != 0;
+        io.KeyShift = (modifiers & kModifierShift) != 0;
+        io.KeyAlt = (modifiers & kModifierAlt) != 0;
         break;
+      }
       case InputKind::kText:
         io.AddInputCharacter(static_cast<unsigned>(event.key));
         break;

@@ -40,9 +40,14 @@ struct InputEvent {
   std::vector<std::filesystem::path> files;
 };
 
+/// The modifiers that are held after a key event. With the key of a modifier itself the window system gives
+/// those that were held before it.
+[[nodiscard]] int modifiers_after(const InputEvent& event) noexcept;
+
 /// How many of the events that have come, oldest first, one frame takes. Panels see a button, a key and the
 /// place of the mouse only as they are at the end of them: where a slow frame has kept a click waiting
-/// together with what came after it, the press has a frame of its own, and so has the release. The key that
+/// together with what came after it, the press has a frame of its own, and so has the release; keys that come
+/// after a press wait for the field that it may have opened. The key that
 /// switches the force off waits for nothing: all are taken then.
 [[nodiscard]] std::size_t events_of_frame(std::span<const InputEvent> events);
 

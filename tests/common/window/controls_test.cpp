@@ -39,8 +39,21 @@ TEST(EventsOfFrame, LeavePressAndReleaseAFrameEach) {
   EXPECT_EQ(shares({move, press, release, move, move}), (Counts{2, 1, 2})) << "the mouse is led on after it";
   EXPECT_EQ(shares({press, release, press, release}), (Counts{1, 1, 1, 1})) << "a double click";
   EXPECT_EQ(shares({press, move, move, release}), (Counts{1, 3})) << "a drag";
+  EXPECT_EQ(shares({press, release, down, up}), (Counts{1, 1, 1, 1})) << "keys wait for what a press opens";
   EXPECT_EQ(shares({down, other, down, up, down}), (Counts{3, 1, 1})) << "a key that repeats, then again";
   EXPECT_EQ(shares({press, release, move, off, press}), Counts{5}) << "the force goes off at once";
+}
+
+TEST(ModifiersAfter, CountTheKeyOfAModifierItself) {
+  constexpr int kControl = 341, kRightShift = 344, kDown = 3;
+  const auto after = [](InputKind kind, int key, int modifiers) {
+    return modifiers_after({.kind = kind, .key = key, .modifiers = modifiers});
+  };
+  EXPECT_EQ(after(InputKind::kKeyDown, kControl, 0), kModifierControl);
+  EXPECT_EQ(after(InputKind::kKeyUp, kControl, kModifierControl), 0);
+  EXPECT_EQ(after(InputKind::kKeyDown, kRightShift, kModifierControl), kModifierControl | kModifierShift);
+  EXPECT_EQ(after(InputKind::kKeyUp, kRightShift, kModifierControl | kModifierShift), kModifierControl);
+  EXPECT_EQ(after(InputKind::kKeyDown, 'Z', kDown), kDown);
 }
 
 class ViewControlTest : public ::testing::Test {
