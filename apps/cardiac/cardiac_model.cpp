@@ -164,7 +164,9 @@ void CardiacModel::keep(const SceneView& view, Document& document) const {
   const auto& range = view.style.range;
   document.heart.range =
       range ? exact_number(range->lower) + "," + exact_number(range->upper) : std::string();
-  if (view.color_lens) document.heart.lens = sphere_text(view.color_lens->center, view.color_lens->radius);
+  // One that the document has no more is on its way out of the view.
+  if (view.color_lens && !document.heart.lens.empty())
+    document.heart.lens = sphere_text(view.color_lens->center, view.color_lens->radius);
 }
 
 }  // namespace palpate

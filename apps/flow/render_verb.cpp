@@ -102,7 +102,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   if (!options.hand.path.empty()) {
     show_probe(drawn.view, read_probe_path(options.hand.path.string()), mode, options, scalar, field);
   }
-  if (surfaces || !options.hand.path.empty()) fade_lines(drawn.view);
+  if (surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty()) fade_lines(drawn.view);
   return drawn;
 }
 

@@ -24,14 +24,12 @@ CsvReader::CsvReader(const std::string& file, std::span<const std::string_view> 
     : lines_(file, what) {
   if (!next_line()) throw input_error({file, "", "is empty", what, ""});
   header_ = trimmed(lines_.line());
-  std::vector<std::string> header;
-  for (const auto field : split(header_, ',')) header.push_back(plain_name(field));
-  fields_ = header.size();
+  for (const auto field : split(header_, ',')) header_names_.push_back(plain_name(field));
   const auto find = [&](std::string_view name) {
-    const auto place = std::find(header.begin(), header.end(), name);
+    const auto place = std::ranges::find(header_names_, name);
     names_.emplace_back(name);
-    columns_.push_back(place == header.end() ? kMissing : as_size(place - header.begin()));
-    return place != header.end();
+    columns_.push_back(place == header_names_.end() ? kMissing : as_size(place - header_names_.begin()));
+    return place != header_names_.end();
   };
   for (const auto name : required) {
     if (!find(name)) refuse("has no column " + std::string(name), what);
@@ -51,9 +49,9 @@ bool CsvReader::next(std::span<double> values) {
   PALPATE_CHECK(values.size() == columns_.size());
   if (!next_line()) return false;
   const auto fields = split(lines_.line(), ',');
-  if (fields.size() != fields_) {
+  if (fields.size() != header_names_.size()) {
     refuse("has " + counted(fields.size(), "field"),
-           std::to_string(fields_) + " as in the header " + header_);
+           std::to_string(header_names_.size()) + " as in the header " + header_);
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     values[i] = std::numeric_limits<double>::quiet_NaN();
@@ -63,6 +61,12 @@ bool CsvReader::next(std::span<double> values) {
     values[i] = *value;
   }
   return true;
+}
+
+std::string_view CsvReader::text(std::string_view column) const {
+  const auto place = std::ranges::find(header_names_, column);
+  if (place == header_names_.end()) return {};
+  return trimmed(split(lines_.line(), ',')[as_size(place - header_names_.begin())]);
 }
 
 }  // namespace palpate

@@ -28,6 +28,9 @@ class CsvReader {
   /// whose named columns hold no number.
   bool next(std::span<double> values);
 
+  /// What the current row has in any column, whatever that is; nothing where the table has no such column.
+  [[nodiscard]] std::string_view text(std::string_view column) const;
+
   /// @throws Error (bad input) about the current row, always.
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
     lines_.refuse(found, expected);
@@ -40,9 +43,9 @@ class CsvReader {
   LineReader lines_;
   std::vector<std::string> names_;
   std::vector<std::size_t>
-      columns_;             ///< where each name stands; kMissing for an optional one that is not there
-  std::size_t fields_ = 0;  ///< of each row
+      columns_;  ///< where each name stands; kMissing for an optional one that is not there
   std::string header_;
+  std::vector<std::string> header_names_;  ///< a field of each row
 };
 
 }  // namespace palpate

@@ -183,6 +183,14 @@ void take_session(const Verb& verb, FieldKind kind, const std::vector<const Sett
     set_value(*row, document, value_text(*row, with));
     document.given.emplace_back(row->name);
   }
+  const Setting& lines = setting("drawn-lines");
+  if (session.lines && lines.belongs(kind, groups_of(verb)) &&
+      std::ranges::find(typed, &lines) == typed.end()) {
+    document.touch.drawn_lines = session.lines->file;
+    // One that is missing is told where it is read.
+    std::string change = std::filesystem::exists(session.lines->file) ? change_of(*session.lines) : "";
+    if (!change.empty()) parsed.notes.push_back(std::move(change));
+  }
   if (input_typed) return;
   for (const SessionInput& input : session.inputs) {
     if (!input.solution) document.input.files.push_back(input.file);

@@ -12,6 +12,7 @@
 #include "common/compose/line_view.h"
 #include "common/compose/stereo_text.h"
 #include "common/hand/drawn/annotation_list.h"
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/technique/scene_pick.h"
 #include "common/hand/workbench/head_view.h"
 #include "common/render/png.h"
@@ -131,6 +132,8 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     throw usage_error("--converged and --frame-budget: a picture is either refined or hurried");
   if (!options.view.pick.empty()) (void)beam_of_option(options.view, {});
   const std::vector<Annotation> annotations = annotations_of(options.touch.annotations, "--annotation");
+  DrawnLines lines;
+  if (!options.touch.drawn_lines.empty()) lines.put(read_drawn_lines(options.touch.drawn_lines));
   const std::vector<ScreenPicture> pictures = asked_pictures(options);
   const auto [width, height] = pictures.front().size;
   const double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
@@ -153,6 +156,11 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
   DrawnScene drawn = maker.make(input, options, context, aspect);
   if (options.view.converged) refine(drawn.view);
   drawn.view.notes = notes_of(AnnotationList(annotations), length_unit(drawn.view), std::nullopt);
+  if (!lines.entries().empty()) {
+    if (!drawn.view.probe) drawn.view.probe.emplace();
+    drawn.view.probe->drawn_lines = lines.drawn();
+    drawn.what += ", " + counted(lines.entries().size(), "line") + " drawn by hand";
+  }
   summary.field = drawn.field;
   summary.lines = drawn.lines;
   summary.points = drawn.points;

@@ -157,6 +157,7 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Document& 
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;
+  if (const auto& lines = options.touch.drawn_lines; !lines.empty()) touch.lines = read_drawn_lines(lines);
   touch.notes = annotations_of(options.touch.annotations, "--annotation");
   check_replay_options(options);
   touch.path = device_path(options.hand.device);

@@ -14,6 +14,7 @@
 #include "common/device/simulated_device.h"
 #include "common/device/tracked_hands.h"
 #include "common/geometry/annotation.h"
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/touch_choice.h"
 #include "common/kinematics/workbench_file.h"
@@ -56,7 +57,8 @@ struct ProbeSessionOptions {
   /// Where the seconds before a fault are saved (fault_recorder.h); empty: nowhere. With the same header.
   std::filesystem::path fault_folder;
   std::optional<Recording> replay;
-  std::vector<Annotation> notes;  ///< annotations that are there at the start
+  std::vector<Annotation> notes;                     ///< annotations that are there at the start
+  std::shared_ptr<const DrawnLines::Entries> lines;  ///< kept lines, likewise; null: none
 };
 
 }  // namespace palpate

@@ -39,6 +39,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
       notes_(options_.notes),
       servo_(options_) {
   if (!available()) return;
+  if (options_.lines != nullptr) trail_.put({.kept = options_.lines, .drawn = nullptr});
   hand_.put_on_grid(mode() == kGridMode);
   data_.choose(choice_.settings.isosurface.isovalues);
 }
@@ -223,7 +224,7 @@ void ProbeSession::restore(const TouchOptions& options) {
   if (planes() && !(choice.settings.plane_widget.poses == planes()->poses))
     ++choice.settings.plane_widget.edit;
   choose(choice);
-  notes_ = AnnotationList(annotations_of(options.annotations, "--annotation"));
+  notes_.put(annotations_of(options.annotations, "--annotation"));
 }
 
 void ProbeSession::finish() { servo_.finish(trail_.readout()); }

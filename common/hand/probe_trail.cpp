@@ -30,10 +30,12 @@ std::optional<ValueRange> tension_range(const ChainSettings& settings, double fo
 void ProbeTrail::open_data() {
   hints_ = {};
   readout_ = {};
+  if (drawing_) drawing_->let_go();
+  const HandMade before = made();
   drawing_.reset();
   if (data_.has_tensors()) drawing_.emplace(data_.field().tensor);
   clear_path();
-  drawn_lines_.clear();
+  put(before);
   last_drawn_.reset();
 }
 
@@ -178,23 +180,22 @@ ProbeTrail::Keeping ProbeTrail::keep(const Line& line, std::vector<double> force
   return Keeping::kKept;
 }
 
-void ProbeTrail::remove_kept(std::size_t index) {
-  if (drawing_) {
-    drawing_->remove(drawn_lines_, index);
-  } else {
-    drawn_lines_.remove(index);
-  }
+HandMade ProbeTrail::made() const {
+  return {.kept = drawn_lines_.all(), .drawn = drawing_ ? drawing_->drawn() : nullptr};
 }
 
-std::size_t ProbeTrail::undo_depth() const noexcept {
-  return drawing_ ? drawing_->undo_depth() : drawn_lines_.undo_depth();
-}
-
-bool ProbeTrail::undo() {
-  if (!drawing_) return drawn_lines_.undo();
-  if (!drawing_->undo(drawn_lines_)) return false;
+void ProbeTrail::put(const HandMade& made) {
+  if (drawn_lines_.all() != made.kept) drawn_lines_.put(made.kept);
+  if (!drawing_ || made.drawn == nullptr || drawing_->drawn() == made.drawn) return;
+  drawing_->put(made.drawn);
   path_ = drawing_->path();
-  return true;
+}
+
+void ProbeTrail::forget() {
+  drawn_lines_.clear();
+  if (!drawing_) return;
+  drawing_->put(std::make_shared<const std::vector<DrawnTract>>());
+  path_ = drawing_->path();
 }
 
 }  // namespace palpate

@@ -19,12 +19,22 @@
 
 namespace palpate {
 
+/// What a hand has made, cheap to copy: lines that are kept, and tracts that are drawn and not kept yet. Both
+/// are the same where they are the same objects.
+struct HandMade {
+  std::shared_ptr<const DrawnLines::Entries> kept;
+  std::shared_ptr<const std::vector<DrawnTract>> drawn;  ///< null where there are no tensors
+
+  bool operator==(const HandMade&) const = default;
+};
+
 class ProbeTrail {
  public:
   /// `data` outlives it.
   explicit ProbeTrail(const HapticData& data) : data_(data) {}
 
-  /// Begins with the input that has just been opened; what was kept of another is forgotten.
+  /// Goes on with the field that has just been opened. What was made stays: lines of another time step lie in
+  /// the same space.
   void open_data();
   /// From now on the line that this chain follows is drawn.
   void follow(const HapticChain& made);
@@ -56,12 +66,13 @@ class ProbeTrail {
   void forget_note();
   [[nodiscard]] const DrawnLines& drawn_lines() const noexcept { return drawn_lines_; }
   /// Takes out the line at `index`. @pre index < drawn_lines().entries().size().
-  void remove_kept(std::size_t index);
-  /// Takes back the last stroke, keep_line(), remove_kept() or clear_path() of tracts; false where there is
-  /// none. A path without tracts stays cleared.
-  bool undo();
-  /// How often that is possible.
-  [[nodiscard]] std::size_t undo_depth() const noexcept;
+  void remove_kept(std::size_t index) { drawn_lines_.remove(index); }
+  /// What was made up to now, without a stroke that is being drawn.
+  [[nodiscard]] HandMade made() const;
+  /// Goes back to that, or on to it; a stroke that is being drawn ends.
+  void put(const HandMade& made);
+  /// Another input is open: forgets what was made, and the numbers of lines.
+  void forget();
   void clear_path();
   /// Tracts that are drawn and not kept yet; none where there are no tensors.
   [[nodiscard]] std::span<const DrawnTract> drawn() const noexcept {

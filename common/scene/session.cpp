@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <toml++/toml.h>
 
@@ -47,6 +48,14 @@ SessionInput read_input(const toml::node& node, const std::filesystem::path& pat
   return input;
 }
 
+toml::table table_of(const SessionInput& input, const std::filesystem::path& folder) {
+  toml::table table{{"file", stored_path(input.file, folder)},
+                    {"bytes", static_cast<std::int64_t>(input.bytes)},
+                    {"sha256", input.sha256}};
+  if (input.solution) table.insert("solution", true);
+  return table;
+}
+
 /// Its files, by name; not those of its own folders.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -79,17 +88,12 @@ SessionInput describe_input(const std::filesystem::path& file, bool solution, co
 
 void save_session(const std::filesystem::path& path, const Session& session) {
   toml::array inputs;
-  for (const SessionInput& input : session.inputs) {
-    toml::table table{{"file", stored_path(input.file, folder_of(path))},
-                      {"bytes", static_cast<std::int64_t>(input.bytes)},
-                      {"sha256", input.sha256}};
-    if (input.solution) table.insert("solution", true);
-    inputs.push_back(std::move(table));
-  }
+  for (const SessionInput& input : session.inputs) inputs.push_back(table_of(input, folder_of(path)));
   toml::table scene;
   for (const auto& [name, value] : session.options) scene.insert_or_assign(name, value);
   toml::table root{{"format", kFormat}, {"program", session.program}};
   if (!inputs.empty()) root.insert("input", std::move(inputs));
+  if (session.lines) root.insert("lines", table_of(*session.lines, folder_of(path)));
   root.insert("scene", std::move(scene));
 
   std::ostringstream text;
@@ -121,6 +125,7 @@ Session load_session(const std::filesystem::path& path) {
   if (const toml::array* inputs = root["input"].as_array()) {
     for (const toml::node& node : *inputs) session.inputs.push_back(read_input(node, path));
   }
+  if (const toml::table* lines = root["lines"].as_table()) session.lines = read_input(*lines, path);
   const toml::table* scene = root["scene"].as_table();
   if (!scene) fail(path, "[scene]", "is missing", "a table of settings");
   for (const auto& [key, node] : *scene) {
@@ -139,21 +144,23 @@ Session load_session(const std::filesystem::path& path) {
   return session;
 }
 
+std::string change_of(const SessionInput& input, const Progress* progress) {
+  std::error_code error;
+  const auto status = std::filesystem::status(input.file, error);
+  const auto bytes =
+      std::filesystem::is_regular_file(status) ? std::filesystem::file_size(input.file, error) : input.bytes;
+  if (error) return input.file.string() + " is missing: " + error.message();
+  if (!input.sha256.empty() &&
+      (bytes != input.bytes || describe_input(input.file, false, progress).sha256 != input.sha256))
+    return input.file.string() + " has changed since the session was saved (checksum differs)";
+  return {};
+}
+
 std::vector<std::string> changed_inputs(const Session& session, const Progress* progress) {
   std::vector<std::string> sentences;
   for (const SessionInput& input : session.inputs) {
-    std::error_code error;
-    const auto status = std::filesystem::status(input.file, error);
-    const auto bytes = std::filesystem::is_regular_file(status)
-                           ? std::filesystem::file_size(input.file, error)
-                           : input.bytes;
-    if (error) {
-      sentences.push_back(input.file.string() + " is missing: " + error.message());
-    } else if (!input.sha256.empty() &&
-               (bytes != input.bytes || describe_input(input.file, false, progress).sha256 != input.sha256)) {
-      sentences.push_back(input.file.string() +
-                          " has changed since the session was saved (checksum differs)");
-    }
+    if (std::string change = change_of(input, progress); !change.empty())
+      sentences.push_back(std::move(change));
   }
   return sentences;
 }

@@ -10,6 +10,10 @@
 ///   file = "carotid.vtk"        # relative to the session file
 ///   bytes = 2681486
 ///   sha256 = "3f5d…"
+///   [lines]                     # drawn by hand; where there are any
+///   file = "carotid.palpate.lines.csv"
+///   bytes = 24310
+///   sha256 = "a1b0…"
 ///   [scene]
 ///   field = "vectors"
 ///   seeds = "grid:8,8,8"
@@ -17,6 +21,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +41,7 @@ struct SessionInput {
 struct Session {
   std::string program;                                       ///< "flow"
   std::vector<SessionInput> inputs;                          ///< none for a built-in example
+  std::optional<SessionInput> lines;                         ///< TouchOptions::drawn_lines
   std::vector<std::pair<std::string, std::string>> options;  ///< name of a setting, its value as text
   bool newer = false;  ///< its format is newer than the one that this program writes
 };
@@ -53,7 +59,9 @@ void save_session(const std::filesystem::path& path, const Session& session);
 /// @throws Error (bad input) naming file, line and what was expected.
 [[nodiscard]] Session load_session(const std::filesystem::path& path);
 
-/// One sentence for each input that is missing or no longer the file that the session was saved with.
+/// A sentence on a file that is missing or no longer what the session was saved with; empty of any other.
+[[nodiscard]] std::string change_of(const SessionInput& input, const Progress* progress = nullptr);
+/// The same for each input that is missing or no longer the file that the session was saved with.
 [[nodiscard]] std::vector<std::string> changed_inputs(const Session& session,
                                                       const Progress* progress = nullptr);
 

@@ -24,18 +24,23 @@ Session session_of(const Document& document, const std::string& program) {
   Session session{.program = program};
   for (const auto& file : document.input.files) session.inputs.push_back(describe_input(file, false));
   if (document.input.solution) session.inputs.push_back(describe_input(*document.input.solution, true));
+  if (const auto& lines = document.touch.drawn_lines; !lines.empty())
+    session.lines = describe_input(lines, false);
   session.options = saved_settings(document);
   return session;
 }
 
-std::string store_session(const Session& session, const Document& document) {
+std::filesystem::path session_path(const Document& document, const std::string& program) {
   const auto& files = document.input.files;
   const std::string name =
-      (files.empty() ? session.program + "-" + document.input.example : files.front().stem().string()) +
+      (files.empty() ? program + "-" + document.input.example : files.front().stem().string()) +
       ".palpate.toml";
-  const auto beside = files.empty() ? std::filesystem::path() : files.front().parent_path();
-  std::filesystem::path path = beside / name;
-  if (!may_cache_beside(path)) path = name;
+  std::filesystem::path path = (files.empty() ? std::filesystem::path() : files.front().parent_path()) / name;
+  return may_cache_beside(path) ? path : std::filesystem::path(name);
+}
+
+std::string store_session(const Session& session, const Document& document) {
+  const std::filesystem::path path = session_path(document, session.program);
   save_session(path, session);
   return path.string();
 }

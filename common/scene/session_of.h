@@ -18,13 +18,15 @@ inline constexpr double kSessionAspect = 1.5;
 /// named by their full paths.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> saved_settings(const Document& document);
 
-/// The inputs of `document` and what saved_settings() gives. @throws Error (bad input) where an input cannot
-/// be read.
+/// The inputs and drawn lines of `document` and what saved_settings() gives. @throws Error (bad input) where a
+/// file cannot be read.
 [[nodiscard]] Session session_of(const Document& document, const std::string& program);
 
-/// Writes it beside the first input of `document`, or where that cannot be written, or there is none, into
-/// the current folder.
-/// @return what was written. @throws Error (work failed).
+/// Where the session of `document` is saved: beside its first input, or where that cannot be written, or there
+/// is none, in the current folder.
+[[nodiscard]] std::filesystem::path session_path(const Document& document, const std::string& program);
+
+/// Writes it to session_path(). @return what was written. @throws Error (work failed).
 std::string store_session(const Session& session, const Document& document);
 
 /// Takes the settings of `session` into `document`, for programs of `kind`.

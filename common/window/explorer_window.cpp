@@ -75,7 +75,7 @@ WindowResult ExplorerWindow::run() {
     wait_for_events();
     if (options_.stop_requested && options_.stop_requested()) break;
     take_outcome();
-    const bool counted = scene_.has_value() && !jobs_.running();
+    const bool counted = scene_.has_value() && !(options_.frames_wait && jobs_.running());
     if (counted) inject(frame_);
     if (touch_.servo().replaying()) inject_replayed();
     const double seconds = frame_clock.seconds();
@@ -111,7 +111,7 @@ WindowResult ExplorerWindow::run() {
 }
 
 void ExplorerWindow::wait_for_events() {
-  if (scripted() && !jobs_.running()) {
+  if (scripted() && !(options_.frames_wait && jobs_.running())) {
     glfwPollEvents();
     return;
   }

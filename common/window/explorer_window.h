@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "common/base/clock.h"
+#include "common/base/history.h"
 #include "common/hand/probe_session.h"
 #include "common/hand/workbench/workbench_display.h"
 #include "common/render/png.h"
-#include "common/scene/document/history.h"
 #include "common/window/controls/scene_controls.h"
 #include "common/window/glfw_window.h"
 #include "common/window/gui.h"
@@ -30,6 +30,7 @@
 #include "common/window/panels/panel.h"
 #include "common/window/panels/probe_plot.h"
 #include "common/window/scene_jobs.h"
+#include "common/window/shown_scene.h"
 #include "common/window/window.h"
 #include "common/window/window_files.h"
 
@@ -45,8 +46,14 @@ class ExplorerWindow {
   WindowResult run();
 
  private:
-  /// What an edit was of: strokes of tracts and kept lines take themselves back.
-  enum class EditKind : std::uint8_t { kDocument, kTrail };
+  /// What edits are of: the document but for the camera, whose moves are none, and what the hand has made.
+  struct Edited {
+    Document document;
+    HandMade made;
+    ViewEdits view;
+
+    bool operator==(const Edited& other) const { return document == other.document && made == other.made; }
+  };
   /// Rest between two looks at the world while nothing happens [s].
   static constexpr double kIdleRest = 0.25;
 
@@ -121,13 +128,15 @@ class ExplorerWindow {
   /// history: a drag as one edit.
   void keep_document();
   void follow_edits();
+  [[nodiscard]] Edited edited() const;
   /// Something goes on that is one edit when it ends.
   [[nodiscard]] bool dragging() const;
-  /// Takes back the last edit, or restores the last that was taken back. @return what to tell the user.
+  /// Takes back the last edit, or restores the last that was taken back; what goes on is an edit up to now.
+  /// @return what to tell the user.
   std::string undo();
   std::string redo();
-  /// Shows `document` in place of what is shown.
-  void restore(const Document& document);
+  /// Shows `to` in place of what is shown, from where it is seen now.
+  void restore(const Edited& to);
   [[nodiscard]] std::vector<PngText> picture_texts() const;
   /// @}
 
@@ -145,9 +154,7 @@ class ExplorerWindow {
   std::optional<SceneState> scene_;
   PanelState state_;
   SceneView kept_;                          // that the document was kept of last
-  std::optional<DocumentHistory> history_;  // from the first picture of an input on
-  std::size_t trail_edits_ = 0;             // of the hand's own
-  std::vector<EditKind> edits_;             // in the order in which they came
+  std::optional<History<Edited>> history_;  // from the first picture of an input on
   PlanePoses cut_planes_;                   // those of the hand for which the first cuts stand
   bool leave_ = false;                      // what is not saved is to be forgotten, or was saved
   int frame_ = 0, lively_frames_ = 3;

@@ -13,7 +13,7 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'K', 0, Command::kKeepLine, "K, Space", "keep the followed line, or the tracts that are drawn"},
       {'E', kModifierControl, Command::kSaveLines, "Ctrl+E", "save what is kept"},
       {'Z', kModifierControl, Command::kUndo, "Ctrl+Z",
-       "undo: lines, strokes, planes, grey values on them, annotations, the box"},
+       "undo the last edit, by the panel, the mouse or the hand"},
       {'C', 0, Command::kCorner, "C", "a corner of a box of interest at the probe; again: the one across"},
       {'R', 0, Command::kLocalLines, "R", "lines about the probe: none, a rake, a plane of seeds"},
       {'X', 0, Command::kLockX, "X", "lock the probe to the x axis, or unlock it"},

@@ -37,6 +37,10 @@ std::filesystem::path SavedFiles::save_lines(const DrawnLines& lines, std::strin
   return path;
 }
 
+void SavedFiles::note_saved(const DrawnLines& lines) {
+  for (const DrawnLines::Entry& entry : lines.entries()) saved_.insert(entry.line);
+}
+
 std::size_t SavedFiles::unsaved(const DrawnLines& lines) const {
   return static_cast<std::size_t>(std::ranges::count_if(
       lines.entries(), [this](const DrawnLines::Entry& entry) { return !saved_.contains(entry.line); }));

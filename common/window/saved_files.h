@@ -30,7 +30,9 @@ class SavedFiles {
   /// what was taken, so that the next time writes the same file again: as long as all that is in it is still
   /// kept, else the next number is taken.
   std::filesystem::path save_lines(const DrawnLines& lines, std::string& name);
-  /// How many of `lines` are in no file that this window has written.
+  /// These are in a file, whoever has written it.
+  void note_saved(const DrawnLines& lines);
+  /// How many of `lines` are in no file.
   [[nodiscard]] std::size_t unsaved(const DrawnLines& lines) const;
   /// Saves a lens's transfer function under `name`: as a table, or its regions.
   [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& look) const;

@@ -22,8 +22,7 @@ SceneJobs::SceneJobs(WindowModel& model) : model_(model), job_([] { glfwPostEmpt
 
 const Progress* SceneJobs::shown_progress(bool playing) const {
   const bool slow = !playing && job_.seconds() > kPatience;
-  const bool update = kind_ == Kind::kUpdate || kind_ == Kind::kRestore;
-  return running() && (!update || slow) ? &job_.progress() : nullptr;
+  return running() && (kind_ != Kind::kUpdate || slow) ? &job_.progress() : nullptr;
 }
 
 void SceneJobs::start_next(const Document& wanted) {
@@ -33,9 +32,9 @@ void SceneJobs::start_next(const Document& wanted) {
     job_.start([this, files = *std::exchange(to_open_, {})](Progress& progress) {
       return model_.open(files, progress);
     });
-  } else if (restore_ || !same_scene(wanted, requested_)) {
+  } else if (!same_scene(wanted, requested_)) {
     requested_ = wanted;
-    kind_ = std::exchange(restore_, false) ? Kind::kRestore : Kind::kUpdate;
+    kind_ = Kind::kUpdate;
     job_.start([this, document = wanted](Progress& progress) { return model_.update(document, progress); });
   }
 }

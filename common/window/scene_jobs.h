@@ -12,8 +12,7 @@ namespace palpate {
 
 class SceneJobs {
  public:
-  /// A restored document is one that was taken back, or restored after that.
-  enum class Kind : std::uint8_t { kStart, kOpen, kUpdate, kRestore };
+  enum class Kind : std::uint8_t { kStart, kOpen, kUpdate };
 
   /// Begins to read what the model was made for: before there is a window, which takes its own while.
   /// `model` outlives this.
@@ -37,11 +36,6 @@ class SceneJobs {
   [[nodiscard]] const Document& requested() const noexcept { return requested_; }
   /// The scene that is shown is of this one: nothing is to be updated for it.
   void settle(const Document& document) { requested_ = document; }
-  /// The next job makes the scene of a restored document, whatever was requested.
-  void restore() noexcept { restore_ = true; }
-  /// Whether that is still to come.
-  [[nodiscard]] bool restoring() const noexcept { return restore_ || (running() && kind_ == Kind::kRestore); }
-
   void cancel() noexcept { job_.cancel(); }
   /// The document has changed: a slow update, whose answer is no longer wanted, makes way for the next.
   void give_way();
@@ -50,7 +44,6 @@ class SceneJobs {
   WindowModel& model_;
   Kind kind_ = Kind::kStart;
   Document requested_;
-  bool restore_ = false;
   std::optional<InputFiles> to_open_;
   BackgroundJob job_;  // last: its thread uses the model
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/text.h"
+#include "common/compose/line_view.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/panels/picture_panels.h"
 
@@ -98,6 +99,7 @@ void color_lines(const SceneState& scene, LineStyle& style) {
   const bool same = by_array && array && style.array && style.array->name == array->name;
   if (!same && (array || by_array)) {
     style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
+    if (!array) show_quantity(scene.document.view.color, style);
     style.range.reset();
     style.logarithmic.reset();
     if (scene.style) style.color_map = scene.style->color_map;
@@ -108,7 +110,7 @@ void color_lines(const SceneState& scene, LineStyle& style) {
 }  // namespace
 
 void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
-  const bool as_made = as != ShownAs::kChanged;
+  const bool as_made = as == ShownAs::kNew;
   view.lines = scene.lines;
   view.surfaces = scene.surfaces;
   show_lens(scene, as_made, view);
@@ -124,12 +126,44 @@ void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
   show_volume(scene, as_made, view);
   show_tensors(scene, as_made, view);
   show_tracts(scene, as_made, view);
-  if (as != ShownAs::kNew) return;
+  if (!as_made) return;
   if (scene.style) {
     view.style = *scene.style;
   } else {
     view.style.range.reset();
   }
+}
+
+ViewEdits edits_of(const SceneView& view) {
+  ViewEdits edits{view.style, view.color_lens, view.volume, view.tensors, view.tracts};
+  edits.style.array.reset();
+  if (edits.color_lens) edits.color_lens->style.array.reset();
+  if (edits.volume) {
+    edits.volume->image.reset();
+    for (VolumeField& field : edits.volume->fields) field.image.reset();
+  }
+  // The underlay stays: its window is of its own values.
+  if (edits.tensors) edits.tensors->image.reset();
+  if (edits.tracts) edits.tracts->bundle.reset();
+  return edits;
+}
+
+void put_edits(const ViewEdits& edits, const SceneState& scene, SceneView& view) {
+  view.style = edits.style;
+  view.style.array = scene.color_array;
+  if (view.style.color_by == ColorBy::kArray && !view.style.array) view.style.color_by = ColorBy::kSpeed;
+  view.color_lens = edits.color_lens;
+  view.volume = edits.volume;
+  view.tensors = edits.tensors;
+  view.tracts = edits.tracts;
+  show_lens(scene, false, view);
+  show_volume(scene, false, view);
+  show_tensors(scene, false, view);
+  show_tracts(scene, false, view);
+  if (!edits.color_lens) view.color_lens.reset();
+  if (!edits.volume) view.volume.reset();
+  if (!edits.tensors) view.tensors.reset();
+  if (!edits.tracts) view.tracts.reset();
 }
 
 }  // namespace palpate

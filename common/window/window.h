@@ -50,9 +50,10 @@ struct WindowOptions {
   /// @name For tests and demonstrations
   /// @{
   /// Events put in at their frame as if they came from mouse and keyboard. Frames are counted from the
-  /// moment when the first scene is shown, and wait for background jobs.
+  /// moment when the first scene is shown.
   std::vector<ScriptedEvent> script;
   int frames = 0;                    ///< > 0: closes after that many frames
+  bool frames_wait = true;           ///< for background jobs; else they are counted while these run, too
   std::filesystem::path screenshot;  ///< picture of the whole window, panel and all, at the end
   bool hidden = false;               ///< never shown on the screen
   /// @}

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/scene/session_of.h"
 
 namespace palpate {
 
@@ -20,13 +21,32 @@ bool WindowFiles::attempt(const std::function<std::string()>& save) {
   }
 }
 
+const DrawnLines& WindowFiles::all_lines() {
+  if (!touch_.trail().drawn().empty()) (void)touch_.trail().keep_line();
+  return touch_.trail().drawn_lines();
+}
+
 std::string WindowFiles::write_lines() {
-  ProbeTrail& trail = touch_.trail();
-  if (!trail.drawn().empty()) (void)trail.keep_line();
-  if (trail.drawn_lines().entries().empty())
+  const DrawnLines& lines = all_lines();
+  if (lines.entries().empty())
     throw work_error(touch_.data().has_tensors() ? "no tract is drawn; press G, then drag along one"
                                                  : "no line is kept; grab the probe (G), then K keeps one");
-  return saved_.save_lines(trail.drawn_lines(), state_.lines_file).string();
+  return saved_.save_lines(lines, state_.lines_file).string();
+}
+
+void WindowFiles::save_session(WindowModel& model, Document document) {
+  attempt([&] {
+    const DrawnLines& lines = all_lines();
+    std::filesystem::path& file = document.touch.drawn_lines;
+    file.clear();
+    if (lines.entries().empty()) return model.save_session(document);
+    file = session_path(document, program_).replace_extension(".lines.csv");
+    lines.save(file, true);
+    const std::string session = model.save_session(document);
+    saved_.note_saved(lines);
+    return session + " with " +
+           counted(lines.entries().size(), touch_.data().has_tensors() ? "tract" : "line");
+  });
 }
 
 void WindowFiles::save_lines() {

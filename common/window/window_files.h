@@ -15,15 +15,19 @@ namespace palpate {
 
 class WindowFiles {
  public:
-  /// `touch` and `state`, in which messages are left, outlive it.
+  /// `touch`, whose lines at the start are in a file, and `state`, in which messages are left, outlive it.
   WindowFiles(const std::filesystem::path& folder, const std::string& program, ProbeSession& touch,
               PanelState& state)
-      : saved_(folder, program), touch_(touch), state_(state) {}
+      : program_(program), saved_(folder, program), touch_(touch), state_(state) {
+    saved_.note_saved(touch.trail().drawn_lines());
+  }
 
   /// Says what `save` wrote, or why it did not. @return whether it did.
   bool attempt(const std::function<std::string()>& save);
   /// Saves the lines or tracts that are kept, those that are drawn and not kept yet too.
   void save_lines();
+  /// Saves the session of `document`, and beside it the lines or tracts, likewise.
+  void save_session(WindowModel& model, Document document);
   void save_picture(const Image& image, const std::vector<PngText>& texts);
   /// The files that the panels have a button for.
   void save_asked(const PanelActions& actions, const SceneView& view, const std::optional<Box>& region);
@@ -42,8 +46,11 @@ class WindowFiles {
   [[nodiscard]] std::optional<Leave> answer();
 
  private:
+  /// Those that are kept, after keeping those that are drawn.
+  const DrawnLines& all_lines();
   std::string write_lines();
 
+  std::string program_;
   SavedFiles saved_;
   UnsavedQuestion question_;
   ProbeSession& touch_;

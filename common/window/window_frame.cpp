@@ -27,6 +27,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   gui_->set_background(view_.background);
   const std::vector<InputEvent> events = take_events();
   gui_->begin_frame(events, width, height, seconds);
+  const Document before = state_.document;
   look();
   // An orthographic picture has one eye, but a workbench's is never that.
   controls_.place(controlled(), has_two_eyes(view_) || (workbench_ && !screens_));
@@ -34,7 +35,6 @@ void ExplorerWindow::draw_frame(double seconds) {
   work_in_space();
   if (needs_camera_ && scene_) reset_camera();
   update_panels();
-  const Document before = state_.document;
   const PanelActions actions = draw_panels(options_.panels, state_, view_, parts);
   obey(actions);
   answer_question();

@@ -8,10 +8,8 @@
 #include <imgui.h>
 
 #include "common/base/text.h"
-#include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
-#include "common/scene/session_of.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/keys.h"
@@ -142,7 +140,7 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kSaveSession:
       keep_document();
-      if (scene_) files_.attempt([this] { return model_.save_session(state_.document); });
+      if (scene_) files_.save_session(model_, state_.document);
       break;
     case Command::kSaveLines:
       files_.save_lines();
@@ -166,7 +164,7 @@ void ExplorerWindow::work_in_space() {
 }
 
 void ExplorerWindow::keep_document() {
-  if (!scene_ || needs_camera_ || jobs_.restoring()) return;
+  if (!scene_ || needs_camera_) return;
   Document& document = state_.document;
   if (!same_picture(view_, kept_)) {
     model_.keep(view_, document);
@@ -187,61 +185,63 @@ bool ExplorerWindow::dragging() const {
   return state_.playing || plane || layers || !controls_.resting() || ImGui::IsAnyItemActive();
 }
 
+ExplorerWindow::Edited ExplorerWindow::edited() const {
+  Edited now{.document = state_.document, .made = touch_.trail().made(), .view = edits_of(view_)};
+  now.document.view.camera.clear();
+  now.document.view.focal.clear();
+  return now;
+}
+
 void ExplorerWindow::follow_edits() {
-  if (!scene_ || needs_camera_ || jobs_.restoring()) return;
+  if (!scene_ || needs_camera_) return;
   keep_document();
-  if (!history_) history_.emplace(state_.document);
-  // Planes that a mode begins with are no edit.
-  const auto& planes = state_.document.touch.planes.planes;
-  if (history_->now().touch.planes.planes.empty() && !planes.empty()) history_->settle(state_.document);
-  if (!dragging() && !(state_.document == history_->now())) {
-    history_->push(state_.document, "edit");
-    edits_.push_back(EditKind::kDocument);
+  if (!history_) {
+    history_.emplace(edited());
+  } else if (history_->now().document.touch.planes.planes.empty() &&
+             !state_.document.touch.planes.planes.empty()) {
+    history_->settle(edited());  // planes that a mode begins with are no edit
+  } else if (!dragging()) {
+    history_->push(edited());
   }
-  const std::size_t trail = touch_.trail().undo_depth();
-  if (trail > trail_edits_) edits_.push_back(EditKind::kTrail);
-  trail_edits_ = trail;
 }
 
 std::string ExplorerWindow::undo() {
   // A point of what is being marked is in no document yet.
-  if (controls_.touch().marking() && !touch_.notes().pending().empty() && touch_.notes().undo())
-    return "undone";
-  if (edits_.empty()) return "nothing to undo";
-  const EditKind last = edits_.back();
-  edits_.pop_back();
-  if (last == EditKind::kTrail) {
-    (void)touch_.trail().undo();
-    trail_edits_ = touch_.trail().undo_depth();
-  } else if (history_->can_undo()) {
-    restore(history_->undo());
-  } else {
-    return "nothing to undo";  // the history is bounded
-  }
+  if (controls_.touch().marking() && touch_.notes().take_back()) return "undone";
+  keep_document();
+  if (history_) history_->push(edited());
+  if (!history_ || !history_->can_undo()) return "nothing to undo";
+  restore(history_->undo());
   return "undone";
 }
 
 std::string ExplorerWindow::redo() {
+  keep_document();
+  if (history_) history_->push(edited());
   if (!history_ || !history_->can_redo()) return "nothing to restore";
-  edits_.push_back(EditKind::kDocument);
   restore(history_->redo());
   return "restored";
 }
 
-void ExplorerWindow::restore(const Document& document) {
-  state_.document = document;
-  state_.seeds = seed_choice(document.tracing.seeds);
-  state_.plotted = document.series.plot;
-  state_.play_rate = document.view.play_rate;
-  view_.camera = camera_of(document.view, view_.bounds, kSessionAspect, projection_of(document.volume));
-  style_lines(document.view, view_.style);
-  show_quantity(document.view.color, view_.style);
-  controls_.region().put(document.slice.box.empty() ? std::nullopt
-                                                    : std::optional(parse_box(document.slice.box, "--box")));
-  touch_.restore(document.touch);
-  kept_ = view_;
-  // Lenses, slices and the like come with the scene that is made of the document.
-  jobs_.restore();
+void ExplorerWindow::restore(const Edited& to) {
+  const ViewOptions seen = state_.document.view;
+  state_.document = to.document;
+  state_.document.view.camera = seen.camera;
+  state_.document.view.focal = seen.focal;
+  state_.seeds = seed_choice(to.document.tracing.seeds);
+  state_.plotted = to.document.series.plot;
+  state_.play_rate = to.document.view.play_rate;
+  put_edits(to.view, *scene_, view_);
+  view_.camera.projection = projection_of(to.document.volume);
+  const std::string& box = to.document.slice.box;
+  controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
+  touch_.restore(to.document.touch);
+  // The first cuts stand for as many planes of the hand as there were then.
+  if (touch_.planes()) cut_planes_.count = touch_.choice().settings.plane_widget.poses.count;
+  touch_.trail().put(to.made);
+  // What the document says in other words now is no edit.
+  keep_document();
+  history_->settle(edited());
 }
 
 std::vector<PngText> ExplorerWindow::picture_texts() const {

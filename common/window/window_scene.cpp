@@ -12,6 +12,11 @@
 #include "common/window/user_settings.h"
 
 namespace palpate {
+namespace {
+
+constexpr const char* kCancelled = "cancelled; what is shown is as before";
+
+}  // namespace
 
 void ExplorerWindow::take_outcome() {
   if (auto outcome = jobs_.take()) {
@@ -26,19 +31,22 @@ void ExplorerWindow::take_outcome() {
 }
 
 void ExplorerWindow::adopt(SceneState scene) {
+  const bool settled = history_ && edited() == history_->now();
   scene_ = std::move(scene);
   using Kind = SceneJobs::Kind;
-  const bool new_input = !scene_->joined && (jobs_.kind() == Kind::kStart || jobs_.kind() == Kind::kOpen);
-  const bool restored = jobs_.kind() == Kind::kRestore;
-  show_scene(*scene_, new_input ? ShownAs::kNew : restored ? ShownAs::kRestored : ShownAs::kChanged, view_);
-  const bool settled = history_ && state_.document == history_->now();
+  const bool new_input = !scene_->joined && jobs_.kind() != Kind::kUpdate;
+  show_scene(*scene_, new_input ? ShownAs::kNew : ShownAs::kChanged, view_);
   if (new_input) {
     plot_.forget();
     controls_.menu().hide();
-    if (jobs_.kind() == SceneJobs::Kind::kOpen) controls_.forget_region();
+    if (jobs_.kind() == Kind::kOpen) {
+      controls_.forget_region();
+      touch_.trail().forget();
+    }
     // Edits made while the input was being read belonged to the old one.
     state_.document = scene_->document;
     needs_camera_ = true;
+    history_.reset();  // begins with the first picture
     remember(state_.recent, scene_->info->files);
     glfwSetWindowTitle(glfw_.get(), (scene_->info->name + " - " + options_.program).c_str());
   } else if (scene_->joined) {
@@ -49,16 +57,12 @@ void ExplorerWindow::adopt(SceneState scene) {
   }
   jobs_.settle(scene_->document);
   state_.seeds = seed_choice(state_.document.tracing.seeds);
-  if (new_input) {
-    history_.reset();  // begins with the first picture
-    edits_.clear();
-  }
-  // Defaults that are known now are no edit.
-  if (settled && history_ && !scene_->joined) history_->settle(state_.document);
-  if (restored) kept_ = view_;
   adopt_field();
+  keep_document();
+  // Defaults that are known now are no edit.
+  if (settled && history_ && !scene_->joined) history_->settle(edited());
   if (new_input) state_.lines_file = touch_.data().has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
-  if (!restored) state_.say({});
+  if (new_input || state_.message_is_error || state_.message == kCancelled) state_.say({});
 }
 
 void ExplorerWindow::adopt_field() {
@@ -76,17 +80,25 @@ void ExplorerWindow::adopt_field() {
 }
 
 void ExplorerWindow::fail(const std::exception_ptr& error) {
-  if (jobs_.kind() == SceneJobs::Kind::kStart) std::rethrow_exception(error);
-  // What was open stays; so does the document that made it.
-  state_.document = scene_->document;
-  model_.keep(view_, state_.document);
-  jobs_.settle(scene_->document);
-  state_.seeds = seed_choice(state_.document.tracing.seeds);
-  state_.playing = false;
+  using Kind = SceneJobs::Kind;
+  if (jobs_.kind() == Kind::kStart) std::rethrow_exception(error);
+  if (jobs_.kind() == Kind::kUpdate) {
+    const bool overtaken = !same_scene(state_.document, jobs_.requested());
+    jobs_.settle(scene_->document);
+    // What has been edited meanwhile stays, and is asked for next.
+    if (overtaken) return;
+    // What was open stays; so does the document that made it.
+    state_.document = scene_->document;
+    model_.keep(view_, state_.document);
+    keep_document();
+    if (history_) history_->fail(edited());
+    state_.seeds = seed_choice(state_.document.tracing.seeds);
+    state_.playing = false;
+  }
   try {
     std::rethrow_exception(error);
   } catch (const Cancelled&) {
-    state_.say("cancelled; what is shown is as before");
+    state_.say(kCancelled);
   } catch (const std::exception& e) {
     state_.fail(e.what());
   }

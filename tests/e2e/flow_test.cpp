@@ -252,6 +252,44 @@ TEST_F(Flow, TakesOptionsFromASessionUnlessTheyAreTyped) {
   EXPECT_EQ(run({"trace", "--session", "missing.toml", "--out", "c.vtp"}).exit_code, 3);
 }
 
+// What a hand has made is saved beside the session, moves with it, and is drawn without a display, too.
+TEST_F(Flow, DrawsTheLinesThatASessionHasKept) {
+  const std::string header = "line,seed,point,x,y,z,time,arc,speed,error,termination,force\n";
+  const std::string lines = header +
+                            "0,1,0,-3,0,0,0,0,1,0,loop,nan\n0,1,1,3,0,0,1,6,1,0,loop,0.5\n"
+                            "1,4,0,0,-3,0,0,0,1,0,loop,1\n1,4,1,0,3,0,1,6,1,0,loop,1\n";
+  const std::string session =
+      "format = 1\nprogram = \"flow\"\n[lines]\nfile = \"made/s.lines.csv\"\n[scene]\nexample = \"abc\"\n"
+      "seeds = \"grid:2,2,2\"\n";
+  folder_.write("here/made/s.lines.csv", lines);
+  folder_.write("here/s.toml", session);
+  std::filesystem::rename(folder_.path("here"), folder_.path("there"));
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"render",  "--session", "there/s.toml", "--size",
+                                       "160x120", "--out",     "p.png",        "--force"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const ProgramResult drawn = render({});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_NE(drawn.out.find("2 lines drawn by hand"), std::string::npos) << drawn.out;
+  const std::string with = read_file(folder_.path("p.png"));
+  EXPECT_EQ(render({"--drawn-lines", ""}).out.find("drawn by hand"), std::string::npos);
+  EXPECT_NE(read_file(folder_.path("p.png")), with);
+  EXPECT_NE(render({"--drawn-lines", "there/made/s.lines.csv"}).out.find("2 lines"), std::string::npos);
+  EXPECT_EQ(read_file(folder_.path("p.png")).size(), with.size()) << "the same picture, but for its command";
+
+  folder_.write("there/made/s.lines.csv", lines.substr(0, lines.size() - 20));
+  const ProgramResult damaged = render({});
+  EXPECT_EQ(damaged.exit_code, 3);
+  EXPECT_NE(damaged.err.find("s.lines.csv: line 5"), std::string::npos) << damaged.err;
+  std::filesystem::remove(folder_.path("there/made/s.lines.csv"));
+  const ProgramResult missing = render({});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.err.find("s.lines.csv"), std::string::npos) << missing.err;
+  EXPECT_EQ(render({"--drawn-lines", ""}).exit_code, 0) << "and without them";
+}
+
 TEST_F(Flow, DrawsAPictureThatSaysHowItWasMade) {
   const Json object = json({"render", "--example", "abc", "--seeds", "grid:3,3,3", "--size", "160x120",
                             "--repeat", "2", "--out", "p.png"});

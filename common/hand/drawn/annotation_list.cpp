@@ -13,30 +13,31 @@ void AnnotationList::choose(AnnotationKind kind) {
 }
 
 void AnnotationList::add(const Vec3& place) {
-  before_.push_back(now_);
-  now_.pending.push_back(place);
+  pending_.push_back(place);
   const PointsNeeded needed = points_needed(kind_);
-  if (needed.most == 0 || now_.pending.size() < needed.most) return;
-  now_.entries.push_back({kind_, std::exchange(now_.pending, {}), {}});
+  if (needed.most == 0 || pending_.size() < needed.most) return;
+  entries_.push_back({kind_, std::exchange(pending_, {}), {}});
 }
 
 void AnnotationList::finish() {
-  if (now_.pending.empty()) return;
-  before_.push_back(now_);
-  std::vector<Vec3> points = std::exchange(now_.pending, {});
-  if (points.size() >= points_needed(kind_).least) now_.entries.push_back({kind_, std::move(points), {}});
+  std::vector<Vec3> points = std::exchange(pending_, {});
+  if (!points.empty() && points.size() >= points_needed(kind_).least)
+    entries_.push_back({kind_, std::move(points), {}});
 }
 
 void AnnotationList::remove(std::size_t index) {
-  before_.push_back(now_);
-  now_.entries.erase(now_.entries.begin() + static_cast<std::ptrdiff_t>(index));
+  entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-bool AnnotationList::undo() {
-  if (before_.empty()) return false;
-  now_ = std::move(before_.back());
-  before_.pop_back();
+bool AnnotationList::take_back() {
+  if (pending_.empty()) return false;
+  pending_.pop_back();
   return true;
+}
+
+void AnnotationList::put(std::vector<Annotation> entries) {
+  entries_ = std::move(entries);
+  pending_.clear();
 }
 
 std::string text_of(const std::vector<Annotation>& annotations) {

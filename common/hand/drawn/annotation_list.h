@@ -1,9 +1,10 @@
-/// Annotations that the user places, a point at a time, and takes back.
+/// Annotations that the user places, a point at a time.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/geometry/annotation.h"
@@ -14,7 +15,7 @@ namespace palpate {
 class AnnotationList {
  public:
   AnnotationList() = default;
-  explicit AnnotationList(std::vector<Annotation> entries) : now_{std::move(entries), {}} {}
+  explicit AnnotationList(std::vector<Annotation> entries) : entries_(std::move(entries)) {}
 
   /// What the next points make; ends what is being placed.
   void choose(AnnotationKind kind);
@@ -26,21 +27,18 @@ class AnnotationList {
   void finish();
   /// @pre index < entries().size().
   void remove(std::size_t index);
-  /// Takes back the last of these; false where there is none.
-  bool undo();
+  /// Takes back the last point of what is being placed; false where there is none.
+  bool take_back();
+  /// These in place of all others, and of what is being placed.
+  void put(std::vector<Annotation> entries);
 
-  [[nodiscard]] const std::vector<Annotation>& entries() const noexcept { return now_.entries; }
-  [[nodiscard]] const std::vector<Vec3>& pending() const noexcept { return now_.pending; }
+  [[nodiscard]] const std::vector<Annotation>& entries() const noexcept { return entries_; }
+  [[nodiscard]] const std::vector<Vec3>& pending() const noexcept { return pending_; }
 
  private:
-  struct State {
-    std::vector<Annotation> entries;
-    std::vector<Vec3> pending;
-  };
-
-  State now_;
+  std::vector<Annotation> entries_;
+  std::vector<Vec3> pending_;
   AnnotationKind kind_ = AnnotationKind::kLength;
-  std::vector<State> before_;
 };
 
 /// All of them as an option's value: their words with ';' between.

@@ -34,20 +34,23 @@ class DrawnLines {
     double largest_force = 0.0;
   };
 
+  using Entries = std::vector<Entry>;
+
   void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}}}); }
-  /// All of them, as one thing to take back.
   void keep(std::vector<DrawnTract> lines);
   /// Whether the last one has been kept with these points and forces.
   [[nodiscard]] bool ends_with(const Line& line, const std::vector<double>& forces) const;
   /// Takes out the one at `index`. @pre index < entries().size().
   void remove(std::size_t index);
-  /// Takes back the last keep() or remove(); false where there is nothing to take back.
-  bool undo();
-  /// How often that is possible.
-  [[nodiscard]] std::size_t undo_depth() const noexcept { return before_.size(); }
+  /// Keeps these in place of all others; numbers go on after the largest that was ever given.
+  /// @param entries not null.
+  void put(std::shared_ptr<const Entries> entries);
+  /// Forgets numbers, too.
   void clear();
 
-  [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
+  [[nodiscard]] const Entries& entries() const noexcept { return *entries_; }
+  /// Never null; another object whenever the list has changed.
+  [[nodiscard]] const std::shared_ptr<const Entries>& all() const noexcept { return entries_; }
   /// For the picture; another object whenever the list has changed.
   [[nodiscard]] const std::shared_ptr<const std::vector<DrawnLine>>& drawn() const noexcept { return drawn_; }
 
@@ -56,12 +59,14 @@ class DrawnLines {
   void save(const std::filesystem::path& path, bool overwrite) const;
 
  private:
-  void changed();
-
-  std::vector<Entry> entries_;
-  std::vector<std::vector<Entry>> before_;  ///< for undo()
+  std::shared_ptr<const Entries> entries_ = std::make_shared<const Entries>();
   std::shared_ptr<const std::vector<DrawnLine>> drawn_;
   int next_number_ = 1;
 };
+
+/// Reads what DrawnLines::save() has written as .csv, with its numbers, forces and measures; such a table of
+/// another origin needs the columns line, seed, x, y and z.
+/// @throws Error (bad input) that names the file and the line.
+[[nodiscard]] std::shared_ptr<const DrawnLines::Entries> read_drawn_lines(const std::filesystem::path& path);
 
 }  // namespace palpate

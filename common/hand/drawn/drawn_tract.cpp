@@ -31,7 +31,6 @@ TractPen::TractPen(std::shared_ptr<const TensorField> field, double spacing, dou
     : field_(std::move(field)), spacing_(spacing), reach_(reach) {}
 
 void TractPen::begin(double time, const Vec3& proxy) {
-  if (reach_ > 0.0) before_.push_back(tracts_);
   ++edits_;
   down_ = true;
   added_ = 0;
@@ -111,21 +110,26 @@ void TractPen::add(double time, const Vec3& proxy, double force) {
 }
 
 void TractPen::lift() {
-  // A hand that has not moved has drawn nothing.
-  const bool nothing =
-      down_ && depth() > 0 && (added_ == 0 || tracts_.back().line.points.size() < kLeastPoints);
+  if (!down_) return;
   down_ = false;
-  if (nothing) {
-    undo();
+  // A hand that has not moved has drawn nothing.
+  if (reach_ > 0.0 && (added_ == 0 || tracts_.back().line.points.size() < kLeastPoints)) {
+    put(drawn_);
     return;
   }
   // What was drawn from the first point of a tract stands before it, and tracts stand in their order again.
   const auto by_seed = [](const DrawnTract& a, const DrawnTract& b) { return a.line.seed < b.line.seed; };
   if (turned_) turn_round(tracts_.back());
-  if (!turned_ && std::ranges::is_sorted(tracts_, by_seed)) return;
-  turned_ = false;
-  std::ranges::sort(tracts_, by_seed);
-  ++edits_;
+  if (turned_ || !std::ranges::is_sorted(tracts_, by_seed)) {
+    turned_ = false;
+    std::ranges::sort(tracts_, by_seed);
+    ++edits_;
+  }
+  note_drawn();
+}
+
+void TractPen::note_drawn() {
+  if (reach_ > 0.0) drawn_ = std::make_shared<const std::vector<DrawnTract>>(tracts_);
 }
 
 void TractPen::let_go() {
@@ -145,17 +149,17 @@ void TractPen::cut(std::size_t points) {
 std::vector<DrawnTract> TractPen::take() {
   lift();
   if (tracts_.empty()) return {};
-  if (reach_ > 0.0) before_.push_back(tracts_);
   ++edits_;
   std::vector<DrawnTract> taken = std::exchange(tracts_, {});
+  note_drawn();
   std::erase_if(taken, [](const DrawnTract& tract) { return tract.line.points.size() < kLeastPoints; });
   return taken;
 }
 
-void TractPen::undo() {
+void TractPen::put(std::shared_ptr<const std::vector<DrawnTract>> drawn) {
   down_ = turned_ = false;
-  tracts_ = std::move(before_.back());
-  before_.pop_back();
+  drawn_ = std::move(drawn);
+  tracts_ = *drawn_;
   ++edits_;
 }
 

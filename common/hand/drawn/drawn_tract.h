@@ -34,12 +34,12 @@ enum class StrokeUse : std::uint8_t {
 /// for any file.
 inline constexpr double kTractSpacing = 2e-4;
 
-/// Grows tracts from the steps of the servo, a stroke at a time, and takes strokes back. One thread.
+/// Grows tracts from the steps of the servo, a stroke at a time. One thread.
 class TractPen {
  public:
   /// @param spacing of points [data units]: steps closer to the last point than this are taken together.
   /// @param reach about the ends of tracts in which a stroke goes on from them [data units]; 0: every stroke
-  /// is a tract of its own, and none can be taken back.
+  /// is a tract of its own, and drawn() stays as it is.
   TractPen(std::shared_ptr<const TensorField> field, double spacing, double reach = 0.0);
 
   void use(StrokeUse use) noexcept { use_ = use; }
@@ -59,14 +59,17 @@ class TractPen {
   void cut(std::size_t points);
   /// Leaves those of two points and more to the caller, and none here.
   [[nodiscard]] std::vector<DrawnTract> take();
-  /// Strokes and take()s that undo() can take back.
-  [[nodiscard]] std::size_t depth() const noexcept { return before_.size(); }
-  /// Takes back the last of these, whole. @pre depth() > 0. A stroke that is being drawn ends.
-  void undo();
+  /// What was there when the pen was lifted last; another object whenever that has changed. Never null.
+  [[nodiscard]] const std::shared_ptr<const std::vector<DrawnTract>>& drawn() const noexcept {
+    return drawn_;
+  }
+  /// Goes back to what drawn() was. A stroke that is being drawn ends. @param drawn not null.
+  void put(std::shared_ptr<const std::vector<DrawnTract>> drawn);
   /// Grows whenever tracts() has changed by more than a point at the end of its last tract.
   [[nodiscard]] std::uint64_t edits() const noexcept { return edits_; }
 
  private:
+  void note_drawn();
   void begin(double time, const Vec3& proxy);
   [[nodiscard]] bool goes_on(const Vec3& proxy) const;
 
@@ -82,7 +85,7 @@ class TractPen {
   bool fresh_ = true;      ///< the hand has drawn nothing since it took the probe
   std::uint64_t edits_ = 0;
   std::vector<DrawnTract> tracts_;
-  std::vector<std::vector<DrawnTract>> before_;  ///< each stroke, each take()
+  std::shared_ptr<const std::vector<DrawnTract>> drawn_ = std::make_shared<const std::vector<DrawnTract>>();
 };
 
 /// Writes `lines` with the columns `force` and, where they have measures, `cl`, `cp` and `fa`, where the

@@ -1,6 +1,5 @@
 #include "common/hand/drawn/tract_drawing.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,28 +46,7 @@ void TractDrawing::cut_to_note() {
 bool TractDrawing::keep(DrawnLines& kept) {
   std::vector<DrawnTract> tracts = pen_.take();
   if (tracts.empty()) return false;
-  list_edits_.push_back({.strokes = pen_.depth(), .took = true});
   kept.keep(std::move(tracts));
-  return true;
-}
-
-void TractDrawing::remove(DrawnLines& kept, std::size_t index) {
-  list_edits_.push_back({.strokes = pen_.depth(), .took = false});
-  kept.remove(index);
-}
-
-std::size_t TractDrawing::undo_depth() const noexcept {
-  // What gave tracts to the list is an act of the pen, too.
-  const auto took = std::ranges::count_if(list_edits_, [](const ListEdit& edit) { return edit.took; });
-  return pen_.depth() + list_edits_.size() - static_cast<std::size_t>(took);
-}
-
-bool TractDrawing::undo(DrawnLines& kept) {
-  const bool of_list = !list_edits_.empty() && pen_.depth() == list_edits_.back().strokes;
-  if (!of_list && pen_.depth() == 0) return false;
-  if (of_list) (void)kept.undo();
-  if (!of_list || list_edits_.back().took) pen_.undo();
-  if (of_list) list_edits_.pop_back();
   return true;
 }
 

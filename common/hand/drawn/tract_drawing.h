@@ -1,11 +1,12 @@
-/// Tracts that the hand draws in the window: strokes from the steps of the servo, their path for the picture,
-/// and what is taken back when some of them have been kept meanwhile.
+/// Tracts that the hand draws in the window: strokes from the steps of the servo, and their path for the
+/// picture.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/field/tensor/tensor_field.h"
@@ -40,19 +41,13 @@ class TractDrawing {
 
   /// Gives the tracts to `kept`; false where there are none.
   bool keep(DrawnLines& kept);
-  /// Takes out the one at `index` of `kept`.
-  void remove(DrawnLines& kept, std::size_t index);
-  /// Takes back the last stroke, keep(), remove() or clear(); false where there is none.
-  bool undo(DrawnLines& kept);
-  /// How often that is possible.
-  [[nodiscard]] std::size_t undo_depth() const noexcept;
+  /// TractPen::drawn() and put().
+  [[nodiscard]] const std::shared_ptr<const std::vector<DrawnTract>>& drawn() const noexcept {
+    return pen_.drawn();
+  }
+  void put(std::shared_ptr<const std::vector<DrawnTract>> drawn) { pen_.put(std::move(drawn)); }
 
  private:
-  /// A change of the kept lines: how far the pen's strokes went then, and whether it gave its tracts to them.
-  struct ListEdit {
-    std::size_t strokes = 0;
-    bool took = false;
-  };
   struct Note {
     std::uint64_t edits = 0;
     std::size_t points = 0;
@@ -62,7 +57,6 @@ class TractDrawing {
   TractPen pen_;
   std::uint64_t shown_edits_ = 0;
   std::optional<Note> noted_;
-  std::vector<ListEdit> list_edits_;
 };
 
 }  // namespace palpate

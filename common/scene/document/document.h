@@ -188,6 +188,7 @@ struct TouchOptions {
   double most_friction = 6.0;            ///< [mm]
   std::string stroke = "append";         ///< name_of(StrokeUse)
   std::vector<std::string> annotations;  ///< grammar of geometry/annotation.h
+  std::filesystem::path drawn_lines;     ///< table of the lines and tracts that a hand has kept; empty: none
   double force_cap = 4.0;                ///< [N]
   double slew_cap = 200.0;               ///< [N/s]
 };

@@ -491,6 +491,16 @@ const Setting kHandRows[] = {
      .value = "point|length|angle|curve|area:x,y,z,...",
      .heading = "Annotations",
      .groups = {Group::kNotes}},
+    {.name = "drawn-lines",
+     .place = kTouchAt<&TouchOptions::drawn_lines>,
+     .help = "lines or tracts that a hand has kept, as a window saves them as .csv; with its session it saves "
+             "them beside that",
+     .value = "FILE.csv",
+     .heading = "Annotations",
+     .groups = {Group::kNotes},
+     .kinds = {FieldKind::kVector, FieldKind::kTensor, FieldKind::kFibre},
+     .otherwise = "those of the session",
+     .saved = false},
 
     {.name = "path",
      .place = kHandAt<&HandOptions::path>,

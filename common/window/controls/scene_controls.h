@@ -85,7 +85,8 @@ class SceneControls {
   [[nodiscard]] bool moves_view() const noexcept { return view_.dragging() || slice_.dragging(); }
   /// Whether nothing is dragged that an edit would be of.
   [[nodiscard]] bool resting() const noexcept {
-    return !region_.dragging() && !plane_image_.dragging() && !moves_view() && !hand_in_space_.holding();
+    return !region_.dragging() && !plane_image_.dragging() && !slice_.dragging() && !lens_.followed() &&
+           !color_lens_.followed() && !hand_in_space_.holding();
   }
   /// Whether a lens or a cut was moved since the last call.
   [[nodiscard]] bool take_lens_moved() noexcept { return std::exchange(lens_moved_, false); }

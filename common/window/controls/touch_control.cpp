@@ -202,7 +202,11 @@ bool TouchControl::handle(const InputEvent& event, const PictureArea& area, cons
       return true;
     }
     case InputKind::kKeyDown:
-      if (!shift || grabbed_ || !session_.available() || !area.contains(x_, y_)) return false;
+      // Both together begin a command.
+      if (by_shift_ && is_control_key(event.key)) let_go();
+      if (!shift || (event.modifiers & kModifierControl) != 0 || grabbed_ || !session_.available() ||
+          !area.contains(x_, y_))
+        return false;
       grab(area, view, time);
       by_shift_ = true;
       return true;

@@ -35,6 +35,23 @@ TEST(Session, ComesBackAsItWasSaved) {
   EXPECT_TRUE(changed_inputs(read).empty());
 }
 
+TEST(Session, HasTheLinesThatWereDrawnByHandBesideIt) {
+  const TempFolder folder;
+  Session saved = sample_session(folder);
+  saved.lines = describe_input(folder.write("s.lines.csv", "lines"), false);
+  save_session(folder.path("s.toml"), saved);
+  EXPECT_EQ(read_file(folder.path("s.toml")).find(folder.path("s.lines.csv").string()), std::string::npos)
+      << "it moves with it";
+  const Session read = load_session(folder.path("s.toml"));
+  ASSERT_TRUE(read.lines);
+  EXPECT_TRUE(std::filesystem::equivalent(read.lines->file, folder.path("s.lines.csv")));
+  EXPECT_EQ(read.inputs.size(), 2U);
+  EXPECT_EQ(change_of(*read.lines), "");
+  folder.write("s.lines.csv", "line");
+  EXPECT_NE(change_of(*read.lines).find("has changed"), std::string::npos);
+  EXPECT_TRUE(changed_inputs(read).empty());
+}
+
 TEST(Session, MovesWithTheFilesBelowIt) {
   const TempFolder folder;
   save_session(folder.path("s.toml"), sample_session(folder));

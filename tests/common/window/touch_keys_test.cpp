@@ -72,6 +72,22 @@ TEST_F(TouchWindowTest, ShiftHoldsTheProbeAsLongAsItIsDown) {
   EXPECT_FALSE(run().probe.held);
 }
 
+TEST_F(TouchWindowTest, ShiftWithControlIsForACommand) {
+  const int down = next();
+  key_down(down, kControl);
+  key_down(down + 2, kShift, kModifierControl);
+  last_ = down + kPause;
+  EXPECT_FALSE(run().probe.held);
+  key_up(next(), kShift);
+  key_up(next(), kControl);
+  const int first = next();
+  key_down(first, kShift);
+  last_ = first + kPause;
+  EXPECT_TRUE(run().probe.held);
+  key_down(next(), kControl, kModifierShift);
+  EXPECT_FALSE(run().probe.held);
+}
+
 TEST_F(TouchWindowTest, EscapeLetsGo) {
   grab();
   key(kEscape);
@@ -111,6 +127,109 @@ TEST_F(TouchWindowTest, LinesAreKeptTakenBackAndSaved) {
   const WindowResult undone = run();
   EXPECT_EQ(undone.message, "undone");
   EXPECT_EQ(undone.view.probe->drawn_lines->size(), 1U);
+  key('Z', kModifierControl | kModifierShift);
+  const WindowResult restored = run();
+  EXPECT_EQ(restored.message, "restored");
+  EXPECT_EQ(restored.view.probe->drawn_lines->size(), 2U);
+}
+
+// One order for all: a line is kept, the mode is changed, another step in time is shown.
+TEST_F(TouchWindowTest, KeptLinesAreInTheSameOrderOfEditsAsAllElse) {
+  grab();
+  key('K');
+  key('G');
+  key('2');
+  key('.');
+  const auto state = [&] {
+    const WindowResult result = run();
+    return std::to_string(result.view.probe->drawn_lines->size()) + " " + result.document.touch.mode + " " +
+           result.document.input.time;
+  };
+  const std::string all = state();
+  EXPECT_TRUE(all.starts_with("1 ")) << all << ": another step in time keeps the line";
+  key('Z', kModifierControl);
+  const std::string earlier = state();
+  EXPECT_NE(earlier, all);
+  EXPECT_TRUE(earlier.starts_with("1 isotropic")) << earlier;
+  key('Z', kModifierControl);
+  EXPECT_TRUE(state().starts_with("1 ") && state().find("isotropic") == std::string::npos) << state();
+  key('Z', kModifierControl);
+  EXPECT_TRUE(state().starts_with("0 ")) << state();
+  for (int i = 0; i < 3; ++i) key('Y', kModifierControl);
+  EXPECT_EQ(state(), all);
+}
+
+TEST_F(TouchWindowTest, TheSessionHasTheLinesAndTheWindowClosesUnasked) {
+  model_.file = folder_.path("helix.vtk");
+  grab();
+  key('K');
+  lead_to(60.0, 20.0);
+  key('K');
+  key('S', kModifierControl);
+  const WindowResult saved = run();
+  EXPECT_NE(saved.message.find("with 2 lines"), std::string::npos) << saved.message;
+  EXPECT_EQ(model_.saved.touch.drawn_lines, folder_.path("helix.palpate.lines.csv"));
+  const auto lines = read_drawn_lines(model_.saved.touch.drawn_lines);
+  ASSERT_EQ(lines->size(), 2U);
+  EXPECT_EQ((*lines)[1].number, 2);
+  EXPECT_EQ((*lines)[1].line->points.size(), (*saved.view.probe->drawn_lines)[1].line->points.size());
+  key('Q');
+  last_ += 4 * kPause;
+  EXPECT_LT(run().frames, options_.frames) << "closes unasked";
+
+  // Opened with them, they are there with their numbers, and unsaved lines are asked about.
+  options_.script.clear();
+  last_ = 0;
+  options_.touch.lines = lines;
+  move(1, middle_x_, middle_y_);
+  key('Q');
+  last_ += 4 * kPause;
+  EXPECT_LT(run().frames, options_.frames) << "they are in a file";
+  options_.script.clear();
+  last_ = 0;
+  grab();
+  key('K');
+  const WindowResult more = run();
+  ASSERT_EQ(more.view.probe->drawn_lines->size(), 3U);
+  EXPECT_EQ(more.view.probe->drawn_lines->back().number, 3);
+  key('Q');
+  last_ += 4 * kPause;
+  EXPECT_EQ(run().frames, options_.frames) << "asked";
+}
+
+TEST_F(TouchWindowTest, AnotherInputForgetsTheLines) {
+  grab();
+  key('K');
+  key('E', kModifierControl);
+  at(next(), {.kind = InputKind::kDrop, .files = {"other.vtk"}});
+  last_ += 2 * kPause;
+  const WindowResult result = run();
+  EXPECT_TRUE(!result.view.probe->drawn_lines || result.view.probe->drawn_lines->empty());
+}
+
+TEST_F(TouchWindowTest, ASliderTakesATypedNumberAndItsDigitsChooseNoMode) {
+  const int begin = next();
+  // The window system gives with a key what was held before it.
+  key_down(begin, kControl);
+  at_control(begin + 2, {.kind = InputKind::kPress}, "stiffness");
+  at(begin + 4, {.kind = InputKind::kRelease});
+  at(begin + 6, {.kind = InputKind::kKeyUp, .key = kControl, .modifiers = kModifierControl});
+  int frame = begin + 8;
+  for (const char digit : {'3', '2', '1'}) {
+    key_down(frame, digit);
+    at(frame, {.kind = InputKind::kText, .key = digit});
+    key_up(frame + 1, digit);
+    frame += 3;
+  }
+  key_down(frame, kEnter);
+  key_up(frame + 1, kEnter);
+  const WindowResult typed = run();
+  EXPECT_EQ(typed.document.touch.stiffness, 321.0);
+  EXPECT_NE(typed.document.touch.mode, "isotropic");
+  key('2');
+  const WindowResult chosen = run();
+  EXPECT_EQ(chosen.document.touch.mode, "isotropic") << "once the field is left, keys are keys again";
+  EXPECT_EQ(chosen.document.touch.stiffness, 321.0);
 }
 
 TEST_F(TouchWindowTest, TheLastLineCanBeKeptAfterLettingGoAndOnlyOnce) {

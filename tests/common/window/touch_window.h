@@ -30,7 +30,7 @@ namespace palpate::test {
 /// Places across a slider, for its least and its greatest value.
 inline constexpr double kLeast = 0.04, kMost = 0.96;
 
-inline constexpr int kEscape = 256, kF12 = 301, kShift = 340;
+inline constexpr int kEscape = 256, kEnter = 257, kF12 = 301, kShift = 340, kControl = 341;
 
 /// What differs from a new document: " name=value" each.
 inline std::string settings_text(const Document& document) {
@@ -47,6 +47,7 @@ class HelixModel final : public WindowModel {
   SceneState start(Progress&) override {
     Document document;
     document.input.field = "velocity";
+    if (!file.empty()) document.input.files = {file};
     return make(document);
   }
   SceneState open(const InputFiles&, Progress&) override { return make({}); }
@@ -55,9 +56,14 @@ class HelixModel final : public WindowModel {
     return make(document);
   }
   void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
-  std::string save_session(const Document&) override { return "a file"; }
+  std::string save_session(const Document& document) override {
+    saved = document;
+    return "a file";
+  }
 
   std::atomic<int> updated{0};
+  std::filesystem::path file;  ///< of the input, beside which sessions are saved
+  Document saved;
 
  private:
   SceneState make(Document document) {

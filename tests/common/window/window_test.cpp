@@ -1,9 +1,11 @@
 #include "common/window/window.h"
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -13,6 +15,7 @@
 #include "common/render/png.h"
 #include "common/render/render_image.h"
 #include "common/window/panels/panel.h"
+#include "common/window/panels/seed_panel.h"
 #include "tests/common/render/sample_scenes.h"
 #include "tests/support/png_texts.h"
 
@@ -37,11 +40,19 @@ class FakeModel : public WindowModel {
     }
     return make(files.front().string(), {});
   }
-  SceneState update(const Document& document, Progress&) override {
+  SceneState update(const Document& document, Progress& progress) override {
     ++updated;
+    if (document.input.time == refused) throw work_error("there is no such time");
+    for (int i = 0; updated == 1 && i < rests; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      progress.check();
+    }
     return make("whirlwind", document);
   }
-  void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
+  void keep(const SceneView& view, Document& document) const override {
+    keep_camera(view, document);
+    keep_lines(view.style, document);
+  }
   std::string save_session(const Document&) override {
     ++saved;
     return "whirlwind.toml";
@@ -49,6 +60,8 @@ class FakeModel : public WindowModel {
 
   std::atomic<int> opened{0}, updated{0}, saved{0};
   std::string first_array;
+  std::string refused = "none";  ///< the time of a step that cannot be read
+  int rests = 0;                 ///< of 10 ms, in the first update
 
  private:
   static SceneState make(const std::string& name, Document document) {
@@ -105,6 +118,22 @@ class WindowTest : public ::testing::Test {
   void key(int frame, int code, int modifiers = 0) {
     at(frame, {.kind = InputKind::kKeyDown, .key = code, .modifiers = modifiers});
     at(frame + 1, {.kind = InputKind::kKeyUp, .key = code, .modifiers = modifiers});
+  }
+
+  void at_control(int frame, InputEvent event, const std::string& control, double across = 0.5) {
+    options_.script.push_back({frame, std::move(event), control, 0, across});
+  }
+  void undo(int frame) { key(frame, 'Z', kModifierControl); }
+  void redo(int frame) { key(frame, 'Z', kModifierControl | kModifierShift); }
+  /// Frames of 8 ms at least, which go on while the first update takes longer than they all, but is cancelled.
+  void update_slowly() {
+    model_.rests = 6000;
+    options_.frames_wait = false;
+    options_.frames = 160;
+    options_.stop_requested = [] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(8));
+      return false;
+    };
   }
 
   FakeModel model_;
@@ -229,26 +258,113 @@ TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
   EXPECT_EQ(different, 0);
 }
 
-// Edits of any part, in the order of acts: the view is turned, then lines are traced backward; both are taken
-// back, and restored.
+// A drag is one step, and so is a key; where it is seen from is none.
 TEST_F(WindowTest, EditsAreTakenBackAndRestoredInTheirOrder) {
+  options_.frames = 36;
+  const double width = options_.view.style.width;
+  at_control(2, {.kind = InputKind::kPress}, "width", 0.3);
+  for (int i = 0; i < 8; ++i) at_control(4 + i, {.kind = InputKind::kMove}, "width", 0.4 + 0.05 * i);
+  release(14, MouseButton::kLeft);
+  key(18, '.');
+  move(22, 600, 300);
+  press(23, MouseButton::kLeft);
+  for (int i = 0; i < 4; ++i) move(24 + i, 620 + 20 * i, 300);
+  release(30, MouseButton::kLeft);
+  const WindowResult edited = run_window(model_, options_);
+  EXPECT_GT(edited.view.style.width, width + 1.0);
+  EXPECT_EQ(edited.document.input.time, "0.5");
+  const Vec3 seen_along = edited.view.camera.axes[2];
+  EXPECT_GT(glm::distance(seen_along, make_camera({Vec3(-1.0), Vec3(1.0)}, {}, 1.0).axes[2]), 0.3);
+
+  const auto expect = [&](const char* message, double thick, const char* time) {
+    options_.frames = options_.script.back().frame + 6;
+    const WindowResult result = run_window(model_, options_);
+    EXPECT_EQ(result.message, message);
+    EXPECT_EQ(result.view.style.width, thick);
+    EXPECT_EQ(result.document.view.line_width, thick);
+    EXPECT_EQ(result.document.input.time, time);
+    EXPECT_LT(glm::distance(result.view.camera.axes[2], seen_along), 1e-9) << "the camera stays";
+  };
+  const double thick = edited.view.style.width;
+  undo(36);
+  expect("undone", thick, "");
+  undo(42);
+  expect("undone", width, "");
+  undo(48);
+  expect("nothing to undo", width, "");
+  redo(54);
+  expect("restored", thick, "");
+  key(60, 'Y', kModifierControl);
+  expect("restored", thick, "0.5");
+  redo(66);
+  expect("nothing to restore", thick, "0.5");
+  undo(72);
+  key(78, '.');  // another edit: what was undone is gone
+  redo(84);
+  expect("nothing to restore", thick, "0.5");
+}
+
+TEST_F(WindowTest, ANumberTypedIntoAFieldOfSeedsIsOneStep) {
+  constexpr int kControl = 341;
   options_.frames = 60;
-  move(2, 600, 300);
-  press(3, MouseButton::kLeft);
-  for (int i = 0; i < 8; ++i) move(4 + i, 610 + 10 * i, 300);
-  release(12, MouseButton::kLeft);
-  key(20, 'Z', kModifierControl);
-  const Camera first = make_camera({Vec3(-1.0), Vec3(1.0)}, {}, 1.0);
-  const WindowResult undone = run_window(model_, options_);
-  EXPECT_EQ(undone.message, "undone");
-  EXPECT_LT(glm::distance(first.axes[2], undone.view.camera.axes[2]), 1e-9) << "a drag is one edit";
-  key(30, 'Z', kModifierControl | kModifierShift);
+  options_.panels = {[](PanelContext& on) { draw_seeds(on.state, true); }};
+  at(2, {.kind = InputKind::kKeyDown, .key = kControl});
+  at_control(3, {.kind = InputKind::kPress}, "number");
+  release(5, MouseButton::kLeft);
+  at(7, {.kind = InputKind::kKeyUp, .key = kControl, .modifiers = kModifierControl});
+  for (int i = 0; i < 2; ++i) {
+    key(10 + 3 * i, '7');
+    at(10 + 3 * i, {.kind = InputKind::kText, .key = '7'});
+  }
+  key(18, kEnter);
+  const WindowResult typed = run_window(model_, options_);
+  EXPECT_EQ(typed.document.tracing.seeds, "random:77");
+  EXPECT_GT(model_.updated, 0);
+  undo(30);
+  EXPECT_EQ(run_window(model_, options_).document.tracing.seeds, "random:40");
+  redo(40);
   const WindowResult restored = run_window(model_, options_);
+  EXPECT_EQ(restored.document.tracing.seeds, "random:77");
   EXPECT_EQ(restored.message, "restored");
-  EXPECT_GT(glm::distance(first.axes[2], restored.view.camera.axes[2]), 0.3);
-  key(40, 'Z', kModifierControl);
-  key(50, 'Z', kModifierControl);
-  EXPECT_EQ(run_window(model_, options_).message, "nothing to undo");
+}
+
+// The one that runs makes way for the next, and neither drops what was asked for.
+TEST_F(WindowTest, AnEditWhileAnUpdateRunsIsKept) {
+  update_slowly();
+  key(5, '.');
+  key(80, '.');  // after the patience with the first
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_EQ(result.document.input.time, "1");
+  EXPECT_EQ(model_.updated, 2);
+}
+
+TEST_F(WindowTest, UndoGoesThroughAnUpdate) {
+  update_slowly();
+  key(5, '.');
+  undo(80);
+  const WindowResult undone = run_window(model_, options_);
+  EXPECT_EQ(undone.document.input.time, "");
+  EXPECT_EQ(undone.message, "undone");
+  redo(90);
+  EXPECT_EQ(run_window(model_, options_).document.input.time, "0.5");
+  at_control(100, {.kind = InputKind::kPress}, "width", 0.9);
+  release(102, MouseButton::kLeft);
+  undo(110);
+  const WindowResult result = run_window(model_, options_);
+  EXPECT_EQ(result.document.input.time, "0.5") << "the step before";
+  EXPECT_EQ(result.view.style.width, options_.view.style.width);
+}
+
+TEST_F(WindowTest, AnEditThatFailsIsNoStep) {
+  options_.frames = 40;
+  model_.refused = "1";
+  key(4, '.');
+  key(10, '.');
+  const WindowResult failed = run_window(model_, options_);
+  EXPECT_NE(failed.message.find("no such time"), std::string::npos) << failed.message;
+  EXPECT_EQ(failed.document.input.time, "0.5");
+  undo(20);
+  EXPECT_EQ(run_window(model_, options_).document.input.time, "");
 }
 
 TEST_F(WindowTest, ArrayOfTheDataColoursTheLines) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -72,11 +73,13 @@ TEST(ForcesAlong, StayOnThePartOfTheLineWhereTheHandIs) {
   for (std::size_t i = 5; i < 10; ++i) EXPECT_TRUE(std::isnan(forces[i])) << i;
 }
 
-TEST(DrawnLines, KeepsRemovesAndTakesBack) {
+TEST(DrawnLines, KeepsRemovesAndGoesBack) {
   DrawnLines kept;
-  EXPECT_FALSE(kept.undo());
   kept.keep(straight(3), {0.5, NAN, 1.5});
+  const auto one = kept.all();
   kept.keep(straight(4), {NAN, NAN, NAN, NAN});
+  const auto two = kept.all();
+  EXPECT_NE(one, two);
   ASSERT_EQ(kept.entries().size(), 2U);
   EXPECT_EQ(kept.entries()[0].number, 1);
   EXPECT_EQ(kept.entries()[0].largest_force, 1.5);
@@ -90,23 +93,18 @@ TEST(DrawnLines, KeepsRemovesAndTakesBack) {
   ASSERT_EQ(kept.entries().size(), 1U);
   EXPECT_EQ(kept.entries()[0].number, 2);
   EXPECT_NE(kept.drawn(), drawn);
-  EXPECT_TRUE(kept.undo());
+  kept.put(two);
   ASSERT_EQ(kept.entries().size(), 2U);
   EXPECT_EQ(kept.entries()[0].number, 1);
-  EXPECT_TRUE(kept.undo());
+  kept.put(one);
   EXPECT_EQ(kept.entries().size(), 1U);
+  EXPECT_EQ(kept.drawn()->size(), 1U);
   kept.keep(straight(2), {0.0, 0.0});
   EXPECT_EQ(kept.entries().back().number, 3) << "a number is not given twice";
-  EXPECT_TRUE(kept.undo());
-  EXPECT_TRUE(kept.undo());
-  EXPECT_TRUE(kept.entries().empty());
-  EXPECT_TRUE(kept.drawn()->empty());
-  EXPECT_FALSE(kept.undo());
 
-  kept.keep(straight(2), {0.0, 0.0});
   kept.clear();
   EXPECT_TRUE(kept.entries().empty());
-  EXPECT_FALSE(kept.undo());
+  EXPECT_TRUE(kept.drawn()->empty());
   kept.keep(straight(2), {0.0, 0.0});
   EXPECT_EQ(kept.entries()[0].number, 1);
 }
@@ -167,6 +165,81 @@ TEST_F(DrawnLinesTest, CarryTheirForceAndNumberInCsv) {
   }
   expect_same(forces, expected_);
   EXPECT_EQ(numbers, (std::vector<int>{1, 1, 1, 3, 3}));
+}
+
+TEST_F(DrawnLinesTest, ComeBackFromCsvToTheBit) {
+  DrawnTract tract{straight(3, 30.0), {NAN, 0.5, NAN}, {}};
+  tract.line.end = End::kLoop;
+  for (LinePoint& point : tract.line.points) {
+    point.time = -1.0 / (3.0 + point.position.x);
+    point.arc = std::abs(point.time);
+    point.speed = 1.0 / 7.0;
+    point.error = 1e-9;
+    tract.measures.push_back({{0.25, 0.5, 0.25}, point.time + 1.0});
+  }
+  DrawnLines kept;
+  kept.keep({tract, tract});
+  kept.remove(0);
+  const auto file = folder_.path("lines.csv");
+  for (const DrawnLines* lines : std::initializer_list<const DrawnLines*>{&kept_, &kept}) {
+    lines->save(file, true);
+    const auto read = read_drawn_lines(file);
+    ASSERT_EQ(read->size(), lines->entries().size());
+    for (std::size_t l = 0; l < read->size(); ++l) {
+      const DrawnLines::Entry &now = (*read)[l], &before = lines->entries()[l];
+      EXPECT_EQ(now.number, before.number);
+      EXPECT_EQ(now.largest_force, before.largest_force);
+      EXPECT_EQ(now.line->end, before.line->end);
+      expect_same(now.forces, before.forces);
+      ASSERT_EQ(now.line->points.size(), before.line->points.size());
+      ASSERT_EQ(now.measures.size(), before.measures.size());
+      for (std::size_t i = 0; i < now.line->points.size(); ++i) {
+        const LinePoint &p = now.line->points[i], &q = before.line->points[i];
+        EXPECT_EQ(p.position, q.position);
+        EXPECT_EQ(std::tie(p.time, p.arc, p.speed, p.error), std::tie(q.time, q.arc, q.speed, q.error));
+      }
+      for (std::size_t i = 0; i < now.measures.size(); ++i) {
+        EXPECT_EQ(now.measures[i].parts.linear, before.measures[i].parts.linear);
+        EXPECT_EQ(now.measures[i].parts.planar, before.measures[i].parts.planar);
+        EXPECT_EQ(now.measures[i].fractional_anisotropy, before.measures[i].fractional_anisotropy);
+      }
+    }
+    // Written again, it is the same file.
+    DrawnLines again;
+    again.put(read);
+    const auto second = folder_.path("again.csv");
+    again.save(second, true);
+    EXPECT_EQ(test::read_file(second), test::read_file(file));
+  }
+}
+
+TEST_F(DrawnLinesTest, ADamagedTableIsRefusedWithItsLine) {
+  const std::string header = "line,seed,point,x,y,z,termination\n",
+                    good = "0,1,0,0,0,0,loop\n0,1,1,1,0,0,loop\n";
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      (void)read_drawn_lines(folder_.write("t.csv", text));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(header + good), "accepted");
+  EXPECT_EQ(refusal(header), "accepted") << "no line is none";
+  for (const char* bad : {"1,2,0,0,0\n", "1,2,0,0,0,nan,loop\n", "1,x,0,0,0,0,loop\n", "1,1.5,0,0,0,0,loop\n",
+                          "1,-1,0,0,0,0,loop\n", "1,2,0,0,0,0,lo\n"})
+    EXPECT_NE(refusal(header + good + bad).find("line 4"), std::string::npos)
+        << bad << refusal(header + good + bad);
+  EXPECT_NE(refusal(header + good + "1,2,0,0,0,0,loop\n").find("one point"), std::string::npos);
+  EXPECT_NE(refusal("x,y,z\n").find("has no column line"), std::string::npos);
+  EXPECT_NE(refusal("").find("is empty"), std::string::npos);
+  try {
+    (void)read_drawn_lines(folder_.path("missing.csv"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing.csv"), std::string::npos);
+  }
 }
 
 TEST_F(DrawnLinesTest, DoNotReplaceAFileUnasked) {

@@ -153,29 +153,39 @@ TEST(TractPen, AStrokeReplacesWhatEarlierHandsDrew) {
   EXPECT_EQ(pen.tracts().size(), 2U);
 }
 
-TEST(TractPen, TakesStrokesBackOneByOne) {
+TEST(TractPen, GoesBackToWhatWasDrawnBefore) {
   TractPen pen(planar(), 0.1, 0.5);
+  const auto nothing = pen.drawn();
   draw(pen, 0.0, 5.0, 0.0);
-  draw(pen, 0.0, -5.0, 1.0);
-  EXPECT_EQ(pen.depth(), 2U);
+  const auto one = pen.drawn();
+  EXPECT_NE(one, nothing);
+  pen.add(1.0, {0.0, 0.0, 0.0}, 0.0);
+  pen.add(1.1, {-1.0, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(pen.drawn(), one) << "while it is being drawn";
+  pen.let_go();
+  draw(pen, -1.0, -5.0, 1.2);
+  const auto two = pen.drawn();
+  EXPECT_NE(two, one);
   pen.add(2.0, {30.0, 0.0, 0.0}, 0.0);  // a hand that does not move draws nothing
   pen.let_go();
-  EXPECT_EQ(pen.depth(), 2U);
+  EXPECT_EQ(pen.drawn(), two);
   pen.add(3.0, {5.0, 0.0, 0.0}, 0.0);  // nor does one that rests on an end
   pen.let_go();
-  EXPECT_EQ(pen.depth(), 2U);
+  EXPECT_EQ(pen.drawn(), two);
   EXPECT_EQ(pen.take().size(), 1U);
   EXPECT_TRUE(pen.tracts().empty());
-  pen.undo();
+  EXPECT_TRUE(pen.drawn()->empty());
+  const auto edits = pen.edits();
+  pen.put(two);
+  EXPECT_GT(pen.edits(), edits);
   ASSERT_EQ(pen.tracts().size(), 1U);
   EXPECT_EQ(pen.tracts()[0].line.points.size(), 11U);
-  pen.undo();
+  pen.put(one);
   ASSERT_EQ(pen.tracts().size(), 1U);
   EXPECT_EQ(pen.tracts()[0].line.points.size(), 6U);
   EXPECT_EQ(pen.tracts()[0].line.points.front().position.x, 0.0);
-  pen.undo();
+  pen.put(nothing);
   EXPECT_TRUE(pen.tracts().empty());
-  EXPECT_EQ(pen.depth(), 0U);
 }
 
 TEST(TractPen, IsCutBackToWhereTheHandRested) {
