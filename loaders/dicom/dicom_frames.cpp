@@ -54,7 +54,10 @@ std::shared_ptr<const DicomPalette> palette_of(const DicomScope& scope, const st
     const auto index = static_cast<DicomTag>(part);
     const auto described = dicom_numbers(scope, 0x00281101U + index);
     const DicomElement* const table = find_dicom(scope, 0x00281201U + index);
-    const bool good = described.size() == 3 && table != nullptr && (described[2] == 8 || described[2] == 16);
+    constexpr double kMost = 65535.0;
+    const bool good = described.size() == 3 && table != nullptr && described[0] >= 0.0 &&
+                      described[0] <= kMost && std::abs(described[1]) <= kMost &&
+                      (described[2] == 8 || described[2] == 16);
     if (!good) refuse_frame(file, "has no table for its colours", "Palette Color Lookup Tables");
     constexpr std::size_t kAll = 65536;  // which 16 bits cannot say
     const std::size_t count = described[0] == 0 ? kAll : static_cast<std::size_t>(described[0]);
