@@ -75,6 +75,28 @@ Long33 draw_frame(std::mt19937_64& random) {
 
 bool is_double(Long x) { return static_cast<Long>(static_cast<double>(x)) == x; }
 
+template <class Number>
+std::shared_ptr<const VectorField> on_mesh(const AffineMesh& mesh, const std::vector<Number>& values,
+                                           ScalarType type) {
+  std::vector<double> position;
+  for (const Vec3& x : mesh.points) {
+    for (int axis = 0; axis < 3; ++axis) position.push_back(x[axis]);
+  }
+  UnstructuredTopology topology;
+  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
+  topology.offsets.push_back(0);
+  for (const auto& cell : mesh.cells) {
+    topology.connectivity.insert(topology.connectivity.end(), cell.begin(), cell.end());
+    topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+    topology.types.push_back(10);
+  }
+  DataSet block;
+  block.topology = topology;
+  block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const Number>(values)));
+  const ArrayInfo info{"velocity", Association::kPoint, 3, type, mesh.points.size()};
+  return make_vector_field({block}, choose_vector({info}, "velocity", "affine"), "affine", 1);
+}
+
 }  // namespace
 
 Long33 NormalForm::matrix() const {
@@ -304,7 +326,7 @@ Vec3 draw_seed(std::mt19937_64& random, const AffineMesh& mesh) {
 }
 
 std::shared_ptr<const VectorField> sampled(const AffineField& field, const AffineMesh& mesh) {
-  std::vector<double> position, value;
+  std::vector<double> value;
   for (const Vec3& x : mesh.points) {
     // Each product is exact in a Long; sums of three are where the numbers have few bits, which is looked at.
     for (std::size_t i = 0; i < 3; ++i) {
@@ -318,21 +340,12 @@ std::shared_ptr<const VectorField> sampled(const AffineField& field, const Affin
       if (!is_double(sum)) return nullptr;
       value.push_back(static_cast<double>(sum));
     }
-    for (int axis = 0; axis < 3; ++axis) position.push_back(x[axis]);
   }
-  UnstructuredTopology topology;
-  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
-  topology.offsets.push_back(0);
-  for (const auto& cell : mesh.cells) {
-    topology.connectivity.insert(topology.connectivity.end(), cell.begin(), cell.end());
-    topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-    topology.types.push_back(10);
-  }
-  DataSet block;
-  block.topology = topology;
-  block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const double>(value)));
-  const ArrayInfo info{"velocity", Association::kPoint, 3, ScalarType::kFloat64, mesh.points.size()};
-  return make_vector_field({block}, choose_vector({info}, "velocity", field.name), field.name, 1);
+  return on_mesh(mesh, value, ScalarType::kFloat64);
+}
+
+std::shared_ptr<const VectorField> on_mesh(const AffineMesh& mesh, const std::vector<float>& values) {
+  return on_mesh(mesh, values, ScalarType::kFloat32);
 }
 
 LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& mesh, const Vec3& seed,

@@ -64,6 +64,10 @@ struct AffineMesh {
 /// The field at the points of the mesh. Null where a value is no double: such a field is not the interpolant.
 [[nodiscard]] std::shared_ptr<const VectorField> sampled(const AffineField& field, const AffineMesh& mesh);
 
+/// Vectors at the points of the mesh, three numbers each.
+[[nodiscard]] std::shared_ptr<const VectorField> on_mesh(const AffineMesh& mesh,
+                                                         const std::vector<float>& values);
+
 /// What a traced line has to say for itself.
 struct LineVerdict {
   std::size_t points = 0;

@@ -59,5 +59,26 @@ TEST_P(ExactOnAffineFields, StatesItsErrorAndEndsWhereTheCurveEnds) {
 
 INSTANTIATE_TEST_SUITE_P(Rates, ExactOnAffineFields, testing::Values(0, 4, 10, 20, 30, 40, 47, 54, 60));
 
+// A solid block in the flow, whose speed is the rounding of what computed it: lines rest at it, as far as its values tell.
+TEST(ExactLines, EndWhereValuesCannotTellTheSpeedFromZero) {
+  std::mt19937_64 random{1};
+  AffineMesh mesh;
+  while (mesh.name != "dyadic, six") mesh = draw_mesh(random);
+  constexpr double kBlock = 0.25;
+  std::vector<float> values;
+  for (const Vec3& x : mesh.points) {
+    const float speed = x.x < kBlock ? 1.0f : 3e-14f;
+    values.insert(values.end(), {speed, 0.1f * speed, -0.05f * speed});
+  }
+  const auto field = on_mesh(mesh, values);
+  TraceOptions options;
+  options.threads = 1;
+  const std::vector<Vec3> seeds{{-0.75, 0.125, 0.0625}, {-0.5, -0.375, 0.25}, {0.0, 0.0, 0.0}};
+  for (const Line& line : trace_lines(*field, seeds, options).lines) {
+    EXPECT_EQ(line.end, End::kStagnation);
+    EXPECT_NEAR(line.points.back().position.x, kBlock, 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace palpate::test
