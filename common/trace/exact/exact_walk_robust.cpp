@@ -111,8 +111,11 @@ std::optional<End> ExactWalk::robust_piece() {
     const Pack4 d = along(cell_, Pack4{error_.vector(), 0.0});
     error_.set(velocity(cell_, to_pack(modes.carried({d[0], d[1], d[2], d[3]}, h))).xyz());
     double moved = std::max(0.0, -std::min(std::min(flow.b[0], flow.b[1]), std::min(flow.b[2], flow.b[3])));
+    if (last) moved = std::max(moved, std::abs(flow.b[exit.face]));
+    // Farther than time has digits: the exit is not where the solution is.
+    constexpr double kUncertain = 0x1p-20;
+    if (!(moved <= kUncertain)) return End::kBadData;
     if (last) {
-      moved = std::max(moved, std::abs(flow.b[exit.face]));
       flow.b.set(exit.face, 0.0);
       exit_face_ = exit.face;
     }
