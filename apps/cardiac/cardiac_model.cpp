@@ -115,14 +115,14 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.ends = before->ends;
     state.seeds = before->seeds;
     state.outside_seeds = before->outside_seeds;
-    state.error_max = before->error_max;
+    state.line_errors = before->line_errors;
     state.seconds_trace = before->seconds_trace;
   } else {
     layer = make_layer_geometry(*heart, document, &progress);
     state.ends = layer.fibres.ends;
     state.seeds = layer.lines->size();
     state.outside_seeds = layer.fibres.outside_seeds.size();
-    state.error_max = layer.fibres.error_max;
+    state.line_errors = layer.fibres.errors;
     state.seconds_trace = layer.fibres.seconds;
   }
   const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;

@@ -98,7 +98,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
                     .outside_seeds = std::move(traced.outside_seeds),
                     .ends = traced.ends,
                     .points = traced.points,
-                    .error_max = traced.error_max,
+                    .errors = std::move(traced.errors),
                     .seconds_trace = traced.seconds,
                     .integrator = Integrator::kRk4};
   const std::size_t outside = summary.result.outside_seeds.size();

@@ -62,7 +62,7 @@ SceneState trace(const Input& input, const FlowContent& content, const Document&
   state.ends = result.ends;
   state.seeds = seeds.size();
   state.outside_seeds = result.outside_seeds.size();
-  state.error_max = result.error_max;
+  state.line_errors = std::move(result.errors);
   state.seconds_trace = result.seconds_prepare + result.seconds_trace;
   state.document.tracing.integrator = name_of(result.integrator);
   state.document.tracing.max_length = trace.max_length;

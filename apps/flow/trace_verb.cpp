@@ -2,6 +2,7 @@
 
 #include "apps/flow/flow_verbs.h"
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -43,7 +44,7 @@ std::vector<std::string> advice_for(const TraceSummary& summary) {
   add(End::kMaxLength, "--max-length above " + short_number(summary.max_length) + " follows them further");
   add(End::kMaxTime, "a longer --max-time follows them further");
   add(End::kMaxSteps, "raise --max-steps, or loosen --tolerance " + short_number(summary.tolerance) +
-                          "; a stiff field may need --integrator rodas4");
+                          "; dp54 and rodas4 take the longest steps");
   add(End::kBadData, "values there are NaN, infinite or blanked");
   return advice;
 }
@@ -82,9 +83,15 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
 
 std::string summary_text(const TraceSummary& summary) {
   std::string text = trace_counts_text(summary);
-  text += "  method     " + std::string(name_of(summary.result.integrator)) + ", tolerance " +
-          short_number(summary.tolerance) + ", longest line allowed " + short_number(summary.max_length) +
-          " (" + short_number(summary.max_length / summary.diagonal) + " diagonals)\n";
+  const StepCounts& steps = summary.result.steps;
+  const Integrator used = summary.result.integrator;
+  const std::int64_t stiff = used == Integrator::kRodas4 ? 0 : steps[as_size(Integrator::kRodas4)];
+  text += "  method     " + std::string(name_of(used)) + ", " + std::to_string(steps[as_size(used)]) +
+          " steps" +
+          (stiff > 0 ? " and " + std::to_string(stiff) + " of rodas4 where the flow is stiff" : "") +
+          ", tolerance " + short_number(summary.tolerance) + ", longest line allowed " +
+          short_number(summary.max_length) + " (" + short_number(summary.max_length / summary.diagonal) +
+          " diagonals)\n";
   text += trace_error_text(summary) + trace_seconds_text(summary);
   for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
   return text;

@@ -1,5 +1,7 @@
 #include "common/cli/trace_text.h"
 
+#include <algorithm>
+
 #include "common/base/text.h"
 
 namespace palpate {
@@ -20,8 +22,22 @@ std::string trace_counts_text(const TraceSummary& summary) {
 }
 
 std::string trace_error_text(const TraceSummary& summary) {
-  return "  error      at most " + short_number(summary.result.error_max) + " by its own estimate, " +
-         short_number(summary.result.error_max / summary.diagonal) + " of the diagonal\n";
+  const LineErrors& errors = summary.result.errors;
+  std::string text = "  " + errors_text(errors) + " by their own estimate";
+  if (errors.held > 0) text += " (" + short_number(errors.worst / summary.diagonal) + " of the diagonal)";
+  if (errors.within) {
+    text += ", " + std::to_string(*errors.within) + " of " + counted(summary.result.lines.size(), "line") +
+            " within the tolerance";
+  }
+  text += "\n";
+  if (errors.unheld_seeds.empty()) return text;
+  constexpr std::size_t kMostNamed = 5;
+  std::string seeds;
+  for (std::size_t i = 0; i < std::min(errors.unheld_seeds.size(), kMostNamed); ++i)
+    seeds += (i == 0 ? "" : ", ") + std::to_string(errors.unheld_seeds[i]);
+  if (errors.unheld_seeds.size() > kMostNamed) seeds += ", …";
+  return text + "  not held   " + counted(errors.unheld_seeds.size(), "line") + ", from seeds " + seeds +
+         ": the estimate grows to a tenth of the diagonal and more; chaotic, or traced too loosely\n";
 }
 
 std::string trace_seconds_text(const TraceSummary& summary) {

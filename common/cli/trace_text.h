@@ -10,7 +10,7 @@ namespace palpate {
 /// How many seeds and lines there are, where they went, and why lines end.
 [[nodiscard]] std::string trace_counts_text(const TraceSummary& summary);
 
-/// The largest estimated error, alone and as a share of the diagonal.
+/// The estimated errors, how many lines keep the tolerance, and which are not held.
 [[nodiscard]] std::string trace_error_text(const TraceSummary& summary);
 
 /// What loading, preparing and tracing took.

@@ -23,6 +23,7 @@
 #include "common/render/scene_view.h"
 #include "common/scene/document/document.h"
 #include "common/scene/input.h"
+#include "common/trace/line_errors.h"
 
 namespace palpate {
 
@@ -82,8 +83,8 @@ struct SceneState {
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;
-  double error_max = 0.0;  ///< data units
-  bool joined = false;     ///< of open(): the files came beside what was open, in place of nothing
+  LineErrors line_errors;
+  bool joined = false;  ///< of open(): the files came beside what was open, in place of nothing
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
   std::vector<std::string> notes;  ///< what the user should know, one line each

@@ -52,6 +52,18 @@ struct ExplicitStep {
     return sum;
   }
 
+  /// h times the rate at which the slope changes fastest, as far as the last two stages tell, both of which sit
+  /// at t + h: |h (k_s - k_(s-1))| over the distance of their arguments (Hairer and Wanner 1996, IV.2). 0 where
+  /// the arguments differ by no more than `rounding`. `length(state)` measures. @pre the last stage is set.
+  template <class Length>
+  [[nodiscard]] double fastest_rate(const Length& length, double rounding) const {
+    static_assert(Tableau::kFirstSameAsLast && Tableau::c[kStages - 2] == 1.0);
+    State apart{};
+    add_weighted<kStages - 1>(kLastTwo, apart);
+    const double distance = length(apart);
+    return distance > rounding ? length(step * (k[kStages - 1] - k[kStages - 2])) / distance : 0.0;
+  }
+
   /// Coefficients q_j of the dense output x + sum_j q_j theta^(j+1).
   [[nodiscard]] std::array<State, Tableau::kDenseDegree> dense() const {
     std::array<State, Tableau::kDenseDegree> q{};
@@ -60,6 +72,13 @@ struct ExplicitStep {
   }
 
  private:
+  /// Weights of the difference between the arguments of the last two stages.
+  static constexpr typename Tableau::Row kLastTwo = [] {
+    typename Tableau::Row w{};
+    for (int j = 0; j < kStages - 1; ++j) w[j] = Tableau::b[j] - Tableau::a[kStages - 2][j];
+    return w;
+  }();
+
   template <int kStage, int kEnd, class Slope>
   void stages_from(const Slope& f, double t) {
     if constexpr (kStage < kEnd) {

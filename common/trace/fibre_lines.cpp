@@ -295,10 +295,10 @@ FibreLineResult trace_fibres(const LayeredHeart& heart, std::span<const Vec3> se
     for (Line& line : of_seed[s].lines) {
       ++result.ends[as_size(line.end)];
       result.points += line.points.size();
-      result.error_max = std::max(result.error_max, line.points.back().error);
       result.lines.push_back(std::move(line));
     }
   }
+  result.errors = line_errors(result.lines, heart.heart().layer->diagonal());
   result.seconds = watch.seconds();
   return result;
 }

@@ -28,6 +28,7 @@
 #include "common/base/progress.h"
 #include "common/geometry/line.h"
 #include "common/trace/layer_fibre.h"
+#include "common/trace/line_errors.h"
 
 namespace palpate {
 
@@ -49,7 +50,7 @@ struct FibreLineResult {
   std::vector<std::uint32_t> outside_seeds;  ///< those from which no way leads to the layer, or outside
   std::array<std::size_t, kEndCount> ends{};
   std::size_t points = 0;
-  double error_max = 0.0;   ///< data units
+  LineErrors errors;
   double step = 0.0;        ///< as applied
   double max_length = 0.0;  ///< as applied
   double seconds = 0.0;

@@ -33,7 +33,6 @@ bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
   for (OneSide& one : sides_) {
     one.count.store(0, std::memory_order_relaxed);
     one.end.store(-1, std::memory_order_relaxed);
-    one.loop.start();
     one.hint = {};
   }
   bool inside = true;
@@ -44,6 +43,7 @@ bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
     const LinePoint& begin = one.walk->end();
     inside = std::isfinite(begin.speed);
     one.nodes[0] = node_of(begin, one.walk->direction(), side);
+    one.loop.start(seed, one.walk->direction());
   }
   if (!inside) {
     for (OneSide& one : sides_)
@@ -59,8 +59,10 @@ int GrowingLine::grow(Side side) noexcept {
   std::optional<End> ended = walk.advance();
   const int work = walk.work();
   if (walk.has_piece() && walk.end().arc > walk.begin().arc) {
-    add_piece(one, side);
-    if (!ended) ended = one.loop.closes(walk, walk.begin(), walk.end(), walk.direction());
+    const auto closing =
+        ended ? std::nullopt : one.loop.closes(walk, walk.begin(), walk.end(), walk.direction());
+    add_piece(one, side, closing ? closing->theta : 1.0);
+    if (closing) ended = closing->why;
     if (!ended && walk.end().arc >= limits_.max_length) ended = End::kMaxLength;
     const int count = one.count.load(std::memory_order_relaxed);
     if (!ended && count + kMaxParts > limits_.capacity) ended = End::kMaxSteps;
@@ -81,8 +83,8 @@ Vec3 GrowingLine::tangent_at(const LinePoint& point, const Vec3& otherwise, Cell
   return speed > 0.0 ? turned / speed : otherwise;
 }
 
-/// Adds nodes for the last piece of the walk: its end, and as many inside as its bend asks for.
-void GrowingLine::add_piece(OneSide& to, Side side) noexcept {
+/// Adds nodes for the last piece of the walk up to `cut`: its end, and as many inside as its bend asks for.
+void GrowingLine::add_piece(OneSide& to, Side side, double cut) noexcept {
   const LineWalk& walk = *to.walk;
   const double sign = side == Side::kDownstream ? 1.0 : -1.0;
   int count = to.count.load(std::memory_order_relaxed);
@@ -96,8 +98,12 @@ void GrowingLine::add_piece(OneSide& to, Side side) noexcept {
   };
 
   const LineNode before = to.nodes[as_size(count)];
-  LineNode whole = node_of(walk.end(), walk.direction(), side);
-  whole.gap = gap_between(before, whole, 0.5);
+  const auto inner_node = [&](double theta, const Vec3& otherwise) {
+    const LinePoint inner = walk.at(theta);
+    return node_of(inner, sign * tangent_at(inner, otherwise, to.hint), side);
+  };
+  LineNode whole = cut < 1.0 ? inner_node(cut, before.tangent) : node_of(walk.end(), walk.direction(), side);
+  whole.gap = gap_between(before, whole, 0.5 * cut);
   // The gap falls with the fourth power of the length.
   int parts = 1;
   if (whole.gap > limits_.max_gap) {
@@ -108,12 +114,9 @@ void GrowingLine::add_piece(OneSide& to, Side side) noexcept {
   LineNode last = before;
   for (int i = 1; i <= parts; ++i) {
     LineNode next = whole;
-    if (i < parts) {
-      const LinePoint inner = walk.at(static_cast<double>(i) / parts);
-      next = node_of(inner, sign * tangent_at(inner, last.tangent, to.hint), side);
-    }
+    if (i < parts) next = inner_node(cut * i / parts, last.tangent);
     if (!(sign * (next.arc - last.arc) > 0.0)) continue;  // shorter than rounding
-    if (parts > 1) next.gap = gap_between(last, next, (i - 0.5) / parts);
+    if (parts > 1) next.gap = gap_between(last, next, cut * (i - 0.5) / parts);
     to.nodes[as_size(++count)] = next;
     last = next;
   }

@@ -97,7 +97,7 @@ class GrowingLine {
   [[nodiscard]] const OneSide& side_of(Side side) const noexcept { return sides_[as_size(side)]; }
   [[nodiscard]] LineNode node_of(const LinePoint& point, const Vec3& tangent, Side side) const noexcept;
   [[nodiscard]] Vec3 tangent_at(const LinePoint& point, const Vec3& otherwise, CellHint& hint) const noexcept;
-  void add_piece(OneSide& to, Side side) noexcept;
+  void add_piece(OneSide& to, Side side, double cut) noexcept;
 
   const VectorField& field_;
   GrowthLimits limits_;

@@ -83,12 +83,11 @@ std::optional<double> LineBuilder::rule_crossing(const DensePiece& piece, const 
   return first;
 }
 
-bool LineBuilder::add_with_events(const DensePiece& piece, const LinePoint& end, double turn_cosine) {
-  double cut = 1.0;
-  std::optional<End> why;
-  LinePoint cut_end = end;
+bool LineBuilder::add_with_events(const DensePiece& piece, const LinePoint& end, double turn_cosine,
+                                  double cut, std::optional<End> why) {
+  LinePoint cut_end = cut < 1.0 ? piece.at(cut) : end;
 
-  if (end.arc >= limits_.max_length) {
+  if (cut_end.arc >= limits_.max_length) {
     cut = piece.theta_at_arc(limits_.max_length);
     why = End::kMaxLength;
     cut_end = piece.at(cut);

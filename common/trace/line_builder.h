@@ -59,6 +59,13 @@ class LineBuilder {
     return add_with_events(piece, end, turn_cosine);
   }
 
+  /// The same for a piece of which the line goes no farther than `theta`, for the reason `why`, unless a limit
+  /// or a rule ends it earlier.
+  void add_last(const DensePiece& piece, const LinePoint& end, double turn_cosine, double theta, End why) {
+    ++steps_;
+    (void)add_with_events(piece, end, turn_cosine, theta, why);
+  }
+
   /// Closes the line where the tracer ended it.
   void finish(End end);
 
@@ -73,7 +80,8 @@ class LineBuilder {
   static constexpr double kPointAngle = 0.2;  ///< [rad] between the points inside a turning piece
   static constexpr int kMaxPointsInside = 64;
 
-  [[nodiscard]] bool add_with_events(const DensePiece& piece, const LinePoint& end, double turn_cosine);
+  [[nodiscard]] bool add_with_events(const DensePiece& piece, const LinePoint& end, double turn_cosine,
+                                     double cut = 1.0, std::optional<End> why = std::nullopt);
   [[nodiscard]] std::optional<double> rule_crossing(const DensePiece& piece, const LinePoint& end);
   void push(const LinePoint& local) { line_.points.push_back(to_data(local)); }
   [[nodiscard]] LinePoint to_data(const LinePoint& local) const;

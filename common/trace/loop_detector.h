@@ -1,8 +1,9 @@
 /// Finds out that a line came back to itself, in constant work and storage a step.
 ///
-/// Brent's scheme: an anchor is put on the line after 1, 2, 4, 8, … steps; a line that closes passes the
-/// plane through the anchor, normal to the flow there, again within its error. A loop of n steps is found
-/// after at most 3 n.
+/// A line is closed where it passes the plane through an earlier point of it, an anchor, normal to the flow
+/// there, again within its error. The seed is one anchor: a closed line ends at its first return. The other one
+/// is for lines that only run into a closed one: by Brent's scheme it is put on the line after 1, 2, 4, 8, ...
+/// steps, and finds a loop of n steps after at most 3 n of it.
 #pragma once
 
 #include <algorithm>
@@ -17,28 +18,28 @@ namespace palpate {
 
 class LoopDetector {
  public:
-  void start() noexcept { *this = LoopDetector(); }
+  /// Where on a piece, and why, the line ends.
+  struct Closing {
+    double theta = 1.0;
+    End why =
+        End::kLoop;  ///< kStagnation where the loop is no larger than the line's error: as good as a point
+  };
+
+  /// Begins with a line at its seed. @param direction unit tangent there.
+  void start(const Vec3& seed, const Vec3& direction) noexcept {
+    *this = LoopDetector();
+    seed_.put(seed, direction);
+    anchor_ = seed_;
+  }
 
   /// Looks at one piece. @param direction unit tangent at its end.
-  /// @return kLoop where the line has closed; kStagnation where the loop is no larger than the error of the
-  /// line, so that it cannot be told from a point.
-  [[nodiscard]] std::optional<End> closes(const DensePiece& piece, const LinePoint& begin,
-                                          const LinePoint& end, const Vec3& direction) {
-    const Vec3 apart = end.position - anchor_;
-    const double side = glm::dot(apart, normal_);
-    farthest_ = std::max(farthest_, glm::dot(apart, apart));
-    const bool crossed = side_ < 0.0 && side >= 0.0;
-    if (crossed && near_anchor(piece, begin, end, side)) {
-      const double point = kPoint * end.error;
-      return farthest_ > point * point ? End::kLoop : End::kStagnation;
-    }
-    side_ = side;
+  [[nodiscard]] std::optional<Closing> closes(const DensePiece& piece, const LinePoint& begin,
+                                              const LinePoint& end, const Vec3& direction) {
+    if (const auto closing = seed_.passed(piece, begin, end)) return closing;
+    if (const auto closing = anchor_.passed(piece, begin, end)) return closing;
     if (++steps_ >= next_) {
       next_ = 2 * steps_;
-      anchor_ = end.position;
-      normal_ = direction;
-      side_ = 0.0;
-      farthest_ = 0.0;
+      anchor_.put(end.position, direction);
     }
     return std::nullopt;
   }
@@ -47,22 +48,41 @@ class LoopDetector {
   static constexpr double kPoint = 30.0;  ///< loops of fewer error estimates across are points
   static constexpr double kErrors = 4.0;  ///< how many error estimates apart still count as the same point
 
-  [[nodiscard]] bool near_anchor(const DensePiece& piece, const LinePoint& begin, const LinePoint& end,
-                                 double side) const {
-    const double reach = (end.arc - begin.arc) + kErrors * end.error;
-    if (glm::distance(end.position, anchor_) > 2.0 * reach) return false;
-    constexpr double kThetaTolerance = 0x1p-46;
-    const double theta =
-        bracketed_root([&](double at) { return glm::dot(piece.at(at).position - anchor_, normal_); }, 0.0,
-                       1.0, side_, side, kThetaTolerance);
-    const LinePoint passing = piece.at(theta);
-    return glm::distance(passing.position, anchor_) <= kErrors * passing.error;
-  }
+  class Anchor {
+   public:
+    void put(const Vec3& position, const Vec3& normal) noexcept {
+      *this = Anchor();
+      position_ = position;
+      normal_ = normal;
+    }
 
-  Vec3 anchor_{0.0};
-  Vec3 normal_{0.0};
-  double side_ = 0.0;
-  double farthest_ = 0.0;  ///< square of the largest distance from the anchor since it was put
+    [[nodiscard]] std::optional<Closing> passed(const DensePiece& piece, const LinePoint& begin,
+                                                const LinePoint& end) {
+      const Vec3 apart = end.position - position_;
+      const double before = side_;
+      side_ = glm::dot(apart, normal_);
+      farthest_ = std::max(farthest_, glm::dot(apart, apart));
+      if (!(before < 0.0 && side_ >= 0.0)) return std::nullopt;
+      const double reach = (end.arc - begin.arc) + kErrors * end.error;
+      if (glm::length(apart) > 2.0 * reach) return std::nullopt;
+      constexpr double kThetaTolerance = 0x1p-46;
+      const double theta =
+          bracketed_root([&](double at) { return glm::dot(piece.at(at).position - position_, normal_); }, 0.0,
+                         1.0, before, side_, kThetaTolerance);
+      const LinePoint passing = piece.at(theta);
+      if (glm::distance(passing.position, position_) > kErrors * passing.error) return std::nullopt;
+      const double point = kPoint * end.error;
+      return Closing{theta, farthest_ > point * point ? End::kLoop : End::kStagnation};
+    }
+
+   private:
+    Vec3 position_{0.0};
+    Vec3 normal_{0.0};
+    double side_ = 0.0;
+    double farthest_ = 0.0;  ///< square of the largest distance from the anchor since it was put
+  };
+
+  Anchor seed_, anchor_;
   std::int64_t steps_ = 0;
   std::int64_t next_ = 1;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -18,7 +19,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames{"exact", "euler", "rk4", "bs32", "rk34", "dp54", "rodas4"};
+constexpr std::array<std::string_view, kIntegratorCount> kNames{"exact", "euler", "rk4",   "bs32",
+                                                                "rk34",  "dp54",  "rodas4"};
 constexpr double kDefaultLength = 10.0;  // diagonals
 constexpr double kLoosestRest = 1e-6;    // diagonals: slow regions are passed through, whatever the tolerance
 constexpr int kStepsBetweenChecks = 4096;  // a few milliseconds of work
@@ -30,17 +32,18 @@ bool fixed_step(Integrator integrator) {
 /// Follows one line to its end.
 void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
   LoopDetector loop;
+  loop.start(walk.end().position, walk.direction());
   builder.start(walk.end());
   for (std::int64_t n = 1;; ++n) {
     const std::optional<End> ended = walk.advance();
     if (walk.has_piece()) {
-      if (builder.add(walk, walk.end(), walk.turn_cosine())) return;
-      if (!ended) {
-        if (const std::optional<End> closed = loop.closes(walk, walk.begin(), walk.end(), walk.direction())) {
-          builder.finish(*closed);
-          return;
-        }
+      const auto closing =
+          ended ? std::nullopt : loop.closes(walk, walk.begin(), walk.end(), walk.direction());
+      if (closing) {
+        builder.add_last(walk, walk.end(), walk.turn_cosine(), closing->theta, closing->why);
+        return;
       }
+      if (builder.add(walk, walk.end(), walk.turn_cosine())) return;
     }
     if (ended) {
       builder.finish(*ended);
@@ -118,6 +121,7 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   const std::size_t per_seed = (options.forward ? 1u : 0u) + (options.backward ? 1u : 0u);
   std::vector<Line> lines(seeds.size() * per_seed);
   std::vector<std::uint8_t> inside(seeds.size(), 0);
+  std::atomic<std::int64_t> steps{0}, stiff_steps{0};
   parallel_for(seeds.size(), options.threads, [&](std::size_t first, std::size_t last) {
     struct Tracer {
       std::unique_ptr<LineWalk> walk;
@@ -135,6 +139,8 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
         if (!tracer) tracer.emplace(Tracer{factory.make(direction), LineBuilder(frame, limits, direction)});
         if (!is_finite(x) || !tracer->walk->start(x)) break;
         follow(*tracer->walk, tracer->builder, progress);
+        steps.fetch_add(tracer->builder.steps(), std::memory_order_relaxed);
+        stiff_steps.fetch_add(tracer->walk->stiff_steps(), std::memory_order_relaxed);
         lines[slot] = tracer->builder.take();
         lines[slot].seed = static_cast<std::uint32_t>(seed);
         ++slot;
@@ -153,10 +159,12 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
       Line& line = lines[seed * per_seed + i];
       ++result.ends[as_size(line.end)];
       result.points += line.points.size();
-      for (const LinePoint& point : line.points) result.error_max = std::max(result.error_max, point.error);
       result.lines.push_back(std::move(line));
     }
   }
+  result.errors = line_errors(result.lines, field.diagonal(), options.tolerance);
+  result.steps[as_size(result.integrator)] = steps - stiff_steps;
+  if (stiff_steps > 0) result.steps[as_size(Integrator::kRodas4)] = stiff_steps;
   result.seconds_trace = watch.seconds();
   return result;
 }

@@ -12,10 +12,15 @@
 #include "common/base/progress.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
+#include "common/trace/line_errors.h"
 
 namespace palpate {
 
+/// Dp54 goes over to rodas4 where the flow is stiff, and back.
 enum class Integrator : std::uint8_t { kExact, kEuler, kRk4, kBs32, kRk34, kDp54, kRodas4 };
+inline constexpr int kIntegratorCount = 7;
+/// How often each was at work.
+using StepCounts = std::array<std::int64_t, kIntegratorCount>;
 [[nodiscard]] std::string_view name_of(Integrator integrator) noexcept;  ///< "dp54"
 /// @throws Error (usage) that lists the known ones.
 [[nodiscard]] Integrator integrator_from_name(std::string_view name);
@@ -48,7 +53,8 @@ struct TraceResult {
   std::vector<std::uint32_t> outside_seeds;  ///< seeds in no cell: they give no line
   std::array<std::size_t, kEndCount> ends{};
   std::size_t points = 0;
-  double error_max = 0.0;  ///< data units
+  LineErrors errors;
+  StepCounts steps{};  ///< by method: pieces of all lines, those of dp54 that rodas4 made apart
   double seconds_prepare = 0.0;
   double seconds_trace = 0.0;
   Integrator integrator = Integrator::kDp54;

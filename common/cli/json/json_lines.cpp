@@ -1,8 +1,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "common/base/index.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/json/json_parts.h"
@@ -11,6 +14,16 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostSeedsNamed = 10;
+
+/// The first of the seeds, and where they lie.
+Json positions_json(const std::vector<std::uint32_t>& seeds, const std::vector<Vec3>& points) {
+  Json json = Json::array();
+  for (const std::uint32_t seed : seeds) {
+    if (json.size() == kMostSeedsNamed) break;
+    json.push_back({{"seed", seed}, {"position", vec_json(points[seed])}});
+  }
+  return json;
+}
 
 /// The text of a run's JSON, with why it failed, where it did, its plan and what that took.
 template <typename Summary>
@@ -27,25 +40,33 @@ std::string ended(Json json, const Summary& summary) {
 
 std::string trace_json(const TraceSummary& summary) {
   const TraceResult& result = summary.result;
-  Json outside = Json::array();
-  for (const std::uint32_t seed : result.outside_seeds) {
-    if (outside.size() == kMostSeedsNamed) break;
-    outside.push_back({{"seed", seed}, {"position", vec_json(summary.seed_points[seed])}});
+  const LineErrors& errors = result.errors;
+  Json steps = Json::object();
+  for (int k = 0; k < kIntegratorCount; ++k) {
+    if (const std::int64_t count = result.steps[as_size(k)]; count > 0)
+      steps[std::string(name_of(static_cast<Integrator>(k)))] = count;
   }
   Json json{{"input", summary.input},
             {"field", summary.field},
             {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
             {"seeds", summary.seeds},
             {"seeds_outside", result.outside_seeds.size()},
-            {"first_outside", outside},
+            {"first_outside", positions_json(result.outside_seeds, summary.seed_points)},
             {"lines", result.lines.size()},
             {"points", result.points},
             {"ends", ends_json(result.ends)},
             {"integrator", name_of(result.integrator)},
+            {"steps", steps},
             {"tolerance", summary.tolerance},
             {"max_length", summary.max_length},
             {"diagonal", summary.diagonal},
-            {"error_max", result.error_max},
+            {"error_max", errors.max},
+            {"error_max_held", errors.worst},
+            {"error_p95", errors.p95},
+            {"error_median", errors.median},
+            {"within_tolerance", errors.within ? Json(*errors.within) : Json(nullptr)},
+            {"unheld", errors.unheld_seeds.size()},
+            {"first_unheld", positions_json(errors.unheld_seeds, summary.seed_points)},
             {"threads", summary.threads},
             {"seconds_load", summary.seconds_load},
             {"seconds_prepare", result.seconds_prepare},

@@ -3,8 +3,8 @@
 /// A domain holds one loaded cell, whose formula continues smoothly past the faces: velocity() and gradient()
 /// may be asked anywhere near it. Positions are Pack4 with the time in the last lane, which the kernels
 /// ignore; velocities have 0 there. Faces are affine functions of position, positive inside; where a face's
-/// value counts as zero (`entry`), the cell was entered by it. predict() looks for the first crossing within
-/// `reach` along the line.
+/// value counts as zero (`entry`), the cell was entered by it; face_scale() is about the largest value inside.
+/// predict() looks for the first crossing within `reach` along the line.
 #pragma once
 
 #include <algorithm>
@@ -103,6 +103,7 @@ class BoxDomain : public BoxFaces {
   }
   [[nodiscard]] bool bad() const { return bad_; }
   [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] double face_scale() const { return size_; }
 
   [[nodiscard]] Pack4 velocity(const Pack4& y) const {
     const Pack4 d = y - corner_;
@@ -208,6 +209,7 @@ class TetDomain {
   [[nodiscard]] bool locate(const Vec3& x);
   [[nodiscard]] bool bad() const { return bad_; }
   [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] static double face_scale() { return 1.0; }
 
   [[nodiscard]] Pack4 velocity(const Pack4& y) const { return origin_ + gradient_.along(y - corner_); }
   [[nodiscard]] const FlowGradient& gradient(const Pack4&) const { return gradient_; }
@@ -268,6 +270,7 @@ class FormulaDomain : public BoxFaces {
   [[nodiscard]] bool locate(const Vec3& x) const { return inside(Pack4{x, 0.0}, -1); }
   [[nodiscard]] static bool bad() { return false; }
   [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] double face_scale() const { return size_; }
   [[nodiscard]] Pack4 velocity(const Pack4& y) const { return {sign_ * formula_->velocity(y.xyz()), 0.0}; }
   [[nodiscard]] double face_rounding(int, const Pack4&) const { return kGrazing * size_; }
   [[nodiscard]] FlowGradient gradient(const Pack4& y) const {

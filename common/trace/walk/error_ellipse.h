@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "common/math/vec.h"
+#include "common/trace/walk/error_transport.h"
 
 namespace palpate {
 
@@ -28,12 +29,11 @@ class ErrorEllipse {
     largest_ = radius;
   }
 
-  /// Advances (1) by `h` with the Jacobian J held: two terms of its exponential, or the implicit midpoint
-  /// rule where J is stiff. `apply(d)` is J d, `matrix()` is J.
+  /// As carry_error() of error_transport.h.
   template <class Apply, class Matrix>
   void advance(const Apply& apply, const Matrix& matrix, double h) {
-    advance(a_, apply, matrix, h);
-    advance(b_, apply, matrix, h);
+    carry_error(a_, apply, matrix, h);
+    carry_error(b_, apply, matrix, h);
   }
 
   /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.
@@ -62,33 +62,6 @@ class ErrorEllipse {
   [[nodiscard]] double across(const Vec3& /*direction*/) const noexcept { return largest_; }
 
  private:
-  template <class Apply, class Matrix>
-  static void advance(Vec3& e, const Apply& apply, const Matrix& matrix, double h) {
-    const Vec3 first = h * apply(e);
-    const double change = glm::dot(first, first), size = glm::dot(e, e);
-    constexpr double kSmall = 0.01, kStiff = 0.25;  // squares of |h J e| / |e|
-    if (change > kStiff * size) {
-      advance_stiff(e, matrix(), h);
-    } else if (change > kSmall * size) {
-      e += first + (0.5 * h) * apply(first);
-    } else {
-      e += first;
-    }
-  }
-
-  static void advance_stiff(Vec3& e, const Mat3& jacobian, double h) noexcept {
-    const Mat3 left = Mat3{1.0} - (0.5 * h) * jacobian;
-    const double det = glm::determinant(left);
-    const Vec3 right = e + (0.5 * h) * (jacobian * e);
-    const Vec3 moved = glm::inverse(left) * right;
-    // Past the pole of (1 - hJ/2)^-1 the rule means nothing; growth is then bounded by that of the rows.
-    if (det > 0.0 && is_finite(moved)) {
-      e = moved;
-    } else {
-      e *= 1.0 + h * (glm::length(jacobian[0]) + glm::length(jacobian[1]) + glm::length(jacobian[2]));
-    }
-  }
-
   /// a cos t + b sin t is the same ellipse for any two conjugate semi-diameters; makes them perpendicular,
   /// by the rotation of a 2 x 2 Jacobi sweep.
   void turn_to_axes(double aa, double bb, double ab) noexcept {

@@ -10,8 +10,29 @@
 #include <cmath>
 
 #include "common/math/vec.h"
+#include "common/ode/linear_step.h"
 
 namespace palpate {
+
+/// Advances `e` by (1) over `h` with the Jacobian J held: two terms of its exponential, or all of it where J
+/// is stiff. `apply(d)` is J d, `matrix()` is J.
+template <class Apply, class Matrix>
+void carry_error(Vec3& e, const Apply& apply, const Matrix& matrix, double h) {
+  const Vec3 first = h * apply(e);
+  const double change = glm::dot(first, first), size = glm::dot(e, e);
+  constexpr double kSmall = 0.01, kStiff = 0.25;  // squares of |h J e| / |e|
+  if (change > kStiff * size) {
+    const Mat3 jacobian = matrix();
+    const Vec3 moved = linear_growth(jacobian, h) * e;
+    // Beyond any domain by far: how much farther says nothing.
+    constexpr double kFar = 0x1p300;
+    e = glm::dot(moved, moved) < kFar * kFar ? moved : e * (kFar / std::sqrt(size));
+  } else if (change > kSmall * size) {
+    e += first + (0.5 * h) * apply(first);
+  } else {
+    e += first;
+  }
+}
 
 class ErrorTransport {
  public:
@@ -27,20 +48,10 @@ class ErrorTransport {
   [[nodiscard]] const Vec3& vector() const noexcept { return e_; }
   void set(const Vec3& e) noexcept { e_ = e; }
 
-  /// Advances (1) by `h` with the Jacobian J held: two terms of its exponential, or the implicit midpoint
-  /// rule where J is stiff. `apply(d)` is J d, `matrix()` is J.
+  /// As carry_error().
   template <class Apply, class Matrix>
   void advance(const Apply& apply, const Matrix& matrix, double h) {
-    const Vec3 first = h * apply(e_);
-    const double change = glm::dot(first, first), size = glm::dot(e_, e_);
-    constexpr double kSmall = 0.01, kStiff = 0.25;  // squares of |h J e| / |e|
-    if (change > kStiff * size) {
-      advance_stiff(matrix(), h);
-    } else if (change > kSmall * size) {
-      e_ += first + (0.5 * h) * apply(first);
-    } else {
-      e_ += first;
-    }
+    carry_error(e_, apply, matrix, h);
   }
 
   /// Adds a local error of size `size`.
@@ -59,19 +70,6 @@ class ErrorTransport {
   }
 
  private:
-  void advance_stiff(const Mat3& jacobian, double h) noexcept {
-    const Mat3 left = Mat3{1.0} - (0.5 * h) * jacobian;
-    const double det = glm::determinant(left);
-    const Vec3 right = e_ + (0.5 * h) * (jacobian * e_);
-    const Vec3 moved = glm::inverse(left) * right;
-    // Past the pole of (1 - hJ/2)^-1 the rule means nothing; growth is then bounded by that of the rows.
-    if (det > 0.0 && is_finite(moved)) {
-      e_ = moved;
-    } else {
-      e_ *= 1.0 + h * (glm::length(jacobian[0]) + glm::length(jacobian[1]) + glm::length(jacobian[2]));
-    }
-  }
-
   Vec3 e_{0.0};
 };
 

@@ -5,6 +5,12 @@
 /// the crossing that a parabola predicts; from its end the face is reached by the third-order series in
 /// arc length with exact slope and curvature, over the small part of the step that is left (near_). So every
 /// method keeps its order on data that is only C0. The slope at the end is the first slope in the next cell.
+/// Of a stiff method's step slope and curvature say nothing of what follows (method.h): the face is then sought
+/// on the step's dense output, and the end lies on it.
+///
+/// A line comes to rest where the flow about it, taken as affine, dies away within the distance asked for, and
+/// in this cell: a sink that attracts it, a plane at rest. A flow that slows down on its way to a slow manifold,
+/// or that passes a saddle, goes on.
 #pragma once
 
 #include <array>
@@ -16,6 +22,7 @@
 #include <utility>
 
 #include "common/base/index.h"
+#include "common/ode/linear_step.h"
 #include "common/ode/root.h"
 #include "common/ode/step_control.h"
 #include "common/trace/polynomial_root.h"
@@ -34,7 +41,7 @@ class FaceWalk final : public LineWalk {
       : domain_(domain),
         settings_(settings),
         inverse_tolerance_(1.0 / settings.tolerance),
-        control_(Method::kPower) {
+        control_(method_.power()) {
     // What the series over the last bit neglects falls with the fourth power of its part of the step.
     near_ = Method::kAdaptive ? std::min(0.12, 2.0 * std::sqrt(std::sqrt(settings.tolerance))) : 0.02;
   }
@@ -45,7 +52,10 @@ class FaceWalk final : public LineWalk {
     entry_ = -1;
     pending_face_ = -1;
     standing_ = 0;
-    control_ = StepControl(Method::kPower);
+    stiff_steps_ = 0;
+    stepped_ = false;
+    method_.restart();
+    control_ = StepControl(method_.power());
     y_ = Pack4{seed, 0.0};
     k_ = slope(y_);
     const bool moves = std::isfinite(k_[3]);
@@ -75,10 +85,10 @@ class FaceWalk final : public LineWalk {
         bend_ = curvature(domain_.gradient(y_), k_);
         fresh_ = false;
       }
-      // The flow slows down towards a zero that lies within the distance asked for.
-      if (slowing_ > 0.0 && 1.0 <= slowing_ * k_[3] * settings_.rest_distance) return End::kStagnation;
+      if (seems_to_rest() && comes_to_rest()) return End::kStagnation;
       const double standing = kStanding * domain_.size();
-      const Crossing crossing = domain_.predict(y_, k_, bend_, entry_, std::max(h_, standing));
+      const Crossing crossing =
+          domain_.predict(y_, k_, method_.stiff() ? Pack4{} : bend_, entry_, std::max(h_, standing));
       if (crossing.face >= 0 && crossing.distance <= standing && standing_ < kMaxStanding) {
         ++standing_;
         pending_face_ = crossing.face;
@@ -92,15 +102,15 @@ class FaceWalk final : public LineWalk {
     if (theta <= 0.0) return begin_;
     if (theta >= 1.0) return end_;
     LinePoint point = begin_;
-    const double arc = theta * (end_.arc - begin_.arc);
     if (!dense_known_) {
       dense_ = method_.dense();
       dense_known_ = true;
     }
-    const Pack4 y = dense_value(piece_start_, dense_, arc / method_.step());
+    const double part = theta * part_;
+    const Pack4 y = dense_value(piece_start_, dense_, part);
     point.position = y.xyz();
     point.time = y[3];
-    point.arc += arc;
+    point.arc += method_.arc(part);
     point.speed = glm::length(domain_.velocity(y).xyz());
     // The dense output is off too, most in the middle of the step. Along a curve of constant fourth
     // derivative the Hermite cubic of rk34 is off by 2.4 times the local error of its step.
@@ -110,6 +120,7 @@ class FaceWalk final : public LineWalk {
     return point;
   }
   [[nodiscard]] double theta_at_arc(double arc) const override {
+    if (method_.stiff()) return DensePiece::theta_at_arc(arc);
     const double length = end_.arc - begin_.arc;
     return length > 0.0 ? std::clamp((arc - begin_.arc) / length, 0.0, 1.0) : 0.0;
   }
@@ -124,13 +135,20 @@ class FaceWalk final : public LineWalk {
 
   static double magnitude(const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 
-  /// v/|v| and 1/|v|.
-  [[nodiscard]] Pack4 slope(const Pack4& y) const {
-    Pack4 v = domain_.velocity(y);
-    const double square = v.lo[0] * v.lo[0] + v.lo[1] * v.lo[1] + v.hi[0] * v.hi[0];
-    v.hi[1] = 1.0;
-    return v / Pack4::all(std::sqrt(square));
-  }
+  /// What the methods follow.
+  struct Flow {
+    const Domain& domain;
+    [[nodiscard]] Pack4 velocity(const Pack4& y) const { return domain.velocity(y); }
+    [[nodiscard]] Mat3 gradient(const Pack4& y) const { return domain.gradient(y).matrix(); }
+    /// v/|v| and 1/|v|.
+    [[nodiscard]] Pack4 slope(const Pack4& y) const {
+      Pack4 v = domain.velocity(y);
+      const double square = v.lo[0] * v.lo[0] + v.lo[1] * v.lo[1] + v.hi[0] * v.hi[0];
+      v.hi[1] = 1.0;
+      return v / Pack4::all(std::sqrt(square));
+    }
+  };
+  [[nodiscard]] Pack4 slope(const Pack4& y) const { return Flow{domain_}.slope(y); }
 
   /// Derivative of slope() along the line; notes how fast the flow slows down.
   [[nodiscard]] Pack4 curvature(const FlowGradient& gradient, const Pack4& k) {
@@ -143,28 +161,42 @@ class FaceWalk final : public LineWalk {
     return bend;
   }
 
-  /// Jacobian of slope(), rows first, for the stiff method.
-  [[nodiscard]] SmallLu<4>::Matrix slope_jacobian(const Pack4& y, const Pack4& k) const {
-    const Mat3 j = domain_.gradient(y).matrix();
-    const Vec3 n = k.xyz();
-    const Vec3 along = n * j;  // n^T J
-    SmallLu<4>::Matrix m{};
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        m[as_size(row)][as_size(column)] = k[3] * (j[column][row] - n[row] * along[column]);
-      }
-    }
-    for (int column = 0; column < 3; ++column) m[3][as_size(column)] = -k[3] * k[3] * along[column];
-    return m;
-  }
-
-  /// How far rounding of the position and of the interpolation turns the direction: the velocity is a sum of
-  /// terms as large as the Jacobian times the coordinates and the cell, which cancel near a zero.
-  [[nodiscard]] double slope_rounding() const {
-    const Mat3 j = domain_.gradient(y_).matrix();
+  /// Rounding of the velocity, of the position and of the interpolation: it is a sum of terms as large as the
+  /// Jacobian times the coordinates and the cell, which cancel near a zero.
+  [[nodiscard]] double velocity_rounding(const Mat3& j) const {
     const double rate = std::sqrt(glm::dot(j[0], j[0]) + glm::dot(j[1], j[1]) + glm::dot(j[2], j[2]));
     constexpr double kRoundings = 8.0;  // of coordinates and of each term
-    return kRoundings * kUlp * rate * (magnitude(y_.xyz()) + domain_.size()) * k_[3];
+    return kRoundings * kUlp * rate * (magnitude(y_.xyz()) + domain_.size());
+  }
+
+  /// Whether the flow slows down as it would towards a zero within the distance asked for.
+  [[nodiscard]] bool seems_to_rest() const {
+    return slowing_ > 0.0 && 1.0 <= slowing_ * k_[3] * settings_.rest_distance;
+  }
+
+  /// Whether the flow about the last point, taken as affine and followed for as long as it takes, falls to
+  /// rounding within the distance asked for, and where this cell has it to say.
+  [[nodiscard]] bool comes_to_rest() const {
+    const Mat3 j = domain_.gradient(y_).matrix();
+    const double rate = LinearStep::row_sum(j);
+    if (!(rate > 0.0) || !std::isfinite(rate)) return false;
+    const Vec3 v = k_.xyz() / k_[3];
+    const double quiet = velocity_rounding(j);
+    LinearStep flow(j, 1.0 / rate);
+    constexpr int kDoublings = 64;  // what moves has left by then: quiet times 2^64 / rate is far beyond it
+    for (int n = 0; n < kDoublings; ++n, flow.repeat()) {
+      const Vec3 way = flow.reach * v;
+      if (!(glm::length(way) <= settings_.rest_distance)) return false;
+      if (glm::length(flow.growth * v) <= quiet) {
+        constexpr double kBeside = -1e-6;  // of the cell: a zero on its face is its own
+        const Pack4 zero = y_ + Pack4{way, 0.0};
+        for (int face = 0; face < Domain::face_count(); ++face) {
+          if (domain_.face_value(face, zero) < kBeside * domain_.face_scale()) return false;
+        }
+        return true;
+      }
+    }
+    return false;
   }
 
   /// The first part of the last attempt's step at which the curve leaves the cell; above 1 where it does not.
@@ -194,9 +226,36 @@ class FaceWalk final : public LineWalk {
     return farthest;
   }
 
+  /// Where the last attempt's dense output, near its end, reaches a face: the way left of it, and the rate of
+  /// the face's value there.
+  struct DenseCrossing {
+    double left = 0.0;
+    double rate = 0.0;
+  };
+  [[nodiscard]] DenseCrossing dense_crossing(int face) const {
+    const auto q = method_.dense();
+    const double start = domain_.face_value(face, y_);
+    double theta = 1.0, rate = 0.0;
+    constexpr int kNewton = 5;
+    for (int n = 0; n < kNewton; ++n) {
+      double value = 0.0;
+      rate = 0.0;
+      for (std::size_t j = q.size(); j-- > 0;) {
+        const double c = domain_.face_rate(face, q[j]);
+        rate = rate * theta + (static_cast<double>(j) + 1.0) * c;
+        value = (value + c) * theta;
+      }
+      theta -= (start + value) / rate;
+      if (!(theta > 0.0 && theta < 2.0)) break;  // not near the end
+    }
+    return {(theta - 1.0) * method_.step(), rate / method_.step()};
+  }
+
   [[nodiscard]] std::optional<End> take_step(const Crossing& predicted) {
-    const auto f = [this](const Pack4& y) { return slope(y); };
-    const auto jacobian = [this](const Pack4& y, const Pack4& k) { return slope_jacobian(y, k); };
+    if constexpr (requires { method_.goes_over(); }) {
+      if (stepped_ && method_.goes_over()) control_ = StepControl(method_.power());
+    }
+    const Flow flow{domain_};
     int face = predicted.distance <= h_ ? predicted.face : -1;
     double h = face >= 0 ? predicted.distance : std::min(h_, settings_.largest_step);
     int reaimed = 0, missed = 0;
@@ -204,8 +263,9 @@ class FaceWalk final : public LineWalk {
       const double smallest = 4.0 * kUlp * (magnitude(y_.xyz()) + domain_.size());
       if (!(h > smallest)) return standing_cross(face);
       // Divisions that need not wait for the step.
-      const double speed = 1.0 / k_[3], per_length = 1.0 / h;
-      const bool sound = method_.attempt(f, jacobian, y_, k_, h);
+      const double speed = 1.0 / k_[3], per_step = 1.0 / h;
+      const bool sound = method_.attempt(flow, y_, k_, h);
+      const double per_length = method_.stiff() ? 1.0 / method_.arc(1.0) : per_step;
       const Pack4& k1 = method_.last_slope();
       double local = 0.0;
       StepControl::Verdict verdict{.accepted = true, .factor = 1.0};
@@ -218,7 +278,10 @@ class FaceWalk final : public LineWalk {
           const double error = std::max(local, time_error) * per_length;
           double ratio = error * inverse_tolerance_;
           // Next to a zero the direction is rounding: no step is short enough for an error below that.
-          if (ratio > 1.0) ratio = error / (settings_.tolerance + slope_rounding());
+          if (ratio > 1.0) {
+            const double unsure = velocity_rounding(domain_.gradient(y_).matrix()) * k_[3];
+            ratio = error / (settings_.tolerance + unsure);
+          }
           constexpr double kFarBelow = 0.1;
           if (face >= 0 && ratio <= kFarBelow && sound) {
             verdict = {true, h_ > h ? 1.0 : 2.0};  // cut short by a face: nothing to learn for the next step
@@ -240,19 +303,25 @@ class FaceWalk final : public LineWalk {
       // Where did it end? Positions between are judged by the control points of the cubic through both ends.
       const Pack4& y1 = method_.end();
       Pack4 y_end = y1, k_end = k1;
-      double length = h;
+      double length = method_.arc(1.0), part = 1.0;
       if (face >= 0) {
         gradient_ = domain_.gradient(y1);
-        const Pack4 bend1 = curvature(gradient_, k1);
-        const Pack4 third = per_length * (bend1 - bend_);
-        const double rate = domain_.face_rate(face, k1);
+        const Pack4 bend1 = method_.stiff() ? Pack4{} : curvature(gradient_, k1);
+        const Pack4 third = per_step * (bend1 - bend_);
+        double rate = domain_.face_rate(face, k1);
         const double value = domain_.face_value(face, y1);
         // On the face as far as rounding can tell: to aim again, at a face that is only touched, would not
         // end.
         double delta = 0.0;
         if (std::abs(value) > domain_.face_rounding(face, y1)) {
-          delta = -value / rate;
-          delta = -value / (rate + 0.5 * delta * domain_.face_rate(face, bend1));
+          if (method_.stiff()) {
+            const DenseCrossing crossing = dense_crossing(face);
+            rate = crossing.rate;
+            delta = crossing.left;
+          } else {
+            delta = -value / rate;
+            delta = -value / (rate + 0.5 * delta * domain_.face_rate(face, bend1));
+          }
         }
         if (!(rate < 0.0) || !(std::abs(delta) <= near_ * h)) {
           // Aim again, at what the curve itself says.
@@ -277,11 +346,18 @@ class FaceWalk final : public LineWalk {
             face = exit.face >= 0 ? exit.face : face;
             continue;
           }
+        } else if (method_.stiff()) {
+          part = 1.0 + delta * per_step;
+          y_end = dense_value(y_, method_.dense(), part);
+          k_end = slope(y_end);
+          length = method_.arc(part);
+          if (!std::isfinite(k_end[3])) return End::kStagnation;
         } else {
           const double half = 0.5 * delta * delta;
           y_end = y1 + delta * k1 + half * bend1 + (half * delta * (1.0 / 3.0)) * third;
           k_end = k1 + delta * bend1 + half * third;
           length = h + delta;
+          part = length * per_step;
         }
       }
       // The end may lie behind another face that was crossed shortly before: aim at that one.
@@ -289,7 +365,7 @@ class FaceWalk final : public LineWalk {
         const Crossing earlier = behind(y_end, k_end, face);
         if (earlier.face >= 0 && earlier.distance < 0.5 * length && ++reaimed < kMaxReaimed) {
           face = earlier.face;
-          h = length - earlier.distance;
+          h *= (length - earlier.distance) / length;
           continue;
         }
       }
@@ -308,8 +384,9 @@ class FaceWalk final : public LineWalk {
       if constexpr (!Method::kAdaptive) {
         // A fixed step that turns back on itself has passed over a point of rest.
         constexpr double kReversed = -0.5;
-        if (glm::dot(k_.xyz(), k_end.xyz()) < kReversed) return End::kStagnation;
+        if (glm::dot(k_.xyz(), k_end.xyz()) < kReversed && comes_to_rest()) return End::kStagnation;
       }
+      part_ = part;
       accept(y_end, k_end, length, local, face);
       if constexpr (Method::kAdaptive) {
         const double proposed = verdict.factor * h;
@@ -366,6 +443,8 @@ class FaceWalk final : public LineWalk {
     end_.speed = 1.0 / inverse_speed;
     end_.error = error_.across(n) + 2.0 * kUlp * magnitude(end_.position);
     has_piece_ = true;
+    stepped_ = true;
+    if (method_.stiff()) ++stiff_steps_;
   }
 
   Domain domain_;
@@ -380,6 +459,7 @@ class FaceWalk final : public LineWalk {
   Pack4 y_, k_, bend_, piece_start_;
   mutable decltype(std::declval<const Method&>().dense()) dense_;  ///< of the last piece, once asked for
   mutable bool dense_known_ = false;
+  double part_ = 1.0;      ///< of the last step, that is its piece
   FlowGradient gradient_;  ///< at the end of the last step, in its cell
   double local_ = 0.0;     ///< error of the last piece alone
   double slowing_ = 0.0;   ///< -n . J n, positive where the flow slows down
@@ -388,6 +468,7 @@ class FaceWalk final : public LineWalk {
   int pending_face_ = -1;  ///< reached by the last piece, not yet crossed
   int standing_ = 0;
   bool fresh_ = true;
+  bool stepped_ = false;  ///< method_ holds an accepted step of this line
 };
 
 }  // namespace palpate

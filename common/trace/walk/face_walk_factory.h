@@ -30,7 +30,7 @@ template <class Domain>
     case Integrator::kRk34:
       return std::make_unique<FaceWalk<Domain, ExplicitMethod<Rk34>>>(domain, settings);
     case Integrator::kDp54:
-      return std::make_unique<FaceWalk<Domain, ExplicitMethod<Dp54>>>(domain, settings);
+      return std::make_unique<FaceWalk<Domain, SwitchingMethod>>(domain, settings);
     case Integrator::kRodas4:
       return std::make_unique<FaceWalk<Domain, RodasMethod>>(domain, settings);
     case Integrator::kExact:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "common/geometry/line.h"
@@ -31,6 +32,8 @@ class LineWalk : public DensePiece {
   [[nodiscard]] double turn_cosine() const noexcept { return turn_cosine_; }
   /// What the last advance() cost, in units of an ordinary piece, roughly: for those who ration pieces.
   [[nodiscard]] int work() const noexcept { return work_; }
+  /// Pieces since start() that a method for stiff flows made.
+  [[nodiscard]] std::int64_t stiff_steps() const noexcept { return stiff_steps_; }
 
  protected:
   LineWalk() = default;
@@ -38,6 +41,7 @@ class LineWalk : public DensePiece {
   Vec3 direction_{0.0};
   double turn_cosine_ = 1.0;
   int work_ = 1;
+  std::int64_t stiff_steps_ = 0;
   bool has_piece_ = false;
 };
 

@@ -48,9 +48,7 @@ std::string status_text(const SceneState& scene) {
     text += separator + std::to_string(count) + " " + name;
     separator = ", ";
   }
-  std::array<char, 32> error{};
-  std::snprintf(error.data(), error.size(), "%.1e", scene.error_max);
-  return text + "   error below " + error.data() + "   traced in " + seconds_text(scene.seconds_trace);
+  return text + "   " + errors_text(scene.line_errors) + "   traced in " + seconds_text(scene.seconds_trace);
 }
 
 /// What is given up, first what is given up first, and the time.

@@ -152,7 +152,7 @@ TEST(FibreLines, EndAtTheRimAndSayWhatLiesOutside) {
     EXPECT_NEAR(shape.coordinates(line.points.back().position).mu, shape.mu_base, 2e-3);
   }
   EXPECT_EQ(at_rim, 1);
-  EXPECT_GT(result.error_max, 0.0);
+  EXPECT_GT(result.errors.max, 0.0);
 }
 
 TEST(FibreLines, RefusesLayersThatAreNotThere) {

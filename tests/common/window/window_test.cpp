@@ -89,7 +89,7 @@ class FakeModel : public WindowModel {
     for (const Line& line : *view.lines) ++scene.ends[static_cast<std::size_t>(line.end)];
     scene.seeds = 42;
     scene.outside_seeds = 2;
-    scene.error_max = 3e-7;
+    scene.line_errors = line_errors(*view.lines, view.bounds.diagonal());
     scene.seconds_trace = 0.0123;
     return scene;
   }

@@ -1,0 +1,21 @@
+/// Quantiles of numbers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace palpate {
+
+/// The smallest of the values that at least a part `part` of them does not exceed; NaN where there are none.
+/// Sorts them. @pre none is NaN.
+[[nodiscard]] inline double quantile(std::vector<double>& values, double part) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+}  // namespace palpate
