@@ -140,8 +140,6 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.color_lens->style = of_lens.style;
   }
   state.color_array = colors.style.array;
-  state.style = std::move(colors.style);
-  state.style->range = range_of(document.heart);
 
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
@@ -161,9 +159,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
 
 void CardiacModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
-  const auto& range = view.style.range;
-  document.heart.range =
-      range ? exact_number(range->lower) + "," + exact_number(range->upper) : std::string();
+  keep_appearance(view, document);
   // One that the document has no more is on its way out of the view.
   if (view.color_lens && !document.heart.lens.empty())
     document.heart.lens = sphere_text(view.color_lens->center, view.color_lens->radius);

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
 #include "common/field/field_grid.h"
@@ -207,24 +208,13 @@ LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>&
   if (probe.is_angle()) {
     constexpr double kRightAngle = 90.0;
     array->range = ValueRange{-kRightAngle, kRightAngle};
-    colors.style.color_map = ColorMap::kDiverging;
+    array->color_map = ColorMap::kDiverging;
   }
   colors.style.color_by = ColorBy::kArray;
   colors.style.array = std::move(array);
-  constexpr double kThin = 1.6;
-  colors.style.width = kThin;
-  colors.style.halo = false;
   const std::vector<double> on_mesh = values_at(probe, layer.mesh->points, threads);
   colors.values = std::make_shared<const std::vector<float>>(on_mesh.begin(), on_mesh.end());
   return colors;
-}
-
-std::optional<ValueRange> range_of(const HeartOptions& options) {
-  if (options.range.empty()) return std::nullopt;
-  const char* const grammar = "--range takes the lowest and the highest value of the colours: lower,upper";
-  const std::vector<double> ends = parse_numbers(options.range, 2, grammar);
-  if (!(ends[0] < ends[1])) throw usage_error(grammar);
-  return ValueRange{ends[0], ends[1]};
 }
 
 std::optional<ColorLens> lens_of(const HeartOptions& options) {
@@ -253,7 +243,7 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
     view.surfaces.front().lens_values = other.values;
   }
   view.style = std::move(colors.style);
-  view.style.range = range_of(options.heart);
+  apply_appearance(options, view);
   view.bounds = depths.bounds();
   view.lines = scene.layer.lines;
   view.title = input.title();
@@ -263,9 +253,7 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
   view.units = units_of(input);
-  const Projection projection =
-      options.volume.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
-  view.camera = camera_of(options.view, view.bounds, aspect, projection);
+  view.camera = camera_of(options.view, view.bounds, aspect, view.camera.projection);
   return scene;
 }
 

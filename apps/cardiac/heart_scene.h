@@ -106,9 +106,6 @@ struct LayerColors {
                                       const LayerGeometry& layer, const HeartOptions& options, int threads,
                                       const LineArray* before = nullptr);
 
-/// `--range`; none where it is not given. @throws Error (usage).
-[[nodiscard]] std::optional<ValueRange> range_of(const HeartOptions& options);
-
 /// @param contours distance of lines of equal value; 0: none.
 [[nodiscard]] SurfaceView surface_of(const LayerGeometry& layer, const LayerColors& colors, double contours);
 

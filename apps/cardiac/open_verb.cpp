@@ -24,12 +24,10 @@ Verb open_verb(std::vector<UsageExample> examples) {
            [](const Document& options) {
              (void)layer_of(options.heart);
              (void)parse_cut(options.heart.cut);
-             (void)range_of(options.heart);
            },
        .use = [](const Input&, const Document&) { return SceneUse{.tracing = true}; },
        .model = [](const Document& options,
-                   const std::string& program) { return std::make_unique<CardiacModel>(options, program); },
-       .style = style_projection},
+                   const std::string& program) { return std::make_unique<CardiacModel>(options, program); }},
       std::move(examples));
 }
 

@@ -21,7 +21,6 @@ namespace {
 void check(const Document& options) {
   (void)layer_of(options.heart);
   (void)parse_cut(options.heart.cut);
-  (void)range_of(options.heart);
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
   if (!options.hand.path.empty()) (void)read_probe_path(options.hand.path.string());
@@ -55,8 +54,8 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
                             heart->heart().fibres};
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
     drawn.view.probe = probe_after(read_probe_path(options.hand.path.string()),
-                                   find_mode(modes, options.touch.mode).make(scene), scene,
-                                   touch_limits(options.touch), drawn.view.style.color_by);
+                                   find_mode(modes, options.touch.mode).make(scene), scene, options.touch,
+                                   drawn.view.style.color_by);
   }
   return drawn;
 }

@@ -141,6 +141,7 @@ std::optional<Document> DtmriModel::join(const InputFiles& files, const Document
 
 void DtmriModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
+  keep_appearance(view, document);
   if (view.tracts) {
     document.tract_appearance.width = view.tracts->width;
     document.tract_appearance.opacity = view.tracts->opacity;
@@ -149,7 +150,10 @@ void DtmriModel::keep(const SceneView& view, Document& document) const {
     TensorOptions& kept = document.tensors;
     kept.slices = slices_text(*view.tensors);
     kept.color = name_of(view.tensors->color);
+    kept.crosshair = view.tensors->crosshair;
     kept.glyphs = name_of(view.tensors->glyphs);
+    kept.glyph_fa = view.tensors->glyph_least_fa;
+    kept.glyph_spacing = view.tensors->glyph_spacing;
     kept.voxels = view.tensors->smooth ? "linear" : "nearest";
     if (view.tensors->underlay) {
       const UnderlayView& underlay = *view.tensors->underlay;

@@ -60,18 +60,15 @@ void draw_tensor_panel(TensorView& view, bool anatomical) {
   static constexpr std::array<const char*, 3> kPatient{"sagittal", "coronal", "axial"};
   static constexpr std::array<const char*, 3> kPlain{"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) draw_slice(view, axis, (anatomical ? kPatient : kPlain)[axis]);
-  checkbox("crosshair", &view.crosshair);
+  edit_setting("crosshair", view.crosshair);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
   checkbox("smooth", &view.smooth);
   if (!view.image->field) return;  // a lattice alone
   choose("colour", view.color, kTensorColorCount);
-  choose("glyphs", view.glyphs, kGlyphShapeCount);
+  edit_setting("glyphs", view.glyphs);
   if (view.glyphs == GlyphShape::kNone) return;
-  constexpr double kLeast = 0.0, kMost = 1.0, kClose = 8.0, kFar = 100.0;
-  slider_scalar("from FA", ImGuiDataType_Double, &view.glyph_least_fa, &kLeast, &kMost, "%.2f",
-                ImGuiSliderFlags_AlwaysClamp);
-  slider_scalar("spacing", ImGuiDataType_Double, &view.glyph_spacing, &kClose, &kFar, "%.0f",
-                ImGuiSliderFlags_AlwaysClamp);
+  edit_setting("glyph-fa", view.glyph_least_fa);
+  edit_setting("glyph-spacing", view.glyph_spacing);
 }
 
 bool draw_underlay_panel(TensorView& view, const std::string& file) {
@@ -91,11 +88,9 @@ bool draw_underlay_panel(TensorView& view, const std::string& file) {
                   &underlay.image->highest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
   }
   if (!view.image->field) return false;  // there is nothing to blend with, and no slice without it
-  choose("colours over it", underlay.blend, kUnderlayBlendCount);
+  edit_setting("blend", underlay.blend);
   return button("Remove underlay");
 }
-
-constexpr int kMostSeedsPerVoxel = 64;
 
 /// The shortest edge of a voxel [data units].
 double shortest_edge(const TensorVoxels& voxels) {
@@ -117,9 +112,8 @@ std::string tract_seed_text(const TractSeedChoice& choice, const TensorView& ten
 }
 
 void draw_tract_appearance(TractView& look) {
-  constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
-  slider("width", look.width, kThin, kThick, "%.1f", ImGuiSliderFlags_Logarithmic);
-  slider("opacity", look.opacity, kFaint, kFull, "%.2f");
+  edit_setting("tract-width", look.width);
+  edit_setting("tract-opacity", look.opacity);
 }
 
 void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorView& tensors,
@@ -138,11 +132,8 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
     slider("FA above", choice.least_fa, 0.0, 1.0, "%.2f");
   }
   // Tracts that are shown are traced again with these.
-  slider_int("per voxel", &document.tracts.seeds_per_voxel, 1, kMostSeedsPerVoxel, "%d",
-             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  explain("seeds-per-voxel");
-  slider("end at FA", document.tracts.cutoff, 0.0, 1.0, "%.2f");
-  explain("cutoff");
+  edit_setting("seeds-per-voxel", document.tracts.seeds_per_voxel);
+  edit_setting("cutoff", document.tracts.cutoff);
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
   if (button("Trace", size)) {

@@ -28,8 +28,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
            },
        .use = [](const Input& input, const Document&) { return SceneUse{.field = !input.fields().empty()}; },
        .model = [](const Document& options,
-                   const std::string& program) { return std::make_unique<DtmriModel>(options, program); },
-       .style = style_projection},
+                   const std::string& program) { return std::make_unique<DtmriModel>(options, program); }},
       std::move(examples));
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
@@ -203,6 +204,9 @@ TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const Te
   }
   view.color = tensor_color_from_name(options.color);
   view.glyphs = glyph_shape_from_name(options.glyphs);
+  view.glyph_least_fa = options.glyph_fa;
+  view.glyph_spacing = options.glyph_spacing;
+  view.crosshair = options.crosshair;
   view.smooth = options.voxels == "linear";
   view.image = std::move(voxels);
   return view;
@@ -214,6 +218,7 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Do
   view.title = input.title();
   const FileInfo* file = input.file();
   view.anatomical = file != nullptr && file->anatomical;
+  apply_appearance(options, view);
   view.style.color_by = ColorBy::kDirection;
   if (parts.tensors) {
     const TensorVoxels& voxels = *parts.tensors->image;

@@ -164,7 +164,7 @@ std::string FlowModel::measured() const {
 
 void FlowModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
-  keep_lines(view.style, document);
+  keep_appearance(view, document);
   if (view.volume) cache_volume(*view.volume, document);
 }
 

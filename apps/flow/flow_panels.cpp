@@ -23,9 +23,7 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   choose_word("field", state.document.input.field, info.fields);
   draw_time(state, info.times);
   draw_seeds(state, true);
-  static const std::vector<std::string> kDirections{"forward", "backward", "both"};
-  choose_word("direction", settings.direction, kDirections);
-  explain("direction");
+  edit_setting("direction", settings.direction);
   choose_word("integrator", settings.integrator, info.integrators);
   explain("integrator");
   const double diagonal = info.bounds.diagonal();
@@ -47,6 +45,7 @@ void draw_lines(PanelState& state, const SceneState& scene) {
                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
       settings.max_length = length * diagonal;
     }
+    explain("max-length");
   }
 }
 
@@ -104,7 +103,7 @@ void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<
   choose_flow_volume(settings, *scene.info, volumes);
   settings.scalar = joined(volumes);
   if (!volume || volumes.empty()) return;
-  checkbox("shown", &volume->shown);
+  edit_setting("show-volume", volume->shown);
   draw_values_at_probe(state, scene.volume_label, *volume);
   std::vector<std::string> beside(volumes.begin() + 1, volumes.end());
   draw_volume_appearance(state, scene, volumes.front(), scene.info->volumes, beside,

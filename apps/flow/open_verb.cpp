@@ -24,13 +24,6 @@ SceneUse use_of(const Input& input, const Document& options) {
   return use;
 }
 
-void style(const Document& options, SceneView& view) {
-  style_projection(options, view);
-  style_lines(options.view, view.style);
-  // Any other name is an array of the input: the model knows it once that is open.
-  show_quantity(options.view.color, view.style);
-}
-
 }  // namespace
 
 Verb open_verb(std::vector<UsageExample> examples) {
@@ -49,8 +42,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
            },
        .use = use_of,
        .model = [](const Document& options,
-                   const std::string& program) { return std::make_unique<FlowModel>(options, program); },
-       .style = style},
+                   const std::string& program) { return std::make_unique<FlowModel>(options, program); }},
       std::move(examples));
 }
 

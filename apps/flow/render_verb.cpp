@@ -28,7 +28,7 @@ void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticM
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
   const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
                           options.common.threads, scalar};
-  view.probe = probe_after(path, mode.make(scene), scene, touch_limits(options.touch), view.style.color_by);
+  view.probe = probe_after(path, mode.make(scene), scene, options.touch, view.style.color_by);
   view.probe->reference_speed = reference_speed(view);
 }
 
@@ -102,7 +102,8 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   if (!options.hand.path.empty()) {
     show_probe(drawn.view, read_probe_path(options.hand.path.string()), mode, options, scalar, field);
   }
-  if (surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty()) fade_lines(drawn.view);
+  const bool felt = surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty();
+  if (options.touch.fade_lines && felt) fade_lines(drawn.view);
   return drawn;
 }
 

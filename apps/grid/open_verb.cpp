@@ -23,8 +23,7 @@ Verb open_verb(std::vector<UsageExample> examples) {
        .check = [](const Document& options) { check_volume_options(options.volume); },
        .use = [](const Input&, const Document&) { return SceneUse{}; },
        .model = [](const Document& options,
-                   const std::string& program) { return std::make_unique<GridModel>(options, program); },
-       .style = style_projection},
+                   const std::string& program) { return std::make_unique<GridModel>(options, program); }},
       std::move(examples));
 }
 

@@ -9,6 +9,7 @@
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/verbs.h"
+#include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/compose/stereo_text.h"
 #include "common/hand/drawn/annotation_list.h"
@@ -128,6 +129,8 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.output.file.empty()) throw usage_error("render needs an output: try --out picture.png");
   (void)camera_of(options.view, Box{}, 1.0);
+  SceneView unseen;  // refuses what is no colour, range and the like
+  apply_appearance(options, unseen);
   if (options.view.converged && options.view.frame_budget > 0.0)
     throw usage_error("--converged and --frame-budget: a picture is either refined or hurried");
   if (!options.view.pick.empty()) (void)beam_of_option(options.view, {});

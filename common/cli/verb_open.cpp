@@ -6,6 +6,7 @@
 #include "common/base/parallel.h"
 #include "common/cli/verbs.h"
 #include "common/cli/window_touch.h"
+#include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/stereo_text.h"
@@ -24,6 +25,9 @@ void check_view(const Document& options) {
 ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbContext& context) {
   Document options = given;
   if (list_examples(options, context)) return ExitCode::kDone;
+  const bool available = verb.window.available();
+  const auto note = [&](const std::string& line) { context.console.note(line); };
+  if (available) verb.window.prefer(context.explorer.name, options, note);
   const bool nothing_named = options.input.files.empty() && options.input.example.empty();
   if (nothing_named) options.input.example = examples_of(context.explorer.kind).front().name;
   check_view(options);
@@ -33,13 +37,13 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   WindowRequest request{.program = context.explorer.name,
                         .command_line = context.command_line,
                         .stop_requested = [] { return InterruptGuard::interrupted(); },
-                        .note = [&](const std::string& line) { context.console.note(line); }};
+                        .note = note};
+  apply_appearance(options, request.view);
   if (felt) request.touch = window_touch(verb.modes, options, context);
   request.workbench = workbench_display_of(options, request.touch);
   if (const auto& workbench = request.workbench;
       workbench && !workbench->several && stereo.mode == StereoMode::kNone)
     stereo.mode = workbench->workbench.screens[workbench->screen].stereo;
-  const bool available = verb.window.available();
   if (!available && nothing_named) return headless_tour(verb.render, options, context, verb.next);
   if (options.common.explain) {
     const Input input = open_input(options, context);
@@ -52,7 +56,6 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   }
   if (!available) refuse_window(options, context);
   const auto model = verb.model(options, context.explorer.name);
-  verb.style(options, request.view);
   request.view.stereo = stereo;
   if (!options.hand.record.empty()) context.interrupt.keep(options.hand.record);
   const WindowOutcome outcome = verb.window.open(*model, options, std::move(request));
@@ -73,10 +76,6 @@ Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples) {
           .run = [window = std::move(window)](const Document& options, const VerbContext& context) {
             return run_open(window, options, context);
           }};
-}
-
-void style_projection(const Document& options, SceneView& view) {
-  if (options.volume.projection == "orthographic") view.camera.projection = Projection::kOrthographic;
 }
 
 }  // namespace palpate

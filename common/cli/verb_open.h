@@ -10,7 +10,6 @@
 #include "common/compose/window_model.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/window_request.h"
-#include "common/render/scene_view.h"
 #include "common/scene/plan.h"
 
 namespace palpate {
@@ -29,14 +28,9 @@ struct WindowVerb {
   std::function<SceneUse(const Input&, const Document&)> use;
   /// @param program its name, for sessions.
   std::function<std::unique_ptr<WindowModel>(const Document&, const std::string& program)> model;
-  /// What is shown at the start, but for lines, bounds and camera.
-  std::function<void(const Document&, SceneView&)> style;
 };
 
 /// The verb `open`. Without a file it shows the first example; without a display it draws that one.
 [[nodiscard]] Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples);
-
-/// Sets what `--projection` says.
-void style_projection(const Document& options, SceneView& view);
 
 }  // namespace palpate

@@ -46,6 +46,9 @@ class InputModel : public WindowModel {
     document.view.camera.clear();
     document.view.focal.clear();
     document.view.color.clear();
+    document.view.color_map.clear();
+    document.view.range.clear();
+    document.view.log_colors.reset();
     // What the hand can bear is no matter of the data.
     document.touch.damping = given_.touch.damping;
     document.touch.passivity = given_.touch.passivity;

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
 #include "common/compose/trace_options.h"
 #include "common/compose/volume_scene.h"
@@ -57,18 +58,6 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
          short_number(angles.zoom);
 }
 
-void show_quantity(const std::string& color, LineStyle& style) {
-  for (int i = 0; i < kColorByCount; ++i) {
-    const auto by = static_cast<ColorBy>(i);
-    if (name_of(by) == color) style.color_by = by;
-  }
-}
-
-void style_lines(const ViewOptions& options, LineStyle& style) {
-  style.width = options.line_width;
-  style.opacity = options.line_opacity;
-}
-
 SceneView make_line_view(const Input& input, const VectorField& field,
                          std::shared_ptr<const std::vector<Line>> lines, const Document& options,
                          const LineStyle& style, double aspect) {
@@ -77,7 +66,7 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   view.lines = std::move(lines);
   view.outline = domain_outline(field);
   view.style = style;
-  style_lines(options.view, view.style);
+  apply_appearance(options, view);
   view.title = input.title();
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);

@@ -36,12 +36,6 @@ inline constexpr double kViewDiagonals = 1.0;
 /// them.
 [[nodiscard]] std::string camera_text(const Camera& camera, const Box& bounds, double aspect);
 
-/// Colours lines by a quantity of theirs, where `color` names one.
-void show_quantity(const std::string& color, LineStyle& style);
-
-/// Sets what `--line-width` and `--line-opacity` say.
-void style_lines(const ViewOptions& options, LineStyle& style);
-
 /// A scene of `lines` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,

@@ -2,7 +2,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
+#include "common/base/text.h"
+#include "common/compose/appearance.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
 #include "common/compose/plane_image_text.h"
@@ -20,13 +24,34 @@ void keep_camera(const SceneView& view, Document& document) {
       camera.projection == Projection::kOrthographic ? "orthographic" : "perspective";
 }
 
-void keep_lines(const LineStyle& style, Document& document) {
-  document.view.line_width = style.width;
-  document.view.line_opacity = style.opacity;
+void keep_appearance(const SceneView& view, Document& document) {
+  const auto unless = [](auto usual, auto value) {
+    return value == usual ? std::nullopt : std::optional(value);
+  };
+  ViewOptions& kept = document.view;
+  const LineStyle& style = view.style;
+  const LineStyle usual = default_line_style(document.input.kind);
+  // A colour may be written in several ways.
+  if (!(parse_background(kept.background) == view.background))
+    kept.background = background_text(view.background);
+  kept.outline = view.show_outline;
+  kept.axes = view.show_axes;
+  kept.color_bar = view.show_color_bar;
+  kept.color_map = style.color_map ? name_of(*style.color_map) : std::string_view();
+  if (range_of(kept) != style.range) {
+    kept.range = style.range ? exact_number(style.range->lower) + "," + exact_number(style.range->upper)
+                             : std::string();
+  }
+  kept.log_colors = style.logarithmic;
+  kept.line_width = unless(usual.width, style.width);
+  kept.line_opacity = style.opacity;
+  kept.halos = unless(usual.halo, style.halo);
+  kept.depth_cue = style.depth_cue;
 }
 
 void cache_volume(const VolumeView& volume, Document& document) {
   VolumeOptions& kept = document.volume;
+  kept.shown = volume.shown;
   kept.clips.clear();  // cuts are among the lenses
   kept.lenses = lens_texts(volume);
   kept.samples = volume.samples_per_voxel;

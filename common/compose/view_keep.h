@@ -1,6 +1,6 @@
 /// What a picture says of its document: mouse, hands and panels change a view directly, and these write what
 /// they did back, as the settings say it. One function a subject; each is the inverse of what composes that
-/// subject (line_view.h, volume_scene.h, lens_text.h, plane_image_text.h), so that a view composed of the
+/// subject (appearance.h, line_view.h, volume_scene.h, lens_text.h, plane_image_text.h), so that a view composed of the
 /// document again is the same.
 #pragma once
 
@@ -12,8 +12,9 @@ namespace palpate {
 /// Direction, zoom for a picture of kSessionAspect, focal point, and how the camera projects.
 void keep_camera(const SceneView& view, Document& document);
 
-/// How lines are drawn, but for what colours them.
-void keep_lines(const LineStyle& style, Document& document);
+/// What apply_appearance() takes, but for the quantity or array that colours lines. @pre document.input.kind is
+/// the program's.
+void keep_appearance(const SceneView& view, Document& document);
 
 /// The lenses and cuts of a volume, how its rays are cast, and what is drawn on its planes.
 void cache_volume(const VolumeView& volume, Document& document);

@@ -12,6 +12,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
@@ -195,6 +196,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   VolumeView volume;
   volume.image = image;
   volume.fields = shown.secondary;
+  volume.shown = options.volume.shown;
   VolumeTransfer transfer = volume_transfer_of(options.volume.transfer, *image, options.common.threads);
   volume.transfer = std::move(transfer.colors);
   volume.regions = std::move(transfer.regions);
@@ -233,6 +235,7 @@ SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, con
                   std::to_string(image->points.y) + " x " + std::to_string(image->points.z) + " voxels";
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  apply_appearance(options, view);
   view.volume = make_volume_view(shown, options);
   return view;
 }

@@ -68,7 +68,6 @@ struct SceneState {
       color_array;  ///< what the document colours the lines by, where that is no quantity of theirs
   std::vector<SurfaceView> surfaces;      ///< drawn with the lines
   std::optional<ColorLens> color_lens;    ///< where the document has one
-  std::optional<LineStyle> style;         ///< of the lines at the start; none: the window's
   std::optional<VolumeView> volume;       ///< in place of lines, or of a flow around them
   std::string volume_label;               ///< what its values are
   std::vector<std::string> volume_notes;  ///< what resampling it cost, one line each

@@ -13,6 +13,7 @@
 namespace palpate {
 
 bool wants_surfaces(const Document& options, const std::string& mode) {
+  if (options.touch.show_surfaces == false) return false;
   const bool felt = !options.touch.mode.empty() || !options.hand.path.empty();
   return !options.touch.isovalues.empty() || (felt && mode == kIsosurfaceMode);
 }

@@ -10,7 +10,8 @@
 
 namespace palpate {
 
-/// Whether the options speak of isosurfaces: by `--isovalue`, or as the mode that a path is felt in.
+/// Whether the options speak of isosurfaces: by `--isovalue`, or as the mode that a path is felt in; not where
+/// `--show-surfaces off` hides them.
 /// @param mode that is taken, by name or by default.
 [[nodiscard]] bool wants_surfaces(const Document& options, const std::string& mode);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/hand/drawn/followed_curve.h"
+#include "common/hand/touch_options.h"
 #include "common/servo/hand_step.h"
 
 namespace palpate {
@@ -21,7 +22,8 @@ std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace
 }
 
 ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                      const DeviceLimits& limits, ColorBy color_by) {
+                      const TouchOptions& options, ColorBy color_by) {
+  const DeviceLimits limits = touch_limits(options);
   const Workspace& workspace = scene.workspace;
   constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
   ProbeView view;
@@ -41,7 +43,7 @@ ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const Hap
     taken->append(view.proxy, view.force);
   }
   view.links = link_proxies(step.chain, workspace);
-  view.path = PathView{taken, taken->size(), std::nullopt};
+  if (options.show_path) view.path = PathView{taken, taken->size(), std::nullopt};
   if (scene.field) {
     CellHint hint;
     const VectorSample sample = scene.field->sample(view.proxy, hint);
@@ -49,7 +51,7 @@ ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const Hap
   }
   if (made.followed) {
     FollowedCurve curve(made.followed);
-    curve.update(ball_interval(*scene.field, workspace), color_by);
+    curve.update(options.stream_balls ? ball_interval(*scene.field, workspace) : 0.0, color_by);
     view.followed = curve.drawn();
   }
   return view;

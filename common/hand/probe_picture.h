@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "common/device/device.h"
 #include "common/device/probe_path.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
@@ -20,8 +20,9 @@ namespace palpate {
 
 /// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
 /// line that is followed then, and where the first proxy has been.
+/// @param options say what the hand can bear, and what of it is shown.
 [[nodiscard]] ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                                    const DeviceLimits& limits, ColorBy color_by);
+                                    const TouchOptions& options, ColorBy color_by);
 
 /// The speed for which a velocity's arrow has its full length: that of the fastest lines, without outliers.
 [[nodiscard]] double reference_speed(const SceneView& view);

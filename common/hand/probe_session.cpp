@@ -71,8 +71,6 @@ bool ProbeSession::set_field(NamedField open) {
   hand_.let_go();
   data_.open(std::move(open));
   hand_.open_data();
-  // A heart's layer is in the picture with its fibres: all that are felt would lie over it.
-  if (data_.has_wall() && !servo_.running()) choice_.show_surface = false;
   trail_.open_data();
   if (servo_.replaying()) return true;  // its chains are built; what is shown behind it is the user's affair
   if (options_.replay) {
@@ -197,7 +195,7 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
   }
   trail_.update(choice_.show_balls, color_by);
   data_.request_lines(readout.held ? choice_.local : SeedShape::kNone, readout.probe, camera);
-  data_.request_surfaces(choice_.show_surface);
+  data_.request_surfaces(shows_surfaces());
   trail_.describe(choice_, options_.limits.force_cap, on_dial, view);
 }
 

@@ -106,6 +106,9 @@ class ProbeSession {
   void finish();
 
  private:
+  /// Whether isosurfaces or layers that are felt are in the picture. A heart's layer is there with its fibres:
+  /// all that are felt would lie over it.
+  [[nodiscard]] bool shows_surfaces() const { return choice_.show_surface.value_or(!data_.has_wall()); }
   [[nodiscard]] const std::string& mode() const noexcept { return options_.modes[choice_.mode].name; }
   [[nodiscard]] ChainSettings chain_settings() const;
   [[nodiscard]] bool wants_texture() const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,7 @@ struct TouchChoice {
   bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
   bool show_balls = true;
   bool show_path = true;
-  bool show_surface = true;               ///< isosurfaces that are felt
+  std::optional<bool> show_surface;       ///< isosurfaces and layers that are felt; absent: all but layers
   StrokeUse stroke = StrokeUse::kAppend;  ///< of tracts that are drawn by hand
   bool fade_rest = true;                  ///< the scene's own lines step back while a hand is on the probe
   SeedShape local = SeedShape::kNone;

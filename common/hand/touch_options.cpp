@@ -58,6 +58,13 @@ IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
   return settings;
 }
 
+SeedShape seed_shape_of(const TouchOptions& options) {
+  const auto name = std::ranges::find(kSeedShapeNames, options.local_lines);
+  if (name == kSeedShapeNames.end())
+    throw usage_error("--local-lines " + options.local_lines + ": none, rake, plane are known");
+  return static_cast<SeedShape>(name - kSeedShapeNames.begin());
+}
+
 }  // namespace
 
 Workspace touch_workspace(const TouchOptions& options, double diagonal, const LocalFrame& frame) {
@@ -136,6 +143,11 @@ TouchChoice touch_choice(const TouchOptions& options, const std::vector<HapticMo
   now.settings.plane_widget.edit = edit;
   now.ticks = wants_ticks(options);
   now.stroke = stroke_use_from_name(options.stroke);
+  now.show_surface = options.show_surfaces;
+  now.show_path = options.show_path;
+  now.show_balls = options.stream_balls;
+  now.fade_rest = options.fade_lines;
+  now.local = seed_shape_of(options);
   return now;
 }
 
@@ -171,6 +183,11 @@ void keep_touch(const TouchChoice& choice, const std::string& mode, TouchOptions
   options.grid = grid_text(settings.grid_axis);
   options.planes = plane_text(settings.plane_widget);
   options.stroke = name_of(choice.stroke);
+  options.show_surfaces = choice.show_surface;
+  options.show_path = choice.show_path;
+  options.stream_balls = choice.show_balls;
+  options.fade_lines = choice.fade_rest;
+  options.local_lines = name_of(choice.local);
 }
 
 ChainSettings touch_settings(const TouchOptions& options, const VectorField* field,

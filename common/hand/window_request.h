@@ -21,7 +21,7 @@ struct WindowRequest {
   std::optional<WorkbenchDisplayOptions> workbench;  ///< the screens of a workbench; none: a desktop
   ProbeSessionOptions touch;                         ///< without modes: the window knows no touch
   std::function<bool()> stop_requested;              ///< asked a few times a second; true closes the window
-  std::function<void(const std::string&)> note;  ///< told what of the user's files cannot be read or written
+  std::function<void(const std::string&)> note;      ///< told what of the user's files cannot be written
 };
 
 struct WindowOutcome {
@@ -35,6 +35,11 @@ struct WindowOutcome {
 struct WindowMaker {
   /// Whether one can be opened at all (a display is there).
   bool (*available)() = nullptr;
+  /// Takes into `document` what the user of a program prefers, where nothing else was asked for.
+  /// @param note told in a sentence what of that cannot be read.
+  std::function<void(const std::string& program, Document& document,
+                     const std::function<void(const std::string&)>& note)>
+      prefer;
   /// Shows it until it is closed. @param options say what is looked at, and how.
   /// @throws Error (work failed) where none can be opened, and whatever WindowModel::start() throws.
   std::function<WindowOutcome(WindowModel& model, const Document& options, WindowRequest request)> open;

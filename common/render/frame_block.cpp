@@ -14,8 +14,8 @@ FrameBlock make_frame_block(const Camera& camera, const ViewTransform& transform
   block.size = {width, height, transform.view_height / height, transform.distance};
   block.depth_cue = {transform.near_depth, transform.far_depth, depth_cue ? colors.fading : 0.0F,
                      colors.highlight};
-  block.background_top = {colors.top, 1.0F};
-  block.background_bottom = {colors.bottom, 1.0F};
+  block.background_top = {colors.background.top, 1.0F};
+  block.background_bottom = {colors.background.bottom, 1.0F};
   return block;
 }
 

@@ -31,12 +31,14 @@ ColorBy color_by_from_name(std::string_view name) {
                     "'; known: speed, time, arc, error, direction, termination, seed, uniform");
 }
 
-ColorMap default_color_map(ColorBy color_by) noexcept {
-  switch (color_by) {
+ColorMap default_color_map(const LineStyle& style) noexcept {
+  switch (style.color_by) {
     case ColorBy::kTermination:
       return ColorMap::kCategorical;
     case ColorBy::kError:
       return ColorMap::kHeat;
+    case ColorBy::kArray:
+      return style.array ? style.array->color_map : ColorMap::kSequential;
     default:
       return ColorMap::kSequential;
   }
@@ -45,8 +47,8 @@ ColorMap default_color_map(ColorBy color_by) noexcept {
 ColorMap color_map_of(const LineStyle& style) noexcept {
   // Numbers of categories mean nothing on a continuous map, and values nothing on a categorical one.
   if (style.color_by == ColorBy::kTermination) return ColorMap::kCategorical;
-  const ColorMap map = style.color_map.value_or(default_color_map(style.color_by));
-  return map == ColorMap::kCategorical ? default_color_map(style.color_by) : map;
+  const ColorMap map = style.color_map.value_or(default_color_map(style));
+  return map == ColorMap::kCategorical ? default_color_map(style) : map;
 }
 
 bool is_logarithmic(const LineStyle& style) noexcept {

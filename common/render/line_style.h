@@ -43,6 +43,7 @@ struct LineArray {
   std::string unit;
   std::vector<float> values;        ///< of all points, line after line
   std::optional<ValueRange> range;  ///< that colours have unless it is chosen; none: that of the values
+  ColorMap color_map = ColorMap::kSequential;  ///< likewise
 };
 
 struct LineStyle {
@@ -69,7 +70,7 @@ struct UnitNames {
   bool operator==(const UnitNames&) const = default;
 };
 
-[[nodiscard]] ColorMap default_color_map(ColorBy color_by) noexcept;
+[[nodiscard]] ColorMap default_color_map(const LineStyle& style) noexcept;
 [[nodiscard]] ColorMap color_map_of(const LineStyle& style) noexcept;
 [[nodiscard]] bool is_logarithmic(const LineStyle& style) noexcept;
 

@@ -7,12 +7,14 @@
 /// are not drawn.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/geometry/line.h"
@@ -74,6 +76,10 @@ struct PathView {
 };
 
 enum class SeedShape : std::uint8_t { kNone, kRake, kPlane };
+inline constexpr std::array<std::string_view, 3> kSeedShapeNames{"none", "rake", "plane"};
+[[nodiscard]] constexpr std::string_view name_of(SeedShape shape) noexcept {
+  return kSeedShapeNames[static_cast<std::size_t>(shape)];
+}
 
 /// Seeds at the probe with the short streamlines through them.
 struct LocalSeeds {

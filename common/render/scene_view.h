@@ -23,7 +23,18 @@
 
 namespace palpate {
 
-enum class Background : std::uint8_t { kDark, kLight };
+/// sRGB; a gradient between the two.
+struct Background {
+  Rgb top, bottom;
+
+  static const Background kDark, kLight;
+
+  /// Whether dark words stand out from it more than light ones.
+  [[nodiscard]] bool is_light() const noexcept;
+  bool operator==(const Background&) const = default;
+};
+inline constexpr Background Background::kDark{{0.125F, 0.135F, 0.150F}, {0.055F, 0.060F, 0.068F}};
+inline constexpr Background Background::kLight{{1.0F, 1.0F, 1.0F}, {0.955F, 0.960F, 0.968F}};
 
 /// Something that is marked in the data: drawn over everything, in colours that stand out from it.
 struct NoteView {

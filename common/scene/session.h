@@ -4,7 +4,7 @@
 /// (document/setting.h); those at their defaults are left out. Inputs carry their size and SHA-256 checksum,
 /// and a changed one is named when the session is opened.
 ///
-///   format = 1                  # a newer one is read as far as it is known
+///   format = 1                  # a newer one is read as far as it is known, and the rest is named
 ///   program = "flow"
 ///   [[input]]
 ///   file = "carotid.vtk"        # relative to the session file

@@ -49,17 +49,28 @@ std::vector<const Setting*> take_settings(const Session& session, FieldKind kind
                                           const std::filesystem::path& file, Document& document,
                                           std::vector<std::string>& notes) {
   std::vector<const Setting*> taken;
+  const auto leave_out = [&](const std::string& name, const std::string& why) {
+    notes.push_back(file.string() + ": '" + name + "' is left out: " + why);
+  };
+  if (session.newer)
+    notes.push_back(file.string() + " was saved by a newer version; it is read as far as this one knows it");
   for (const auto& [name, value] : session.options) {
     const Setting* row = find_setting(name, kind);
     if (row == nullptr && session.newer) {
-      notes.push_back(file.string() + ": '" + name + "' is left out: a newer version knows it");
+      leave_out(name, "this version has no such setting");
       continue;
     }
     if (row == nullptr) {
       throw input_error({file.string(), "[scene]", "'" + name + "' is no setting",
                          "a setting's name, such as '" + std::string(nearest_setting(name, kind)) + "'", ""});
     }
-    set_value(*row, document, value);
+    try {
+      set_value(*row, document, value);
+    } catch (const Error& error) {
+      if (!session.newer) throw;
+      leave_out(name, error.what());
+      continue;
+    }
     taken.push_back(row);
   }
   return taken;

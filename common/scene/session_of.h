@@ -30,7 +30,8 @@ inline constexpr double kSessionAspect = 1.5;
 std::string store_session(const Session& session, const Document& document);
 
 /// Takes the settings of `session` into `document`, for programs of `kind`.
-/// @param file of the session, for messages. @param notes gets what was left out of a newer session.
+/// @param file of the session, for messages. @param notes gets a sentence on each thing that was left out of a
+/// newer session.
 /// @return what was taken.
 /// @throws Error (bad input) for a setting that is not known, with the one that is most like it; (usage) for
 /// a value that a setting does not take.

@@ -70,9 +70,9 @@ Gui::~Gui() {
   ImGui::DestroyContext(context_);
 }
 
-void Gui::set_background(Background background) {
+void Gui::set_background(const Background& background) {
   ImGuiStyle style;
-  const bool dark = background == Background::kDark;
+  const bool dark = !background.is_light();
   if (dark) {
     ImGui::StyleColorsDark(&style);
     style.Colors[ImGuiCol_WindowBg] = {0.085F, 0.092F, 0.104F, 1.0F};

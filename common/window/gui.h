@@ -27,7 +27,7 @@ class Gui {
   /// Draws the panels over the framebuffer that is bound.
   void end_frame();
 
-  void set_background(Background background);
+  void set_background(const Background& background);
   [[nodiscard]] float text_height() const noexcept { return text_height_; }
 
  private:

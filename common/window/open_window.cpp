@@ -32,7 +32,7 @@ WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& mod
        .play_rate = options.view.play_rate,
        .threads = options.common.threads,
        .stop_requested = std::move(request.stop_requested)},
-      request.note);
+      options, request.note);
   return {.servo = result.probe.servo,
           .fault = result.probe.fault,
           .replay = result.replay,
@@ -43,6 +43,7 @@ WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& mod
 
 WindowMaker user_window(std::vector<PanelPart> panels) {
   return {.available = window_available,
+          .prefer = prefer,
           .open = [panels = std::move(panels)](WindowModel& model, const Document& options,
                                                WindowRequest request) {
             return open_window(panels, model, options, std::move(request));

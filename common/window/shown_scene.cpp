@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/text.h"
-#include "common/compose/line_view.h"
+#include "common/compose/appearance.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/panels/picture_panels.h"
 
@@ -102,7 +102,6 @@ void color_lines(const SceneState& scene, LineStyle& style) {
     if (!array) show_quantity(scene.document.view.color, style);
     style.range.reset();
     style.logarithmic.reset();
-    if (scene.style) style.color_map = scene.style->color_map;
   }
   style.array = array;
 }
@@ -126,12 +125,7 @@ void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
   show_volume(scene, as_made, view);
   show_tensors(scene, as_made, view);
   show_tracts(scene, as_made, view);
-  if (!as_made) return;
-  if (scene.style) {
-    view.style = *scene.style;
-  } else {
-    view.style.range.reset();
-  }
+  if (as_made) apply_colors(scene.document.view, view.style);
 }
 
 ViewEdits edits_of(const SceneView& view) {

@@ -13,8 +13,8 @@ namespace palpate {
 enum class ShownAs : std::uint8_t { kNew, kChanged };
 
 /// Puts `scene` into `view`. Where the document changed, what mouse and panels have done since to volume,
-/// tensors and tracts stays, which is newer than the scene; else all is as the scene has it. A new input brings
-/// its own style of lines. The camera is left as it is.
+/// tensors and tracts stays, which is newer than the scene; else all is as the scene has it. Background
+/// and the like are left as they are, and so is the camera.
 void show_scene(const SceneState& scene, ShownAs as, SceneView& view);
 
 /// What mouse and panels have done to a view, without the voxels and lines that scenes give to it: light enough

@@ -1,15 +1,17 @@
 #include "common/window/user_settings.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
 #include "common/base/output_file.h"
+#include "common/compose/appearance.h"
+#include "common/scene/document/setting.h"
 
 namespace palpate {
 namespace {
@@ -44,7 +46,9 @@ void read_edge(const toml::node_view<const toml::node>& node, int& edge) {
   if (value && *value >= kSmallest && *value <= kLargest) edge = static_cast<int>(*value);
 }
 
-void read_switch(const toml::node_view<const toml::node>& node, bool& on) { on = node.value_or(on); }
+bool is_preference(const Setting& row, const Document& document) {
+  return row.preferred && row.kinds.has(document.input.kind);
+}
 
 std::optional<InputFiles> read_input(const toml::node& node) {
   const toml::table* const table = node.as_table();
@@ -70,16 +74,10 @@ void write_table(const std::filesystem::path& path, const toml::table& table) {
 }
 
 toml::table settings_table(const UserSettings& settings) {
-  const Look& look = settings.look;
-  return toml::table{
-      {"window", toml::table{{"width", settings.width}, {"height", settings.height}}},
-      {"look", toml::table{{"background", look.background == Background::kLight ? "light" : "dark"},
-                           {"perspective", look.projection == Projection::kPerspective},
-                           {"outline", look.outline},
-                           {"axes", look.axes},
-                           {"color_bar", look.color_bar},
-                           {"halo", look.halo},
-                           {"depth_cue", look.depth_cue}}}};
+  toml::table look;
+  for (const auto& [name, text] : settings.look) look.insert_or_assign(name, text);
+  return toml::table{{"window", toml::table{{"width", settings.width}, {"height", settings.height}}},
+                     {"look", std::move(look)}};
 }
 
 toml::table recent_table(const UserSettings& settings) {
@@ -96,24 +94,30 @@ toml::table recent_table(const UserSettings& settings) {
 
 }  // namespace
 
-Look appearance_of(const SceneView& view) noexcept {
-  return {.background = view.background,
-          .projection = view.camera.projection,
-          .outline = view.show_outline,
-          .axes = view.show_axes,
-          .color_bar = view.show_color_bar,
-          .halo = view.style.halo,
-          .depth_cue = view.style.depth_cue};
+void take_preferences(const Preferences& preferences, Document& document) {
+  if (!document.common.session.empty()) return;
+  for (const auto& [name, text] : preferences) {
+    const auto known = [&](const Setting& row) { return is_preference(row, document) && row.name == name; };
+    const auto row = std::ranges::find_if(settings(), known);
+    if (row == settings().end() || std::ranges::find(document.given, name) != document.given.end()) continue;
+    try {
+      Document with = document;
+      set_value(*row, with, text);
+      SceneView unseen;
+      apply_appearance(with, unseen);  // refuses what is no colour
+      document = std::move(with);
+    } catch (const Error&) {
+      continue;
+    }
+  }
 }
 
-void apply_appearance(const Look& look, SceneView& view) noexcept {
-  view.background = look.background;
-  view.camera.projection = look.projection;
-  view.show_outline = look.outline;
-  view.show_axes = look.axes;
-  view.show_color_bar = look.color_bar;
-  view.style.halo = look.halo;
-  view.style.depth_cue = look.depth_cue;
+void note_preferences(const Document& before, const Document& after, Preferences& preferences) {
+  for (const Setting& row : settings()) {
+    if (!is_preference(row, after) || same_value(row, before, after)) continue;
+    std::erase_if(preferences, [&](const auto& old) { return old.first == row.name; });
+    if (!is_default(row, after)) preferences.emplace_back(row.name, value_text(row, after));
+  }
 }
 
 void remember(std::vector<InputFiles>& recent, const InputFiles& input) {
@@ -136,18 +140,13 @@ std::optional<UserFiles> user_files(const std::string& program) {
 UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>& notes) {
   UserSettings settings;
   const toml::table table = read_table(files.settings, notes);
-  const auto window = table["window"], look = table["look"];
-  read_edge(window["width"], settings.width);
-  read_edge(window["height"], settings.height);
-  if (look["background"].value_or(std::string_view()) == "light") {
-    settings.look.background = Background::kLight;
+  read_edge(table["window"]["width"], settings.width);
+  read_edge(table["window"]["height"], settings.height);
+  if (const toml::table* look = table["look"].as_table()) {
+    for (const auto& [name, value] : *look) {
+      if (const auto text = value.value<std::string>()) settings.look.emplace_back(name.str(), *text);
+    }
   }
-  if (!look["perspective"].value_or(true)) settings.look.projection = Projection::kOrthographic;
-  read_switch(look["outline"], settings.look.outline);
-  read_switch(look["axes"], settings.look.axes);
-  read_switch(look["color_bar"], settings.look.color_bar);
-  read_switch(look["halo"], settings.look.halo);
-  read_switch(look["depth_cue"], settings.look.depth_cue);
 
   const toml::table recent = read_table(files.recent, notes);
   if (const toml::array* inputs = recent["input"].as_array()) {

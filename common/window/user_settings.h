@@ -1,40 +1,38 @@
 /// What a user finds again the next time: how the window looks, and what was open lately.
 ///
-///   $XDG_CONFIG_HOME/palpate/flow.toml         size of the window and look; made to be edited
+///   $XDG_CONFIG_HOME/palpate/flow.toml         size of the window and preferences; made to be edited
 ///   $XDG_STATE_HOME/palpate/flow-recent.toml   inputs, the newest first
 ///
-/// where an unset variable means ~/.config and ~/.local/state (XDG Base Directory Specification 0.8). What
-/// the command line says wins.
+/// where an unset variable means ~/.config and ~/.local/state (XDG Base Directory Specification 0.8). Preferences
+/// are settings (Setting::preferred) in the grammar of sessions. What the command line says wins, and so does a
+/// session, also in what it leaves at the default.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/compose/window_model.h"
-#include "common/render/scene_view.h"
+#include "common/scene/document/document.h"
 
 namespace palpate {
 
-/// The part of a view that belongs to the user and not to the data.
-struct Look {
-  Background background = Background::kDark;
-  Projection projection = Projection::kPerspective;
-  bool outline = true, axes = true, color_bar = true;
-  bool halo = true, depth_cue = true;
+/// Names of preferred settings, and their values as text.
+using Preferences = std::vector<std::pair<std::string, std::string>>;
 
-  bool operator==(const Look&) const = default;
-};
-[[nodiscard]] Look appearance_of(const SceneView& view) noexcept;
-void apply_appearance(const Look& look, SceneView& view) noexcept;
+/// Takes them into `document` where nothing else was asked for. What a setting does not take is left out.
+void take_preferences(const Preferences& preferences, Document& document);
+/// What a user has changed between `before` and `after` is preferred from now on.
+void note_preferences(const Document& before, const Document& after, Preferences& preferences);
 
 struct UserSettings {
   static constexpr std::size_t kMostRecent = 10;
 
   int width = 1440, height = 900;  ///< [screen coordinates]
-  Look look;
+  Preferences look;
   std::vector<InputFiles> recent;  ///< newest first, each once
 
   bool operator==(const UserSettings&) const = default;

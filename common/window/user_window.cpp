@@ -6,29 +6,35 @@
 
 namespace palpate {
 
-WindowResult run_user_window(WindowModel& model, WindowOptions options,
+WindowResult run_user_window(WindowModel& model, WindowOptions options, const Document& given,
                              const std::function<void(const std::string&)>& note) {
   const auto files = user_files(options.program);
   if (!files) return run_window(model, options);
-  std::vector<std::string> notes;
-  const UserSettings before = load_user_settings(*files, notes);
-  for (const std::string& line : notes) note(line);
+  std::vector<std::string> told;  // by prefer()
+  const UserSettings before = load_user_settings(*files, told);
   options.width = before.width;
   options.height = before.height;
   options.recent = before.recent;
-  apply_appearance(before.look, options.view);
   options.touch.fault_folder = files->recent.parent_path();
   WindowResult result = run_window(model, options);
-  const UserSettings after{.width = result.width,
-                           .height = result.height,
-                           .look = appearance_of(result.view),
-                           .recent = result.recent};
+  UserSettings after{
+      .width = result.width, .height = result.height, .look = before.look, .recent = result.recent};
+  note_preferences(given, result.document, after.look);
   try {
     save_user_settings(*files, after, before);
   } catch (const Error& error) {
     note(error.what());
   }
   return result;
+}
+
+void prefer(const std::string& program, Document& document,
+            const std::function<void(const std::string&)>& note) {
+  const auto files = user_files(program);
+  if (!files) return;
+  std::vector<std::string> notes;
+  take_preferences(load_user_settings(*files, notes).look, document);
+  for (const std::string& line : notes) note(line);
 }
 
 }  // namespace palpate

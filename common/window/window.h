@@ -89,10 +89,16 @@ struct WindowResult {
 /// @throws Error (work failed) where no window can be opened, and whatever WindowModel::start() throws.
 WindowResult run_window(WindowModel& model, const WindowOptions& options);
 
-/// The same, as the user left it the last time (user_settings.h), for the next time to come.
-/// @param note told in a sentence what of the user's files cannot be read or written.
+/// The same, of the size in which the user left it the last time (user_settings.h), for the next time to come.
+/// @param given the document at the start: what the user changes of it may be a preference.
+/// @param note told in a sentence what of the user's files cannot be written.
 /// @throws Error as run_window().
-WindowResult run_user_window(WindowModel& model, WindowOptions options,
+WindowResult run_user_window(WindowModel& model, WindowOptions options, const Document& given,
                              const std::function<void(const std::string&)>& note);
+
+/// Takes into `document` what the user of a program prefers, where nothing else was asked for.
+/// @param note told in a sentence what of the user's files cannot be read.
+void prefer(const std::string& program, Document& document,
+            const std::function<void(const std::string&)>& note);
 
 }  // namespace palpate

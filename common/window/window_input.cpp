@@ -8,6 +8,8 @@
 #include <imgui.h>
 
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
+#include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/window/event_text.h"
@@ -231,8 +233,8 @@ void ExplorerWindow::restore(const Edited& to) {
   state_.seeds = seed_choice(to.document.tracing.seeds);
   state_.plotted = to.document.series.plot;
   state_.play_rate = to.document.view.play_rate;
+  apply_appearance(to.document, view_);
   put_edits(to.view, *scene_, view_);
-  view_.camera.projection = projection_of(to.document.volume);
   const std::string& box = to.document.slice.box;
   controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
   touch_.restore(to.document.touch);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/cardiac/cardiac_model.h"
+#include "common/compose/appearance.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/vec_text.h"
 #include "common/scene/session.h"
@@ -313,7 +314,7 @@ TEST_F(CardiacColors, OfASeriesShowWhatChangesWhereItHasSpread) {
 }
 
 TEST_F(CardiacColors, HaveTheRangeThatIsAskedFor) {
-  options_.heart.range = "0.25,0.5";
+  options_.view.range = "0.25,0.5";
   options_.heart.angle = "depth";
   options_.input.example = "ventricle";
   CardiacModel model(options_, "cardiac");
@@ -365,7 +366,7 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
   options.heart.least_gap = 0.125;
   options.heart.angle = "transverse";
   options.heart.contours = 10.0;
-  options.heart.range = "-30,30";
+  options.view.range = "-30,30";
   options.heart.cut = "0,1,0,0.25";
   CardiacModel model(options, "cardiac");
   Progress progress;
@@ -430,6 +431,45 @@ TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
   EXPECT_EQ(again.start(progress).document.heart.cut, document.heart.cut);
   document.heart.cut.clear();
   EXPECT_NEAR(farthest(model.update(document, progress)), farthest(whole), 0.0);
+}
+
+// Whatever a window saves, the program opens again: after edits of the picture, and at what it found itself.
+TEST_F(CardiacSession, OpensAgainInTheProgramThatSavedIt) {
+  Document options;
+  options.input.example = "wave";
+  options.tracing.seeds = "random:30";
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  SceneView view;
+  apply_appearance(state.document, view);
+  show_scene(state, ShownAs::kNew, view);
+  view.camera = make_camera(view.bounds, {.azimuth = 20.0, .zoom = 1.5}, 1.5);
+  view.background = Background::kLight;
+  view.show_axes = false;
+  view.style.width = 5.0;
+  view.style.halo = true;
+  view.style.color_map = ColorMap::kHeat;
+  view.style.range = ValueRange{-60.0, 20.0};
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const Session saved = saved_session(model, state, view);
+  std::filesystem::current_path(before);
+  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"background", "light"},
+                                                                                    {"axes", "off"},
+                                                                                    {"line-width", "5"},
+                                                                                    {"halos", "on"},
+                                                                                    {"color-map", "heat"},
+                                                                                    {"range", "-60,20"},
+                                                                                    {"angle", "potential"}}) {
+    EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), std::pair(name, value)),
+              saved.options.end())
+        << name;
+  }
+  const Json drawn =
+      json({"render", "--session", "cardiac-wave.palpate.toml", "--size", "64x48", "--out", "again.png"});
+  EXPECT_EQ(drawn["settings"]["background"], "light");
+  EXPECT_EQ(drawn["settings"]["halos"], true);
 }
 
 TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {

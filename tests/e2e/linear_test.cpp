@@ -66,7 +66,7 @@ TEST_F(LinearMode, EachAxisKeepsItsRule) {
   const Vec3 start = field->bounds().center();
   const Vec3 reach = Vec3{0.008, 0.030, 0.030} / scale;
   const auto log = feel("saddle", stroke(start, start + reach, 400),
-                        {"--reference", "axes", "--axes", "fixed,free,drag", "--tau", "3"});
+                        {"--reference", "axes", "--axis-rules", "fixed,free,drag", "--tau", "3"});
   ASSERT_EQ(log.rows.size(), 400U);
   const double tau = 0.003 / scale;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
@@ -91,7 +91,7 @@ TEST_F(LinearMode, StiffnessFollowsItsCurve) {
   const std::string curve = "0:0.2," + std::to_string(0.5 * fast) + ":1";
   const auto log =
       feel("saddle", path,
-           {"--reference", "axes", "--axes", "drag,drag,drag", "--kappa", curve, "--measure", "speed"});
+           {"--reference", "axes", "--axis-rules", "drag,drag,drag", "--kappa", curve, "--measure", "speed"});
   CellHint hint;
   double least = 1.0, most = 0.0;
   for (std::size_t i = 50; i < log.rows.size(); ++i) {
@@ -125,9 +125,9 @@ TEST_F(LinearMode, LeadsAlongTheFlow) {
 TEST_F(LinearMode, TheSummarySaysWhatWasFelt) {
   folder_.write("path.csv", path_table(stroke({1.0, 1.0, 1.0}, {1.5, 1.0, 1.0}, 50)));
   const Json summary = json({"probe", "--example", "abc", "--path", "path.csv", "--mode", "linear",
-                             "--reference", "curvature", "--axes", "unilateral,drag,snap", "--tau", "1/2/3",
-                             "--kappa", "0:0.5,1:1,smooth", "--friction", "0.25"});
-  const Json expected{{"reference", "curvature"}, {"axes", "unilateral,drag,snap"},
+                             "--reference", "curvature", "--axis-rules", "unilateral,drag,snap", "--tau",
+                             "1/2/3", "--kappa", "0:0.5,1:1,smooth", "--friction", "0.25"});
+  const Json expected{{"reference", "curvature"}, {"axis-rules", "unilateral,drag,snap"},
                       {"tau", "1/2/3"},           {"kappa", "0:0.5,1:1,smooth"},
                       {"measure", "value"},       {"friction", "0.25"}};
   EXPECT_EQ(summary["linear"], expected);
@@ -135,8 +135,8 @@ TEST_F(LinearMode, TheSummarySaysWhatWasFelt) {
 
 TEST_F(LinearMode, RefusesBadConstants) {
   expect_refused("abc", {"--reference", "sideways"});
-  expect_refused("abc", {"--axes", "free,drag"});
-  expect_refused("abc", {"--axes", "free,drag,sticky"});
+  expect_refused("abc", {"--axis-rules", "free,drag"});
+  expect_refused("abc", {"--axis-rules", "free,drag,sticky"});
   expect_refused("abc", {"--tau", "-1"});
   expect_refused("abc", {"--tau", "1:2,1:3"});
   expect_refused("abc", {"--kappa", "2"});
@@ -150,7 +150,7 @@ TEST_F(LinearMode, RefusesBadConstants) {
 TEST_F(LinearModeOfGrid, HoldsAgainstTheGradient) {
   // Rings about the z axis, so that the gradient has no part around it.
   const auto log = feel("marschner-lobb", stroke({0.1, 0.1, 0.0}, {0.7, 0.5, 0.05}, 800),
-                        {"--axes", "drag,free,free", "--tau", "5"});
+                        {"--axis-rules", "drag,free,free", "--tau", "5"});
   double largest = 0.0;
   for (const LogRow& row : log.rows) {
     const Vec3 around = glm::normalize(Vec3{-row.proxy.y, row.proxy.x, 0.0});
@@ -175,9 +175,9 @@ TEST_F(LinearModeOfGrid, FeelsSteepBordersAsStiffShells) {
   };
   constexpr double kSteep = 2500.0, kSoft = 0.05;
   const Vec3 along = glm::normalize(Vec3(1.0, 0.3, 0.2));
-  const auto log =
-      feel("shells", stroke(along, 0.1 * along, 4000),
-           {"--axes", "drag,free,free", "--tau", "2", "--measure", "gradient", "--kappa", "0:0.05,2500:1"});
+  const auto log = feel(
+      "shells", stroke(along, 0.1 * along, 4000),
+      {"--axis-rules", "drag,free,free", "--tau", "2", "--measure", "gradient", "--kappa", "0:0.05,2500:1"});
   const double scale = Workspace::default_scale(std::sqrt(12.0));
   double softest = 1.0, stiffest = 0.0;
   for (std::size_t i = 200; i < log.rows.size(); ++i) {

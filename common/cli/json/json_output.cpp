@@ -12,7 +12,9 @@ namespace {
 
 Json value_json(const Setting& row, const Document& document) {
   const std::string text = value_text(row, document);
-  if (std::holds_alternative<ValueAt<bool>>(row.place)) return text == "on";
+  const bool is_switch = std::holds_alternative<ValueAt<bool>>(row.place) ||
+                         std::holds_alternative<ValueAt<std::optional<bool>>>(row.place);
+  if (is_switch && !text.empty()) return text == "on";
   if (row.several()) {
     Json list = Json::array();
     for (const std::string_view part : split(text, ';')) list.push_back(std::string(part));

@@ -128,14 +128,14 @@ LinearSettings linear_settings(const LinearSpec& words) {
   const std::vector<std::string_view> rules = split(words.axes, ',');
   if (rules.size() != settings.axes.size()) {
     throw usage_error(
-        "--axes: three rules with commas between are expected, such as free,drag,drag; found '" + words.axes +
-        "'");
+        "--axis-rules: three rules with commas between are expected, such as free,drag,drag; found '" +
+        words.axes + "'");
   }
   const auto tau = curves(words.tau, "--tau", kMetresPerMillimetre);
   const auto kappa = curves(words.kappa, "--kappa", 1.0);
   for (std::size_t a = 0; a < settings.axes.size(); ++a) {
     LinearAxis& axis = settings.axes[a];
-    axis.rule = named<AxisRule>(std::string(trimmed(rules[a])), kAxisRuleCount, "--axes");
+    axis.rule = named<AxisRule>(std::string(trimmed(rules[a])), kAxisRuleCount, "--axis-rules");
     axis.tau = tau[a];
     axis.kappa = kappa[a];
     if (!(axis.tau.lowest() >= 0.0)) throw usage_error("--tau: distances of zero or more in mm are expected");
@@ -168,7 +168,7 @@ LinearSpec linear_text(const LinearSettings& settings) {
 std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings) {
   const LinearSpec words = linear_text(settings);
   return {
-      {"reference", words.reference}, {"axes", words.axes},       {"tau", words.tau},
+      {"reference", words.reference}, {"axis-rules", words.axes}, {"tau", words.tau},
       {"kappa", words.kappa},         {"measure", words.measure}, {"friction", exact_number(words.friction)}};
 }
 

@@ -1,4 +1,5 @@
-/// Colours that go with the background, for all that no data colours.
+/// Colours that go with the background, for all that no data colours. How well one stands out from the other
+/// is their contrast ratio, from 1 to 21 (WCAG 2.2, definition of contrast ratio).
 #pragma once
 
 #include "common/render/color/color_map.h"
@@ -7,7 +8,7 @@
 namespace palpate {
 
 struct Palette {
-  Rgb top, bottom;         ///< of the background
+  Background background;
   Rgb outline;             ///< edges of the domain
   Rgb plain_line;          ///< lines in one colour
   Rgb ink;                 ///< what has to stand out: probe, vector icon, rim of the followed line
@@ -17,6 +18,10 @@ struct Palette {
   float fading = 0.0F;     ///< share of the background that the farthest lines take on
 };
 
-[[nodiscard]] const Palette& palette_of(Background background) noexcept;
+[[nodiscard]] Palette palette_of(const Background& background) noexcept;
+
+[[nodiscard]] double contrast_ratio(const Rgb& a, const Rgb& b) noexcept;
+/// That between `color` and the nearer end of the gradient.
+[[nodiscard]] double contrast_ratio(const Rgb& color, const Background& background) noexcept;
 
 }  // namespace palpate

@@ -4,12 +4,26 @@
 #include <cfloat>
 #include <cmath>
 
+#include "common/render/color/palette.h"
+
 namespace palpate {
 namespace {
 
 ImFont* font_of(Lettering lettering) { return ImGui::GetIO().Fonts->Fonts[static_cast<int>(lettering)]; }
 
 }  // namespace
+
+OverlayPen::OverlayPen(ImDrawList& list, float text_height, const Background& background)
+    : list_(list),
+      text_height_(text_height),
+      dark_(!background.is_light()),
+      ink_(dark_ ? IM_COL32(232, 235, 240, 255) : IM_COL32(28, 31, 36, 255)),
+      faint_ink_(dark_ ? IM_COL32(168, 174, 184, 255) : IM_COL32(86, 92, 102, 255)) {
+  // Small words need this much (WCAG 2.2, 1.4.3).
+  constexpr double kReadable = 4.5;
+  const ImVec4 faint = ImGui::ColorConvertU32ToFloat4(faint_ink_);
+  if (contrast_ratio(Rgb{faint.x, faint.y, faint.z}, background) < kReadable) faint_ink_ = ink_;
+}
 
 ImU32 packed(const Rgb& color, float opacity) {
   return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity});

@@ -19,14 +19,11 @@ inline constexpr float kTitleScale = 1.35F;  ///< of the text's height
 /// Needs the overlay's ImGui context current. Lengths are pixels.
 class OverlayPen {
  public:
-  OverlayPen(ImDrawList& list, float text_height, Background background)
-      : list_(list), text_height_(text_height), dark_(background == Background::kDark) {}
+  OverlayPen(ImDrawList& list, float text_height, const Background& background);
 
   [[nodiscard]] float text_height() const { return text_height_; }
-  [[nodiscard]] ImU32 ink() const { return dark_ ? IM_COL32(232, 235, 240, 255) : IM_COL32(28, 31, 36, 255); }
-  [[nodiscard]] ImU32 faint_ink() const {
-    return dark_ ? IM_COL32(168, 174, 184, 255) : IM_COL32(86, 92, 102, 255);
-  }
+  [[nodiscard]] ImU32 ink() const { return ink_; }
+  [[nodiscard]] ImU32 faint_ink() const { return faint_ink_; }
   [[nodiscard]] ImU32 paper(int opacity) const {
     return dark_ ? IM_COL32(16, 18, 21, opacity) : IM_COL32(255, 255, 255, opacity);
   }
@@ -45,6 +42,7 @@ class OverlayPen {
   ImDrawList& list_;
   float text_height_;
   bool dark_;
+  ImU32 ink_, faint_ink_;
 };
 
 }  // namespace palpate

@@ -63,18 +63,27 @@ struct TractTracingOptions {
 
 /// How it is looked at.
 struct ViewOptions {
-  std::string camera;            ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
-  std::string focal;             ///< x,y,z in the middle of the picture; empty: the middle of what is shown
-  std::string color;             ///< array that colours the lines; empty: speed
-  double line_width = 3.0;       ///< LineStyle::width
-  double line_opacity = 1.0;     ///< LineStyle::opacity
-  double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
-  bool converged = false;        ///< a picture of a volume as a window refines it at rest
-  double play_rate = 5.0;        ///< time steps a second
-  std::string stereo = "none";   ///< kStereoModeNames
-  double eye_separation = 63.0;  ///< [mm]
-  double eye_distance = 600.0;   ///< between eyes and screen [mm]
-  double disparity_limit = 1.0;  ///< [degrees]
+  std::string camera;  ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
+  std::string focal;   ///< x,y,z in the middle of the picture; empty: the middle of what is shown
+  std::string background = "dark";   ///< grammar of parse_background()
+  bool outline = true;               ///< edges of the domain
+  bool axes = true;                  ///< with the scale
+  bool color_bar = true;             ///< and other legends
+  std::string color;                 ///< array that colours the lines; empty: speed
+  std::string color_map;             ///< name_of(ColorMap); empty: default_color_map()
+  std::string range;                 ///< lower,upper: what colours spread over; empty: found
+  std::optional<bool> log_colors;    ///< LineStyle::logarithmic
+  std::optional<double> line_width;  ///< LineStyle::width; absent: as the kind of data has it
+  double line_opacity = 1.0;         ///< LineStyle::opacity
+  std::optional<bool> halos;         ///< LineStyle::halo; absent: as the kind of data has it
+  bool depth_cue = true;             ///< LineStyle::depth_cue
+  double frame_budget = 0.0;         ///< [ms] that a picture may take while something moves; 0: the default
+  bool converged = false;            ///< a picture of a volume as a window refines it at rest
+  double play_rate = 5.0;            ///< time steps a second
+  std::string stereo = "none";       ///< kStereoModeNames
+  double eye_separation = 63.0;      ///< [mm]
+  double eye_distance = 600.0;       ///< between eyes and screen [mm]
+  double disparity_limit = 1.0;      ///< [degrees]
   bool swap_eyes = false;
   /// Where the head is before a screen: x,y,z[,qw,qx,qy,qz] of a tracker [m], replay:FILE.csv, and in windows
   /// hands, or a tracker by its driver; empty: none, or in windows as the workbench says.
@@ -86,6 +95,7 @@ struct ViewOptions {
 
 /// How a volume is drawn.
 struct VolumeOptions {
+  bool shown = true;
   std::string scalar;    ///< of a flow: which scalars are one, as flow_volume.h has it; empty: none
   std::string resample;  ///< of a flow: N or N,N,N points that they are taken at; empty: those of an image
   std::string transfer;  ///< color_transfer_of(); empty: from the histogram of the values
@@ -118,7 +128,10 @@ struct SliceOptions {
 struct TensorOptions {
   std::string slices = "all";           ///< grammar of parse_slices()
   std::string color = "direction";      ///< name_of(TensorColor)
+  bool crosshair = true;                ///< TensorView::crosshair
   std::string glyphs = "none";          ///< name_of(GlyphShape)
+  double glyph_fa = 0.15;               ///< TensorView::glyph_least_fa
+  double glyph_spacing = 24.0;          ///< TensorView::glyph_spacing
   std::string voxels = "nearest";       ///< nearest, linear: how colours go on between the centres of voxels
   std::string underlay;                 ///< a scalar image below the slices; empty: none
   std::string blend = "anisotropy";     ///< name_of(UnderlayBlend)
@@ -142,7 +155,6 @@ struct HeartOptions {
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
   double contours = 0.0;                ///< distance of lines of equal value on a layer; 0: none
   std::string contour_values;           ///< v,v,...: lines of equal value on a layer, to be written
-  std::string range;                    ///< lower,upper: what colours spread over; empty: found
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;
@@ -191,6 +203,11 @@ struct TouchOptions {
   std::filesystem::path drawn_lines;     ///< table of the lines and tracts that a hand has kept; empty: none
   double force_cap = 4.0;                ///< [N]
   double slew_cap = 200.0;               ///< [N/s]
+  std::optional<bool> show_surfaces;     ///< TouchChoice::show_surface
+  bool show_path = true;                 ///< TouchChoice::show_path
+  bool stream_balls = true;              ///< TouchChoice::show_balls
+  bool fade_lines = true;                ///< TouchChoice::fade_rest
+  std::string local_lines = "none";      ///< name_of(SeedShape)
 };
 
 /// What moves the probe, and where that is recorded.

@@ -72,10 +72,11 @@ inline constexpr Kinds kAllPrograms = kAllFields.with(FieldKind::kNone);
 /// Where a value of type T stands in a document.
 template <typename T>
 using ValueAt = T& (*)(Document&);
-using Place = std::variant<ValueAt<bool>, ValueAt<int>, ValueAt<std::int64_t>, ValueAt<std::uint64_t>,
-                           ValueAt<double>, ValueAt<std::optional<double>>, ValueAt<std::string>,
-                           ValueAt<std::filesystem::path>, ValueAt<std::optional<std::filesystem::path>>,
-                           ValueAt<std::vector<std::string>>, ValueAt<std::vector<std::filesystem::path>>>;
+using Place = std::variant<ValueAt<bool>, ValueAt<std::optional<bool>>, ValueAt<int>, ValueAt<std::int64_t>,
+                           ValueAt<std::uint64_t>, ValueAt<double>, ValueAt<std::optional<double>>,
+                           ValueAt<std::string>, ValueAt<std::filesystem::path>,
+                           ValueAt<std::optional<std::filesystem::path>>, ValueAt<std::vector<std::string>>,
+                           ValueAt<std::vector<std::filesystem::path>>>;
 
 namespace detail {
 template <auto... Members>
@@ -123,14 +124,17 @@ struct Setting {
   Kinds kinds = kAllFields;  ///< which programs have it
   std::string_view unit = {};
   Range range = {};                 ///< of numbers
+  Range slider = {};                ///< that sliders reach; without ends: `range`
+  bool log_slider = false;          ///< they go by the logarithm
   std::string_view words = {};      ///< those that a text may be, with '|' between; empty: any text
   std::string_view otherwise = {};  ///< what is taken where the default stands for a choice by the program
   std::string_view title = {};      ///< for panels; empty: the name, its dashes as blanks
   std::string_view alias = {};      ///< another spelling, with its dashes: "-o"
   Spelling spelling = Spelling::kOption;
-  bool saved = true;      ///< by sessions
-  bool recorded = false;  ///< a recording of the hand has it
-  bool file = false;      ///< its text may name a file
+  bool saved = true;       ///< by sessions
+  bool recorded = false;   ///< a recording of the hand has it
+  bool preferred = false;  ///< a window begins with what its user chose in the last one
+  bool file = false;       ///< its text may name a file
 
   /// "Line width"
   [[nodiscard]] std::string label() const;

@@ -10,6 +10,7 @@ namespace palpate {
 inline constexpr Kinds kFlows{FieldKind::kVector}, kVolumes{FieldKind::kScalar}, kTensors{FieldKind::kTensor},
     kHearts{FieldKind::kFibre}, kDevices{FieldKind::kNone},
     kFlowsAndVolumes{FieldKind::kVector, FieldKind::kScalar},
+    kFlowsAndHearts{FieldKind::kVector, FieldKind::kFibre},
     kAllButHearts{FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor};
 
 /// @name Places in the structs of a document

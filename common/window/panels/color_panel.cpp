@@ -27,7 +27,9 @@ void list_quantities(LineStyle& style, std::string& color) {
 void draw_color(PanelContext& on, std::string& color, bool quantities) {
   section("COLOUR");
   LineStyle& style = on.view.style;
-  if (begin_combo("by", color.c_str())) {
+  const bool chooses = begin_combo("by", color.c_str());
+  explain(quantities ? "color" : "angle");
+  if (chooses) {
     if (quantities) list_quantities(style, color);
     // These have to be sampled first: the colours follow when that is done.
     for (const std::string& name : on.scene.info->color_arrays)
@@ -38,12 +40,8 @@ void draw_color(PanelContext& on, std::string& color, bool quantities) {
                       style.color_by != ColorBy::kUniform;
   if (!mapped) return;
   const ColorMap map = color_map_of(style);
-  if (begin_combo("map", std::string(name_of(map)).c_str())) {
-    for (const ColorMap choice : {ColorMap::kSequential, ColorMap::kHeat, ColorMap::kDiverging}) {
-      if (selectable(std::string(name_of(choice)).c_str(), choice == map)) style.color_map = choice;
-    }
-    ImGui::EndCombo();
-  }
+  ColorMap chosen = map;
+  if (edit_setting("color-map", chosen)) style.color_map = chosen;
   bool automatic = !style.range.has_value();
   if (checkbox("automatic range", &automatic)) {
     style.range =
@@ -56,10 +54,11 @@ void draw_color(PanelContext& on, std::string& color, bool quantities) {
     if (input_numbers("range", ends.data(), 2, "%.4g") && ends[0] < ends[1]) {
       style.range = ValueRange{ends[0], ends[1]};
     }
+    explain("range");
   }
   if (style.color_by != ColorBy::kSeed) {
     bool logarithmic = is_logarithmic(style);
-    if (checkbox("logarithmic", &logarithmic)) style.logarithmic = logarithmic;
+    if (edit_setting("log-colors", logarithmic)) style.logarithmic = logarithmic;
   }
 }
 

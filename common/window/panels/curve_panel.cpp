@@ -81,10 +81,7 @@ void edit_linear(LinearSettings& settings, const ProbeSession& session) {
                       axis.tau);
   }
   if (open) settings.axes[2] = settings.axes[1];
-  constexpr double kNone = 0.0, kMost = 2.0;
-  slider_scalar("friction", ImGuiDataType_Double, &settings.friction, &kNone, &kMost, "%.2f",
-                ImGuiSliderFlags_AlwaysClamp);
-  explain("friction");
+  edit_setting("friction", settings.friction);
 }
 
 void edit_anisotropy(AnisotropySettings& settings) {

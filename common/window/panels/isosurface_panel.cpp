@@ -17,8 +17,6 @@
 namespace palpate {
 namespace {
 
-constexpr double kLeastMillimetres = 0.5, kMostMillimetres = 50.0;
-
 /// Bars over the range of the data, as roots, so that rare values show; a line at each isovalue. How far the
 /// isosurface is stands on it, so that no control below moves.
 void draw_histogram(const char* label, const ValueHistogram* histogram, const ScalarField& field,
@@ -79,25 +77,6 @@ Isovalues edit_values(const HapticLevels& felt, const std::string& what) {
   return isovalues;
 }
 
-void choose_hold(IsosurfaceSettings& settings) {
-  if (!begin_combo("holds as", std::string(name_of(settings.hold)).c_str())) return;
-  for (int i = 0; i < kIsosurfaceHoldCount; ++i) {
-    const auto hold = static_cast<IsosurfaceHold>(i);
-    if (selectable(std::string(name_of(hold)).c_str(), hold == settings.hold)) settings.hold = hold;
-  }
-  ImGui::EndCombo();
-}
-
-bool distance_slider(const char* label, double& metres, double lower, double upper) {
-  double millimetres = kMillimetres * metres;
-  if (!slider_scalar(label, ImGuiDataType_Double, &millimetres, &lower, &upper, "%.1f mm",
-                     ImGuiSliderFlags_AlwaysClamp)) {
-    return false;
-  }
-  metres = millimetres / kMillimetres;
-  return true;
-}
-
 }  // namespace
 
 Isovalues with_another(const Isovalues& isovalues, double lowest, double highest) {
@@ -127,19 +106,12 @@ void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& felt,
                  fraction);
   const Isovalues edited = edit_values(felt, chosen ? "isosurface" : "layer");
   if (!(edited == felt.isovalues)) settings.isovalues = edited;
-  if (chosen) choose_hold(settings);
-  if (distance_slider("pop-through", settings.depth, kLeastMillimetres, kMostMillimetres)) {
-    settings.snap_distance = std::min(settings.snap_distance, settings.depth);
-  }
-  hint("pop-through distance: stretch at which a %s lets the probe through to the next one",
-       chosen ? "surface" : "layer");
-  if (!chosen || settings.hold == IsosurfaceHold::kLayer) {
-    (void)distance_slider("snap-in", settings.snap_distance, 0.0, kMillimetres * settings.depth);
-    hint(
-        "snap-in distance: how near the probe comes to a layer before that holds it; 0: it "
-        "has to cross it");
-  }
-  if (flow) checkbox("along a streamline", &settings.along_streamline);
+  if (chosen) edit_setting("surface", settings.hold);
+  edit_setting("depth", settings.depth, kMillimetres);
+  if (!chosen || settings.hold == IsosurfaceHold::kLayer)
+    edit_setting("snap", settings.snap_distance, kMillimetres);
+  settings.snap_distance = std::min(settings.snap_distance, settings.depth);
+  if (flow) edit_setting("along-streamline", settings.along_streamline);
   if (!made.problem.empty()) ImGui::TextWrapped("%s", made.problem.c_str());
 }
 

@@ -48,16 +48,25 @@ void draw_input(const SceneState& scene) {
 }
 
 void draw_line_appearance(LineStyle& style) {
-  constexpr double kThin = 0.5, kThick = 20.0, kFaint = 0.05, kFull = 1.0;
-  slider_scalar("width", ImGuiDataType_Double, &style.width, &kThin, &kThick, "%.1f",
-                ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  explain("line-width");
-  slider_scalar("opacity", ImGuiDataType_Double, &style.opacity, &kFaint, &kFull, "%.2f",
-                ImGuiSliderFlags_AlwaysClamp);
-  explain("line-opacity");
-  checkbox("halos", &style.halo);
+  edit_setting("line-width", style.width);
+  edit_setting("line-opacity", style.opacity);
+  edit_setting("halos", style.halo);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
-  checkbox("fade with depth", &style.depth_cue);
+  edit_setting("depth-cue", style.depth_cue);
+}
+
+void choose_background(Background& background) {
+  constexpr std::array<const char*, 3> kNames{"dark", "light", "a colour"};
+  int chosen = background == Background::kDark ? 0 : background == Background::kLight ? 1 : 2;
+  if (combo("background", &chosen, kNames.data(), static_cast<int>(kNames.size()))) {
+    const Rgb middle = 0.5F * (background.top + background.bottom);
+    background = chosen == 0   ? Background::kDark
+                 : chosen == 1 ? Background::kLight
+                               : Background{middle, middle};
+  }
+  explain("background");
+  if (chosen != 2) return;
+  if (color_edit("##background", &background.top.x)) background.bottom = background.top;
 }
 
 void draw_appearance(SceneView& view, PanelActions& actions) {
@@ -65,17 +74,16 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
   const bool lines = view.lines && !view.lines->empty();
   if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_appearance(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
-  bool light = view.background == Background::kLight;
   bool perspective = view.camera.projection == Projection::kPerspective;
-  checkbox("outline", &view.show_outline);
+  edit_setting("outline", view.show_outline);
   ImGui::SameLine(half);
-  checkbox("axes", &view.show_axes);
-  checkbox("colour bar", &view.show_color_bar);
+  edit_setting("axes", view.show_axes);
+  edit_setting("color-bar", view.show_color_bar);
   ImGui::SameLine(half);
-  if (checkbox("light", &light)) view.background = light ? Background::kLight : Background::kDark;
   if (checkbox("perspective", &perspective)) {
     view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
   }
+  choose_background(view.background);
   ImGui::Spacing();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};

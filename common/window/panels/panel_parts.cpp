@@ -1,11 +1,15 @@
 #include "common/window/panels/panel_parts.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdarg>
+#include <string_view>
 #include <utility>
 
 #include <imgui_stdlib.h>
 
+#include "common/base/check.h"
 #include "common/base/text.h"
 #include "common/scene/document/setting.h"
 
@@ -31,6 +35,33 @@ struct NextFrame {
     return returned;
   }
 };
+
+/// Labels of panels begin small, but for abbreviations.
+std::string label_of(const Setting& row) {
+  std::string label = row.label();
+  const auto is_capital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+  if (label.size() < 2 || !is_capital(label[1]))
+    label.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(label.front())));
+  return label;
+}
+
+const Range& reach_of(const Setting& row) {
+  const Range& reach = std::isfinite(row.slider.upper) ? row.slider : row.range;
+  PALPATE_CHECK(std::isfinite(reach.lower) && std::isfinite(reach.upper));
+  return reach;
+}
+
+ImGuiSliderFlags flags_of(const Setting& row) {
+  return ImGuiSliderFlags_AlwaysClamp | (row.log_slider ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+/// printf's format for numbers of this reach, with the unit where there is room for it.
+std::string format_of(const Setting& row) {
+  constexpr std::size_t kLongest = 5;
+  const int digits = static_cast<int>(std::floor(std::log10(reach_of(row).upper)));
+  const std::string unit = row.unit.empty() || row.unit.size() > kLongest ? "" : " " + std::string(row.unit);
+  return "%." + std::to_string(std::clamp(2 - digits, 0, 2)) + "f" + unit;
+}
 
 /// Notes what was drawn last, and hands on what it returned.
 bool noted(const char* label, bool returned) {
@@ -138,6 +169,40 @@ void explain(const char* setting_name) {
   ImGui::TextUnformatted(setting(setting_name).full_help().c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+bool edit_setting(const char* setting_name, double& value, double units) {
+  const Setting& row = setting(setting_name);
+  const Range& reach = reach_of(row);
+  double shown = units * value;
+  const bool changed = slider_scalar(label_of(row).c_str(), ImGuiDataType_Double, &shown, &reach.lower,
+                                     &reach.upper, format_of(row).c_str(), flags_of(row));
+  explain(setting_name);
+  if (changed) value = shown / units;
+  return changed;
+}
+
+bool edit_setting(const char* setting_name, int& value) {
+  const Setting& row = setting(setting_name);
+  const Range& reach = reach_of(row);
+  const bool changed = slider_int(label_of(row).c_str(), &value, static_cast<int>(reach.lower),
+                                  static_cast<int>(reach.upper), "%d", flags_of(row));
+  explain(setting_name);
+  return changed;
+}
+
+bool edit_setting(const char* setting_name, bool& on) {
+  const bool changed = checkbox(label_of(setting(setting_name)).c_str(), &on);
+  explain(setting_name);
+  return changed;
+}
+
+bool edit_setting(const char* setting_name, std::string& word) {
+  const Setting& row = setting(setting_name);
+  const std::vector<std::string_view> words = row.word_list();
+  const bool changed = choose_word(label_of(row).c_str(), word, {words.begin(), words.end()});
+  explain(setting_name);
+  return changed;
 }
 
 void section(const char* name) {

@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <imgui.h>
@@ -51,6 +52,27 @@ void hint(const char* format, ...) IM_FMTARGS(1);
 
 /// The same from the table of settings: its help, with range and default. @pre there is a setting of that name.
 void explain(const char* setting_name);
+
+/// @name Controls of settings
+/// A slider, a box to tick, or a list of words: label, unit, range and words are those of the row in the table
+/// of settings, and its help is shown while the mouse is over it. @pre there is a setting of that name, with a
+/// bounded Range for numbers. @return whether the value changed.
+/// @{
+bool edit_setting(const char* setting_name, double& value,
+                  double units = 1.0);  ///< @param units shown for one of it
+bool edit_setting(const char* setting_name, int& value);
+bool edit_setting(const char* setting_name, bool& on);
+bool edit_setting(const char* setting_name, std::string& word);
+/// An enumeration whose members count from 0, by name_of().
+template <typename Enum>
+requires std::is_enum_v<Enum>
+bool edit_setting(const char* setting_name, Enum& value) {
+  std::string word(name_of(value));
+  if (!edit_setting(setting_name, word)) return false;
+  for (int i = 0; name_of(value) != word; ++i) value = static_cast<Enum>(i);
+  return true;
+}
+/// @}
 
 /// Millimetres a metre: lengths of the workspace are shown in these.
 inline constexpr double kMillimetres = 1e3;

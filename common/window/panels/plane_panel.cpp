@@ -226,24 +226,14 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
                std::vector<CuttingPlane>* cuts) {
   if (mode != kGridMode || !session.data().scalar()) return;
   GridAxisSettings& grid = choice.settings.grid_axis;
-  double pull = kMillimetres * grid.threshold, notch = kMillimetres * grid.notch;
-  constexpr double kNearest = 0.5, kFarthest = 30.0, kNone = 0.0, kFull = 1.0;
-  if (slider_scalar("pulls over at", ImGuiDataType_Double, &pull, &kNearest, &kFarthest, "%.1f mm",
-                    ImGuiSliderFlags_AlwaysClamp))
-    grid.threshold = pull / kMillimetres;
-  explain("grid-pull");
-  if (slider_scalar("landmarks reach", ImGuiDataType_Double, &notch, &kNone, &kFarthest, "%.1f mm",
-                    ImGuiSliderFlags_AlwaysClamp))
-    grid.notch = notch / kMillimetres;
-  explain("grid-notch");
-  slider_scalar("detents", ImGuiDataType_Double, &grid.detents, &kNone, &kFull, "%.2f",
-                ImGuiSliderFlags_AlwaysClamp);
-  explain("grid-detents");
-  slider_int("peaks", &grid.peaks, 0, GridAxisSettings::kMostPeaks, "%d", ImGuiSliderFlags_AlwaysClamp);
-  hint("landmarks where the values along each axis pile up");
+  edit_setting("grid-pull", grid.threshold, kMillimetres);
+  edit_setting("grid-notch", grid.notch, kMillimetres);
+  edit_setting("grid-detents", grid.detents);
+  edit_setting("grid-peaks", grid.peaks);
   bool marks_alone = grid.switch_at == GridSwitch::kMarks;
   if (checkbox("turn at landmarks alone", &marks_alone))
     grid.switch_at = marks_alone ? GridSwitch::kMarks : GridSwitch::kNodes;
+  explain("grid-switch");
   const auto room_for = [&grid](std::size_t marks) {
     return static_cast<std::size_t>(grid.marks.count) + marks <= std::size_t{GridMarks::kMax};
   };

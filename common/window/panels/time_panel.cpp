@@ -21,10 +21,9 @@ void draw_time(PanelState& state, const std::vector<double>& times) {
   }
   if (small_button(state.playing ? "Stop###play" : "Play###play")) state.playing = !state.playing;
   ImGui::SameLine();
-  constexpr double kSlowest = 0.2, kFastest = 60.0;
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
                           ImGui::GetStyle().WindowPadding.x);
-  (void)slider("steps a second", state.play_rate, kSlowest, kFastest, "%.1f", ImGuiSliderFlags_Logarithmic);
+  edit_setting("play-rate", state.play_rate);
 }
 
 void choose_plotted(PanelState& state, const SceneInfo& info) {

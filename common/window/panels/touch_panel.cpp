@@ -34,32 +34,19 @@ void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
 }
 
 void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
-  constexpr double kSoftest = 10.0, kStiffest = 2000.0, kNearest = 0.5, kFarthest = 50.0, kStrongest = 2.0,
-                   kHeaviest = 20.0;
   ChainSettings& settings = choice.settings;
-  slider("stiffness", settings.stiffness, kSoftest, kStiffest, "%.0f N/m", ImGuiSliderFlags_Logarithmic);
-  explain("stiffness");
-  double release = kMillimetres * settings.streamline.release_distance,
-         drag = kMillimetres * settings.drag.threshold;
-  if (flow && slider("lets go at", release, kNearest, kFarthest, "%.1f mm", ImGuiSliderFlags_Logarithmic))
-    settings.streamline.release_distance = release / kMillimetres;
-  if (flow) explain("release");
-  if (flow && slider("drag", drag, 0.0, kFarthest, "%.1f mm")) settings.drag.threshold = drag / kMillimetres;
-  if (flow) explain("drag");
-  if (mode == "direct" || mode == "vortex") {
-    slider("field force", settings.force_field.strength, -kStrongest, kStrongest, "%.2f N");
-    explain("field-force");
+  edit_setting("stiffness", settings.stiffness);
+  if (flow) {
+    edit_setting("release", settings.streamline.release_distance, kMillimetres);
+    edit_setting("drag", settings.drag.threshold, kMillimetres);
   }
-  if (mode == "transverse" || mode == kDensityMode) {
-    slider("field damping", settings.force_field.damping, 0.0, kHeaviest, "%.1f N s/m");
-    explain("field-damping");
-  }
+  if (mode == "direct" || mode == "vortex") edit_setting("field-force", settings.force_field.strength);
+  if (mode == "transverse" || mode == kDensityMode)
+    edit_setting("field-damping", settings.force_field.damping);
   if (!flow) return;
-  slider("speed force", settings.streamline.speed_force, -kStrongest, kStrongest, "%.2f N");
-  explain("speed-force");
-  checkbox("tick marks", &choice.ticks);
-  explain("ticks");
-  if (choice.ticks) slider("tick stiffness", settings.ticks.stiffness, 0.0, 1.0, "%.2f");
+  edit_setting("speed-force", settings.streamline.speed_force);
+  edit_setting("ticks", choice.ticks);
+  if (choice.ticks) edit_setting("tick-stiffness", settings.ticks.stiffness);
 }
 
 void choose_stroke(StrokeUse& use) {
@@ -91,21 +78,19 @@ void choose_file(std::string& file, float width) {
 }
 
 /// @param surfaces words for those that are felt; null: none are.
-void choose_appearances(TouchChoice& choice, float half, bool flow, const char* surfaces) {
-  if (surfaces != nullptr) checkbox(surfaces, &choice.show_surface);
+/// @param shown whether they are.
+void choose_appearances(TouchChoice& choice, float half, bool flow, const char* surfaces, bool shown) {
+  if (surfaces != nullptr && checkbox(surfaces, &shown)) choice.show_surface = shown;
+  if (surfaces != nullptr) explain("show-surfaces");
   if (!flow) {
-    checkbox("path", &choice.show_path);
+    edit_setting("show-path", choice.show_path);
     return;
   }
-  checkbox("stream balls", &choice.show_balls);
+  edit_setting("stream-balls", choice.show_balls);
   ImGui::SameLine(half);
-  checkbox("path", &choice.show_path);
-  checkbox("fade the other lines", &choice.fade_rest);
-  constexpr std::array<const char*, 3> kShapes{"none", "rake", "plane"};
-  int shape = static_cast<int>(choice.local);
-  if (combo("about it", &shape, kShapes.data(), static_cast<int>(kShapes.size()))) {
-    choice.local = static_cast<SeedShape>(shape);
-  }
+  edit_setting("show-path", choice.show_path);
+  edit_setting("fade-lines", choice.fade_rest);
+  edit_setting("local-lines", choice.local);
 }
 
 /// Rows of its own height, however many are kept: nothing below them moves.
@@ -173,7 +158,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
   const char* const surfaces = layers ? "show felt layers" : "show isosurface";
-  choose_appearances(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr);
+  choose_appearances(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr,
+                     choice.show_surface.value_or(!session.data().has_wall()));
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
   if (const std::string note = session.limits().note(session.choice().settings); !note.empty())

@@ -56,16 +56,9 @@ std::optional<double> value_at_probe(const PanelState& state) {
 }  // namespace
 
 void draw_rays(VolumeView& volume) {
-  constexpr double kFewest = 0.5, kMost = 16.0;
-  slider_scalar("samples a voxel", ImGuiDataType_Double, &volume.samples_per_voxel, &kFewest, &kMost, "%.1f",
-                ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  explain("samples");
-  constexpr double kEven = 1.0, kFarthest = 8.0;
-  slider_scalar("fewer far off", ImGuiDataType_Double, &volume.far_sampling, &kEven, &kFarthest, "%.0f",
-                ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  explain("far-sampling");
-  checkbox("shading", &volume.shading);
-  explain("shading");
+  edit_setting("samples", volume.samples_per_voxel);
+  edit_setting("far-sampling", volume.far_sampling);
+  edit_setting("shading", volume.shading);
 }
 
 EditedTransfer focus_of(const VolumeView& volume, const SceneState& scene) {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/compose/line_view.h"
+#include "common/compose/appearance.h"
 #include "common/scene/session.h"
 #include "tests/support/temp_folder.h"
 
@@ -122,7 +122,7 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
   view.camera = make_camera(view.bounds, {}, 1.0, Projection::kOrthographic);
   options.view.line_width = 2.5;
   options.view.line_opacity = 0.3;
-  style_lines(options.view, view.style);
+  apply_appearance(options, view);
   Document document = state.document;
   model.keep(view, document);
   const Session session = load_session(model.save_session(document));

@@ -186,12 +186,24 @@ TEST_F(SessionOnTheCommandLine, NamesAnOptionThatIsNone) {
 
 TEST_F(SessionOnTheCommandLine, OfANewerProgramIsReadAsFarAsItIsKnown) {
   const std::string file =
-      folder_.write("n.toml", "format = 99\nprogram = \"flow\"\n[scene]\nseeds = \"grid:2,2,2\"\nhue = 3\n")
+      folder_
+          .write("n.toml",
+                 "format = 99\nprogram = \"flow\"\n[scene]\nseeds = \"grid:2,2,2\"\nhue = 3\n"
+                 "sheen = \"1\"\ncolor-map = \"moreland\"\nline-width = \"thin\"\n")
           .string();
   const ParsedCommand parsed = parse({"open", "a.vtk", "--session", file});
   EXPECT_EQ(parsed.options.tracing.seeds, "grid:2,2,2");
-  ASSERT_EQ(parsed.notes.size(), 1U);
-  EXPECT_NE(parsed.notes[0].find("'hue'"), std::string::npos) << parsed.notes[0];
+  EXPECT_TRUE(parsed.options.view.color_map.empty() && !parsed.options.view.line_width);
+  const auto told = [&](const char* words) {
+    return std::ranges::count_if(
+        parsed.notes, [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  EXPECT_EQ(told("newer version"), 1);
+  for (const char* name : {"'hue'", "'sheen'", "'color-map'", "'line-width'"})
+    EXPECT_EQ(told(name), 1) << name;
+  EXPECT_EQ(parsed.notes.size(), 5U);
+  EXPECT_EQ(refusal({"open", "--session", session("color-map = \"moreland\"\n")}).front(), '2')
+      << "this version should know";
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ std::string random_text(const Setting& row, std::mt19937& random) {
   return std::visit(
       [&](auto at) -> std::string {
         using T = std::remove_cvref_t<decltype(at(std::declval<Document&>()))>;
-        if constexpr (std::is_same_v<T, bool>) return default_text(row) == "on" ? "off" : "on";
+        if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::optional<bool>>)
+          return default_text(row) == "on" ? "off" : "on";
         if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
           return exact_number(random_number(row.range, random));
         if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/cli/command_line.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/proxy_chain.h"
 
 namespace palpate::test {
@@ -54,7 +55,7 @@ TEST(TouchOptions, RefuseWhatNoChainCanUse) {
                                        {"--field-damping", {"-1", "nan", "inf"}},
                                        {"--density-curve", {"1:0,0:1", "0:0,1:2", "0:nan", "steep"}},
                                        {"--reference", {"tensor"}},
-                                       {"--axes", {"free", "free,drag,stick"}},
+                                       {"--axis-rules", {"free", "free,drag,stick"}},
                                        {"--tau", {"-1", "nan", "0:1,0:2", "1/2"}},
                                        {"--kappa", {"-0.5", "1.5", "nan", "1:0,0:1"}},
                                        {"--measure", {"colour"}},
@@ -78,7 +79,7 @@ TEST(TouchOptions, TakeWhatAChainCanUse) {
   EXPECT_EQ(refusal("--speed-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-force", "-0.5"), "");
   EXPECT_EQ(refusal("--field-damping", "0"), "");
-  EXPECT_EQ(refusal("--axes", "fixed,free,free"), "");
+  EXPECT_EQ(refusal("--axis-rules", "fixed,free,free"), "");
   EXPECT_EQ(refusal("--tau", "0:0,0.4:2,smooth"), "");
   EXPECT_EQ(refusal("--kappa", "0"), "");
   EXPECT_EQ(refusal("--density-curve", "0:0,0.4:0,0.6:1,smooth"), "");
@@ -93,6 +94,34 @@ TEST(TouchOptions, SayFromHowManyLinksAChainIsControlled) {
   EXPECT_EQ(links("auto"), 2.0);
   EXPECT_EQ(links("on"), 1.0);
   EXPECT_GT(links("off"), ChainStep::kMaxLinks);
+}
+
+// What a panel shows of the hand is in the document: as many members as the compiler counts.
+TEST(TouchChoiceOfADocument, ComesBackWithAllThatAPanelEdits) {
+  const std::vector<HapticMode> modes = modes_of(FieldKind::kVector);
+  TouchChoice choice;
+  auto& [mode, settings, ticks, balls, path, surface, stroke, fade, local] = choice;
+  mode = 1;
+  settings.stiffness = 123.5;  // the others have tests of their modes
+  ticks = true;
+  balls = path = fade = false;
+  surface = false;
+  stroke = StrokeUse::kReplace;
+  local = SeedShape::kPlane;
+  TouchOptions kept;
+  keep_touch(choice, modes[1].name, kept);
+  const TouchChoice back = touch_choice(kept, modes);
+  EXPECT_EQ(back.mode, 1U);
+  EXPECT_EQ(back.settings.stiffness, 123.5);
+  EXPECT_TRUE(back.ticks);
+  EXPECT_FALSE(back.show_balls || back.show_path || back.fade_rest);
+  EXPECT_EQ(back.show_surface, false);
+  EXPECT_EQ(back.stroke, StrokeUse::kReplace);
+  EXPECT_EQ(back.local, SeedShape::kPlane);
+  EXPECT_FALSE(touch_choice(TouchOptions(), modes).show_surface) << "left to the kind of data";
+  TouchOptions wrong;
+  wrong.local_lines = "cloud";
+  EXPECT_THROW((void)touch_choice(wrong, modes), Error);
 }
 
 }  // namespace

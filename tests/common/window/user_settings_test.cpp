@@ -38,13 +38,7 @@ TEST_F(UserSettingsTest, NothingThereMeansTheDefaultsAndNoNote) {
 
 TEST_F(UserSettingsTest, ComeBackAsTheyWereSaved) {
   UserSettings settings{.width = 801, .height = 602};
-  settings.look = {.background = Background::kLight,
-                   .projection = Projection::kOrthographic,
-                   .outline = false,
-                   .axes = false,
-                   .color_bar = false,
-                   .halo = false,
-                   .depth_cue = false};
+  settings.look = {{"axes", "off"}, {"background", "0.25,0.5,1"}};  // by name
   remember(settings.recent, {{"/data/a b.vtk"}, {}});
   remember(settings.recent, {{"/data/grid \"1\".bin"}, "/data/q.bin"});
   save_user_settings(files_, settings, {});
@@ -72,12 +66,56 @@ TEST_F(UserSettingsTest, BrokenFileIsNamedAndWrongValuesAreLeftOut) {
   ASSERT_EQ(notes_.size(), 1U);
   EXPECT_NE(notes_[0].find(files_.settings.string() + ": line 2"), std::string::npos) << notes_[0];
 
-  write(files_.settings, "[window]\nwidth = -5\nheight = 'tall'\n[look]\naxes = 7\nhalo = false\n");
+  write(files_.settings, "[window]\nwidth = -5\nheight = 'tall'\n[look]\naxes = 7\nhalos = 'off'\n");
   const UserSettings odd = load_user_settings(files_, notes_);
   EXPECT_EQ(odd.width, UserSettings{}.width);
   EXPECT_EQ(odd.height, UserSettings{}.height);
-  EXPECT_TRUE(odd.look.axes);
-  EXPECT_FALSE(odd.look.halo);
+  EXPECT_EQ(odd.look, (Preferences{{"halos", "off"}}));
+}
+
+Document of_flow() {
+  Document document;
+  document.input.kind = FieldKind::kVector;
+  return document;
+}
+
+TEST(Preferences, ComeAfterOptionsAndSessions) {
+  const Preferences preferences{{"axes", "off"},      {"background", "light"}, {"halos", "off"},
+                                {"outline", "maybe"}, {"line-width", "7"},     {"unheard-of", "on"}};
+  Document document = of_flow();
+  document.given = {"axes"};
+  take_preferences(preferences, document);
+  EXPECT_TRUE(document.view.axes) << "was asked for";
+  EXPECT_EQ(document.view.background, "light");
+  EXPECT_EQ(document.view.halos, false);
+  EXPECT_TRUE(document.view.outline) << "is no word for it";
+  EXPECT_FALSE(document.view.line_width) << "belongs to the data";
+
+  Document of_session = of_flow();
+  of_session.common.session = "s.toml";
+  take_preferences(preferences, of_session);
+  EXPECT_TRUE(of_session.view.axes && of_session.view.background == "dark") << "as the session leaves it";
+
+  Document of_volume = of_flow();
+  of_volume.input.kind = FieldKind::kScalar;
+  take_preferences({{"halos", "off"}, {"background", "teal"}, {"projection", "orthographic"}}, of_volume);
+  EXPECT_FALSE(of_volume.view.halos) << "a volume has none";
+  EXPECT_EQ(of_volume.view.background, "dark") << "that is no colour";
+  EXPECT_EQ(of_volume.volume.projection, "orthographic");
+}
+
+TEST(Preferences, AreWhatTheUserChangedInAWindow) {
+  Document before = of_flow();
+  before.view.background = "light";  // of a session, say
+  Document after = before;
+  after.view.axes = false;
+  after.view.halos = false;
+  after.view.line_width = 9.0;
+  Preferences preferences{{"outline", "off"}, {"axes", "on"}};
+  note_preferences(before, after, preferences);
+  EXPECT_EQ(preferences, (Preferences{{"outline", "off"}, {"axes", "off"}, {"halos", "off"}}));
+  note_preferences(after, before, preferences);
+  EXPECT_EQ(preferences, (Preferences{{"outline", "off"}})) << "as without a file";
 }
 
 TEST_F(UserSettingsTest, FolderThatCannotBeMadeIsAnError) {

@@ -43,7 +43,7 @@ TEST(LinearMode, RefusesWhatNoConstraintCanUse) {
   expect_refused({.reference = "tensor"}, "--reference");
   expect_refused({.measure = "colour"}, "--measure");
   for (const char* axes : {"free", "free,drag", "free,drag,drag,drag", "free,drag,stick", ""}) {
-    expect_refused({.axes = axes}, "--axes");
+    expect_refused({.axes = axes}, "--axis-rules");
   }
   for (const char* tau : {"", "-1", "nan", "inf", "1/2", "1/2/3/4", "4 mm", "0:1,0:2", "1:1,0:2", "0:1,1:-1",
                           "0:1,1:nan", "smooth", "1,smooth", "0:1,1:1,2:1,3:1,4:1,5:1,6:1,7:1,8:1"}) {
@@ -91,7 +91,7 @@ TEST(LinearMode, OptionsReadBackFromASession) {
     LinearSpec saved;
     for (const auto& [option, value] : linear_options(settings)) {
       if (option == "reference") saved.reference = value;
-      if (option == "axes") saved.axes = value;
+      if (option == "axis-rules") saved.axes = value;
       if (option == "tau") saved.tau = value;
       if (option == "kappa") saved.kappa = value;
       if (option == "measure") saved.measure = value;

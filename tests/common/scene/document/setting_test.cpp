@@ -60,28 +60,29 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = document.view;
-    expect("view", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
+        document.view;
+    expect("view", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = document.volume;
-    expect("volume", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = document.volume;
+    expect("volume", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
   }
   {
     const auto& [a, b, c, d, e, f] = document.slice;
     expect("slice", a, b, c, d, e, f);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i] = document.tensors;
-    expect("tensors", a, b, c, d, e, f, g, h, i);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = document.tensors;
+    expect("tensors", a, b, c, d, e, f, g, h, i, j, k, l);
   }
   {
     const auto& [a, b, c] = document.tract_appearance;
     expect("tract_appearance", a, b, c);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = document.heart;
-    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k] = document.heart;
+    expect("heart", a, b, c, d, e, f, g, h, i, j, k);
   }
   {
     const auto& [a, b, c, d] = document.series;
@@ -89,8 +90,9 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, linear, grid, planes, q, r, s, t, u, v, w, x,
-                 y, z, z1, z2] = document.touch;
-    expect("touch", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1, z2);
+                 y, z, z1, z2, z3, z4, z5, z6, z7] = document.touch;
+    expect("touch", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1, z2, z3,
+           z4, z5, z6, z7);
     const auto& [l1, l2, l3, l4, l5, l6] = linear;
     expect("linear", l1, l2, l3, l4, l5, l6);
     const auto& [g1, g2, g3, g4, g5, g6, g7, g8] = grid;
@@ -183,7 +185,7 @@ TEST(Settings, OfDevicesAreOfNoOtherProgram) {
 TEST(Settings, FindTheOneThatWasMeant) {
   EXPECT_EQ(nearest_setting("line-with", FieldKind::kVector), "line-width");
   EXPECT_EQ(nearest_setting("colour", FieldKind::kVector), "color");
-  EXPECT_EQ(find_setting("axes", FieldKind::kFibre), nullptr) << "hearts have no linear mode";
+  EXPECT_EQ(find_setting("axis-rules", FieldKind::kFibre), nullptr) << "hearts have no linear mode";
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST_F(TouchPanelTest, ALineThatLetsGoLaterIsStretchedFarther) {
   options_.script.clear();
   last_ = 1;
   from_x_ = from_y_ = 0.0;
-  press("lets go at", 0, kMost);
+  press("release", 0, kMost);
   grab();
   lead_to(0.0, 30.0);
   EXPECT_GT(run().probe.stretch, 12.0);
