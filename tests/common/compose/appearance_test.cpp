@@ -100,7 +100,9 @@ TEST_P(Appearance, OfAViewThatNobodyEditedLeavesNothingInASession) {
   EXPECT_TRUE(saved_settings(document).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Appearance, ::testing::ValuesIn(kFieldKinds),
+INSTANTIATE_TEST_SUITE_P(Kinds, Appearance,
+                         ::testing::Values(FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor,
+                                           FieldKind::kFibre),
                          [](const auto& info) { return std::string(name_of(info.param)); });
 
 TEST(Background, IsAWordOrAColour) {
