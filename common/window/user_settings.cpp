@@ -97,7 +97,9 @@ toml::table recent_table(const UserSettings& settings) {
 void take_preferences(const Preferences& preferences, Document& document) {
   if (!document.common.session.empty()) return;
   for (const auto& [name, text] : preferences) {
-    const auto known = [&](const Setting& row) { return is_preference(row, document) && row.name == name; };
+    const auto known = [&document, &wanted = name](const Setting& row) {
+      return is_preference(row, document) && row.name == wanted;
+    };
     const auto row = std::ranges::find_if(settings(), known);
     if (row == settings().end() || std::ranges::find(document.given, name) != document.given.end()) continue;
     try {
