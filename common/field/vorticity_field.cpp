@@ -1,5 +1,6 @@
 #include "common/field/vorticity_field.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
@@ -14,22 +15,35 @@
 namespace palpate {
 namespace {
 
+constexpr double kUlp = std::numeric_limits<double>::epsilon();
+
+/// Part of a value that rounding may take from it: stored, scaled and subtracted.
+double rounding_of(const PointVectors& values) noexcept {
+  const bool single = std::holds_alternative<std::span<const float>>(values.values);
+  constexpr double kArithmetic = 8.0 * kUlp;
+  return kArithmetic + (single ? static_cast<double>(std::numeric_limits<float>::epsilon()) : kUlp);
+}
+
 /// Sums at points, and their weights.
 class PointMeans {
  public:
-  explicit PointMeans(std::size_t points) : sums_(points, Vec3{0.0}), weights_(points, 0.0) {}
+  explicit PointMeans(std::size_t points)
+      : sums_(points, Vec3{0.0}), weights_(points, 0.0), uncertain_(points, 0.0) {}
 
-  void add(std::size_t point, const Vec3& value, double weight) {
+  /// @param uncertain how much of `value` may be rounding.
+  void add(std::size_t point, const Vec3& value, double uncertain, double weight) {
     sums_[point] += weight * value;
     weights_[point] += weight;
+    uncertain_[point] += weight * uncertain;
   }
 
-  /// NaN where nothing was added.
+  /// NaN where nothing was added; 0 where it may all be rounding.
   [[nodiscard]] PointVectors take() && {
     auto means = std::make_shared<std::vector<double>>();
     means->reserve(3 * sums_.size());
     for (std::size_t i = 0; i < sums_.size(); ++i) {
-      const Vec3 mean = sums_[i] / weights_[i];
+      const bool known = glm::length(sums_[i]) > uncertain_[i] || !(weights_[i] > 0.0);
+      const Vec3 mean = known ? sums_[i] / weights_[i] : Vec3{0.0};
       means->insert(means->end(), {mean.x, mean.y, mean.z});
     }
     PointVectors values;
@@ -41,6 +55,7 @@ class PointMeans {
  private:
   std::vector<Vec3> sums_;
   std::vector<double> weights_;
+  std::vector<double> uncertain_;  ///< sums
 };
 
 Vec3 vector_at(const PointVectors& values, std::size_t point) noexcept {
@@ -103,6 +118,7 @@ void VorticityField::recover_on_boxes() {
   const BoxGrid& grid = *field_->box_grid();
   const Index3 n = grid.points();
   PointMeans means(count_of(n));
+  const double rounding = rounding_of(field_->values());
   Index3 index;
   for (index.z = 0; index.z + 1 < n.z; ++index.z) {
     for (index.y = 0; index.y + 1 < n.y; ++index.y) {
@@ -110,11 +126,22 @@ void VorticityField::recover_on_boxes() {
         BoxCell cell;
         grid.load(index, field_->values(), cell);
         if (cell.bad_data) continue;
+        const auto corner_at = [&](int corner) {
+          return index + Index3{corner & 1, (corner >> 1) & 1, corner >> 2};
+        };
+        const auto point_at = [&](const Index3& at) {
+          return (as_size(at.z) * as_size(n.y) + as_size(at.y)) * as_size(n.x) + as_size(at.x);
+        };
+        double speed = 0.0;
+        for (int corner = 0; corner < 8; ++corner)
+          speed = std::max(speed, glm::length(vector_at(field_->values(), point_at(corner_at(corner)))));
+        // Each derivative is a difference of two values over a side of the cell.
+        const Vec3 per_side = cell.inverse_size;
+        const double uncertain = 2.0 * rounding * speed * (per_side.x + per_side.y + per_side.z);
         for (int corner = 0; corner < 8; ++corner) {
-          const Index3 at = index + Index3{corner & 1, (corner >> 1) & 1, corner >> 2};
+          const Index3 at = corner_at(corner);
           const Vec3 x{grid.coordinate(0, at.x), grid.coordinate(1, at.y), grid.coordinate(2, at.z)};
-          const auto point = (as_size(at.z) * as_size(n.y) + as_size(at.y)) * as_size(n.x) + as_size(at.x);
-          means.add(point, vorticity(cell.jacobian(x)), 1.0);
+          means.add(point_at(at), vorticity(cell.jacobian(x)), uncertain, 1.0);
         }
       }
     }
@@ -125,6 +152,7 @@ void VorticityField::recover_on_boxes() {
 void VorticityField::recover_on_tetrahedra() {
   const TetMesh& mesh = *field_->tet_mesh();
   PointMeans means(mesh.points().size());
+  const double rounding = rounding_of(field_->values());
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     const auto cell = static_cast<CellIndex>(c);
     if (mesh.zero_volume(cell)) continue;
@@ -133,13 +161,15 @@ void VorticityField::recover_on_tetrahedra() {
     const Vec3 v0 = vector_at(field_->values(), vertices[0]);
     // curl (b v) = grad b x v for a constant v.
     Vec3 curl{0.0};
+    double uncertain = 0.0;
     for (int i = 0; i < 3; ++i) {
-      const auto vertex = vertices[as_size(i) + 1];
-      curl += glm::cross(gradients[i], vector_at(field_->values(), vertex) - v0);
+      const Vec3 v = vector_at(field_->values(), vertices[as_size(i) + 1]);
+      curl += glm::cross(gradients[i], v - v0);
+      uncertain += rounding * glm::length(gradients[i]) * (glm::length(v) + glm::length(v0));
     }
     if (!is_finite(curl)) continue;
     const double volume = 1.0 / glm::determinant(gradients);  // six times it; the weights' unit is free
-    for (const std::uint32_t vertex : vertices) means.add(vertex, curl, volume);
+    for (const std::uint32_t vertex : vertices) means.add(vertex, curl, uncertain, volume);
   }
   values_ = std::move(means).take();
 }
@@ -165,7 +195,10 @@ VectorSample VorticityField::sample(const Vec3& x_data, CellHint& hint) const no
   } else {
     Mat3 m;
     out.status = field_->jacobian(x_data, hint, m);
-    if (out.status == SampleStatus::kOk) out.value = vorticity(m);
+    if (out.status != SampleStatus::kOk) return out;
+    const double terms = glm::length(m[0]) + glm::length(m[1]) + glm::length(m[2]);
+    constexpr double kRounding = 8.0 * kUlp;
+    if (const Vec3 omega = vorticity(m); glm::length(omega) > kRounding * terms) out.value = omega;
     return out;
   }
   if (!is_finite(local)) {

@@ -7,6 +7,9 @@
 ///   tetrahedra    omega_i = sum_c V_c curl v|_c / sum_c V_c       over the cells c at point i, V_c volumes
 ///   boxes         omega_i = mean_c curl v|_c(x_i)                 on a uniform grid the central difference
 ///   formulas      exact
+///
+/// It is a difference of values that nearly cancel where the flow does not turn. What is no more than the
+/// rounding of these values, as they are stored, is none: 0.
 #pragma once
 
 #include <memory>

@@ -96,6 +96,36 @@ TEST(ForceField, AFlowWithoutVorticesPullsNowhere) {
   EXPECT_LT(mean_force(field_of(sample_uniform(*flow, {48, 48, 48}, SampledType::kFloat64))), 0.1);
 }
 
+// A potential flow, v = grad (x^2 / 3 + 7 y^2 / 10 - 31 z^2 / 30 + x y / 7): its vorticity is the rounding of the
+// values alone, which was taken for the strongest vortex there is, and pulled with all the strength.
+TEST(ForceField, RoundingIsNoVortex) {
+  struct Potential final : public AnalyticField {
+    [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept override {
+      return {3.3 + 2.0 / 3.0 * x.x + x.y / 7.0, 1.1 + 1.4 * x.y + x.x / 7.0, 0.7 - 31.0 / 15.0 * x.z};
+    }
+    [[nodiscard]] Mat3 jacobian(const Vec3&) const noexcept override {
+      return {{2.0 / 3.0, 1.0 / 7.0, 0.0}, {0.142857142857142877, 1.4, 0.0}, {0.0, 0.0, -31.0 / 15.0}};
+    }
+    [[nodiscard]] Box bounds() const noexcept override { return {{0.1, -0.3, 0.2}, {1.3, 0.9, 1.7}}; }
+    [[nodiscard]] std::string name() const override { return "potential"; }
+    [[nodiscard]] std::string description() const override { return "potential"; }
+  };
+  const Potential flow;
+  std::vector<std::shared_ptr<const VectorField>> fields{make_vector_field(std::make_shared<Potential>())};
+  for (const SampledType type : {SampledType::kFloat32, SampledType::kFloat64}) {
+    fields.push_back(field_of(sample_uniform(flow, {20, 17, 23}, type)));
+    fields.push_back(field_of(sample_rectilinear(flow, {20, 17, 23}, 4.0, type)));
+    fields.push_back(field_of(sample_tetrahedra(flow, {9, 8, 7}, 0.2, 1, type)));
+  }
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    ProxyChain chain = chain_of(of_flow<VortexPull>(), fields[f], 0.02);
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_EQ(chain.step(0.02 * random_in(flow.bounds(), random)).force, Vec3(0.0)) << "field " << f;
+    }
+  }
+}
+
 // A hand that goes round, at any place and in any plane: a drag never gives anything back.
 TEST(ForceField, DragsTakeEnergyOnEveryClosedLoop) {
   const auto field = make_vector_field(example("tornado"));
