@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "common/base/quantile.h"
+
 namespace palpate {
 namespace {
 
@@ -17,13 +19,6 @@ std::size_t point_at(const Line& line, double arc, double slack, std::size_t fro
   while (i < line.points.size() && line.points[i].arc < arc - slack) ++i;
   const bool found = i < line.points.size() && line.points[i].arc <= arc + slack;
   return found ? i : line.points.size();
-}
-
-/// The smallest value that a part `q` of the values does not exceed. @pre not empty.
-double quantile(std::vector<double>& values, double q) {
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 
 constexpr double kWoundUp = 0.05;  // of the diagonal
@@ -64,41 +59,86 @@ double line_distance(const Line& line, const Line& reference, double spacing, bo
   return worst;
 }
 
+const char* name_of(Meeting meeting) noexcept {
+  switch (meeting) {
+    case Meeting::kCompared:
+      return "compared";
+    case Meeting::kInside:
+      return "inside";
+    case Meeting::kElsewhere:
+      return "ended elsewhere";
+    case Meeting::kUnfinished:
+      return "not finished";
+    case Meeting::kMissing:
+      break;
+  }
+  return "missing";
+}
+
 LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> reference, double spacing,
                              double diagonal) {
-  std::map<std::pair<std::uint32_t, TraceDirection>, const Line*> references;
-  for (const Line& line : reference) references[{line.seed, line.direction}] = &line;
+  std::map<std::pair<std::uint32_t, TraceDirection>, const Line*> by_seed;
+  for (const Line& line : lines) by_seed[{line.seed, line.direction}] = &line;
+  const auto judge = [&](const Line& truth) {
+    LineJudgement judgement{.seed = truth.seed,
+                            .direction = truth.direction,
+                            .reference_end = truth.end,
+                            .error = HUGE_VAL,
+                            .stated = std::nan("")};
+    const auto found = by_seed.find({truth.seed, truth.direction});
+    if (found == by_seed.end() || found->second->points.empty() || truth.points.empty()) return judgement;
+    const Line& line = *found->second;
+    judgement.end = line.end;
+    judgement.stated = line.points.back().error / diagonal;
+    if (ends_inside(line, diagonal) && ends_inside(truth, diagonal)) {
+      judgement.meeting = Meeting::kInside;
+      return judgement;
+    }
+    const bool same_end = line.end == truth.end;
+    if (!same_end && std::abs(line.points.back().arc - truth.points.back().arc) > spacing) {
+      judgement.meeting = line.end == End::kMaxSteps ? Meeting::kUnfinished : Meeting::kElsewhere;
+      return judgement;
+    }
+    double distance = line_distance(line, truth, spacing, same_end);
+    if (std::isnan(distance)) distance = line_distance(line, truth, spacing, true);  // shorter than S
+    judgement.meeting = Meeting::kCompared;
+    judgement.error = distance / diagonal;
+    return judgement;
+  };
 
   LineComparison result;
-  std::vector<double> errors;
-  std::vector<double> stated;
+  std::vector<double> errors, stated;
   std::size_t covered = 0;
-  for (const Line& line : lines) {
-    const auto found = references.find({line.seed, line.direction});
-    if (found == references.end()) continue;
-    const Line& other = *found->second;
-    if (ends_inside(line, diagonal) || ends_inside(other, diagonal)) {
-      ++result.sinks;
-      continue;
+  for (const Line& truth : reference) {
+    const LineJudgement& judgement = result.lines.emplace_back(judge(truth));
+    switch (judgement.meeting) {
+      case Meeting::kInside:
+        ++result.inside;
+        continue;
+      case Meeting::kCompared:
+        ++result.compared;
+        stated.push_back(judgement.stated);
+        result.max = std::max(result.max, judgement.error);
+        if (judgement.error <= judgement.stated) ++covered;
+        break;
+      case Meeting::kElsewhere:
+        ++result.elsewhere;
+        break;
+      case Meeting::kUnfinished:
+        ++result.unfinished;
+        break;
+      case Meeting::kMissing:
+        ++result.missing;
     }
-    const bool same_end = line.end == other.end;
-    if (!same_end) ++result.different_ends;
-    const double distance = line_distance(line, other, spacing, same_end);
-    if (std::isnan(distance)) continue;
-    errors.push_back(distance / diagonal);
-    stated.push_back(line.points.back().error / diagonal);
-    if (distance <= line.points.back().error) ++covered;
+    errors.push_back(judgement.error);
   }
-  result.compared = errors.size();
-  if (errors.empty()) {
-    result.median = result.p95 = result.max = result.stated = result.covered = std::nan("");
-    return result;
-  }
+  result.judged = errors.size();
   result.median = quantile(errors, 0.5);
   result.p95 = quantile(errors, 0.95);
-  result.max = quantile(errors, 1.0);
   result.stated = quantile(stated, 0.95);
-  result.covered = static_cast<double>(covered) / static_cast<double>(errors.size());
+  if (result.compared == 0) result.max = std::nan("");
+  result.covered =
+      result.judged > 0 ? static_cast<double>(covered) / static_cast<double>(result.judged) : std::nan("");
   return result;
 }
 

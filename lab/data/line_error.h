@@ -4,28 +4,54 @@
 ///
 ///   e = max_k |x(k S) - y(k S)|,  and |x(end) - y(end)| where both end for the same reason       (1)
 ///
-/// Equal arc length is stricter than the distance between curves: being late on the right curve counts. Lines
-/// that run into a sink or close on themselves are left out and counted: there, equal arc length compares
-/// where two programs gave up. Lines that end for different reasons are compared up to the shorter one and
-/// counted.
+/// Equal arc length is stricter than the distance between curves: being late on the right curve counts. Where
+/// the reference runs into a sink or closes on itself, and the line does too, neither counts: equal arc length
+/// would compare where two programs gave up. Every other line of the reference is judged: compared, or, where
+/// there is no such line, or it ends elsewhere for another reason, more than S of arc away, failed. The error of
+/// a failed line is infinite.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "common/geometry/line.h"
 
 namespace palpate {
 
+/// How one line of the reference is met.
+enum class Meeting : std::uint8_t {
+  kCompared,
+  kInside,      ///< both end inside
+  kElsewhere,   ///< the line ends for another reason, elsewhere
+  kUnfinished,  ///< it ends by its number of steps
+  kMissing      ///< there is none
+};
+[[nodiscard]] const char* name_of(Meeting meeting) noexcept;
+
+struct LineJudgement {
+  std::uint32_t seed = 0;
+  TraceDirection direction = TraceDirection::kForward;
+  Meeting meeting = Meeting::kMissing;
+  End end = End::kLeftDomain, reference_end = End::kLeftDomain;
+  double error = 0.0;   ///< (1) over the diagonal; infinite where it failed
+  double stated = 0.0;  ///< what the line states at its end, over the diagonal
+};
+
 struct LineComparison {
-  double median = 0.0;  ///< of (1) over the lines, divided by the diagonal; NaN where nothing was compared
-  double p95 = 0.0;     ///< 95 % of the lines lie below
-  double max = 0.0;
+  std::vector<LineJudgement> lines;  ///< of the reference, in its order: all that follows is made from them
+  double median = 0.0;  ///< of the errors of the judged lines, infinite ones too; NaN where none was judged
+  double p95 = 0.0;     ///< 95 % of the judged lines lie below
+  double max = 0.0;     ///< of the compared lines
+  std::size_t judged = 0;  ///< compared or failed
   std::size_t compared = 0;
-  std::size_t sinks = 0;           ///< either line ends inside: left out
-  std::size_t different_ends = 0;  ///< compared, but not at their ends
-  double stated = 0.0;             ///< the 95 % quantile of what the compared lines state as their own error
-  double covered = 0.0;            ///< the part of the compared lines whose error is at most what they state
+  std::size_t inside = 0;
+  std::size_t elsewhere = 0, unfinished = 0, missing = 0;  ///< failed
+  double stated = 0.0;   ///< the 95 % quantile of what the compared lines state as their own error
+  double covered = 0.0;  ///< the part of the judged lines whose error is at most what they state
+
+  [[nodiscard]] std::size_t failed() const noexcept { return elsewhere + unfinished + missing; }
 };
 
 /// Both must have points at multiples of `spacing` [data units] (TraceOptions::step).

@@ -22,11 +22,11 @@ struct EffortPlan {
 EffortPlan plan_of(Effort effort) {
   switch (effort) {
     case Effort::kQuick:
-      return {1, 0.2, 1e-7};
+      return {1, 0.2, 1e-10};
     case Effort::kThorough:
-      return {5, 10.0, 1e-9};
+      return {5, 10.0, 1e-11};
     default:
-      return {3, 0.5, 1e-8};
+      return {3, 0.5, 1e-11};
   }
 }
 
@@ -132,8 +132,13 @@ class Sweeper {
     const Integrator other = tets ? Integrator::kDp54 : Integrator::kRodas4;
     const double tolerance = tets ? kReferenceTolerance : plan_.second_tolerance;
     sweep_.second = std::string(name_of(other)) + " tolerance=" + short_number(tolerance);
-    const TraceResult second = trace(other, tolerance, sweep_.spacing);
-    sweep_.agreement = compare_lines(second.lines, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
+    second_lines_ = trace(other, tolerance, sweep_.spacing).lines;
+    sweep_.agreement =
+        compare_lines(second_lines_, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
+    sweep_.disputed =
+        static_cast<std::size_t>(std::ranges::count_if(sweep_.agreement.lines, [](const LineJudgement& l) {
+          return l.meeting != Meeting::kInside && !(l.error <= kDisputed);
+        }));
   }
 
   double add_row(Integrator integrator, const std::string& parameter, double setting, double tolerance = 1e-6,
@@ -157,7 +162,10 @@ class Sweeper {
     row.repeats = static_cast<int>(seconds.size());
     row.lines = result.lines.size();
     row.points = result.points;
-    row.error = compare_lines(result.lines, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
+    const bool own = integrator == (field_.tet_mesh() != nullptr ? Integrator::kExact : Integrator::kDp54);
+    row.judge = own ? sweep_.second : sweep_.reference;
+    row.error = compare_lines(result.lines, own ? second_lines_ : sweep_.reference_lines, sweep_.spacing,
+                              field_.diagonal());
     sweep_.rows.push_back(row);
     return row.seconds;
   }
@@ -191,7 +199,8 @@ class Sweeper {
   const SweepRequest& request_;
   EffortPlan plan_;
   Progress* progress_;
-  std::vector<Vec3> seeds_;  ///< of the lines that are compared
+  std::vector<Vec3> seeds_;         ///< of the lines that are compared
+  std::vector<Line> second_lines_;  ///< of the independent method
   Sweep sweep_;
 };
 

@@ -1,9 +1,10 @@
 /// Error against run time of every integrator on one field and mesh.
 ///
-/// Adaptive methods are swept over tolerances, fixed-step methods over step lengths. The reference is the
-/// tightest method that the grid allows: the cell-exact one on tetrahedra, Dormand-Prince at 1e-12 elsewhere.
-/// Its own error is not assumed: a second, independent method at its tightest setting is compared with it,
-/// and errors below that agreement mean nothing.
+/// Adaptive methods are swept over tolerances, fixed-step methods over step lengths. Every method is judged on
+/// every line of the reference. That is the tightest method that the grid allows: the cell-exact one on
+/// tetrahedra, Dormand-Prince at 1e-12 elsewhere. Its own error is not assumed: a second method, of another
+/// kind, is compared with it, and errors below that agreement mean nothing; lines on which the two part are
+/// counted. The method of the reference is itself judged by the second one.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct SweepRow {
   std::string method;
   std::string parameter;  ///< "tolerance=1e-06", "step=0.01"
   double setting = 0.0;   ///< the number in it; 0 for the cell-exact method
+  std::string judge;      ///< the reference that it is judged by
   LineComparison error;
   double seconds = 0.0;  ///< median of `repeats` runs
   int repeats = 1;
@@ -38,8 +40,9 @@ struct Sweep {
   std::string subject;         ///< "carotid.vtk, vectors, 48 seeds"
   std::vector<SweepRow> rows;  ///< by method, loose to tight
   std::string reference;       ///< "dp54 tolerance=1e-12"
-  std::string second;          ///< the independent method it is compared with
+  std::string second;          ///< the independent method it is compared with, and that it is judged by
   LineComparison agreement;    ///< of the two
+  std::size_t disputed = 0;    ///< lines on which they differ by more than kDisputed, or end otherwise
   double max_length = 0.0;     ///< data units
   double spacing = 0.0;        ///< S of the comparison, data units
   int threads = 1;
@@ -56,6 +59,9 @@ struct SweepRequest {
   Effort effort = Effort::kNormal;
   std::size_t most_lines = 48;  ///< seeds whose lines end inside are replaced by later ones up to this many
 };
+
+/// The references part where they differ by more of the diagonal.
+inline constexpr double kDisputed = 1e-6;
 
 /// Length of the lines where the request does not say: long enough for errors to grow, short enough that a
 /// chaotic field does not amplify them beyond meaning.

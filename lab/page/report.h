@@ -41,6 +41,8 @@ void write_report(const Report& report, const std::filesystem::path& folder, boo
 [[nodiscard]] std::string report_json(const Report& report);
 [[nodiscard]] std::string report_page(const Report& report);
 [[nodiscard]] std::string work_precision_csv(const Report& report);
+/// Every line of every row: what the rows are made from.
+[[nodiscard]] std::string work_precision_lines_csv(const Report& report);
 [[nodiscard]] std::string constraint_csv(const Report& report);
 [[nodiscard]] std::string stability_csv(const Report& report);
 /// Error against run time, and the stated against the true error.

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kFiles = std::to_array<std::string_view>(
-    {"index.html", "report.json", "work_precision.csv", "work_precision.svg", "stability.csv",
-     "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv", "constraint_force.svg",
-     "constraint_distance.svg",
+    {"index.html", "report.json", "work_precision.csv", "work_precision_lines.csv", "work_precision.svg",
+     "stability.csv", "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv",
+     "constraint_force.svg", "constraint_distance.svg",
      // of sections
      "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
      "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
@@ -70,16 +70,39 @@ std::string work_precision_csv(const Report& report) {
   std::string out =
       "subject,method,parameter,error_median,error_p95,error_max,error_stated,lines_within_stated,seconds,"
       "repeats,lines,points,"
-      "lines_compared,lines_ending_inside,lines_with_different_ends\n";
+      "judge,lines_judged,lines_compared,lines_ending_inside,lines_ended_elsewhere,lines_not_finished,"
+      "lines_missing\n";
   for (const SweepRow& row : report.sweep.rows) {
     out += quoted(report.sweep.subject) + "," + row.method + "," + quoted(row.parameter) + "," +
            exact_number(row.error.median) + "," + exact_number(row.error.p95) + "," +
            exact_number(row.error.max) + "," + exact_number(row.error.stated) + "," +
            exact_number(row.error.covered) + "," + exact_number(row.seconds) + "," +
            std::to_string(row.repeats) + "," + std::to_string(row.lines) + "," + std::to_string(row.points) +
-           "," + std::to_string(row.error.compared) + "," + std::to_string(row.error.sinks) + "," +
-           std::to_string(row.error.different_ends) + "\n";
+           "," + quoted(row.judge);
+    for (const std::size_t count : {row.error.judged, row.error.compared, row.error.inside,
+                                    row.error.elsewhere, row.error.unfinished, row.error.missing}) {
+      out += "," + std::to_string(count);
+    }
+    out += "\n";
   }
+  return out;
+}
+
+std::string work_precision_lines_csv(const Report& report) {
+  std::string out = "method,parameter,judge,seed,direction,outcome,end,judge_end,error,error_stated\n";
+  const auto add = [&](const std::string& method, const std::string& parameter, const std::string& judge,
+                       const LineComparison& comparison) {
+    for (const LineJudgement& line : comparison.lines) {
+      const bool there = line.meeting != Meeting::kMissing;
+      out += method + "," + quoted(parameter) + "," + quoted(judge) + "," + std::to_string(line.seed) + "," +
+             (line.direction == TraceDirection::kForward ? "forward" : "backward") + "," +
+             name_of(line.meeting) + "," + (there ? std::string(name_of(line.end)) : "") + "," +
+             std::string(name_of(line.reference_end)) + "," + exact_number(line.error) + "," +
+             exact_number(line.stated) + "\n";
+    }
+  };
+  for (const SweepRow& row : report.sweep.rows) add(row.method, row.parameter, row.judge, row.error);
+  add("second reference", report.sweep.second, report.sweep.reference, report.sweep.agreement);
   return out;
 }
 
@@ -151,6 +174,7 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
       if (in_folder(report, name)) write_file(temporary / name, made(report));
     };
     write_part("work_precision.csv", work_precision_csv);
+    write_part("work_precision_lines.csv", work_precision_lines_csv);
     write_part("stability.csv", stability_csv);
     write_part("work_precision.svg", work_precision_plot);
     write_part("stated_error.svg", honesty_plot);

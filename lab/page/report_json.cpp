@@ -15,9 +15,15 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json comparison(const LineComparison& c) {
-  return {{"median", number(c.median)},     {"p95", number(c.p95)},
-          {"max", number(c.max)},           {"lines_compared", c.compared},
-          {"lines_ending_inside", c.sinks}, {"lines_with_different_ends", c.different_ends}};
+  return {{"median", number(c.median)},
+          {"p95", number(c.p95)},
+          {"max", number(c.max)},
+          {"lines_judged", c.judged},
+          {"lines_compared", c.compared},
+          {"lines_ending_inside", c.inside},
+          {"lines_ended_elsewhere", c.elsewhere},
+          {"lines_not_finished", c.unfinished},
+          {"lines_missing", c.missing}};
 }
 
 }  // namespace
@@ -66,7 +72,8 @@ std::string report_json(const Report& report) {
   if (const Sweep& sweep = report.sweep; !sweep.rows.empty()) {
     root["reference"] = {{"method", sweep.reference},
                          {"independent_method", sweep.second},
-                         {"agreement", comparison(sweep.agreement)}};
+                         {"agreement", comparison(sweep.agreement)},
+                         {"lines_disputed", sweep.disputed}};
     root["threads"] = sweep.threads;
     root["seeds"] = sweep.seeds;
     root["seeds_outside"] = sweep.seeds_outside;

@@ -17,15 +17,16 @@ std::string percent(double fraction) {
 std::string sweep_table(const Sweep& sweep) {
   std::string out =
       "<table><tr><th>method</th><th class=\"text\">setting</th><th>error, 95 % of lines</th><th>median</th>"
-      "<th>worst</th><th>stated, 95 %</th><th>within stated</th><th>seconds</th><th>lines/s</th><th>ended "
-      "otherwise</th></tr>\n";
+      "<th>worst</th><th>stated, 95 %</th><th>within stated</th><th>seconds</th><th>lines/s</th><th>lines "
+      "judged</th><th>ended elsewhere</th><th>not finished</th><th>missing</th></tr>\n";
   for (const SweepRow& row : sweep.rows) {
     out += "<tr>" + cell(row.method) + cell(row.parameter, true) + cell(three_digits(row.error.p95)) +
            cell(three_digits(row.error.median)) + cell(three_digits(row.error.max)) +
            cell(three_digits(row.error.stated)) + cell(percent(row.error.covered)) +
            cell(three_digits(row.seconds)) +
            cell(three_digits(static_cast<double>(row.lines) / row.seconds)) +
-           cell(std::to_string(row.error.different_ends)) + "</tr>\n";
+           cell(std::to_string(row.error.judged)) + cell(std::to_string(row.error.elsewhere)) +
+           cell(std::to_string(row.error.unfinished)) + cell(std::to_string(row.error.missing)) + "</tr>\n";
   }
   return out + "</table>\n";
 }
@@ -88,7 +89,17 @@ std::string sweep_section(const Sweep& sweep) {
                    " agrees with it to " + three_digits(agreement.median) + " (median), " +
                    three_digits(agreement.p95) + " (95 % of lines), " + three_digits(agreement.max) +
                    " (worst) over " + counted(agreement.compared, "line") +
-                   "; errors below that, the dashed line, mean nothing.");
+                   "; errors below that, the dashed line, mean nothing. " +
+                   (sweep.disputed > 0 ? "They disagree on " + counted(sweep.disputed, "line") +
+                                             ", by more than " + short_number(kDisputed) +
+                                             " or in how it ends: what is said of these is not certain. "
+                                       : std::string()) +
+                   "Rows of " + sweep.reference.substr(0, sweep.reference.find(' ')) + " are judged by " +
+                   sweep.second + ".");
+  out += paragraph(
+      "Every method is judged on every line. A line that ends for another reason, elsewhere, that does not finish "
+      "or that is missing has failed: its error is infinite, and a setting has a point in the plots only where "
+      "95 % of its lines have one. work_precision_lines.csv has every line of every row.");
   out += sweep_table(sweep);
   out +=
       "<h2>Is the stated error honest?</h2>\n<img src=\"stated_error.svg\" alt=\"stated against true error, "

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,10 +60,18 @@ std::string figures_text(const Report& report) {
   for (const SweepRow& row : report.sweep.rows) {
     text += "  " + row.method + std::string(8 - std::min<std::size_t>(7, row.method.size()), ' ') +
             row.parameter + std::string(22 - std::min<std::size_t>(21, row.parameter.size()), ' ') +
-            "error " + short_number(row.error.p95) + " in " + short_number(row.seconds) + " s\n";
+            (std::isfinite(row.error.p95) ? "error " + short_number(row.error.p95) : "fails") + " in " +
+            short_number(row.seconds) + " s" +
+            (row.error.failed() > 0 ? ", " + std::to_string(row.error.failed()) + " of " +
+                                          counted(row.error.judged, "line") + " failed"
+                                    : "") +
+            "\n";
   }
   text += "  reference " + report.sweep.reference + ", within " + short_number(report.sweep.agreement.p95) +
-          " of " + report.sweep.second + "\n";
+          " of " + report.sweep.second +
+          (report.sweep.disputed > 0 ? ", but they disagree on " + counted(report.sweep.disputed, "line")
+                                     : std::string()) +
+          "\n";
   for (const ConstraintRow& row : report.constraint.rows) {
     if (row.cells_swept || row.budget.iterations != UpdateBudget{}.iterations) continue;
     text += "  hand on a streamline, " + std::string(name_of(row.path)) + ": force error " +

@@ -50,16 +50,44 @@ TEST(CompareLines, GivesQuantilesOfTheDiagonal) {
   EXPECT_EQ(c.covered, 0.0);  // each states half of its error
 }
 
-TEST(CompareLines, LeavesOutSinksAndCountsOtherEnds) {
-  const std::vector<Line> reference{straight(0, 1.0, 4.0, 0.0, End::kStagnation), straight(1, 1.0, 4.0, 0.0),
-                                    straight(2, 1.0, 4.0, 0.0)};
-  const std::vector<Line> lines{straight(0, 1.0, 4.0, 9.0, End::kStagnation), straight(1, 1.0, 4.0, 0.1),
-                                straight(2, 1.0, 3.0, 0.1, End::kMaxSteps)};
+// Of twenty lines one method follows two and gives up on the others in a sink of its own: it had the least error
+// of all, of two lines.
+TEST(CompareLines, JudgeEveryLineOfTheReference) {
+  std::vector<Line> reference, lines;
+  for (std::uint32_t s = 0; s < 20; ++s) {
+    reference.push_back(straight(s, 1.0, 4.0, 0.0));
+    if (s < 2) lines.push_back(straight(s, 1.0, 4.0, 1e-9));
+    if (s >= 2 && s < 10) lines.push_back(straight(s, 1.0, 2.0, 0.0, End::kStagnation));
+    if (s >= 10 && s < 15) lines.push_back(straight(s, 1.0, 2.0, 0.0, End::kMaxSteps));
+  }
   const LineComparison c = compare_lines(lines, reference, 1.0, 100.0);
-  EXPECT_EQ(c.sinks, 1U);
+  EXPECT_EQ(c.judged, 20U);
   EXPECT_EQ(c.compared, 2U);
-  EXPECT_EQ(c.different_ends, 1U);
+  EXPECT_EQ(c.elsewhere, 8U);
+  EXPECT_EQ(c.unfinished, 5U);
+  EXPECT_EQ(c.missing, 5U);
+  EXPECT_TRUE(std::isinf(c.p95) && std::isinf(c.median));
+  EXPECT_NEAR(c.max, 1e-11, 1e-15);
+  EXPECT_LE(c.covered, 0.1);
+}
+
+TEST(CompareLines, LeaveOutOnlyWhatEndsInsideOnBothSides) {
+  const std::vector<Line> reference{straight(0, 1.0, 4.0, 0.0, End::kStagnation), straight(1, 1.0, 4.0, 0.0),
+                                    straight(2, 1.0, 4.0, 0.0, End::kMaxLength),
+                                    straight(3, 1.0, 4.0, 0.0, End::kStagnation)};
+  // The third ends for another reason, but there; the fourth runs through the sink.
+  const std::vector<Line> lines{straight(0, 1.0, 4.0, 9.0, End::kStagnation), straight(1, 1.0, 4.0, 0.1),
+                                straight(2, 1.0, 4.0, 0.1), straight(3, 1.0, 6.0, 0.0)};
+  const LineComparison c = compare_lines(lines, reference, 1.0, 100.0);
+  EXPECT_EQ(c.inside, 1U);
+  EXPECT_EQ(c.judged, 3U);
+  EXPECT_EQ(c.compared, 2U);
+  EXPECT_EQ(c.elsewhere, 1U);
   EXPECT_NEAR(c.max, 0.001, 1e-12);
+  // Any row can be made again from its lines.
+  std::size_t compared = 0;
+  for (const LineJudgement& line : c.lines) compared += line.meeting == Meeting::kCompared ? 1 : 0;
+  EXPECT_EQ(compared, c.compared);
 }
 
 TEST(CompareLines, HasNoErrorWhereNothingIsCompared) {
