@@ -164,7 +164,7 @@ void DtmriModel::keep(const SceneView& view, Document& document) const {
   }
   if (!view.volume) return;
   const VolumeView& volume = *view.volume;
-  cache_volume(volume, document);
+  keep_volume(volume, document);
   document.tensors.volume = !volume.shown ? "none" : volume.colored ? "direction" : "fa";
   document.volume.transfer = volume.regions ? region_text(*volume.regions) : transfer_text(volume.transfer);
   const auto lens = std::find_if(volume.lenses.begin(), volume.lenses.end(),

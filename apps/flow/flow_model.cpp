@@ -165,7 +165,7 @@ std::string FlowModel::measured() const {
 void FlowModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
   keep_appearance(view, document);
-  if (view.volume) cache_volume(*view.volume, document);
+  if (view.volume) keep_volume(*view.volume, document);
 }
 
 }  // namespace palpate

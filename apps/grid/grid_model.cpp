@@ -44,7 +44,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
 void GridModel::keep(const SceneView& view, Document& document) const {
   keep_camera(view, document);
   keep_appearance(view, document);
-  if (view.volume) cache_volume(*view.volume, document);
+  if (view.volume) keep_volume(*view.volume, document);
 }
 
 }  // namespace palpate

@@ -49,7 +49,7 @@ void keep_appearance(const SceneView& view, Document& document) {
   kept.depth_cue = style.depth_cue;
 }
 
-void cache_volume(const VolumeView& volume, Document& document) {
+void keep_volume(const VolumeView& volume, Document& document) {
   VolumeOptions& kept = document.volume;
   kept.shown = volume.shown;
   kept.clips.clear();  // cuts are among the lenses

@@ -17,6 +17,6 @@ void keep_camera(const SceneView& view, Document& document);
 void keep_appearance(const SceneView& view, Document& document);
 
 /// The lenses and cuts of a volume, how its rays are cast, and what is drawn on its planes.
-void cache_volume(const VolumeView& volume, Document& document);
+void keep_volume(const VolumeView& volume, Document& document);
 
 }  // namespace palpate

@@ -33,7 +33,7 @@ class VolumeModel : public WindowModel {
   }
   void keep(const SceneView& view, Document& document) const override {
     keep_camera(view, document);
-    if (view.volume) cache_volume(*view.volume, document);
+    if (view.volume) keep_volume(*view.volume, document);
   }
   std::string save_session(const Document& document) override {
     saved = document;

@@ -51,7 +51,7 @@ class FakeModel : public WindowModel {
   }
   void keep(const SceneView& view, Document& document) const override {
     keep_camera(view, document);
-    keep_lines(view.style, document);
+    keep_appearance(view, document);
   }
   std::string save_session(const Document&) override {
     ++saved;

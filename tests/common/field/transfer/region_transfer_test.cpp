@@ -118,7 +118,7 @@ TEST(RegionTransferFile, WordsAndFilesGiveTheSameFunctionBack) {
 TEST(RegionTransferFile, TakesFractionsOfTheRangesOfTheData) {
   const auto range = [] { return PlaceRange{{100.0, 0.0}, {300.0, 50.0}}; };
   const auto transfer = regions_from_text("regions:fractions/box,0.5,0,1,1,1,1,1,0.5,0", range);
-  ASSERT_TRUE(usb.has_value());
+  ASSERT_TRUE(transfer.has_value());
   EXPECT_EQ(transfer->regions()[0].corners[0], Vec2(200.0, 0.0));
   EXPECT_EQ(transfer->regions()[0].corners[1], Vec2(300.0, 50.0));
   const test::TempFolder folder;

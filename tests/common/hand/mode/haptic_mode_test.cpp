@@ -42,6 +42,8 @@ NamedField example_of(FieldKind kind) {
       open.tensor = heart.fibres;
       break;
     }
+    case FieldKind::kNone:
+      break;
   }
   return open;
 }

@@ -41,15 +41,15 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("common", a, b, c, d, e, f, g);
   }
   {
-    const auto& [files, solution, example, field, beside, time, kind, refine, raw, tensor, series, directions,
-                 mesher, volume, remesher, cache, markers] = document.input;
-    expect("input", files, solution, example, field, time, refine, series, directions, mesher, volume, cache,
-           markers);
+    const auto& [files, solution, example, field, secondary, time, kind, refine, raw, tensor, series, gaps,
+                 directions, mesher, volume, remesher, cache, markers] = document.input;
+    expect("input", files, solution, example, field, time, refine, series, gaps, directions, mesher, volume,
+           cache, markers);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u] = tensor;
     expect("tensor", m, n, o, p, q, r, s, t, u);
-    (void)beside, (void)kind, (void)remesher;  // what the program makes of the others
+    (void)secondary, (void)kind, (void)remesher;  // what the program makes of the others
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i] = document.tracing;
@@ -90,9 +90,9 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, linear, grid, planes, q, r, s, t, u, v, w, x,
-                 y, z, z1, z2, z3, z4, z5, z6, z7] = document.touch;
+                 y, z, z1, z2, z3, z4, z5, z6, z7, z8] = document.touch;
     expect("touch", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1, z2, z3,
-           z4, z5, z6, z7);
+           z4, z5, z6, z7, z8);
     const auto& [l1, l2, l3, l4, l5, l6] = linear;
     expect("linear", l1, l2, l3, l4, l5, l6);
     const auto& [g1, g2, g3, g4, g5, g6, g7, g8] = grid;
