@@ -262,8 +262,8 @@ TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
 TEST_F(WindowTest, EditsAreTakenBackAndRestoredInTheirOrder) {
   options_.frames = 36;
   const double width = options_.view.style.width;
-  at_control(2, {.kind = InputKind::kPress}, "width", 0.3);
-  for (int i = 0; i < 8; ++i) at_control(4 + i, {.kind = InputKind::kMove}, "width", 0.4 + 0.05 * i);
+  at_control(2, {.kind = InputKind::kPress}, "Line width", 0.3);
+  for (int i = 0; i < 8; ++i) at_control(4 + i, {.kind = InputKind::kMove}, "Line width", 0.4 + 0.05 * i);
   release(14, MouseButton::kLeft);
   key(18, '.');
   move(22, 600, 300);
@@ -281,7 +281,7 @@ TEST_F(WindowTest, EditsAreTakenBackAndRestoredInTheirOrder) {
     const WindowResult result = run_window(model_, options_);
     EXPECT_EQ(result.message, message);
     EXPECT_EQ(result.view.style.width, thick);
-    EXPECT_EQ(result.document.view.line_width, thick);
+    EXPECT_EQ(result.document.view.line_width.value_or(width), thick);
     EXPECT_EQ(result.document.input.time, time);
     EXPECT_LT(glm::distance(result.view.camera.axes[2], seen_along), 1e-9) << "the camera stays";
   };
