@@ -347,7 +347,7 @@ TEST_F(WindowTest, UndoGoesThroughAnUpdate) {
   EXPECT_EQ(undone.message, "undone");
   redo(90);
   EXPECT_EQ(run_window(model_, options_).document.input.time, "0.5");
-  at_control(100, {.kind = InputKind::kPress}, "width", 0.9);
+  at_control(100, {.kind = InputKind::kPress}, "Line width", 0.9);
   release(102, MouseButton::kLeft);
   undo(110);
   const WindowResult result = run_window(model_, options_);
