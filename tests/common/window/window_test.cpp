@@ -262,8 +262,8 @@ TEST_F(WindowTest, ItsPictureIsTheOneDrawnWithoutADisplay) {
 TEST_F(WindowTest, EditsAreTakenBackAndRestoredInTheirOrder) {
   options_.frames = 36;
   const double width = options_.view.style.width;
-  at_control(2, {.kind = InputKind::kPress}, "Line width", 0.3);
-  for (int i = 0; i < 8; ++i) at_control(4 + i, {.kind = InputKind::kMove}, "Line width", 0.4 + 0.05 * i);
+  at_control(2, {.kind = InputKind::kPress}, "line width", 0.3);
+  for (int i = 0; i < 8; ++i) at_control(4 + i, {.kind = InputKind::kMove}, "line width", 0.4 + 0.05 * i);
   release(14, MouseButton::kLeft);
   key(18, '.');
   move(22, 600, 300);
@@ -347,7 +347,7 @@ TEST_F(WindowTest, UndoGoesThroughAnUpdate) {
   EXPECT_EQ(undone.message, "undone");
   redo(90);
   EXPECT_EQ(run_window(model_, options_).document.input.time, "0.5");
-  at_control(100, {.kind = InputKind::kPress}, "Line width", 0.9);
+  at_control(100, {.kind = InputKind::kPress}, "line width", 0.9);
   release(102, MouseButton::kLeft);
   undo(110);
   const WindowResult result = run_window(model_, options_);
