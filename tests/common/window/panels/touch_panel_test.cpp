@@ -146,7 +146,7 @@ TEST_F(TouchPanelTest, OtherLinesFadeWhileTheProbeIsHeldUnlessToldNotTo) {
 
 TEST_F(TouchPanelTest, LinesAboutTheProbeAreChosen) {
   for (const SeedShape shape : {SeedShape::kRake, SeedShape::kPlane}) {
-    choose("about it", shape == SeedShape::kRake ? "rake" : "plane");
+    choose("about the probe", shape == SeedShape::kRake ? "rake" : "plane");
     grab();
     last_ += 2 * kPause;
     const WindowResult result = run();
