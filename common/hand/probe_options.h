@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/device/driver_link.h"
 #include "common/device/device_limits.h"
+#include "common/device/driver_link.h"
 #include "common/device/probe_path.h"
 #include "common/device/simulated_device.h"
 #include "common/device/tracked_hands.h"

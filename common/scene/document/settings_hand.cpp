@@ -550,8 +550,9 @@ const Setting kHandRows[] = {
      .groups = {Group::kNotes}},
     {.name = "drawn-lines",
      .place = kTouchAt<&TouchOptions::drawn_lines>,
-     .help = "lines or tracts that a hand has kept, as a window saves them as .csv; with its session it saves "
-             "them beside that",
+     .help =
+         "lines or tracts that a hand has kept, as a window saves them as .csv; with its session it saves "
+         "them beside that",
      .value = "FILE.csv",
      .heading = "Annotations",
      .groups = {Group::kNotes},

@@ -1,5 +1,3 @@
-#include "common/device/driver/transport/web_transport.h"
-
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -9,6 +7,8 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+
+#include "common/device/driver/transport/web_transport.h"
 
 namespace palpate {
 namespace {
