@@ -52,6 +52,7 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
     const ViewTracts traced =
         trace_view_tracts(document.tracts, document.common, *state.tensors->image, &progress);
     show(traced.bundle);
+    state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
     state.seeds = traced.seeds;
     state.seconds_trace = traced.seconds;
     if (traced.bundle->order.empty()) state.notes.push_back("no tract: " + traced.why_none);

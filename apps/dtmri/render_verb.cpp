@@ -45,6 +45,7 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   drawn.measured = measured_costs(input, nullptr);
   if (!options.tract_appearance.file.empty() || !options.tracts.seeds.empty()) {
     const ViewTracts tracts = tracts_of(options, context, parts.tensors);
+    for (const std::string& note : tracts.notes) context.console.note(note);
     if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
     drawn.lines = tracts.bundle->order.size();
     drawn.points = tracts.bundle->lines->points.size();

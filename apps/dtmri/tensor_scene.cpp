@@ -256,7 +256,8 @@ std::vector<std::string> show_underlay(const Underlay& underlay, const Document&
   const Box slices = tensors->image->bounds(), below = underlay.image->bounds();
   for (int axis = 0; axis < 3; ++axis) {
     if (below.upper[axis] >= slices.lower[axis] && below.lower[axis] <= slices.upper[axis]) continue;
-    notes.emplace_back("the underlay lies beside the image: nothing of it can be seen on the slices");
+    notes.emplace_back(
+        "WARNING: the underlay lies beside the image: nothing of it can be seen on the slices");
     break;
   }
   return notes;

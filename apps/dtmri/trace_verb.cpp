@@ -110,7 +110,8 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   const int threads = options.common.threads;
   TractSummary summary;
   Stopwatch regions;
-  summary.options = tract_options(options.tracts, threads, &context.progress);
+  const TractRequest request = tract_request(options.tracts, threads, &context.progress);
+  summary.options = request.options;
   const double seconds_regions = regions.seconds();
 
   Input input = open_input(options, context);
@@ -130,8 +131,10 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   const auto field = make_tensor_field(image.image, image.choice, input.title(), threads);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   summary.field = input.field_label();
+  std::vector<std::string> of_masks = check_regions(request, image.image);
   const std::vector<Vec3> seeds =
-      tract_seeds(options.tracts, options.common.seed, *field, image.image, threads, &context.progress);
+      tract_seeds(options.tracts, options.common.seed, *field, image.image, of_masks, &context.progress);
+  for (const std::string& note : of_masks) console.note(note);
   summary.seeds = seeds.size();
   summary.seconds_prepare = seconds_regions + prepare.seconds();
 

@@ -11,7 +11,6 @@
 #include "common/base/text.h"
 #include "common/load/read_tractogram.h"
 #include "common/render/tract/tract_bundle.h"
-#include "common/scene/input.h"
 #include "common/scene/seeds.h"
 #include "common/scene/voxel_seeds.h"
 
@@ -23,22 +22,6 @@ constexpr const char* kSeedGrammar =
     "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, fa:T, cl:T, mask:FILE or "
     "sphere:x,y,z,r";
 constexpr std::size_t kMostSeeds = 100'000'000;
-
-/// A mask with its image.
-struct Mask {
-  std::shared_ptr<const ScalarField> field;
-  DataSet image;
-};
-
-Mask read_mask(const std::string& file, int threads, Progress* progress) {
-  Input input = Input::open({.files = {file}, .kind = FieldKind::kScalar}, progress);
-  if (input.times().size() > 1)
-    throw input_error(
-        {file, "", "has " + std::to_string(input.times().size()) + " volumes", "a mask of one", ""});
-  const ScalarChoice choice = input.scalar_choice();
-  const std::vector<DataSet> blocks = input.read_timed({choice.array}, progress);
-  return {make_scalar_field(blocks, choice, file, threads), blocks.front()};
-}
 
 /// What stands behind "kind:", or empty where `text` is of another kind.
 std::string_view after(std::string_view text, std::string_view kind) {
@@ -52,7 +35,7 @@ Sphere parse_sphere(std::string_view numbers, const std::string& grammar) {
 }
 
 std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, const std::string& option,
-                                       int threads, Progress* progress) {
+                                       std::vector<MaskFile>& masks, Progress* progress) {
   std::vector<TractRegion> regions;
   for (const std::string& text : texts) {
     std::string refusal = option;
@@ -60,12 +43,24 @@ std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, co
     if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
       regions.emplace_back(parse_sphere(numbers, refusal));
     } else if (const auto file = after(text, "mask:"); !file.empty()) {
-      regions.emplace_back(MaskRegion{read_mask(std::string(file), threads, progress).field});
+      masks.push_back(read_mask(file, progress));
+      regions.emplace_back(masks.back().mask);
     } else {
       throw usage_error(refusal);
     }
   }
   return regions;
+}
+
+/// Refuses a mask beside `image`, and says what it may have to be asked about.
+void check_mask(const MaskFile& mask, const UniformTopology& image, std::vector<std::string>& notes) {
+  check_overlap(mask, image);
+  notes.insert(notes.end(), mask.notes.begin(), mask.notes.end());
+  const std::size_t size = mask.mask->size(), beyond = size - mask.mask->size_in(image);
+  if (beyond > 0) {
+    notes.push_back(mask.file + ": " + counted(beyond, "voxel") + " of the mask's " + std::to_string(size) +
+                    " lie outside the image");
+  }
 }
 
 /// @throws Error (usage) where an image has no voxels of its own, such as a mesh.
@@ -92,12 +87,12 @@ std::function<bool(const Vec3&)> above(const TensorField& field, TractMeasure me
 void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look) {
   if (!look.file.empty() && !options.seeds.empty())
     throw usage_error("give either --tracts, a file, or --seeds, to trace some; not both");
-  TractTracingOptions numbers = options;
   // Regions name files, which are read when they are needed.
+  TractTracingOptions numbers = options;
   numbers.include.clear();
   numbers.exclude.clear();
   numbers.stop.clear();
-  (void)tract_options(numbers, 1);
+  (void)tract_request(numbers, 1);
 }
 
 ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress) {
@@ -112,23 +107,27 @@ ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress) {
 
 ViewTracts trace_view_tracts(const TractTracingOptions& options, const CommonOptions& common,
                              const TensorVoxels& voxels, Progress* progress) {
-  const TractOptions how = tract_options(options, common.threads, progress);
+  const TractRequest request = tract_request(options, common.threads, progress);
+  const TractOptions& how = request.options;
   // Seeds are laid over the voxels; what these hold is asked of the field.
   DataSet lattice;
   lattice.topology = UniformTopology{voxels.points, voxels.origin, voxels.axes};
-  const std::vector<Vec3> seeds =
-      tract_seeds(options, common.seed, *voxels.field, lattice, common.threads, progress);
+  std::vector<std::string> notes = check_regions(request, lattice);
+  const std::vector<Vec3> seeds = tract_seeds(options, common.seed, *voxels.field, lattice, notes, progress);
   TractResult result = trace_tracts(*voxels.field, seeds, how, progress);
-  ViewTracts tracts{
-      .bundle = nullptr, .seeds = seeds.size(), .seconds = result.seconds, .why_none = {}, .left_out = {}};
+  ViewTracts tracts;
+  tracts.seeds = seeds.size();
+  tracts.seconds = result.seconds;
+  tracts.notes = std::move(notes);
   if (result.lines.line_count() == 0) tracts.why_none = why_no_tract(result, how);
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(result.lines)));
   tracts.left_out = tracts_left_out(*tracts.bundle);
   return tracts;
 }
 
-TractOptions tract_options(const TractTracingOptions& options, int threads, Progress* progress) {
-  TractOptions tracts;
+TractRequest tract_request(const TractTracingOptions& options, int threads, Progress* progress) {
+  TractRequest request;
+  TractOptions& tracts = request.options;
   tracts.integrator = integrator_from_name(options.integrator);
   tracts.tolerance = options.tolerance;
   tracts.step = options.step;
@@ -139,11 +138,20 @@ TractOptions tract_options(const TractTracingOptions& options, int threads, Prog
   tracts.min_length = options.min_length;
   tracts.max_length = options.max_length;
   check_tract_options(tracts);
-  tracts.include = parse_regions(options.include, "--include", threads, progress);
-  tracts.exclude = parse_regions(options.exclude, "--exclude", threads, progress);
-  tracts.stop = parse_regions(options.stop, "--stop", threads, progress);
+  tracts.include = parse_regions(options.include, "--include", request.masks, progress);
+  tracts.exclude = parse_regions(options.exclude, "--exclude", request.masks, progress);
+  tracts.stop = parse_regions(options.stop, "--stop", request.masks, progress);
   tracts.threads = threads;
-  return tracts;
+  return request;
+}
+
+std::vector<std::string> check_regions(const TractRequest& request, const DataSet& image) {
+  std::vector<std::string> notes;
+  const auto* const voxels = std::get_if<UniformTopology>(&image.topology);
+  for (const MaskFile& mask : request.masks) {
+    if (voxels != nullptr) check_mask(mask, *voxels, notes);
+  }
+  return notes;
 }
 
 std::string why_no_tract(const TractResult& result, const TractOptions& options) {
@@ -163,7 +171,7 @@ std::string why_no_tract(const TractResult& result, const TractOptions& options)
 }
 
 std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,
-                              const TensorField& field, const DataSet& image, int threads,
+                              const TensorField& field, const DataSet& image, std::vector<std::string>& notes,
                               Progress* progress) {
   const std::string& text = options.seeds;
   const auto seeds_in = [&](const UniformTopology& voxels, const std::function<bool(const Vec3&)>& wanted) {
@@ -183,9 +191,10 @@ std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t 
     return seeds_in(voxels_of(image, text), [&](const Vec3& x) { return region.contains(x); });
   }
   if (const auto file = after(text, "mask:"); !file.empty()) {
-    const Mask mask = read_mask(std::string(file), threads, progress);
-    const TractRegion region(MaskRegion{mask.field});
-    return seeds_in(voxels_of(mask.image, text), [&](const Vec3& x) { return region.contains(x); });
+    const MaskFile mask = read_mask(file, progress);
+    if (const auto* const voxels = std::get_if<UniformTopology>(&image.topology))
+      check_mask(mask, *voxels, notes);
+    return seeds_in(mask.mask->voxels(), [&](const Vec3& x) { return mask.mask->contains(x); });
   }
   const SeedSpec spec = parse_seeds(text, kSeedGrammar);
   const auto* const list = std::get_if<SeedList>(&spec);

@@ -1,6 +1,6 @@
 /// What the options of tracts mean: seeds, regions and limits.
 ///
-///   region    mask:FILE          where an image is above 0.5, trilinear
+///   region    mask:FILE          voxels of an image above 0.5 (voxel_mask.h)
 ///             sphere:x,y,z,r     a ball
 ///   seeds     a region, or fa:T, cl:T: the voxels that it takes the centres of; of a mask its own voxels
 ///             whatever parse_seeds() knows that does not depend on a field: file.csv, point:, line:, plane:
@@ -17,20 +17,29 @@
 #include "common/render/tensor/tensor_voxels.h"
 #include "common/render/tract/tract_bundle.h"
 #include "common/scene/document/document.h"
+#include "common/scene/read_mask.h"
 #include "common/trace/tract/trace_tracts.h"
 
 namespace palpate {
 
-/// Limits and regions; masks are read.
-/// @throws Error (usage), (bad input) naming a mask; Cancelled.
-[[nodiscard]] TractOptions tract_options(const TractTracingOptions& options, int threads,
+/// Limits and regions, and the files of those that are masks.
+struct TractRequest {
+  TractOptions options;
+  std::vector<MaskFile> masks;
+};
+
+/// Masks are read. @throws Error (usage), (bad input) naming a mask; Cancelled.
+[[nodiscard]] TractRequest tract_request(const TractTracingOptions& options, int threads,
                                          Progress* progress = nullptr);
 
-/// @param image that `field` was made of.
+/// What the user should know of masks over `image`. @throws Error (bad input) where one lies beside it.
+[[nodiscard]] std::vector<std::string> check_regions(const TractRequest& request, const DataSet& image);
+
+/// @param image that `field` was made of. @param notes as check_regions(), of a mask of seeds; appended.
 /// @throws Error (usage) that shows the grammar, (bad input) naming a file; Cancelled.
 [[nodiscard]] std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,
-                                            const TensorField& field, const DataSet& image, int threads,
-                                            Progress* progress = nullptr);
+                                            const TensorField& field, const DataSet& image,
+                                            std::vector<std::string>& notes, Progress* progress = nullptr);
 
 /// Of tracing that gave no line: what became of its seeds and lines, and by which option.
 [[nodiscard]] std::string why_no_tract(const TractResult& result, const TractOptions& options);
@@ -43,6 +52,7 @@ struct ViewTracts {
   double seconds = 0.0;                       ///< that tracing took
   std::string why_none;                       ///< what became of the seeds, where there is no line
   std::string left_out;                       ///< what a picture has no room for; empty: it shows all lines
+  std::vector<std::string> notes;             ///< of masks
 };
 
 /// Checks what can be checked before anything is read. @throws Error (usage).

@@ -7,7 +7,7 @@
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/tensor/foreground_mask.h"
-#include "common/load/load.h"
+#include "common/scene/read_mask.h"
 
 namespace palpate {
 namespace {
@@ -30,33 +30,22 @@ std::vector<std::uint8_t> foreground(const DataArray& signals, const UniformTopo
   return foreground_mask(means, topology.points);
 }
 
-/// The mask in `file`: what is not zero is inside.
-std::vector<std::uint8_t> read_mask(const std::filesystem::path& file, const UniformTopology& topology,
-                                    Progress* progress) {
-  LoadRequest request;
-  request.files = {file};
-  Source source = Source::open(request, {}, progress);
-  const std::vector<ArrayInfo> arrays = source.arrays();
-  if (source.info().times.size() > 1)
-    throw input_error({file.string(), "", "has " + std::to_string(source.info().times.size()) + " volumes",
-                       "a mask of one", ""});
-  if (arrays.empty() || arrays.front().components != 1)
-    throw input_error({file.string(), "", "is no mask", "an image of one number a voxel", ""});
-  const std::vector<DataSet> blocks = source.read({arrays.front().name}, 0, progress);
-  const auto* grid = blocks.empty() ? nullptr : std::get_if<UniformTopology>(&blocks.front().topology);
-  const DataArray* values =
-      grid != nullptr ? blocks.front().find(arrays.front().name, Association::kPoint) : nullptr;
-  const auto size = [](const Index3& n) {
-    return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z);
-  };
-  if (values == nullptr || grid->points != topology.points) {
-    throw input_error({file.string(), "",
-                       grid != nullptr ? "has " + size(grid->points) + " voxels" : "is no image",
-                       size(topology.points) + ", as the image of signals", ""});
+/// The mask in `file` over the image, and what the user should know of it.
+std::vector<std::uint8_t> mask_in(const std::filesystem::path& file, const UniformTopology& topology,
+                                  std::vector<std::string>& notes, Progress* progress) {
+  const MaskFile read = read_mask(file, progress);
+  notes.insert(notes.end(), read.notes.begin(), read.notes.end());
+  MaskedVoxels masked = masked_voxels(*read.mask, topology);
+  if (masked.taken == 0) {
+    check_overlap(read, topology);
+    throw input_error({read.file, "", "takes no voxel of the image: no centre of one lies in the mask", "",
+                       "its voxels may be too few or too small"});
   }
-  std::vector<std::uint8_t> mask(values->tuples);
-  for (std::size_t v = 0; v < mask.size(); ++v) mask[v] = values->at(v) != 0.0 ? 1 : 0;
-  return mask;
+  if (masked.beyond > 0) {
+    notes.push_back(counted(masked.beyond, "voxel") + " of " + std::to_string(masked.inside.size()) +
+                    " lie beyond the image of the mask " + read.file + ": outside");
+  }
+  return std::move(masked.inside);
 }
 
 }  // namespace
@@ -72,7 +61,7 @@ TensorFit fit_image(const DataArray& signals, const UniformTopology& topology, c
   }
   std::vector<std::uint8_t> mask;
   if (!reading.mask_file.empty()) {
-    mask = read_mask(reading.mask_file, topology, progress);
+    mask = mask_in(reading.mask_file, topology, notes, progress);
   } else if (reading.masked) {
     mask = foreground(signals, topology, table, threads);
   }

@@ -7,11 +7,7 @@ bool holds(const Sphere& sphere, const Vec3& x) noexcept {
   return glm::distance(x, sphere.center) <= sphere.radius;
 }
 
-bool holds(const MaskRegion& region, const Vec3& x) noexcept {
-  CellHint hint;
-  const ScalarSample sample = region.mask->sample(x, hint);
-  return sample.status == SampleStatus::kOk && sample.value > 0.5;
-}
+bool holds(const std::shared_ptr<const VoxelMask>& mask, const Vec3& x) noexcept { return mask->contains(x); }
 
 }  // namespace
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <variant>
 
-#include "common/field/scalar_field.h"
+#include "common/field/voxel_mask.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -15,22 +16,16 @@ struct Sphere {
   double radius = 0.0;
 };
 
-/// The part of an image where its interpolated value is above one half: of a mask of zeros and ones the
-/// voxels of ones, with faces half way to their neighbours.
-struct MaskRegion {
-  std::shared_ptr<const ScalarField> mask;
-};
-
 class TractRegion {
  public:
   explicit TractRegion(const Sphere& sphere) : shape_(sphere) {}
-  explicit TractRegion(MaskRegion mask) : shape_(std::move(mask)) {}
+  explicit TractRegion(std::shared_ptr<const VoxelMask> mask) : shape_(std::move(mask)) {}
 
-  /// Data coordinates. Borders belong to a sphere. False where an image has no value. @rt Safe.
+  /// Data coordinates. Borders belong to a sphere. False beyond the image of a mask. @rt Safe.
   [[nodiscard]] bool contains(const Vec3& x_data) const noexcept;
 
  private:
-  std::variant<Sphere, MaskRegion> shape_;
+  std::variant<Sphere, std::shared_ptr<const VoxelMask>> shape_;
 };
 
 }  // namespace palpate

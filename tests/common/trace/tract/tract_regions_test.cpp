@@ -36,10 +36,9 @@ TractRegion slab(double from, double to) {
       for (int i = 0; i < kPoints.x; ++i) values.push_back(i >= from && i <= to ? 1.0F : 0.0F);
     }
   }
-  DataSet image;
-  image.topology = UniformTopology{kPoints, Vec3{0.0}, Mat3{1.0}};
-  image.arrays.push_back(make_array("mask", Association::kPoint, 1, std::span<const float>(values)));
-  return TractRegion(MaskRegion{make_scalar_field({image}, {.array = "mask"}, "mask")});
+  const DataArray array = make_array("mask", Association::kPoint, 1, std::span<const float>(values));
+  return TractRegion(
+      std::make_shared<const VoxelMask>(UniformTopology{kPoints, Vec3{0.0}, Mat3{1.0}}, array));
 }
 
 TEST(TractRegions, AMaskReachesHalfWayToItsNeighbours) {
