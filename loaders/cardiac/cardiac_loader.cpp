@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "common/base/error.h"
@@ -79,9 +81,9 @@ class CardiacLoader : public Loader {
     chosen.topology = mesh_.topology;
     for (const DataArray& array : mesh_.arrays)
       if (std::find(names.begin(), names.end(), array.name) != names.end()) chosen.arrays.push_back(array);
-    for (const IgbFile& series : series_)
-      if (std::find(names.begin(), names.end(), series.info().name) != names.end())
-        chosen.arrays.push_back(series.read(step));
+    for (std::size_t r = 0; r < series_.size(); ++r)
+      if (std::find(names.begin(), names.end(), series_[r].info().name) != names.end())
+        chosen.arrays.push_back(result_at(r, step));
     std::vector<DataSet> blocks;
     blocks.push_back(std::move(chosen));
     return blocks;
@@ -95,16 +97,41 @@ class CardiacLoader : public Loader {
         mesh_.arrays.push_back(read_dat(file, mesh_.point_count(), mesh_.cell_count()));
         continue;
       }
-      series_.emplace_back(file, mesh_.point_count());
+      series_.emplace_back(file, mesh_.point_count(), mesh_.cell_count());
       const IgbFile& series = series_.back();
-      if (series_.size() > 1 && series.times() != series_.front().times())
-        throw input_error(
-            {file, "header", "has other times than " + series_.front().file(), "the same ones"});
+      info.notes.insert(info.notes.end(), series.notes().begin(), series.notes().end());
       if (!series.unit().empty()) info.notes.push_back(series.info().name + " in " + series.unit());
     }
     if (series_.empty()) return;
-    info.times = series_.front().times();
-    if (!series_.front().time_unit().empty()) info.notes.push_back("times in " + series_.front().time_unit());
+    shared_ = shared_times(series_);
+    info.times = shared_.times;
+    for (std::size_t r = 0; r < series_.size(); ++r) {
+      const auto without = std::count(shared_.steps[r].begin(), shared_.steps[r].end(), SharedTimes::kNone);
+      if (without > 0)
+        info.notes.push_back(series_[r].info().name + " has no step at " +
+                             counted(static_cast<std::uint64_t>(without), "time") +
+                             " of the other results: no "
+                             "data there");
+    }
+    const std::string& unit = series_.front().time_unit();
+    if (!unit.empty()) info.notes.push_back("times in " + unit);
+    for (const IgbFile& series : series_)
+      if (series.time_unit() != unit)
+        info.notes.push_back("WARNING: times of " + series.file() + " are in " +
+                             (series.time_unit().empty() ? "no unit that it states" : series.time_unit()) +
+                             ", those of " + series_.front().file() + " in " +
+                             (unit.empty() ? "none" : unit) + ": taken as they stand");
+  }
+
+  /// NaN at a time where it has no step.
+  [[nodiscard]] DataArray result_at(std::size_t result, std::size_t step) const {
+    const IgbFile& series = series_[result];
+    const std::size_t own = shared_.steps[result].at(step);
+    if (own != SharedTimes::kNone) return series.read(own);
+    const ArrayInfo& info = series.info();
+    const std::vector<double> none(info.tuples * static_cast<std::size_t>(info.components),
+                                   std::numeric_limits<double>::quiet_NaN());
+    return make_array(info.name, info.association, info.components, std::span<const double>(none));
   }
 
   void open_ex(const std::vector<std::string>& named, int refine, FileInfo& info) {
@@ -121,6 +148,7 @@ class CardiacLoader : public Loader {
 
   DataSet mesh_;
   std::vector<IgbFile> series_;  ///< of which a step is read when it is asked for
+  SharedTimes shared_;           ///< of them
 };
 
 }  // namespace

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <future>
-#include <optional>
+#include <limits>
+#include <map>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/mesh_text.h"
@@ -19,7 +23,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kMillimetres = 1e-3;  // openCARP's unit is the micrometre
+constexpr double kMillimetres = 1e-3;      // openCARP's unit is the micrometre
+constexpr std::size_t kMostLabels = 1000;  // that differ
 
 struct CellKind {
   std::string_view word;
@@ -68,12 +73,20 @@ void order_second_face(const std::vector<double>& positions, std::size_t corners
   if (squared_edges(positions, turned, half) < squared_edges(positions, cell, half)) cell = turned;
 }
 
-/// @param lines behind the count.
-UnstructuredTopology read_elements(TextLines& lines, std::size_t count, const std::vector<double>& positions,
-                                   std::vector<double>& regions) {
-  const auto last = static_cast<std::int64_t>(positions.size() / 3) - 1;
-  UnstructuredTopology topology;
+/// What stands in the rows of an .elem file.
+struct Elements {
+  UnstructuredTopology topology;  ///< prisms and hexahedra as the file has them
+  std::vector<double> regions;
+  std::map<std::string, std::size_t, std::less<>> labels;  ///< words behind the region, and in how many rows
+  std::int64_t lowest = std::numeric_limits<std::int64_t>::max(), highest = -1;  ///< points that are named
+};
+
+/// @param lines behind the count. @param points of the mesh; one more may be named, where they count from 1.
+Elements read_elements(TextLines& lines, std::size_t count, std::size_t points) {
+  Elements elements;
+  UnstructuredTopology& topology = elements.topology;
   topology.offsets.push_back(0);
+  const auto last = static_cast<std::int64_t>(points) - 1;
   for (std::size_t e = 0; e < count; ++e) {
     const std::string_view word = lines.word();
     const auto* const kind =
@@ -83,31 +96,131 @@ UnstructuredTopology read_elements(TextLines& lines, std::size_t count, const st
       lines.refuse("has an element of type \"" + std::string(word.substr(0, 20)) + "\"",
                    "Tt, Hx, Pr, Py, Qd, Tr or Ln");
     }
-    std::array<std::int64_t, 8> cell{};
-    for (std::size_t n = 0; n < kind->corners; ++n)
-      cell[n] = lines.integer("a point of the element", 0, last);
-    if (kind->vtk == kVtkWedge || kind->vtk == kVtkHexahedron)
-      order_second_face(positions, kind->corners, cell);
-    // Older files have no region.
-    const std::string_view region = lines.word_here();
-    const auto tag = region.empty() ? std::optional<double>(0.0) : number(region);
-    if (!tag) lines.refuse("has \"" + std::string(region.substr(0, 20)) + "\"", "the number of a region");
-    regions.push_back(*tag);
-    topology.connectivity.insert(topology.connectivity.end(), cell.begin(),
-                                 cell.begin() + static_cast<std::ptrdiff_t>(kind->corners));
+    for (std::size_t n = 0; n < kind->corners; ++n) {
+      const std::int64_t from_one = elements.lowest > 0 ? 1 : 0;
+      const std::int64_t point = lines.integer("a point of the element", 0, last + from_one);
+      elements.lowest = std::min(elements.lowest, point);
+      elements.highest = std::max(elements.highest, point);
+      // One beyond the last may stand in rows that come before the one that names point 0.
+      if (elements.lowest == 0 && elements.highest > last)
+        lines.refuse("names point 0, and the file point " + std::to_string(elements.highest),
+                     "points from 0 to " + std::to_string(last) + ", or from 1");
+      topology.connectivity.push_back(point);
+    }
+    // Older files have no region; some programs put its name behind it.
+    double region = 0.0;
+    bool first = true;
+    for (std::string_view more = lines.word_here(); !more.empty(); more = lines.word_here(), first = false) {
+      const auto tag = number(more);
+      if (first && tag) {
+        region = *tag;
+      } else if (elements.labels.size() < kMostLabels || elements.labels.contains(more)) {
+        ++elements.labels[std::string(more.substr(0, 40))];
+      }
+    }
+    elements.regions.push_back(region);
     topology.types.push_back(kind->vtk);
     topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   }
-  return topology;
+  return elements;
 }
 
-Directions read_fibres(const std::string& file, std::size_t elements) {
+/// Sum of the squared edges between all corners of a cell that follow one another in its row, where points
+/// count from `first`.
+double squared_steps(const UnstructuredTopology& topology, const std::vector<double>& positions,
+                     std::int64_t first) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < topology.types.size(); ++c) {
+    for (std::int64_t n = topology.offsets[c] + 1; n < topology.offsets[c + 1]; ++n) {
+      const std::int64_t a = topology.connectivity[as_size(n) - 1] - first;
+      const std::int64_t b = topology.connectivity[as_size(n)] - first;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double d = positions[3 * as_size(a) + axis] - positions[3 * as_size(b) + axis];
+        sum += d * d;
+      }
+    }
+  }
+  return sum;
+}
+
+/// Whether the elements count points from 1: they name the point behind the last, or, where no element names
+/// point 0, their edges are much shorter so.
+void count_from_zero(const std::string& file, const std::vector<double>& positions, Elements& elements,
+                     std::vector<std::string>& notes) {
+  constexpr double kMuchShorter = 0.8;  // of the squares; a mesh whose points are off by one has long edges
+  if (elements.lowest < 1 || elements.topology.types.empty()) return;
+  const auto points = static_cast<std::int64_t>(positions.size() / 3);
+  std::string why = "an element names point " + std::to_string(points) + " of " + std::to_string(points);
+  if (elements.highest < points) {
+    const double from_zero = squared_steps(elements.topology, positions, 0);
+    const double from_one = squared_steps(elements.topology, positions, 1);
+    if (!(from_one < kMuchShorter * from_zero)) {
+      if (!(from_zero < kMuchShorter * from_one))
+        notes.push_back("WARNING: no element of " + file +
+                        " names point 0, and edges do not tell whether points count from 0 or 1: taken as "
+                        "from 0");
+      return;
+    }
+    why = "no element names point 0, and edges are " +
+          short_number(std::round(100.0 * std::sqrt(from_one / from_zero))) + " % as long so";
+  }
+  for (std::int64_t& point : elements.topology.connectivity) --point;
+  notes.push_back("points of " + file + " count from 1: " + why);
+}
+
+/// Prisms and hexahedra, see order_second_face().
+void order_second_faces(const std::vector<double>& positions, UnstructuredTopology& topology) {
+  for (std::size_t c = 0; c < topology.types.size(); ++c) {
+    if (topology.types[c] != kVtkWedge && topology.types[c] != kVtkHexahedron) continue;
+    const auto begin = topology.connectivity.begin() + topology.offsets[c];
+    const std::size_t corners = as_size(topology.offsets[c + 1] - topology.offsets[c]);
+    std::array<std::int64_t, 8> cell{};
+    std::copy_n(begin, corners, cell.begin());
+    order_second_face(positions, corners, cell);
+    std::copy_n(cell.begin(), corners, begin);
+  }
+}
+
+void note_labels(const std::string& file, const Elements& elements, std::vector<std::string>& notes) {
+  if (elements.labels.empty()) return;
+  std::string names;
+  std::size_t rows = 0, named = 0;
+  for (const auto& [label, count] : elements.labels) {
+    rows += count;
+    constexpr std::size_t kNamed = 5;
+    if (++named <= kNamed) (names += names.empty() ? "" : ", ") += label;
+    if (named == kNamed + 1) names += ", …";
+  }
+  notes.push_back(counted(rows, "word") + " behind the regions of " + file + " left out: " + names);
+}
+
+/// Directions and whether the file begins with them, without a header.
+struct Fibres {
+  Directions directions;
+  int vectors = 0;
+  bool headed = true;
+};
+
+Fibres read_fibres(const std::string& file, std::size_t elements) {
   TextLines lines(file, '#');
-  const std::int64_t vectors = lines.integer("1 or 2 directions an element,", 1, 2);
-  Directions directions = read_directions(lines, elements, {.numbers = vectors == 2 ? 6 : 3});
+  do {
+    if (!lines.next()) lines.refuse("holds no direction", "1 or 2 directions an element");
+  } while (lines.line().empty());
+  int words = 0;
+  while (!lines.word_here().empty()) ++words;
+  lines.give_back();
+  (void)lines.next();
+  Fibres fibres;
+  if (words == 3 || words == 6 || words == 9) {
+    fibres.headed = false;
+    fibres.vectors = words / 3;
+  } else {
+    fibres.vectors = static_cast<int>(lines.integer("1 or 2 directions an element,", 1, 2));
+  }
+  fibres.directions = read_directions(lines, elements, {.numbers = 3 * fibres.vectors});
   if (!lines.word().empty())
     lines.refuse("goes on after " + std::to_string(elements) + " directions", "one an element");
-  return directions;
+  return fibres;
 }
 
 }  // namespace
@@ -146,20 +259,26 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   TextLines lines(files.elem, '#');
   const std::size_t elements = believed_count(lines, "the number of elements", kLeastBytes);
   // The longest of the files is read beside the others.
-  std::future<Directions> fibres;
+  std::future<Fibres> fibres;
   if (!files.lon.empty()) fibres = std::async(std::launch::async, read_fibres, files.lon, elements);
   const std::vector<double> positions = read_points(files.pts);
-  std::vector<double> regions;
-  UnstructuredTopology topology = read_elements(lines, elements, positions, regions);
-  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(positions));
+  Elements read = read_elements(lines, elements, positions.size() / 3);
+  count_from_zero(files.elem, positions, read, notes);
+  order_second_faces(positions, read.topology);
+  note_labels(files.elem, read, notes);
+  const std::vector<double>& regions = read.regions;
+  read.topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(positions));
   DataSet mesh;
-  mesh.topology = std::move(topology);
+  mesh.topology = std::move(read.topology);
   if (!files.lon.empty()) {
-    const Directions directions = fibres.get();
+    const auto [directions, vectors, headed] = fibres.get();
     add_directions(directions, mesh);
     if (directions.missing > 0)
-      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");
+      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
     notes.push_back("fibres from " + files.lon);
+    if (!headed)
+      notes.push_back(files.lon + " has no header: " + std::to_string(3 * vectors) + " numbers a row are " +
+                      counted(static_cast<std::uint64_t>(vectors), "direction") + " an element");
   }
   mesh.arrays.push_back(make_array("region", Association::kCell, 1, std::span<const double>(regions)));
   notes.emplace_back("micrometres of openCARP turned into mm");

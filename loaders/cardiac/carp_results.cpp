@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <span>
 #include <sstream>
+#include <utility>
+
+#include <zlib.h>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -28,17 +30,65 @@ struct IgbType {
   ScalarType type;
   int components;
 };
-constexpr std::array<IgbType, 11> kTypes{{{"byte", ScalarType::kUint8, 1},
+constexpr std::array<IgbType, 16> kTypes{{{"byte", ScalarType::kUint8, 1},
                                           {"char", ScalarType::kInt8, 1},
                                           {"short", ScalarType::kInt16, 1},
                                           {"ushort", ScalarType::kUint16, 1},
                                           {"int", ScalarType::kInt32, 1},
                                           {"uint", ScalarType::kUint32, 1},
-                                          {"long", ScalarType::kInt32, 1},
+                                          {"long", ScalarType::kInt64, 1},
                                           {"float", ScalarType::kFloat32, 1},
                                           {"double", ScalarType::kFloat64, 1},
+                                          {"complex", ScalarType::kFloat32, 2},
+                                          {"double_complex", ScalarType::kFloat64, 2},
+                                          {"rgba", ScalarType::kUint8, 4},
                                           {"vec3f", ScalarType::kFloat32, 3},
-                                          {"vec3d", ScalarType::kFloat64, 3}}};
+                                          {"vec3d", ScalarType::kFloat64, 3},
+                                          {"vec4f", ScalarType::kFloat32, 4},
+                                          {"vec4d", ScalarType::kFloat64, 4}}};
+
+/// A file that is read as it is, or unpacked where it is packed with gzip.
+class PackedFile {
+ public:
+  explicit PackedFile(const std::string& path) : file_(gzopen(path.c_str(), "rb")) {}
+  ~PackedFile() {
+    if (file_ != nullptr) gzclose(file_);
+  }
+  PackedFile(const PackedFile&) = delete;
+  PackedFile& operator=(const PackedFile&) = delete;
+
+  /// How many bytes came.
+  std::size_t read(void* to, std::size_t bytes) {
+    if (file_ == nullptr) return 0;
+    std::size_t got = 0;
+    while (got < bytes) {
+      constexpr std::size_t kAtOnce = std::size_t{1} << 24U;
+      const int now =
+          gzread(file_, static_cast<char*>(to) + got, static_cast<unsigned>(std::min(kAtOnce, bytes - got)));
+      if (now <= 0) break;
+      got += static_cast<std::size_t>(now);
+    }
+    return got;
+  }
+  bool go_to(std::uint64_t place) {
+    return file_ != nullptr && gzseek(file_, static_cast<z_off_t>(place), SEEK_SET) >= 0;
+  }
+
+ private:
+  gzFile file_;
+};
+
+/// Of the file as it is unpacked: what can be read of one that is damaged.
+std::uint64_t unpacked_bytes(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t stored = std::filesystem::file_size(path, error);
+  if (!lowered(path).ends_with(".gz")) return error ? 0 : stored;
+  PackedFile file(path);
+  std::vector<char> piece(std::size_t{1} << 20U);
+  std::uint64_t bytes = 0;
+  while (const std::size_t got = file.read(piece.data(), piece.size())) bytes += got;
+  return bytes;
+}
 
 std::string array_name(const std::string& file) {
   return std::filesystem::path(stem_of(file)).filename().string();
@@ -61,13 +111,12 @@ std::map<std::string, std::string> words_of(const std::string& header) {
 
 }  // namespace
 
-IgbFile::IgbFile(std::string file, std::size_t points) : file_(std::move(file)) {
+IgbFile::IgbFile(std::string file, std::size_t points, std::size_t cells) : file_(std::move(file)) {
   const auto refuse = [this](const std::string& found, const std::string& expected = "") {
     throw input_error({file_, "header", found, expected});
   };
-  std::ifstream in(file_, std::ios::binary);
   std::string header(kHeaderBytes, '\0');
-  if (!in.read(header.data(), static_cast<std::streamsize>(header.size())))
+  if (PackedFile(file_).read(header.data(), header.size()) < header.size())
     refuse("is shorter than 1024 bytes", "an openCARP .igb file");
   const auto words = words_of(header);
   const auto value = [&](const char* key, double otherwise) {
@@ -94,13 +143,16 @@ IgbFile::IgbFile(std::string file, std::size_t points) : file_(std::move(file)) 
     refuse("has no x: and type:", "an openCARP .igb file");
   const double numbers = static_cast<double>(count("x", 1)) * static_cast<double>(count("y", 1)) *
                          static_cast<double>(count("z", 1));
-  if (numbers != static_cast<double>(points))
-    refuse("speaks of " + short_number(numbers) + " points", std::to_string(points) + " as the mesh has");
-  const std::uint64_t steps = count("t", 1);
+  const bool of_points = numbers == static_cast<double>(points);
+  if (!of_points && numbers != static_cast<double>(cells))
+    refuse("speaks of " + short_number(numbers) + " places",
+           std::to_string(points) + " points or " + std::to_string(cells) + " elements as the mesh has");
+  const std::size_t tuples = of_points ? points : cells;
+  const std::uint64_t promised = count("t", 1);
   const std::string type = word("type");
   const auto* const known =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const IgbType& t) { return t.word == type; });
-  if (known == kTypes.end()) refuse("type:" + type.substr(0, 20), "float, double, short, …");
+  if (known == kTypes.end()) refuse("type:" + type.substr(0, 20), "float, double, short, long, vec3f, …");
   stored_ = known->type;
   const std::string order = word("systeme");
   if (order != "little_endian" && order != "big_endian")
@@ -112,29 +164,57 @@ IgbFile::IgbFile(std::string file, std::size_t points) : file_(std::move(file)) 
   unit_ = word("unites");
   time_unit_ = word("units_t").empty() ? word("unites_t") : word("units_t");
 
-  std::error_code error;
-  const std::uint64_t bytes = std::filesystem::file_size(file_, error);
-  const std::uint64_t step_bytes =
-      static_cast<std::uint64_t>(points) * static_cast<std::uint64_t>(known->components) * byte_size(stored_);
-  if (steps > kMostSteps || error || steps > (bytes - kHeaderBytes) / step_bytes)
-    refuse(
-        "promises " + std::to_string(steps) + " time steps",
-        std::to_string(step_bytes == 0 ? 0 : (bytes - kHeaderBytes) / step_bytes) + " that the file holds");
+  const std::uint64_t steps =
+      whole_steps(promised, static_cast<std::uint64_t>(tuples) *
+                                static_cast<std::uint64_t>(known->components) * byte_size(stored_));
   const double first = value("org_t", 0.0);
-  const double span = value("dim_t", static_cast<double>(steps) - 1.0);
-  const double between = value("inc_t", steps > 1 ? span / (static_cast<double>(steps) - 1.0) : 1.0);
+  const double intervals = static_cast<double>(promised) - 1.0;
+  const bool stated = words.count("inc_t") + words.count("dim_t") + words.count("fac_t") > 0;
+  const double between =
+      value("inc_t", promised > 1 && words.count("dim_t") > 0 ? value("dim_t", intervals) / intervals
+                                                              : value("fac_t", 1.0));
+  if (!stated && steps > 1)
+    notes_.push_back(file_ + ": the header states no times (inc_t, dim_t): steps are one apart");
   if (!(between > 0.0)) refuse("has steps " + short_number(between) + " apart", "times that rise");
   for (std::uint64_t i = 0; i < steps; ++i) times_.push_back(first + static_cast<double>(i) * between);
-  info_ = {array_name(file_), Association::kPoint, known->components, ScalarType::kFloat64, points};
+  info_ = {array_name(file_), of_points ? Association::kPoint : Association::kCell, known->components,
+           ScalarType::kFloat64, tuples};
+}
+
+std::uint64_t IgbFile::whole_steps(std::uint64_t promised, std::uint64_t step_bytes) {
+  const std::uint64_t bytes = unpacked_bytes(file_);
+  const std::uint64_t body = bytes > kHeaderBytes ? bytes - kHeaderBytes : 0;
+  const std::uint64_t whole = step_bytes == 0 ? 0 : body / step_bytes;
+  const std::uint64_t rest = step_bytes == 0 ? 0 : body % step_bytes;
+  if (whole == 0)
+    throw input_error({file_, "header",
+                       "promises " + counted(promised, "time step") + " of " + counted(step_bytes, "byte"),
+                       "one that is whole: the file holds " + counted(body, "byte") + " behind its header",
+                       "was the run cut off, or is it another type?"});
+  if (std::min(whole, promised) > kMostSteps)
+    throw input_error(
+        {file_, "header", "has " + counted(whole, "time step"), "at most " + std::to_string(kMostSteps)});
+  if (whole < promised) {
+    notes_.push_back(file_ + ": promises " + counted(promised, "time step") + " and holds " +
+                     std::to_string(whole) + " whole " + (whole == 1 ? "one" : "ones") +
+                     (rest > 0 ? " and " + counted(rest, "byte") + " of another" : "") +
+                     ": was the run cut off? The whole ones are taken");
+  } else if (body > promised * step_bytes) {
+    notes_.push_back(file_ + ": holds " + counted(body - promised * step_bytes, "byte") + " more than its " +
+                     counted(promised, "time step") + " of the header: left out");
+  }
+  return std::min(whole, promised);
 }
 
 DataArray IgbFile::read(std::size_t step) const {
   const std::size_t numbers = info_.tuples * static_cast<std::size_t>(info_.components);
   const std::size_t size = byte_size(stored_);
   std::vector<std::byte> bytes(numbers * size);
-  std::ifstream in(file_, std::ios::binary);
-  in.seekg(static_cast<std::streamoff>(kHeaderBytes + step * bytes.size()));
-  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+  PackedFile in(file_);
+  // A file that is not packed is known as such once a byte was read, and then gone through without reading.
+  std::byte first{};
+  if (in.read(&first, 1) != 1 || !in.go_to(kHeaderBytes + step * bytes.size()) ||
+      in.read(bytes.data(), bytes.size()) != bytes.size())
     throw input_error({file_, "time step " + std::to_string(step + 1), "cannot be read"});
   if (swapped_)
     for (std::size_t n = 0; n < numbers; ++n)
@@ -150,6 +230,35 @@ DataArray IgbFile::read(std::size_t step) const {
   std::vector<double> values(numbers);
   for (std::size_t n = 0; n < numbers; ++n) values[n] = stored.at(n) * factor_ + zero_;
   return make_array(info_.name, info_.association, info_.components, std::span<const double>(values));
+}
+
+SharedTimes shared_times(const std::vector<IgbFile>& results) {
+  constexpr double kSame = 1e-6;  // of the shortest interval
+  SharedTimes shared;
+  std::vector<double> all;
+  double shortest = std::numeric_limits<double>::infinity();
+  const bool several = std::any_of(results.begin(), results.end(),
+                                   [](const IgbFile& result) { return result.times().size() > 1; });
+  for (const IgbFile& result : results) {
+    if (several && result.times().size() == 1) continue;
+    all.insert(all.end(), result.times().begin(), result.times().end());
+    for (std::size_t t = 1; t < result.times().size(); ++t)
+      shortest = std::min(shortest, result.times()[t] - result.times()[t - 1]);
+  }
+  std::sort(all.begin(), all.end());
+  const double apart = std::isfinite(shortest) ? kSame * shortest : 0.0;
+  for (const double time : all)
+    if (shared.times.empty() || time - shared.times.back() > apart) shared.times.push_back(time);
+  for (const IgbFile& result : results) {
+    const std::vector<double>& own = result.times();
+    std::vector<std::size_t> steps(shared.times.size(), own.size() == 1 ? 0 : SharedTimes::kNone);
+    for (std::size_t t = 0, step = 0; own.size() > 1 && t < steps.size(); ++t) {
+      while (step < own.size() && own[step] < shared.times[t] - apart) ++step;
+      if (step < own.size() && own[step] <= shared.times[t] + apart) steps[t] = step;
+    }
+    shared.steps.push_back(std::move(steps));
+  }
+  return shared;
 }
 
 DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells) {

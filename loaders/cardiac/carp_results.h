@@ -10,13 +10,16 @@
 
 namespace palpate {
 
-/// A .igb file: a header of 1024 bytes of text ("x:2502 t:101 type:float systeme:little_endian …"), then the
-/// numbers of all points, one time step after the other. Only the header is read at once.
+/// A .igb file, packed with gzip or not: a header of 1024 bytes of text ("x:2502 t:101 type:float
+/// systeme:little_endian …"), then the numbers of all points or of all cells, one time step after the other.
+/// Only the header is read at once. Types as openCARP's IGB library has them: long has 8 bytes, vec3f 3
+/// numbers a point, vec4f 4, complex 2, rgba 4. Of a run that was cut off the whole steps are there, and
+/// notes() say so.
 class IgbFile {
  public:
-  /// @throws Error (bad input) naming the file: no such header, a number type that is not known, fewer bytes
-  /// than the header promises, another count of numbers than `points`, times that do not rise.
-  IgbFile(std::string file, std::size_t points);
+  /// @throws Error (bad input) naming the file: no such header, a number type that is not known, less than
+  /// one step, another count of numbers than points or cells, times that do not rise.
+  IgbFile(std::string file, std::size_t points, std::size_t cells);
 
   /// The array of a step: value = stored * facteur + zero. Named as the file without its ending.
   /// @throws Error (bad input) where the file cannot be read any more. @pre step < times().size().
@@ -28,16 +31,33 @@ class IgbFile {
   [[nodiscard]] const std::string& time_unit() const noexcept { return time_unit_; }
   [[nodiscard]] const std::string& unit() const noexcept { return unit_; }
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
+  /// What is to be said: steps that are promised and not there, bytes that are not promised.
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:
+  /// Steps that are there of those promised, with a note where these differ.
+  [[nodiscard]] std::uint64_t whole_steps(std::uint64_t promised, std::uint64_t step_bytes);
+
   std::string file_;
   ArrayInfo info_;
   std::vector<double> times_;
+  std::vector<std::string> notes_;
   std::string time_unit_, unit_;
   ScalarType stored_ = ScalarType::kFloat32;
   bool swapped_ = false;  ///< bytes of the other order
   double factor_ = 1.0, zero_ = 0.0;
 };
+
+/// The steps of several results on one axis of time.
+struct SharedTimes {
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  std::vector<double> times;                    ///< all that any of them has, rising
+  std::vector<std::vector<std::size_t>> steps;  ///< of each result at each time: its step, or kNone
+};
+/// Times that differ by less than 1e-6 of the shortest interval are one. A result of one step holds at all
+/// times, where others have several.
+[[nodiscard]] SharedTimes shared_times(const std::vector<IgbFile>& results);
 
 /// A .dat file: a number a line for each point, or for each cell ("nan" is none). Named as the file without
 /// its ending.

@@ -104,15 +104,12 @@ void set_axes(Place& place) {
   place.axes = Mat3{fibre, across, out};
 }
 
-}  // namespace
-
-ElementShape::Component ElementShape::gather(const Model& model, const Element& element,
-                                             const std::string& field, const ElementComponent& component,
-                                             const std::string& file) {
+ElementFunction gather(const Model& model, const Element& element, const std::string& field,
+                       const ElementComponent& component, const std::string& file) {
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw input_error({file, "element " + std::to_string(element.name), found, expected});
   };
-  Component gathered{component.basis, {}};
+  ElementFunction gathered{component.basis, {}};
   for (const Parameter& parameter : component.parameters) {
     if (parameter.node < 0) {
       gathered.parameters.push_back(0.0);
@@ -158,6 +155,27 @@ ElementShape::Component ElementShape::gather(const Model& model, const Element& 
     unwind(component.winding, gathered.parameters);
   }
   return gathered;
+}
+
+}  // namespace
+
+const ElementField* coordinates_of(const std::vector<ElementField>& header) {
+  const ElementField* coordinates = nullptr;
+  for (const ElementField& field : header)
+    if (field.name == "coordinates" || (coordinates == nullptr && field.components.size() == 3))
+      coordinates = &field;
+  return coordinates;
+}
+
+ElementValues::ElementValues(const Model& model, const Element& element, const ElementField& field,
+                             const std::string& file) {
+  for (const ElementComponent& component : field.components)
+    components_.push_back(gather(model, element, field.name, component, file));
+}
+
+void ElementValues::append_at(const Vec3& xi, std::vector<double>& to) const {
+  for (const ElementFunction& component : components_)
+    to.push_back(interpolate(component.basis, component.parameters.data(), xi).value);
 }
 
 ElementShape::ElementShape(const Model& model, const Element& element, const ElementField& coordinates,

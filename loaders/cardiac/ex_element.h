@@ -20,6 +20,29 @@ struct Place {
   Mat3 axes{0.0};         ///< columns: fibre, sheet, sheet normal; orthonormal
 };
 
+/// A component of a field in an element.
+struct ElementFunction {
+  std::array<Basis, 3> basis{};
+  std::vector<double> parameters;
+};
+
+/// The field that says where an element is: "coordinates", or the first of three components; null: there is
+/// none.
+[[nodiscard]] const ElementField* coordinates_of(const std::vector<ElementField>& header);
+
+/// A field in an element: its components, whatever they mean.
+class ElementValues {
+ public:
+  /// @throws Error as ElementShape().
+  ElementValues(const Model& model, const Element& element, const ElementField& field,
+                const std::string& file);
+  /// Appends them. @pre 0 <= xi <= 1.
+  void append_at(const Vec3& xi, std::vector<double>& to) const;
+
+ private:
+  std::vector<ElementFunction> components_;
+};
+
 class ElementShape {
  public:
   /// Gathers what the element's corners name. @param fibre_field of the header, or null.
@@ -36,17 +59,10 @@ class ElementShape {
   [[nodiscard]] Place at(const Vec3& xi) const;
 
  private:
-  struct Component {
-    std::array<Basis, 3> basis{};
-    std::vector<double> parameters;
-  };
-  static Component gather(const Model& model, const Element& element, const std::string& field,
-                          const ElementComponent& component, const std::string& file);
-
   System system_ = System::kCartesian;
   double focus_ = 1.0;
-  std::array<Component, 3> coordinates_;
-  std::vector<Component> angles_;  ///< up to three
+  std::array<ElementFunction, 3> coordinates_;
+  std::vector<ElementFunction> angles_;  ///< up to three
 };
 
 }  // namespace palpate::ex

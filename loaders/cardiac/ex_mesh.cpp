@@ -15,6 +15,7 @@
 #include "common/field/grid/block_join.h"
 #include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex_element.h"
+#include "loaders/cardiac/ex_fields.h"
 #include "loaders/cardiac/mesh_text.h"
 
 namespace palpate::ex {
@@ -43,11 +44,10 @@ std::vector<ElementShape> shapes_of(const Model& model, const std::string& file,
     if (!names.insert(element.name).second)
       throw input_error({file, place, "has element " + std::to_string(element.name) + " for a second time",
                          "every element once"});
-    const ElementField* coordinates = nullptr;
+    const std::vector<ElementField>& header = model.element_headers[element.header];
+    const ElementField* const coordinates = coordinates_of(header);
     const ElementField* fibres = nullptr;
-    for (const ElementField& field : model.element_headers[element.header]) {
-      if (field.name == "coordinates" || (coordinates == nullptr && field.components.size() == 3))
-        coordinates = &field;
+    for (const ElementField& field : header) {
       if (field.name == "fibres" || field.name == "fibers") fibres = &field;
     }
     if (coordinates == nullptr || coordinates->components.size() != 3)
@@ -321,6 +321,9 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   }
 
   const std::vector<std::uint32_t> first = joined(places, lattice, shapes.size(), file);
+  SampledModel sampled;
+  const std::vector<OtherField> others = other_fields(model, file, sampled.notes);
+  std::vector<std::vector<double>> values_of_others(others.size());
   std::vector<std::int64_t> point_of(places.size(), -1);
   std::vector<double> positions, fibre, sheet, normal;
   std::array<std::vector<double>, 3> angles;
@@ -338,6 +341,12 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
     const Place& place = places[p];
     point_of[p] = static_cast<std::int64_t>(points++);
     append(positions, place.x);
+    const std::size_t at = p % lattice.count(), n = lattice.side;
+    const Vec3 xi = Vec3(static_cast<double>(at % n), static_cast<double>(at / n % n),
+                         static_cast<double>(at / (n * n))) /
+                    static_cast<double>(refine);
+    for (std::size_t f = 0; f < others.size(); ++f)
+      others[f].of_element[p / lattice.count()].append_at(xi, values_of_others[f]);
     if (!with_fibres) continue;
     if (!place.has_axes) ++undefined;
     append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
@@ -347,7 +356,6 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
       angles[static_cast<std::size_t>(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
   }
 
-  SampledModel sampled;
   UnstructuredTopology topology;
   topology.positions = array_of("points", 3, positions);
   topology.offsets.push_back(0);
@@ -385,6 +393,18 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   }
   sampled.mesh.arrays.push_back(
       make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
+
+  for (std::size_t f = 0; f < others.size(); ++f) {
+    const auto is_taken = [&](const DataArray& array) { return array.name == others[f].name; };
+    const bool taken = std::any_of(sampled.mesh.arrays.begin(), sampled.mesh.arrays.end(), is_taken) ||
+                       others[f].name == kLayerArray;  // which would be the depth
+    const std::string name = taken ? "field " + others[f].name : others[f].name;
+    sampled.mesh.arrays.push_back(array_of(name.c_str(), others[f].components, values_of_others[f]));
+  }
+  for (const std::string& field : model.left_out)
+    sampled.notes.push_back("field " + field + " left out: its values are no numbers");
+  if (model.data_points > 0)
+    sampled.notes.push_back(counted(model.data_points, "data point") + " left out: they are no nodes");
 
   const std::string side = std::to_string(refine);
   sampled.notes.push_back(counted(shapes.size(), "curved element") + " sampled as " + side + " x " + side +

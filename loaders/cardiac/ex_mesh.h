@@ -20,7 +20,8 @@ struct SampledModel {
   /// "imbrication angle", "sheet angle" [degrees], "surface" (1 where the third axis of an element begins at
   /// the border, the inner surface; 2 where it ends there; else 0), "layer" (layer_levels(), where it rises
   /// from 0 to 1 everywhere); cell array
-  /// "element" (its number in the file). Models without a fibre field have no axes and angles.
+  /// "element" (its number in the file). Other fields of numbers are point arrays of their own name
+  /// (ex_fields.h); at points where elements disagree that of the first one is kept. Models without a fibre field have no axes and angles.
   DataSet mesh;
   std::vector<std::string> notes;
 };

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace palpate::ex {
@@ -37,16 +39,21 @@ struct NodeComponent {
   std::vector<ValueLabel> labels;  ///< of its numbers; from version 2 of the format on
 };
 
+/// What the values of a field are. Those that are no numbers are passed over.
+enum class ValueKind : std::uint8_t { kNumber, kString, kElementXi };
+
 struct NodeField {
   std::string name;
+  ValueKind kind = ValueKind::kNumber;
+  int xi = 3;  ///< numbers of a place in an element, of kElementXi
   System system = System::kCartesian;
   double focus = 1.0;  ///< of a prolate spheroidal system
   std::vector<NodeComponent> components;
 };
 
 struct Node {
-  std::uint32_t header = 0;  ///< of Model::node_headers
-  std::vector<double> values;
+  std::uint32_t header = 0;    ///< of Model::node_headers
+  std::vector<double> values;  ///< NaN where they are no numbers
 };
 
 /// What multiplies one function of a component's basis.
@@ -89,7 +96,11 @@ struct Model {
   std::vector<std::vector<NodeField>> node_headers;
   std::map<std::int64_t, Node> nodes;
   std::vector<std::vector<ElementField>> element_headers;
-  std::vector<Element> elements;  ///< of three dimensions
+  std::vector<Element> elements;   ///< of three dimensions
+  std::set<std::string> left_out;  ///< fields whose values are no numbers, with their type
+  std::size_t data_points = 0;     ///< passed over
+  /// Of nodes that have the fields of two headers: the header of both.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> joined_headers;
 };
 
 }  // namespace palpate::ex

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/base/text.h"
+#include "loaders/cardiac/ex_values.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate::ex {
@@ -34,7 +35,7 @@ std::optional<double> number_behind(std::string_view line, std::string_view key)
   const std::size_t first = rest.find_first_not_of(" \t=");
   if (first == std::string_view::npos) return {};
   rest = rest.substr(first);
-  return palpate::number(rest.substr(0, rest.find_first_of(" ,(")));
+  return palpate::number(rest.substr(0, rest.find_first_of(" ,;(")));
 }
 
 class Reader {
@@ -185,9 +186,24 @@ class Reader {
     return claim("#Components", 1, kMostComponents);
   }
 
+  /// Of the current line.
+  void kind_of(NodeField& field) {
+    const std::string_view line = lines_.line();
+    for (std::string_view part : split(line.substr(std::min(line.find(','), line.size())), ',')) {
+      part = trimmed(part);
+      if (part == "string") field.kind = ValueKind::kString;
+      if (part == "element_xi") field.kind = ValueKind::kElementXi;
+    }
+    if (field.kind == ValueKind::kNumber) return;
+    if (line.find("#xi") != std::string_view::npos) field.xi = static_cast<int>(claim("#xi", 1, 3));
+    model_.left_out.insert(field.name +
+                           (field.kind == ValueKind::kString ? " (string)" : " (places in elements)"));
+  }
+
   NodeField node_field() {
     NodeField field;
     const std::int64_t components = begin_field(field);
+    kind_of(field);
     for (std::int64_t c = 0; c < components; ++c) {
       const std::string_view line = next_line("a component");
       NodeComponent component;
@@ -245,15 +261,22 @@ class Reader {
     if (model_.node_headers.empty()) lines_.refuse("comes before the fields", "#Fields first");
     (void)lines_.word_here();  // "Node:"
     const std::int64_t name = lines_.integer("the number of a node", 0, kMostNumber);
+    if (data_points_) ++model_.data_points;
+    if (current_.in_elements || current_.values == 0) return;  // a member of a group
     Node node;
     node.header = current_.header;
     const std::size_t line = lines_.line_number();
-    for (int v = 0; v < current_.values; ++v) node.values.push_back(lines_.number("a value of the node"));
+    for (const NodeField& field : model_.node_headers[node.header])
+      for (const NodeComponent& component : field.components)
+        for (int v = 0; v < component.count; ++v) node.values.push_back(node_value(lines_, field));
     if (data_points_) return;
-    if (!model_.nodes.emplace(name, std::move(node)).second)
-      lines_.refuse(
-          "ends node " + std::to_string(name) + " (line " + std::to_string(line) + ") for a second time",
-          "every node once");
+    const auto [at, is_new] = model_.nodes.try_emplace(name, node);
+    if (is_new) return;
+    const std::string differs = add_fields(node, model_, at->second);
+    if (!differs.empty())
+      lines_.refuse("ends node " + std::to_string(name) + " (line " + std::to_string(line) +
+                        ") for a second time, with other values of \"" + differs + "\"",
+                    "the same ones, or every node once");
   }
 
   ElementField element_field() {
@@ -429,8 +452,9 @@ class Reader {
       }
     }
     if (!volume) return;
-    if (model_.element_headers.empty()) lines_.refuse("comes before the fields", "#Fields first");
+    if (!current_.in_elements) lines_.refuse("comes before the fields", "#Fields first");
     element.header = current_.header;
+    if (model_.element_headers[element.header].empty()) return;  // a member of a group
     if (static_cast<int>(element.nodes.size()) != current_.nodes)
       lines_.refuse("ends element " + std::to_string(name) + " without its nodes",
                     std::to_string(current_.nodes) + " nodes");

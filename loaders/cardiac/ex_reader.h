@@ -10,9 +10,11 @@
 
 namespace palpate::ex {
 
-/// Adds the nodes and the elements of three dimensions of a file to `model`. Faces and lines are passed over.
+/// Adds the nodes and the elements of three dimensions of a file to `model`. Faces and lines are passed over,
+/// and so are members of groups, which are listed again without fields. A node that is listed again with
+/// other fields has both. Of fields of strings and of places in elements (element_xi) the names are kept.
 /// @throws Error (bad input) naming file and line: a keyword or basis that is not known, numbers that are
-/// missing, a node or element that is named twice; sums of parameters.
+/// missing, a node that has two values of one field, an element that is named twice; sums of parameters.
 void read_ex_file(const std::string& file, Model& model);
 
 }  // namespace palpate::ex

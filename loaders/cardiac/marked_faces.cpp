@@ -34,6 +34,7 @@ struct MarkedFace {
 
 struct FacesOfFile {
   bool marked = false;
+  std::size_t longer = 0;         ///< rows with a number more than the first line says
   std::vector<MarkedFace> faces;  ///< those on a surface
 };
 
@@ -64,7 +65,12 @@ FacesOfFile read_faces(const std::string& file, std::int64_t first_node, std::si
   for (std::size_t f = 0; f < count; ++f) {
     const std::vector<std::int64_t> row = row_of(lines, f, count);
     // Behind the number and the marker three or six nodes, and with -nn the elements on both sides.
-    const std::size_t rest = row.size() - std::min(row.size(), 1 + tail);
+    std::size_t rest = row.size() - std::min(row.size(), 1 + tail);
+    // One number more stands in files of Chaste's, which reads it only where the first line says so.
+    if (rest == 4 || rest == 7) {
+      --rest;
+      ++out.longer;
+    }
     if (rest != 3 && rest != 5 && rest != 6 && rest != 8)
       lines.refuse("has a row of " + counted(row.size(), "number"),
                    std::string("a number, 3 or 6 nodes") + (out.marked ? " and a marker" : ""));
@@ -213,6 +219,9 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
   const auto& cells = std::get<UnstructuredTopology>(mesh.topology);
   const std::size_t nodes = mesh.point_count();
   FacesOfFile read = read_faces(file, first_node, nodes);
+  if (read.longer > 0)
+    notes.push_back(counted(read.longer, "row") + " of " + file +
+                    " with a number more than its first line says of a face: left out");
   const std::map<std::int64_t, Part> parts = parts_of(read.faces, cells.positions);
   if (markers.empty() && parts.size() < 2) {
     notes.push_back(file + " has no markers that tell surfaces apart");

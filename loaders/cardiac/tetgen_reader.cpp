@@ -36,7 +36,28 @@ struct Nodes {
   }
 };
 
-Nodes read_nodes(const std::string& file) {
+/// Numbers that rows have beyond those that the first line of the file says.
+class LongerRows {
+ public:
+  /// What is left of the current row.
+  void pass_over(TextLines& lines) {
+    std::size_t more = 0;
+    while (!lines.word_here().empty()) ++more;
+    rows_ += more > 0 ? 1 : 0;
+    most_ = std::max(most_, more);
+  }
+  /// @param what the rows are of: "node".
+  void say(const std::string& file, const char* what, std::vector<std::string>& notes) const {
+    if (rows_ == 0) return;
+    notes.push_back(counted(rows_, "row") + " of " + file + " with up to " + counted(most_, "number") +
+                    " more than its first line says of a " + what + ": left out");
+  }
+
+ private:
+  std::size_t rows_ = 0, most_ = 0;
+};
+
+Nodes read_nodes(const std::string& file, std::vector<std::string>& notes) {
   constexpr std::size_t kLeastBytes = 8;  // "0 1 2 3\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of nodes", kLeastBytes);
@@ -46,6 +67,8 @@ Nodes read_nodes(const std::string& file) {
   const bool marked = lines.integer("0 or 1 for boundary markers,", 0, 1) == 1;
   Nodes nodes;
   nodes.attributes.resize(attributes);
+  LongerRows longer;
+  std::size_t unmarked = 0;
   for (std::size_t n = 0; n < count; ++n) {
     if (n == 0) {
       nodes.first = lines.integer("0 or 1, the number of the first node,", 0, 1);
@@ -55,8 +78,13 @@ Nodes read_nodes(const std::string& file) {
     }
     for (int axis = 0; axis < 3; ++axis) nodes.positions.push_back(lines.number("a coordinate"));
     for (auto& values : nodes.attributes) values.push_back(lines.number("an attribute"));
-    if (marked) (void)lines.number("a boundary marker");
+    if (marked && lines.word_here().empty()) ++unmarked;
+    longer.pass_over(lines);
   }
+  longer.say(file, "node", notes);
+  if (unmarked > 0)
+    notes.push_back(counted(unmarked, "node") + " of " + file +
+                    " without the boundary marker that its first line says: markers are not needed");
   return nodes;
 }
 
@@ -85,7 +113,8 @@ bool order_mid_nodes(const Nodes& nodes, std::array<std::int64_t, 10>& cell) {
 }
 
 UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
-                                   std::vector<std::vector<double>>& attributes) {
+                                   std::vector<std::vector<double>>& attributes,
+                                   std::vector<std::string>& notes) {
   constexpr std::size_t kLeastBytes = 10;  // "0 1 2 3 4\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of elements", kLeastBytes);
@@ -96,6 +125,7 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
   UnstructuredTopology topology;
   topology.offsets.push_back(0);
   std::int64_t first = 0;
+  LongerRows longer;
   for (std::size_t e = 0; e < count; ++e) {
     const std::int64_t expected = first + static_cast<std::int64_t>(e);
     if (e == 0) {
@@ -109,6 +139,7 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
     for (std::size_t n = 0; n < used; ++n)
       cell[n] = lines.integer("a node of the element", nodes.first, last) - nodes.first;
     for (auto& values : attributes) values.push_back(lines.number("an attribute"));
+    longer.pass_over(lines);
     if (used == 10 && !order_mid_nodes(nodes, cell))
       lines.refuse("has nodes that are not on six edges of their tetrahedron", "one node on each edge");
     topology.connectivity.insert(topology.connectivity.end(), cell.begin(),
@@ -116,6 +147,7 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
     topology.types.push_back(used == 10 ? kVtkQuadraticTetrahedron : kVtkTetrahedron);
     topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   }
+  longer.say(file, "element", notes);
   return topology;
 }
 
@@ -162,9 +194,9 @@ TetgenFiles find_tetgen_files(const std::vector<std::string>& named) {
 
 DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers,
                     std::vector<std::string>& notes) {
-  const Nodes nodes = read_nodes(files.node);
+  const Nodes nodes = read_nodes(files.node, notes);
   std::vector<std::vector<double>> attributes;
-  UnstructuredTopology topology = read_elements(files.ele, nodes, attributes);
+  UnstructuredTopology topology = read_elements(files.ele, nodes, attributes, notes);
   const std::size_t elements = topology.types.size();
   topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(nodes.positions));
   DataSet mesh;
@@ -180,12 +212,14 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
     if (rows.numbered)
       rows.places = static_cast<int>(lines.integer("the number of places in an element", 1, kMostPlaces));
     const Directions directions = read_directions(lines, count, rows);
+    if (!lines.word().empty())
+      lines.refuse("goes on after " + std::to_string(count) + " directions", "one an element");
     add_directions(directions, mesh);
     if (rows.places > 1)
       notes.push_back("of " + counted(static_cast<std::uint64_t>(rows.places), "direction") +
                       " in each element, that at its centroid is taken");
     if (directions.missing > 0)
-      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: no data there");
+      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
     notes.push_back("fibres from " + files.directions);
   }
   if (!files.face.empty()) {

@@ -9,6 +9,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
@@ -36,6 +37,31 @@ std::array<int, 6> places(TensorOrder order) noexcept {
   }
 }
 
+bool is_there(const Six& d) noexcept {
+  return std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Tuples without a tensor.
+std::size_t missing_of(const DataArray& array, TensorOrder order) {
+  std::size_t missing = 0;
+  for (std::size_t tuple = 0; tuple < array.tuples; ++tuple)
+    missing += is_there(read_tensor(array, tuple, order)) ? 0 : 1;
+  return missing;
+}
+
+/// Of each seven numbers, six over the seventh stay: NaN where that is zero.
+template <typename Real>
+void divide_by_weight(std::vector<Real>& values) {
+  const std::size_t points = values.size() / 7;
+  for (std::size_t point = 0; point < points; ++point) {
+    const Real weight = values[7 * point + 6];
+    for (std::size_t i = 0; i < 6; ++i)
+      values[6 * point + i] =
+          weight > Real{0} ? values[7 * point + i] / weight : std::numeric_limits<Real>::quiet_NaN();
+  }
+  values.resize(6 * points);
+}
+
 /// v v^T / |v|^2; NaN where v is zero or not finite. Signs leave no trace in it.
 Six outer_product(const DataArray& array, std::size_t tuple) {
   Vec3 v(array.at(tuple, 0), array.at(tuple, 1), array.at(tuple, 2));
@@ -50,7 +76,7 @@ Six outer_product(const DataArray& array, std::size_t tuple) {
 class CornerMean {
  public:
   void add(double weight, const Six& tensor) noexcept {
-    if (!std::all_of(tensor.begin(), tensor.end(), [](double d) { return std::isfinite(d); })) {
+    if (!is_there(tensor)) {
       missing_ += weight;
       return;
     }
@@ -154,9 +180,7 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
 }
 
 TensorSample TensorField::sample_of(const Six& numbers) const noexcept {
-  if (!std::all_of(numbers.begin(), numbers.end(), [](double d) { return std::isfinite(d); })) {
-    return {.status = SampleStatus::kBadData};
-  }
+  if (!is_there(numbers)) return {.status = SampleStatus::kBadData};
   Mat3 value = symmetric_matrix(numbers);
   if (interpolation_ == TensorInterpolation::kLogEuclidean) value = symmetric_exp(value);
   return {.value = value, .status = SampleStatus::kOk};
@@ -194,12 +218,26 @@ class TensorFieldBuilder {
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
     const bool use_double =
         logarithms || array.type != ScalarType::kFloat32 || choice.order == TensorOrder::kAxis;
+    const std::size_t missing =
+        choice.association == Association::kCell ? missing_of(array, choice.order) : 0;
+    // The seventh number is the weight of the cells that have a tensor: the others have no say in the mean.
+    const int numbers = missing > 0 ? 7 : 6;
     const TupleReader read = [&](const DataSet& /*block*/, std::size_t tuple, double* out) {
       const Six d = read_tensor(array, tuple, choice.order);
-      std::copy(d.begin(), d.end(), out);
+      const bool there = numbers == 6 || is_there(d);
+      for (std::size_t i = 0; i < d.size(); ++i) out[i] = there ? d[i] : 0.0;
+      if (numbers == 7) out[6] = there ? 1.0 : 0.0;
     };
-    GatheredValues gathered =
-        gather_values(*field->grid_, std::span(&image, 1), choice.association, 6, use_double, read, threads);
+    GatheredValues gathered = gather_values(*field->grid_, std::span(&image, 1), choice.association, numbers,
+                                            use_double, read, threads);
+    if (missing > 0) {
+      divide_by_weight(gathered.doubles);
+      divide_by_weight(gathered.floats);
+      field->notes_.lines.push_back(
+          counted(missing, "cell") + " of " + std::to_string(array.tuples) +
+          (choice.order == TensorOrder::kAxis ? " without a direction" : " without a tensor") +
+          ": left out of the mean of those around a point that have one");
+    }
     if (use_double) {
       field->values_ = std::move(gathered.doubles);
     } else {
@@ -224,8 +262,7 @@ class TensorFieldBuilder {
     std::vector<double> traces;
     for (std::size_t point = 0; point < points; ++point) {
       const Six d = field.stored(point);
-      const bool finite = std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); });
-      if (!finite) {
+      if (!is_there(d)) {
         ++field.notes_.bad_values;
         continue;
       }

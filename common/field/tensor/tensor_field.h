@@ -47,7 +47,8 @@ struct TensorChoice {
   std::string array;
   TensorOrder order = TensorOrder::kRows;
   TensorInterpolation interpolation = TensorInterpolation::kComponents;
-  /// Tensors of cells are brought to the points: the volume-weighted mean of the cells around each.
+  /// Tensors of cells are brought to the points: the volume-weighted mean of the cells around each that have
+  /// one.
   Association association = Association::kPoint;
   /// Tensors of cells hold all over their cell instead, on tetrahedra; values() are the mean all the same.
   bool constant_cells = false;

@@ -67,6 +67,118 @@ TEST(Carp, MicrometresRegionsAndDirectionsAreRead) {
   expect_refused(elem, "m.lon");
 }
 
+std::vector<std::string> notes_of(const std::filesystem::path& file) { return open(file).info().notes; }
+
+bool noted(const std::filesystem::path& file, const std::string& words) {
+  const std::vector<std::string> notes = notes_of(file);
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+TEST(Carp, DirectionsWithoutAHeaderAreKnownByTheirRows) {
+  const test::TempFolder folder;
+  const auto pts = folder.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");
+  folder.write("m.elem", "2\nTt 0 1 2 3 9\nTt 3 2 1 0 9\n");
+  for (const auto& [first, second] : std::vector<std::pair<std::string, std::string>>{
+           {"0 2 0", "0 0 1"}, {"0 2 0 3 0 0", "0 0 1 1 0 0"}, {"0 2 0 3 0 0 0 0 4", "0 0 1 1 0 0 0 1 0"}}) {
+    for (const bool headed : {true, false}) {
+      const std::string vectors = std::to_string((first.size() + 1) / 6);
+      if (headed && vectors == "3") continue;
+      folder.write("m.lon",
+                   "# written by a test\n" + (headed ? vectors + "\n" : "") + first + "\n" + second + "\n");
+      Source source = open(pts);
+      const DataSet mesh = source.read({"fibre", "sheet", "normal"}).at(0);
+      const DataArray* fibre = mesh.find("fibre", Association::kCell);
+      ASSERT_NE(fibre, nullptr);
+      EXPECT_EQ(fibre->at(0, 1), 1.0);
+      EXPECT_EQ(fibre->at(1, 2), 1.0);
+      const DataArray* sheet = mesh.find("sheet", Association::kCell);
+      EXPECT_EQ(sheet != nullptr, vectors != "1");
+      EXPECT_TRUE(sheet == nullptr || sheet->at(0, 0) == 1.0);
+      EXPECT_EQ(noted(pts, "has no header"), !headed);
+    }
+  }
+  folder.write("m.lon", "1 0 0\n0 1 0\n0 0 1\n");
+  expect_refused(pts, "goes on after 2");
+  folder.write("m.lon", "1 0 0 4\n0 1 0 4\n");
+  expect_refused(pts, "goes on after 2");
+}
+
+TEST(Carp, WordsBehindRegionsAreLeftOutAndNamed) {
+  const test::TempFolder folder;
+  const auto pts = folder.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");
+  folder.write("m.elem", "3\nTt 0 1 2 3 9 LV_wall\nTt 3 2 1 0 RV\nTt 3 2 1 0 4 2 septum\n");
+  Source source = open(pts);
+  const DataSet mesh = source.read({"region"}).at(0);
+  const DataArray* region = mesh.find("region", Association::kCell);
+  ASSERT_NE(region, nullptr);
+  EXPECT_EQ(region->at(0), 9.0);
+  EXPECT_EQ(region->at(1), 0.0);
+  EXPECT_EQ(region->at(2), 4.0);
+  EXPECT_TRUE(noted(pts, "4 words behind the regions"));
+  EXPECT_TRUE(noted(pts, "LV_wall"));
+}
+
+/// A row of cubes along x, each of six tetrahedra, whose points are numbered in a stirred order.
+/// @param unused how many points no element names stand first. @param base what the file counts from.
+std::string cubes(int count, int unused, int base, std::string& pts) {
+  const int points = 4 * (count + 1);
+  std::vector<int> place(static_cast<std::size_t>(points));
+  for (int p = 0; p < points; ++p) place[static_cast<std::size_t>(p)] = (p * 13) % points;
+  std::vector<std::string> rows(static_cast<std::size_t>(points));
+  for (int p = 0; p < points; ++p)
+    rows[static_cast<std::size_t>(place[static_cast<std::size_t>(p)])] =
+        std::to_string(1000 * (p / 4)) + " " + std::to_string(1000 * (p % 2)) + " " +
+        std::to_string(1000 * (p / 2 % 2)) + "\n";
+  pts = std::to_string(points + unused) + "\n";
+  for (int n = 0; n < unused; ++n) pts += "0 0 0\n";
+  for (const std::string& row : rows) pts += row;
+  static constexpr int kTets[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                                      {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  std::string elem = std::to_string(6 * count) + "\n";
+  for (int c = 0; c < count; ++c) {
+    for (const auto& tet : kTets) {
+      elem += "Tt";
+      for (const int corner : tet)
+        elem += " " + std::to_string(place[static_cast<std::size_t>(4 * c + corner)] + unused + base);
+      elem += " 1\n";
+    }
+  }
+  return elem;
+}
+
+TEST(Carp, PointsThatCountFromOneAreNoticedInRangeToo) {
+  const test::TempFolder folder;
+  // Points behind the last one that is used make room for the base; points before the first one do not.
+  for (const int behind : {0, 1, 3}) {
+    for (const int before : {0, 1}) {
+      for (const int base : {0, 1}) {
+        std::string pts;
+        const std::string elem = cubes(11, before, base, pts);  // 48 points
+        for (int n = 0; n < behind; ++n) pts += "0 0 0\n";
+        pts.replace(0, pts.find('\n'), std::to_string(48 + before + behind));
+        const auto file = folder.write("m.pts", pts);
+        folder.write("m.elem", elem);
+        Source source = open(file);
+        const DataSet mesh = source.read({}).at(0);
+        const auto& topology = cells(mesh);
+        // Every edge of a row of cubes is at most the diagonal of one.
+        double longest = 0.0;
+        for (std::size_t n = 0; n < topology.connectivity.size(); ++n) {
+          const auto a = static_cast<std::size_t>(topology.connectivity[n]);
+          const auto b = static_cast<std::size_t>(topology.connectivity[n / 4 * 4]);
+          double square = 0.0;
+          for (int axis = 0; axis < 3; ++axis)
+            square += std::pow(topology.positions.at(a, axis) - topology.positions.at(b, axis), 2);
+          longest = std::max(longest, square);
+        }
+        EXPECT_LT(longest, 3.0 + 1e-9) << behind << before << base;
+        EXPECT_EQ(noted(file, "count from 1"), base == 1) << behind << before << base;
+      }
+    }
+  }
+}
+
 /// A .igb file of four points; `big` in the other byte order than x86.
 std::string igb(const std::string& words, const std::vector<float>& values, bool big) {
   std::string file = "# made by a test\r\n" + words +
@@ -135,12 +247,110 @@ TEST_F(CarpResults, PotentialsAreReadAStepAtATime) {
 TEST_F(CarpResults, HeadersThatDoNotFitAreNamed) {
   const std::vector<float> values(12, 1.0F);
   expect_result_refused("a.igb", igb("x:5 t:2", values, false), "4");
-  expect_result_refused("b.igb", igb("x:4 t:4", values, false), "time steps");
-  expect_result_refused("c.igb", igb("x:4 t:1000000000000", values, false), "time steps");
+  expect_result_refused("b.igb", igb("x:4 t:4", values, false).substr(0, 1030), "one that is whole");
+  expect_result_refused("c.igb", igb("x:4 t:10000000000000", values, false), "t:");
   expect_result_refused("d.igb", igb("x:4 t:3 inc_t:-1", values, false), "rise");
   expect_result_refused("e.igb", igb("x:4 t:3 inc_t:0", values, false), "rise");
   expect_result_refused("f.igb", igb("x:4 t:nan", values, false), "t:");
   expect_result_refused("g.igb", igb("x:4 t:3", values, false).substr(0, 500), "1024");
+}
+
+/// A number as bytes of a type, little endian.
+template <typename Number>
+std::string bytes_as(const std::vector<double>& values) {
+  std::string bytes;
+  for (const double value : values) {
+    const auto number = static_cast<Number>(value);
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  }
+  return bytes;
+}
+
+bool says(const std::vector<std::string>& notes, const std::string& words) {
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+// Sizes as in openCARP's IGB library: long has 8 bytes.
+TEST_F(CarpResults, EveryTypeOfNumberIsReadByItsSize) {
+  struct Case {
+    const char* type;
+    int components;
+    std::string (*bytes)(const std::vector<double>&);
+  };
+  const std::vector<Case> cases{{"byte", 1, bytes_as<std::uint8_t>},  {"char", 1, bytes_as<std::int8_t>},
+                                {"short", 1, bytes_as<std::int16_t>}, {"ushort", 1, bytes_as<std::uint16_t>},
+                                {"int", 1, bytes_as<std::int32_t>},   {"uint", 1, bytes_as<std::uint32_t>},
+                                {"long", 1, bytes_as<std::int64_t>},  {"float", 1, bytes_as<float>},
+                                {"double", 1, bytes_as<double>},      {"complex", 2, bytes_as<float>},
+                                {"rgba", 4, bytes_as<std::uint8_t>},  {"vec3f", 3, bytes_as<float>},
+                                {"vec3d", 3, bytes_as<double>},       {"vec4f", 4, bytes_as<float>},
+                                {"vec4d", 4, bytes_as<double>}};
+  for (const Case& each : cases) {
+    std::vector<double> values(3 * 4 * static_cast<std::size_t>(each.components));
+    for (std::size_t n = 0; n < values.size(); ++n) values[n] = static_cast<double>(n % 100);
+    std::string file = std::string("x:4 t:3 systeme:little_endian inc_t:5 type:") + each.type;
+    file.resize(1024, ' ');
+    folder_.write("vm.igb", file + each.bytes(values));
+    Source source = together("vm.igb");
+    ASSERT_EQ(source.info().times, (std::vector<double>{0.0, 5.0, 10.0})) << each.type;
+    for (const std::size_t step : {2U, 0U}) {
+      const auto blocks = source.read({"vm"}, step);
+      const DataArray* vm = blocks.at(0).find("vm", Association::kPoint);
+      ASSERT_NE(vm, nullptr) << each.type;
+      ASSERT_EQ(vm->components, each.components) << each.type;
+      const std::size_t first = step * 4 * static_cast<std::size_t>(each.components);
+      for (std::size_t p = 0; p < 4; ++p)
+        for (int c = 0; c < each.components; ++c)
+          EXPECT_EQ(
+              vm->at(p, c),
+              values[first + p * static_cast<std::size_t>(each.components) + static_cast<std::size_t>(c)])
+              << each.type;
+    }
+  }
+  expect_result_refused("s.igb", igb("x:4 t:1", {1.0F, 1.0F, 1.0F, 1.0F}, false).replace(30, 0, "type:list "),
+                        "type:");
+}
+
+TEST_F(CarpResults, OfARunThatWasCutOffTheWholeStepsAreThere) {
+  const std::vector<float> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::string whole = igb("x:4 t:6 dim_t:50", values, false);
+  for (const std::size_t lost : {0U, 1U, 5U, 15U, 16U}) {
+    folder_.write("vm.igb", whole.substr(0, whole.size() - lost));
+    Source source = together("vm.igb");
+    const std::size_t steps = lost == 0 ? 3 : 2;
+    EXPECT_EQ(source.info().times.size(), steps) << lost;
+    EXPECT_EQ(source.info().times.back(), 10.0 * static_cast<double>(steps - 1)) << "of six over 50";
+    EXPECT_TRUE(says(source.info().notes, "promises 6 time steps")) << lost;
+    EXPECT_EQ(source.read({"vm"}, steps - 1).at(0).find("vm", Association::kPoint)->at(3), 4.0 * steps);
+  }
+  // More than the header says is left out, and said.
+  folder_.write("vm.igb", igb("x:4 t:2 inc_t:1", values, false));
+  Source source = together("vm.igb");
+  EXPECT_EQ(source.info().times.size(), 2U);
+  EXPECT_TRUE(says(source.info().notes, "16 bytes more"));
+}
+
+TEST_F(CarpResults, SeveralResultsKeepTheirOwnTimes) {
+  folder_.write("a.igb", igb("x:4 t:3 inc_t:5", {1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}, false));
+  folder_.write("b.igb", igb("x:4 t:2 inc_t:10", {7, 7, 7, 7, 9, 9, 9, 9}, false));
+  folder_.write("c.igb", igb("x:1 t:1 org_t:99", {4}, false));
+  Source source = Source::open(
+      {.files = {folder_.path("m.pts"), folder_.path("a.igb"), folder_.path("b.igb"), folder_.path("c.igb")},
+       .solution = {},
+       .raw = {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 5.0, 10.0}));
+  EXPECT_TRUE(says(source.info().notes, "b has no step at 1 time"));
+  const auto at = [&](const char* name, std::size_t step, Association association) {
+    const auto blocks = source.read({name}, step);
+    const DataArray* array = blocks.at(0).find(name, association);
+    return array == nullptr ? -1.0 : array->at(0);
+  };
+  EXPECT_EQ(at("a", 1, Association::kPoint), 2.0);
+  EXPECT_EQ(at("b", 0, Association::kPoint), 7.0);
+  EXPECT_TRUE(std::isnan(at("b", 1, Association::kPoint)));
+  EXPECT_EQ(at("b", 2, Association::kPoint), 9.0);
+  EXPECT_EQ(at("c", 2, Association::kCell), 4.0) << "of the only element, at every time";
 }
 
 TEST_F(CarpResults, ActivationTimesAreANumberALine) {
@@ -199,6 +409,30 @@ TEST(Tetgen, BothNumberingsAndMidNodesInAnyOrderAreRead) {
       EXPECT_EQ(mesh.find("attribute 1", Association::kPoint)->at(3), 30.0);
     }
   }
+}
+
+// Chaste writes such: a column of zeros that the first line does not speak of.
+TEST(Tetgen, NumbersBeyondTheFirstLineAreLeftOutAndSaid) {
+  const test::TempFolder folder;
+  for (const char* more : {"", " 0", " 7 8"}) {
+    const std::string end = std::string(more) + "\n";
+    const auto node = folder.write(
+        "a.node", "4 3 0 0\n0 0 0 0" + end + "1 1 0 0" + end + "2 0 1 0" + end + "3 0 0 1" + end);
+    folder.write("a.ele", "2 4 0\n0 0 1 2 3" + end + "1 3 2 1 0" + end);
+    folder.write("a.face", "2 0\n0 0 1 2" + std::string(*more == '\0' ? "" : " 0") + "\n1 0 1 3\n");
+    Source source = open(node);
+    const DataSet mesh = source.read({}).at(0);
+    EXPECT_EQ(cells(mesh).connectivity, (std::vector<std::int64_t>{0, 1, 2, 3, 3, 2, 1, 0}));
+    EXPECT_EQ(cells(mesh).positions.at(3, 2), 1.0);
+    EXPECT_EQ(noted(node, "4 rows of"), *more != '\0');
+    EXPECT_EQ(noted(node, "2 rows of"), *more != '\0');
+    EXPECT_EQ(noted(node, "1 row of"), *more != '\0');
+  }
+  // A marker that is promised and not there is not needed.
+  folder.write("a.node", "4 3 0 1\n0 0 0 0 1\n1 1 0 0\n2 0 1 0\n3 0 0 1 0\n");
+  EXPECT_TRUE(noted(folder.path("a.node"), "2 nodes of"));
+  folder.write("a.axi", "2\n1 0 0 5\n0 1 0 5\n");
+  expect_refused(folder.path("a.node"), "goes on after 2");
 }
 
 TEST(Tetgen, WhatIsOffIsNamed) {

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <span>
@@ -138,6 +140,64 @@ TEST(CellDirections, RandomSignsChangeNoBitEitherWay) {
     }
     const auto a = map_gap(before), b = map_gap(after);
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
+  }
+}
+
+/// The ventricle's mesh, all fibres along x, but for those of cells that `missing` names.
+DataSet straight_but(const VentricleCells& cells, const std::function<bool(std::size_t)>& missing,
+                     double instead) {
+  DataSet mesh = ventricle_of_cells(cells);
+  std::vector<double> fibres;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    if (missing(c)) {
+      fibres.insert(fibres.end(), {instead, instead, instead});
+    } else {
+      fibres.insert(fibres.end(), {1.0, 0.0, 0.0});
+    }
+  }
+  std::erase_if(mesh.arrays, [](const DataArray& array) { return array.name == "fibre"; });
+  mesh.arrays.push_back(make_array("fibre", Association::kCell, 3, std::span<const double>(fibres)));
+  return mesh;
+}
+
+// Zero, NaN and infinite numbers are no direction. A point has the mean of the cells around that have one.
+TEST(CellDirections, CellsWithoutOneTakeNoneFromTheirNeighbours) {
+  const VentricleCells cells{.wall = 2, .along = 8, .around = 16};
+  std::mt19937 random(19);
+  std::vector<bool> chosen(straight_but(
+                               cells, [](std::size_t) { return false; }, 0.0)
+                               .cell_count());
+  for (std::size_t c = 0; c < chosen.size(); ++c) chosen[c] = random() % 10 == 0;
+  const std::size_t half = chosen.size() / 2;
+  const std::vector<std::function<bool(std::size_t)>> kinds{
+      [&](std::size_t c) { return bool(chosen[c]); },  // one in ten
+      [&](std::size_t c) { return c == half; },        // a single one
+      [&](std::size_t c) { return c >= half; }};       // a region, such as a bath
+  for (const auto& missing : kinds) {
+    for (const double instead : {0.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+      const DataSet mesh = straight_but(cells, missing, instead);
+      const Heart heart = heart_of(mesh, false);
+      const FieldGrid& grid = *heart.fibres->grid();
+      std::vector<bool> has(grid.point_count()), used(grid.point_count());
+      for (std::size_t t = 0; t < grid.tets->cells().size(); ++t)
+        for (const std::uint32_t p : grid.tets->cells()[t]) {
+          used[p] = true;
+          if (!missing(grid.source_cell[t])) has[p] = true;
+        }
+      const auto values = std::get<std::span<const double>>(heart.fibres->values());
+      for (std::size_t p = 0; p < has.size(); ++p) {
+        if (!used[p]) continue;
+        if (!has[p]) {
+          EXPECT_TRUE(std::isnan(values[6 * p])) << p;
+          continue;
+        }
+        ASSERT_NEAR(values[6 * p], 1.0, 1e-12) << p;
+        for (std::size_t i = 1; i < 6; ++i) ASSERT_NEAR(values[6 * p + i], 0.0, 1e-12) << p;
+      }
+      std::string notes;
+      for (const std::string& note : heart.notes) notes += note + "\n";
+      EXPECT_NE(notes.find("without a direction: left out"), std::string::npos) << notes;
+    }
   }
 }
 

@@ -1,0 +1,20 @@
+/// Values of nodes in EX files, and nodes that are listed more than once.
+#pragma once
+
+#include <string>
+
+#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/text_lines.h"
+
+namespace palpate::ex {
+
+/// The next value of a field. A string (a word, or what stands in quotes) and a place in an element ("1 0.5
+/// 0.5 0.5", in older files "E 1 3 0.5 0.5 0.5": element, dimension, xi) are passed over: NaN.
+/// @throws Error (bad input) naming the line where something else stands there.
+[[nodiscard]] double node_value(TextLines& lines, const NodeField& field);
+
+/// Adds the fields that a node has where it is listed again.
+/// @return the name of a field that both have with other values; empty: there is none.
+[[nodiscard]] std::string add_fields(const Node& again, Model& model, Node& there);
+
+}  // namespace palpate::ex

@@ -1,0 +1,178 @@
+// EX models with more than coordinates and fibres: other fields, groups, strings, places in elements.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "loaders/cardiac/ex_mesh.h"
+#include "loaders/cardiac/ex_reader.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::ex {
+namespace {
+
+/// A field of `components` in the nodes' header.
+std::string node_field(int number, const std::string& name, int components, const std::string& type) {
+  std::string text = std::to_string(number) + ") " + name + ", field, " + type +
+                     ", #Components=" + std::to_string(components) + "\n";
+  for (int c = 1; c <= components; ++c) text += " " + std::to_string(c) + ". #Values=1 (value)\n";
+  return text;
+}
+
+std::string element_field(int number, const std::string& name, int components) {
+  std::string text = std::to_string(number) + ") " + name +
+                     ", field, rectangular cartesian, real, #Components=" + std::to_string(components) + "\n";
+  for (int c = 1; c <= components; ++c) {
+    text += " " + std::to_string(c) +
+            ". l.Lagrange*l.Lagrange*l.Lagrange, no modify, standard node based.\n  #Nodes=8\n";
+    for (int n = 1; n <= 8; ++n) text += "  " + std::to_string(n) + ". #Values=1\n   Value labels: value\n";
+  }
+  return text;
+}
+
+double pressure(const Vec3& x) { return 80.0 + 3.0 * x.x - 5.0 * x.y + 7.0 * x.z + 11.0 * x.x * x.y * x.z; }
+
+/// Two boxes beside each other along x, from 0 to 2: nodes 1 to 12, elements 1 and 2.
+std::string nodes(const std::string& more_fields, int more_count,
+                  const std::function<std::string(int, const Vec3&)>& more_values) {
+  std::string text = "!#nodeset nodes\nShape. Dimension=0\n#Fields=" + std::to_string(1 + more_count) + "\n" +
+                     node_field(1, "coordinates", 3, "rectangular cartesian, real") + more_fields;
+  for (int n = 0; n < 12; ++n) {
+    const Vec3 x{n % 3, n / 3 % 2, n / 6};
+    text += "Node: " + std::to_string(n + 1) + "\n " + std::to_string(x.x) + " " + std::to_string(x.y) + " " +
+            std::to_string(x.z) + "\n" + more_values(n + 1, x);
+  }
+  return text;
+}
+
+std::string elements(const std::string& more_fields, int more_count) {
+  std::string text =
+      "!#mesh mesh3d, dimension=3, nodeset=nodes\nShape. Dimension=3, line*line*line\n#Scale factor sets=0\n"
+      "#Nodes=8\n#Fields=" +
+      std::to_string(1 + more_count) + "\n" + element_field(1, "coordinates", 3) + more_fields;
+  for (int e = 0; e < 2; ++e) {
+    text += "Element: " + std::to_string(e + 1) + "\n Nodes:\n";
+    for (const int n : {1, 2, 4, 5, 7, 8, 10, 11}) text += " " + std::to_string(n + e);
+    text += "\n";
+  }
+  return text;
+}
+
+const char* const kHead = "EX Version: 2\nRegion: /\n";
+
+SampledModel sampled(const std::string& text) {
+  const test::TempFolder folder;
+  Model model;
+  read_ex_file(folder.write("a.exf", text).string(), model);
+  return sample(model, 3, "a.exf");
+}
+
+void expect_pressure(const SampledModel& model, const char* name = "pressure") {
+  const DataArray* array = model.mesh.find(name, Association::kPoint);
+  ASSERT_NE(array, nullptr);
+  ASSERT_EQ(array->tuples, 7U * 4U * 4U);
+  const auto& positions = std::get<UnstructuredTopology>(model.mesh.topology).positions;
+  for (std::size_t p = 0; p < array->tuples; ++p)
+    EXPECT_NEAR(array->at(p), pressure({positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)}), 1e-5);
+}
+
+bool says(const SampledModel& model, const std::string& words) {
+  return std::any_of(model.notes.begin(), model.notes.end(),
+                     [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+std::string pressure_text(const Vec3& x) { return " " + std::to_string(pressure(x)) + "\n"; }
+
+// A trilinear field is its own interpolation in boxes of side one: x y z is linear along each axis.
+TEST(ExFields, FieldsOfNumbersAreSampledUnderTheirNames) {
+  for (const char* name : {"pressure", "layer", "surface"}) {
+    const SampledModel model = sampled(
+        kHead +
+        nodes(node_field(2, name, 1, "rectangular cartesian, real") + node_field(3, "velocity", 3, "real"), 2,
+              [](int, const Vec3& x) { return pressure_text(x) + " 1 2 3\n"; }) +
+        elements(element_field(2, name, 1) + element_field(3, "velocity", 3), 2));
+    // What it would be taken for has another name.
+    expect_pressure(model, std::string(name) == "pressure" ? name : ("field " + std::string(name)).c_str());
+    const DataArray* velocity = model.mesh.find("velocity", Association::kPoint);
+    ASSERT_NE(velocity, nullptr);
+    EXPECT_EQ(velocity->components, 3);
+    EXPECT_EQ(velocity->at(17, 2), 3.0);
+  }
+}
+
+TEST(ExFields, ThoseThatAreNotEverywhereAreLeftOutWithAWord) {
+  // Node 12 is of the second element alone, and has no pressure.
+  std::string text = kHead + nodes("", 0, [](int, const Vec3&) { return std::string(); });
+  text += "Shape. Dimension=0\n#Fields=1\n" + node_field(1, "pressure", 1, "real");
+  for (int n = 1; n < 12; ++n) text += "Node: " + std::to_string(n) + "\n 5\n";
+  const SampledModel model = sampled(text + elements(element_field(2, "pressure", 1), 1));
+  EXPECT_EQ(model.mesh.find("pressure", Association::kPoint), nullptr);
+  EXPECT_TRUE(says(model, "\"pressure\" left out"));
+}
+
+TEST(ExFields, NodesThatAreListedAgainHaveTheFieldsOfBothLists) {
+  std::string text = kHead + nodes("", 0, [](int, const Vec3&) { return std::string(); });
+  text += "Shape. Dimension=0\n#Fields=1\n" + node_field(1, "pressure", 1, "real");
+  for (int n = 0; n < 12; ++n)
+    text += "Node: " + std::to_string(n + 1) + "\n" + pressure_text({n % 3, n / 3 % 2, n / 6});
+  expect_pressure(sampled(text + elements(element_field(2, "pressure", 1), 1)));
+}
+
+TEST(ExFields, GroupsListTheirMembersAgain) {
+  const std::string whole =
+      kHead +
+      nodes(node_field(2, "pressure", 1, "real"), 1, [](int, const Vec3& x) { return pressure_text(x); }) +
+      elements(element_field(2, "pressure", 1), 1);
+  const std::string members =
+      "Group name: apex\n!#nodeset nodes\nShape. Dimension=0\n#Fields=0\nNode: 1\nNode: 2\n"
+      "!#mesh mesh3d, dimension=3, nodeset=nodes\nShape. Dimension=3, line*line*line\n#Scale factor sets=0\n"
+      "#Nodes=0\n#Fields=0\nElement: 2\n";
+  expect_pressure(sampled(whole + members + members));
+  // A list with the same values again says nothing new; one with others is a mistake.
+  const std::string again = "Group name: rest\nShape. Dimension=0\n#Fields=1\n" +
+                            node_field(1, "coordinates", 3, "rectangular cartesian, real") + "Node: 3\n 2 0 ";
+  expect_pressure(sampled(whole + again + "0\n"));
+  try {
+    (void)sampled(whole + again + "1\n");
+    ADD_FAILURE() << "two places of one node were accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("other values of \"coordinates\""), std::string::npos);
+  }
+}
+
+TEST(ExFields, StringsAndPlacesInElementsAreLeftOutWithAWord) {
+  for (const std::string& place : {std::string("1 0.25 0.5 0.75"), std::string("E 1 3 0.25 0.5 0.75"),
+                                   std::string("/heart E 1 3 0.25 0.5 0.75")}) {
+    for (const std::string& name :
+         {std::string("apex"), std::string("\"apex of heart\""), std::string("'a, \"b\" c'"),
+          std::string("\"one \\\" two\""), std::string("\"\n\""), std::string("\"Node: 7\"")}) {
+      const auto values = [&](int, const Vec3& x) {
+        return " " + place + "\n " + name + "\n" + pressure_text(x);
+      };
+      const std::string fields =
+          "2) where, field, element_xi, #Components=1; mesh=mesh3d, #xi=3\n 1. #Values=1 (value)\n" +
+          node_field(3, "name", 1, "string") + node_field(4, "pressure", 1, "real");
+      const SampledModel model =
+          sampled(kHead + nodes(fields, 3, values) + elements(element_field(2, "pressure", 1), 1));
+      expect_pressure(model);
+      EXPECT_TRUE(says(model, "name (string)")) << name;
+      EXPECT_TRUE(says(model, "where (places in elements)")) << name;
+    }
+  }
+  // Points of data, too.
+  const SampledModel model = sampled(
+      kHead + nodes("", 0, [](int, const Vec3&) { return std::string(); }) + elements("", 0) +
+      "!#nodeset datapoints\nShape. Dimension=0\n#Fields=2\n1) where, field, element_xi, #Components=1; "
+      "mesh=mesh3d, #xi=3\n 1. #Values=1 (value)\n" +
+      node_field(2, "name", 1, "string") + "Node: 1\n1 0.5 0.5 0.5\n\"apex of heart\"\n");
+  EXPECT_TRUE(says(model, "1 data point left out"));
+  EXPECT_TRUE(says(model, "name (string)"));
+}
+
+}  // namespace
+}  // namespace palpate::ex
