@@ -26,12 +26,11 @@ MrtrixHeader read_mrtrix_header(const std::string& file, std::string_view bytes,
     throw input_error({file, "byte 0", "does not begin as it should", std::string(mark), ""});
   MrtrixHeader header;
   std::size_t at = bytes.find('\n');
-  while (at != std::string_view::npos) {
-    const std::size_t next = bytes.find('\n', at + 1);
-    if (next == std::string_view::npos) break;
+  while (at != std::string_view::npos && at + 1 < bytes.size()) {
+    const std::size_t next = std::min(bytes.find('\n', at + 1), bytes.size());
     const std::string_view line = trimmed(bytes.substr(at + 1, next - at - 1));
     at = next;
-    if (line == "END") {
+    if (line == "END" && next < bytes.size()) {
       header.end = next + 1;
       return header;
     }
@@ -39,7 +38,12 @@ MrtrixHeader read_mrtrix_header(const std::string& file, std::string_view bytes,
     if (colon == std::string_view::npos) continue;
     header.entries.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
   }
-  throw input_error({file, "header", "has no END", "", "the file may be damaged or cut off"});
+  // A header beside its data (.mih) ends with the file.
+  const std::string* const data = header.find("file");
+  if (data == nullptr || data->starts_with("."))
+    throw input_error({file, "header", "has no END", "", "the file may be damaged or cut off"});
+  header.end = bytes.size();
+  return header;
 }
 
 MrtrixNumber parse_mrtrix_number(std::string_view datatype) {

@@ -1,5 +1,5 @@
 /// The text header that MRtrix's images and tracks share: a first line that names the kind, lines of "key:
-/// value", a line END. MRtrix3 manual, "MRtrix Image file format", "MRtrix Tracks file format".
+/// value", a line END; where the data lie in another file it may end without. MRtrix3 manual, "MRtrix Image file format", "MRtrix Tracks file format".
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct MrtrixHeader {
 
 /// @param bytes from the start of the file, with the whole header in them.
 /// @param mark the first line ("mrtrix image").
-/// @throws Error (bad input) with `file` where the mark or the END is missing.
+/// @throws Error (bad input) with `file` where the mark is missing, or the END of a header whose data follow.
 [[nodiscard]] MrtrixHeader read_mrtrix_header(const std::string& file, std::string_view bytes,
                                               std::string_view mark);
 

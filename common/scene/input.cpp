@@ -351,7 +351,9 @@ std::shared_ptr<const ScalarField> Input::load_scalar(int threads, Progress* pro
 }
 
 TensorImage Input::load_tensor_image(int threads, Progress* progress) {
-  check_volume();
+  // Tensors of a single slice can be fitted and measured, though no line can be traced through them.
+  const std::vector<BlockInfo>& blocks_of_file = file()->blocks;
+  if (blocks_of_file.empty() || blocks_of_file.front().grid != "uniform") check_volume();
   const TensorSource source = tensor_source();
   if (progress) progress->begin("reading " + title_, 0);
   std::vector<DataSet> blocks = read_timed(source.arrays, progress);
@@ -396,6 +398,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
 }
 
 std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* progress) {
+  check_volume();
   const TensorImage made = load_tensor_image(threads, progress);
   const Stopwatch watch;
   auto field = make_tensor_field(made.image, made.choice, file_name(), threads, made.notes);

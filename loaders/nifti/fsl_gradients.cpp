@@ -17,15 +17,43 @@ namespace {
 /// Lines of numbers; blank lines are left out.
 using Table = std::vector<std::vector<double>>;
 
-Table read_table(const std::string& file) {
+/// Whether commas stand in numbers ("0,5 -0,25"), not between them: no point is there, every comma has a digit
+/// on both sides, no word has two, and several words stand in a line.
+bool has_decimal_commas(std::string_view text) {
+  if (text.find(',') == std::string_view::npos || text.find('.') != std::string_view::npos) return false;
+  bool several = false;
+  for (const std::string_view line : split(text, '\n')) {
+    const std::vector<std::string_view> parts = words(line);
+    several = several || parts.size() > 1;
+    for (const std::string_view word : parts) {
+      const std::size_t comma = word.find(',');
+      if (comma == std::string_view::npos) continue;
+      const auto digit = [&](std::size_t at) {
+        return at < word.size() && word[at] >= '0' && word[at] <= '9';
+      };
+      if (comma == 0 || !digit(comma - 1) || !digit(comma + 1) ||
+          word.find(',', comma + 1) != std::string_view::npos) {
+        return false;
+      }
+    }
+  }
+  return several;
+}
+
+Table read_table(const std::string& file, std::vector<std::string>& notes) {
   // A number and its blank for every volume and axis fit many times over.
   constexpr std::size_t kMostBytes = std::size_t{1} << 20;
   const HeadOfFile head = read_head(file, kMostBytes);
   if (head.file_size > kMostBytes)
     throw input_error({file, "", "has " + bytes_text(head.file_size), "a short table of numbers", ""});
   std::string text = head.bytes;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\t' || c == ',' || c == '\r' || c == ';'; }, ' ');
+      text.begin(), text.end(), [](char c) { return c == '\t' || c == '\r' || c == ';'; }, ' ');
+  const bool decimal = has_decimal_commas(text);
+  if (decimal) notes.push_back(file + ": commas taken for decimal points");
+  std::replace(text.begin(), text.end(), ',', decimal ? '.' : ' ');
   Table table;
   std::size_t line_number = 0;
   for (const std::string_view line : split(text, '\n')) {
@@ -50,9 +78,11 @@ Error wrong_count(const std::string& file, const std::string& found, std::size_t
                       "is it the file of another image?"});
 }
 
-std::vector<double> read_weightings(const std::string& file, std::size_t volumes) {
+std::vector<double> read_weightings(const std::string& file, std::size_t volumes,
+                                    std::vector<std::string>& notes) {
   std::vector<double> all;
-  for (const std::vector<double>& line : read_table(file)) all.insert(all.end(), line.begin(), line.end());
+  for (const std::vector<double>& line : read_table(file, notes))
+    all.insert(all.end(), line.begin(), line.end());
   if (all.size() != volumes) throw wrong_count(file, "has " + counted(all.size(), "b-value"), volumes);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!std::isfinite(all[i]) || all[i] < 0.0) {
@@ -63,8 +93,9 @@ std::vector<double> read_weightings(const std::string& file, std::size_t volumes
   return all;
 }
 
-std::vector<Vec3> read_directions(const std::string& file, std::size_t volumes) {
-  const Table table = read_table(file);
+std::vector<Vec3> read_directions(const std::string& file, std::size_t volumes,
+                                  std::vector<std::string>& notes) {
+  const Table table = read_table(file, notes);
   const auto all_have = [&table](std::size_t count) {
     return std::all_of(table.begin(), table.end(),
                        [count](const auto& line) { return line.size() == count; });
@@ -132,7 +163,8 @@ std::optional<FslGradientFiles> find_fsl_gradients(const std::string& file, cons
 GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes, const Mat3& axes,
                                  std::vector<std::string>& notes) {
   if (volumes > kMostGradients) throw wrong_count(files.weightings, "cannot be", kMostGradients);
-  GradientTable table{read_weightings(files.weightings, volumes), read_directions(files.directions, volumes)};
+  GradientTable table{read_weightings(files.weightings, volumes, notes),
+                      read_directions(files.directions, volumes, notes)};
   const Mat3 ras_from_fsl = fsl_axes(axes);
   constexpr double kUnit = 0.01;  // lengths differ from one by rounding to two or more places
   std::size_t not_unit = 0;

@@ -46,6 +46,15 @@ double farthest_apart(const UniformTopology& a, const UniformTopology& b) {
   return farthest;
 }
 
+bool all_zero(const nifti_dmat44& m) {
+  for (int row = 0; row < 3; ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (m.m[row][axis] != 0.0) return false;
+    }
+  }
+  return true;
+}
+
 std::string space_name(int code) {
   switch (code) {
     case NIFTI_XFORM_SCANNER_ANAT:
@@ -68,8 +77,13 @@ NiftiPlace place_nifti(const nifti_image& image, const std::string& file) {
   UniformTopology& topology = place.topology;
   topology.points = {static_cast<int>(image.nx), static_cast<int>(image.ny), static_cast<int>(image.nz)};
   const double unit = millimetres(image, place.notes);
-  place.anatomical = image.sform_code > 0 || image.qform_code > 0;
-  if (image.sform_code > 0) {
+  const bool zero = image.sform_code > 0 && all_zero(image.sto_xyz);
+  const bool sform = image.sform_code > 0 && !zero;
+  if (zero)
+    place.notes.push_back("WARNING: the header claims an sform (" + space_name(image.sform_code) +
+                          ") that is zero: left aside");
+  place.anatomical = sform || image.qform_code > 0;
+  if (sform) {
     set_transform(image.sto_xyz, unit, topology);
     place.notes.push_back("RAS+ mm from the sform, " + space_name(image.sform_code));
     if (image.qform_code > 0) {
@@ -87,7 +101,9 @@ NiftiPlace place_nifti(const nifti_image& image, const std::string& file) {
   } else {
     topology.axes = Mat3{0.0};
     for (int axis = 0; axis < 3; ++axis) topology.axes[axis][axis] = unit * std::abs(image.pixdim[axis + 1]);
-    place.notes.emplace_back("neither sform nor qform: spacings alone, no orientation known");
+    place.notes.emplace_back(
+        "WARNING: neither sform nor qform: spacings alone, no orientation known; taken as right-handed, from "
+        "left to right. Programs disagree here: left and right may be mirrored, and so may gradients along x");
   }
   // Steps of any unit: it is their directions that must span space.
   const double steps =

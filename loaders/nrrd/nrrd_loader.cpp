@@ -129,6 +129,25 @@ std::string units_of(const Nrrd& nrrd, const NrrdAxes& axes) {
   return units;
 }
 
+/// What as many numbers are where tensors are asked for and their kind does not say.
+TupleKind kind_of_list(std::size_t size) {
+  switch (size) {
+    case 6:
+      return TupleKind::kSymmetric;
+    case 7:
+      return TupleKind::kMaskedSymmetric;
+    case 9:
+      return TupleKind::kMatrix;
+    default:
+      return TupleKind::kNumbers;
+  }
+}
+
+const char* order_text(TupleKind kind) {
+  if (kind == TupleKind::kMatrix) return "nine row by row";
+  return kind == TupleKind::kSymmetric ? "xx xy xz yy yz zz" : "a mask, xx xy xz yy yz zz";
+}
+
 class NrrdLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
@@ -151,7 +170,7 @@ class NrrdLoader : public Loader {
     info.anatomical = place.anatomical;
     info.notes.insert(info.notes.end(), place.notes.begin(), place.notes.end());
     info.times = nrrd_times(*nrrd, axes_);
-    describe_values(*nrrd, info.notes);
+    describe_values(*nrrd, request.diffusion.has_value(), info.notes);
     if (request.diffusion) describe_gradients(*nrrd, info);
 
     info.blocks.push_back(describe_image(topology_, array_));
@@ -164,7 +183,7 @@ class NrrdLoader : public Loader {
 
  private:
   /// Name and shape of the values, and whether they are vectors or tensors to be turned into RAS.
-  void describe_values(const Nrrd& nrrd, std::vector<std::string>& notes) {
+  void describe_values(const Nrrd& nrrd, bool tensors, std::vector<std::string>& notes) {
     array_.association = Association::kPoint;
     stored_type_ = scalar_type(nrrd.type, file_);
     array_.type = stored_type_;
@@ -182,6 +201,13 @@ class NrrdLoader : public Loader {
       throw input_error({file_, "", "has " + std::to_string(axis.size) + " values a point", "4096 at most"});
     stored_components_ = array_.components = static_cast<int>(axis.size);
     kind_ = tuple_kind(axis.kind, axis.size);
+    const bool weighted = nrrd_key(nrrd, "DWMRI_b-value") || nrrd_key(nrrd, "DWMRI_gradient_0000");
+    if (tensors && kind_ == TupleKind::kNumbers && !weighted) {
+      kind_ = kind_of_list(axis.size);
+      if (kind_ != TupleKind::kNumbers)
+        notes.push_back(std::to_string(axis.size) + " numbers of a kind that says no more (" +
+                        airEnumStr(nrrdKind, axis.kind) + ") taken for tensors: " + order_text(kind_));
+    }
     array_.name = array_name(kind_);
     if (axis.kind == nrrdKindRGBColor || axis.kind == nrrdKindRGBAColor) array_.name = kColorArray;
     const bool has_frame = nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]);

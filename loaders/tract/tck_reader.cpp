@@ -64,8 +64,13 @@ Tractogram read_points(const std::string& file, std::string_view bytes, bool big
       throw input_error({file, place(), "is not finite", "", kDamagedTracts});
     }
   }
-  throw input_error(
-      {file, place(), "the file ends without its end mark", "three infinities", kDamagedTracts});
+  // The file ends without its end mark, three infinities: what is there is shown.
+  const std::size_t last = lines.points.size() - lines.starts.back();
+  if (last > 0) lines.starts.push_back(lines.points.size());
+  notes.push_back("WARNING: the file is cut off: it ends without its end mark" +
+                  (last > 0 ? ", within line " + std::to_string(lines.line_count()) + ", which ends there"
+                            : " after line " + std::to_string(lines.line_count())));
+  return lines;
 }
 
 }  // namespace

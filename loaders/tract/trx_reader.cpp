@@ -204,23 +204,35 @@ class TrxReader {
   TrxReader(const std::filesystem::path& path, std::vector<std::string>& notes)
       : file_(path.string()), members_(path), notes_(notes) {}
 
+  static bool is_line_array(std::string_view name) { return name == "positions" || name == "offsets"; }
+
   Tractogram read() {
     read_header();
     read_positions();
     read_offsets();
     std::size_t left_out = 0;
+    std::string unknown;
     for (const std::string& path : members_.names()) {
       const auto array = parse_name(path);
       const std::string folder = path.substr(0, path.find('/'));
-      if (folder == "dpg") ++left_out;
-      if (folder != "dpv" && folder != "dps" && folder != "groups") continue;
-      if (!array || array->folder != folder) refuse(path, "is of no known type", "int8 to float64");
+      const bool top = folder == path;
+      if (top && (path == "header.json" || (array && is_line_array(array->name)))) continue;
+      if (folder == "dpg" && array) {
+        ++left_out;
+        continue;
+      }
+      const bool known = folder == "dpv" || folder == "dps" || folder == "groups";
+      if (!known || !array || array->folder != folder) {
+        unknown += (unknown.empty() ? "" : ", ") + path;
+        continue;
+      }
       if (folder == "groups") {
         read_group(path, *array);
       } else {
         read_columns(path, *array, folder == "dpv");
       }
     }
+    if (!unknown.empty()) notes_.push_back("left out, for they are no arrays that TRX describes: " + unknown);
     if (left_out > 0) notes_.push_back("numbers of groups (dpg) left out: " + std::to_string(left_out));
     return std::move(lines_);
   }
@@ -239,14 +251,16 @@ class TrxReader {
     if (!header.is_object()) refuse("header.json", "is no JSON object");
     const auto count = [&](const char* key) {
       const auto value = header.find(key);
-      if (value == header.end() || !value->is_number_unsigned())
-        refuse("header.json", std::string("has no ") + key);
-      return value->get<std::uint64_t>();
+      if (value == header.end() || !value->is_number()) refuse("header.json", std::string("has no ") + key);
+      // Some writers have 287.0.
+      const double number = value->get<double>();
+      constexpr double kMost = 0x1p60;
+      if (!(number >= 0.0 && number <= kMost) || number != std::floor(number))
+        refuse("header.json", std::string(key) + " is " + short_number(number), "a count");
+      return static_cast<std::uint64_t>(number);
     };
     point_count_ = count("NB_VERTICES");
     line_count_ = count("NB_STREAMLINES");
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 60;
-    if (point_count_ > kMost || line_count_ > kMost) refuse("header.json", "counts more than any file holds");
     read_image(header);
   }
 

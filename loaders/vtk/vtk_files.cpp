@@ -7,11 +7,16 @@
 #include <memory>
 #include <utility>
 
+#include <vtkAbstractArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>
+#include <vtkFieldData.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkVariant.h>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/vtk/file_index.h"
@@ -57,6 +62,33 @@ DataArray in_rows(const DataArray& array) {
   ordered.bytes = std::as_const(*bytes);
   ordered.owner = bytes;
   return ordered;
+}
+
+/// What the file says of its space, "LPS": 3D Slicer states it in the title of legacy files, and in the field
+/// data SPACE. Of lines and surfaces alone; empty where there is no word.
+std::string space_of(const std::string& file, bool legacy, vtkDataSet* data) {
+  if (vtkPolyData::SafeDownCast(data) == nullptr) return {};
+  if (auto* const stated = data->GetFieldData()->GetAbstractArray("SPACE");
+      stated != nullptr && stated->GetNumberOfValues() == 1) {
+    return std::string(trimmed(stated->GetVariantValue(0).ToString()));
+  }
+  if (!legacy) return {};
+  constexpr std::size_t kTwoLines = 384;
+  const HeadOfFile head = read_head(file, kTwoLines);
+  const std::vector<std::string_view> lines = split(head.bytes, '\n');
+  constexpr std::string_view kKey = "SPACE=";
+  const std::size_t at = lines.size() > 1 ? lines[1].find(kKey) : std::string_view::npos;
+  return at == std::string_view::npos ? std::string() : std::string(lines[1].substr(at + kKey.size(), 3));
+}
+
+/// Positions with x and y turned around: from LPS to RAS.
+DataArray from_lps(const DataArray& positions) {
+  std::vector<double> turned;
+  turned.reserve(3 * positions.tuples);
+  for (std::size_t p = 0; p < positions.tuples; ++p) {
+    for (int c = 0; c < 3; ++c) turned.push_back((c < 2 ? -1.0 : 1.0) * positions.at(p, c));
+  }
+  return make_array(positions.name, positions.association, 3, turned);
 }
 
 class VtkFiles : public Loader {
@@ -110,6 +142,10 @@ class VtkFiles : public Loader {
           continue;
         }
         blocks.push_back(convert_block(block.data, name_of_block(pieces[p], block), wanted, file));
+        if (auto* const cells = std::get_if<UnstructuredTopology>(&blocks.back().topology);
+            cells != nullptr && space_of(file, !opened.xml, block.data) == "LPS") {
+          cells->positions = from_lps(cells->positions);
+        }
         for (DataArray& array : blocks.back().arrays) {
           if (tensors_ && array.components == kSymmetric) array = in_rows(array);
         }
@@ -192,6 +228,21 @@ class VtkFiles : public Loader {
               {array.name, array.on_points ? Association::kPoint : Association::kCell, array.components,
                type_of_xml(array.type),
                static_cast<std::size_t>(array.on_points ? about.point_count : about.cell_count)});
+        }
+      }
+      if (const std::string space = space_of(file, !opened.xml, block.data); !space.empty()) {
+        const bool lps = space == "LPS";
+        info.anatomical = lps || space == "RAS";
+        info.notes.push_back(std::string(info.anatomical ? "" : "WARNING: ") + "states SPACE=" + space +
+                             (lps              ? ": turned into RAS (x and y turned around); vectors and "
+                                                 "tensors along it are left as they are"
+                              : space == "RAS" ? ""
+                                               : ", which is not known: coordinates as they are"));
+        if (lps) {
+          std::swap(about.bounds.lower.x, about.bounds.upper.x);
+          std::swap(about.bounds.lower.y, about.bounds.upper.y);
+          for (Vec3* const corner : {&about.bounds.lower, &about.bounds.upper})
+            *corner *= Vec3{-1.0, -1.0, 1.0};
         }
       }
       if (!info.long_axis) info.long_axis = long_axis_of(block.data);

@@ -1,5 +1,6 @@
 // Diffusion-weighted and tensor images in NIfTI, as a scene reads them: gradients, orders, axes, and what is
 // wrong.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -327,6 +328,53 @@ TEST(DiffusionNifti, LaysMasksWhereTheirAffineSays) {
   }
   folder.write("mask.nii", first_column(kRightHanded, Vec3{-100.0, 0.0, 0.0}));
   EXPECT_NE(failure(folder.path("dwi.nii"), words).find("does not meet the image"), std::string::npos);
+}
+
+TEST(DiffusionNifti, ReadsTablesWithByteOrderMarksAndDecimalCommas) {
+  const TempFolder folder;
+  folder.write("dwi.nii", image(8, kLeftHanded, signals({1.0, 2.0, 3.0})));
+  std::string commas = bvec_rows();
+  std::replace(commas.begin(), commas.end(), '.', ',');
+  folder.write("dwi.bval", "\xEF\xBB\xBF" + bval_text());
+  for (const std::string& table : {commas, "\xEF\xBB\xBF" + bvec_rows()}) {
+    folder.write("dwi.bvec", table);
+    EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  }
+  // Commas between whole numbers stay separators.
+  folder.write("dwi.bval", "0,1000,1000,1000,1000,1000,1000,1000\n");
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+}
+
+TEST(DiffusionNifti, FitsASingleSlice) {
+  const TempFolder folder;
+  std::string flat = image(8, kLeftHanded, signals({1.0, 2.0, 3.0}));
+  put_at(flat, 46, std::int16_t{1});  // of three slices the numbers of one, for all are alike
+  std::string slice = flat.substr(0, 352);
+  for (std::size_t v = 0; v < 8; ++v) slice += flat.substr(352 + 4 * 27 * v, 4 * 9);
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_rows());
+  folder.write("dwi.nii", slice);
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  EXPECT_THROW((void)open(folder.path("dwi.nii")).load_tensor(1), Error) << "no volume to trace lines in";
+}
+
+// Six numbers of kind list: a tensor along z of the measurement frame, which is turned by 90 degrees about x
+// in a space that is LPS.
+TEST(DiffusionNrrd, AppliesTheMeasurementFrameToListsOfSix) {
+  const TempFolder folder;
+  const std::string head =
+      "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 6 2 2 2\n"
+      "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list space space space\nendian: little\n"
+      "encoding: raw\n";
+  std::string values;
+  for (int p = 0; p < 8; ++p) {
+    for (const float d : {0.3F, 0.0F, 0.2F, 0.4F, 0.0F, 1.7F}) put(values, d);
+  }
+  // Columns of the frame: x, z and minus y of LPS; so z there is -y in LPS, y in RAS, and x is -x.
+  folder.write("d.nrrd", head + "measurement frame: (1,0,0) (0,0,1) (0,-1,0)\n\n" + values);
+  EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-0.2 / 1.4, 1.0, 0.0}), 0.9995);
+  folder.write("d.nrrd", head + "\n" + values);
+  EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-0.2 / 1.4, 0.0, 1.0}), 0.9995) << "LPS turned";
 }
 
 }  // namespace

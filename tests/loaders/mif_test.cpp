@@ -91,6 +91,11 @@ TEST(MifImage, ReadsByteOrdersBitsScalingAndPackedFiles) {
   folder.write("apart.dat", "xx" + counting(12));
   const auto apart = folder.write("apart.mih", "mrtrix image\n" + kSmall + "file: apart.dat 2\nEND\n");
   EXPECT_EQ(read_values(apart).arrays.front().at(7), 7.0);
+  // MRtrix ends a header without data with the file.
+  for (const char* end : {"\n", ""}) {
+    folder.write("open.mih", "mrtrix image\n" + kSmall + "file: apart.dat 2" + end);
+    EXPECT_EQ(read_values(folder.path("open.mih")).arrays.front().at(7), 7.0);
+  }
 }
 
 TEST(MifImage, RefusesDamagedFilesInOneLine) {

@@ -156,6 +156,26 @@ TEST(Nifti, TheQformServesWhereThereIsNoSform) {
   EXPECT_EQ(topology.origin, Vec3(1, 2, 3));
 }
 
+TEST(Nifti, AnSformOfZerosIsLeftAside) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};
+  header.sform_code = 1;
+  header.qform_code = 1;
+  header.quatern = {0, 0, 1};
+  header.pixdim = {2, 3, 4};
+  for (const bool qform : {true, false}) {
+    header.qform_code = qform ? 1 : 0;
+    Source source = Source::open(
+        {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+    const auto topology = std::get<UniformTopology>(read_block(source).topology);
+    EXPECT_LT(glm::distance(topology.axes[0], Vec3(qform ? -2 : 2, 0, 0)), 1e-12);
+    EXPECT_EQ(source.info().anatomical, qform);
+    std::size_t warnings = 0;
+    for (const std::string& note : source.info().notes) warnings += note.starts_with("WARNING") ? 1 : 0;
+    EXPECT_EQ(warnings, qform ? 1U : 2U);
+  }
+}
+
 TEST(Nifti, WithoutEitherNoOrientationIsClaimed) {
   const test::TempFolder folder;
   NiftiHeader header{.size = {2, 2, 2}, .datatype = 2};

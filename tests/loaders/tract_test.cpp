@@ -1,4 +1,5 @@
 // Tractograms read back: as we write them, as other byte orders and types have them, and damaged ones.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -229,7 +230,6 @@ std::vector<Damaged> damaged() {
       {"type.tck", tck_header("Float16LE") + points, "is 'Float16LE'"},
       {"offset.tck", "mrtrix tracks\ndatatype: Float32LE\nfile: . 1099511627776\nEND\n", "1099511627776"},
       {"other.tck", "mrtrix tracks\ndatatype: Float32LE\nfile: /etc/passwd 0\nEND\n", "names another file"},
-      {"cut.tck", header + points.substr(0, 101), "without its end mark"},
       {"unclosed.tck", header + unclosed + end, "is not closed"},
       {"partial.tck", header + partial + end, "line 1, point 3: is not finite"},
       {"short.trk", std::string("TRACK\0", 6), "has 6 bytes"},
@@ -250,7 +250,7 @@ std::vector<Damaged> damaged() {
        "names no three"},
       {"counts.trx", trx(0, R"({"NB_VERTICES": 1099511627776, "NB_STREAMLINES": 4})"),
        "1099511627776 times 12"},
-      {"negative.trx", trx(0, R"({"NB_VERTICES": -5, "NB_STREAMLINES": 4})"), "has no NB_VERTICES"},
+      {"negative.trx", trx(0, R"({"NB_VERTICES": -5, "NB_STREAMLINES": 4})"), "NB_VERTICES is -5"},
       {"text.trx", trx(0, "no json"), "is no JSON object"},
       {"back.trx", trx(2, backwards), "entry 3 is 5"},
       {"group.trx", trx(5, std::string(4, '\xff')), "names line 4.29497e+09"},
@@ -278,6 +278,94 @@ TEST(ReadTractogram, RefusesDamagedFilesInOneLine) {
       EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     }
   }
+}
+
+// Points of 12 bytes; three NaN end a line: whole lines and what is there of the last one.
+TEST(ReadTractogram, ReadsCutTckFilesAsFarAsTheyGo) {
+  const TempFolder folder;
+  const Tractogram lines = sample_tracts();
+  const std::string header = tck_header("Float32LE", "count: 4\n");
+  const std::string whole = tck_points<float>(lines, false);
+  for (std::size_t size = 0; size + 12 <= whole.size(); size += 7) {
+    folder.write("cut.tck", header + whole.substr(0, size));
+    const TractogramFile read = read_tractogram(folder.path("cut.tck"));
+    ASSERT_FALSE(read.info.notes.empty()) << size;
+    EXPECT_NE(read.info.notes[0].find("WARNING: the file is cut off"), std::string::npos);
+    std::size_t points = size / 12, expected = 0, closed = 0;
+    for (std::size_t l = 0; l < lines.line_count() && points > 0; ++l) {
+      const std::size_t here = std::min(points, lines.line(l).size());
+      expected += here;
+      points -= std::min(points, lines.line(l).size() + 1);
+      ++closed;
+    }
+    ASSERT_EQ(read.lines.points.size(), expected) << size;
+    EXPECT_EQ(read.lines.line_count(), closed) << size;
+    for (std::size_t p = 0; p < expected; ++p) ASSERT_EQ(read.lines.points[p], lines.points[p]);
+  }
+}
+
+// As 3D Slicer writes tracts: the space in the title of a legacy file, in the field data of a .vtp.
+TEST(ReadTractogram, TurnsVtkTractsThatStateLps) {
+  const TempFolder folder;
+  const std::string body =
+      "ASCII\nDATASET POLYDATA\nPOINTS 3 float\n1 2 3 4 5 6 7 8 10\nLINES 1 4\n3 0 1 2\n";
+  const std::string head = "# vtk DataFile Version 3.0\n";
+  const std::string xml_space =
+      "<FieldData><Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">76 80 83 "
+      "0</Array></FieldData>";
+  const auto vtp = [](const std::string& field) {
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+           "byte_order=\"LittleEndian\">\n<PolyData>" +
+           field +
+           "<Piece NumberOfPoints=\"3\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"0\" "
+           "NumberOfPolys=\"0\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+           "format=\"ascii\">1 2 3 4 5 6 7 8 10</DataArray></Points><Lines><DataArray type=\"Int64\" "
+           "Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int64\" "
+           "Name=\"offsets\" format=\"ascii\">3</DataArray></Lines></Piece></PolyData></VTKFile>\n";
+  };
+  const auto first = [&](const std::string& name, const std::string& bytes, bool lps) {
+    folder.write(name, bytes);
+    const TractogramFile read = read_tractogram(folder.path(name));
+    const float sign = lps ? -1.0F : 1.0F;
+    ASSERT_EQ(read.lines.points.size(), 3U) << name;
+    EXPECT_EQ(read.lines.points[0], Vec3f(sign, 2.0F * sign, 3.0F)) << name;
+    EXPECT_EQ(read.lines.points[2], Vec3f(7.0F * sign, 8.0F * sign, 10.0F)) << name;
+    EXPECT_EQ(read.info.blocks[0].bounds.lower.x, lps ? -7.0 : 1.0) << name;
+    const bool said = !read.info.notes.empty() &&
+                      read.info.notes[0].find("SPACE=LPS: turned into RAS") != std::string::npos;
+    EXPECT_EQ(said, lps) << name;
+  };
+  first("lps.vtk", head + "3D Slicer output. SPACE=LPS\n" + body, true);
+  first("ras.vtk", head + "3D Slicer output. SPACE=RAS\n" + body, false);
+  first("plain.vtk", head + "vtk output\n" + body, false);
+  first("lps.vtp", vtp(xml_space), true);
+  first("plain.vtp", vtp(""), false);
+}
+
+TEST(ReadTractogram, LeavesOutAndNamesWhatTrxDoesNotDescribe) {
+  const TempFolder folder;
+  const Tractogram lines = sample_tracts();
+  auto members = trx_members(lines, true);
+  members.emplace_back("dps/algo.json", "{}");
+  members.emplace_back("dpv/odd.float33", "xyz");
+  members.emplace_back("extra/readme.txt", "x");
+  folder.write("extra.trx", zip(members, false));
+  const TractogramFile read = read_tractogram(folder.path("extra.trx"));
+  ASSERT_NO_FATAL_FAILURE(expect_same_lines(read.lines, lines, 0.0));
+  ASSERT_EQ(read.info.notes.size(), 1U);
+  for (const char* name : {"dps/algo.json", "dpv/odd.float33", "extra/readme.txt"})
+    EXPECT_NE(read.info.notes[0].find(name), std::string::npos) << read.info.notes[0];
+}
+
+TEST(ReadTractogram, TakesCountsOfTrxThatAreWrittenAsFractions) {
+  const TempFolder folder;
+  auto members = trx_members(sample_tracts(), true);
+  members[0].second = R"({"NB_VERTICES": 26.0, "NB_STREAMLINES": 4.0})";
+  folder.write("float.trx", zip(members, false));
+  EXPECT_EQ(read_tractogram(folder.path("float.trx")).lines.line_count(), 4U);
+  members[0].second = R"({"NB_VERTICES": 26.5, "NB_STREAMLINES": 4})";
+  folder.write("float.trx", zip(members, false));
+  EXPECT_THROW((void)read_tractogram(folder.path("float.trx")), Error);
 }
 
 // Files cut at any byte are refused or, where a line ends there, read with a note; never a crash.
