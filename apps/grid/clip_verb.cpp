@@ -151,7 +151,9 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
 
 DrawnScene make_scene(Input& input, const Document& options, const VerbContext& context, double aspect) {
   const DataSet block = cropped(load_volume_block(input, &context.progress), options);
-  const auto image = make_volume_image(block, block.arrays.front().name, input.title());
+  const auto image =
+      with_own_colors(make_volume_image(block, block.arrays.front().name, input.title()),
+                      cropped(written_block(input, &context.progress), options).arrays.front());
   DrawnScene drawn;
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();

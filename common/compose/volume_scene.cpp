@@ -11,6 +11,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
@@ -22,6 +23,7 @@
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
+#include "common/load/volume_block.h"
 #include "common/render/volume/voxels/value_gradient.h"
 #include "common/scene/volume_source.h"
 
@@ -43,6 +45,10 @@ Voxels read_voxels(Input& input, Progress* progress) {
   voxels.blocks = input.read_timed({voxels.choice.array}, progress);
   voxels.image = make_volume_image(volume_source(voxels.blocks, voxels.choice, voxels.file),
                                    voxels.choice.array, voxels.file);
+  const bool whole =
+      voxels.choice.array == kColorArray && voxels.choice.component == ScalarChoice::kMagnitude;
+  if (whole && voxels.blocks.size() == 1)
+    voxels.image = with_own_colors(voxels.image, voxels.blocks.front().arrays.front());
   return voxels;
 }
 
@@ -154,6 +160,22 @@ void check_volume_options(const VolumeOptions& options) {
   (void)plane_images_of(options);
 }
 
+std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeImage> image,
+                                                   const DataArray& colors) {
+  const bool are_colors = colors.type == ScalarType::kUint8 && colors.components >= 3 &&
+                          colors.components <= 4 && colors.tuples == image->point_count();
+  if (!are_colors) return image;
+  auto own = std::make_shared<std::vector<std::array<std::uint8_t, 4>>>(colors.tuples);
+  const auto components = as_size(colors.components);
+  for (std::size_t i = 0; i < colors.tuples; ++i) {
+    for (std::size_t c = 0; c < 3; ++c)
+      (*own)[i][c] = std::to_integer<std::uint8_t>(colors.bytes[components * i + c]);
+  }
+  auto colored = std::make_shared<VolumeImage>(*image);
+  colored->colors = std::move(own);
+  return colored;
+}
+
 std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
   return read_voxels(input, progress).image;
 }
@@ -197,6 +219,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   volume.image = image;
   volume.fields = shown.secondary;
   volume.shown = options.volume.shown;
+  volume.colored = image->colors != nullptr;
   VolumeTransfer transfer = volume_transfer_of(options.volume.transfer, *image, options.common.threads);
   volume.transfer = std::move(transfer.colors);
   volume.regions = std::move(transfer.regions);
@@ -212,6 +235,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
     const std::vector<Lens> looks = lens_appearances(volume, options.volume.focus, options.common.threads);
     take_parts(volume, options.volume, looks, options.common.threads);
+    for (Lens& lens : volume.lenses) lens.colored = volume.colored && !lens.cut && lens.field == 0;
   }
   volume.planes = plane_images_of(options.volume);
   const bool asked = volume.planes.shown || options.volume.window || options.volume.level;

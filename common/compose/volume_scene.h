@@ -46,7 +46,14 @@ inline constexpr const char* kBoundariesPreset = "boundaries";
 /// Checks what can be checked of the options "Volume" before anything is read. @throws Error (usage).
 void check_volume_options(const VolumeOptions& options);
 
-/// Reads the voxels of the field that the input's spec names.
+/// `image` with the colours of its points, where `colors` holds red, green and blue from 0 to 255 (a fourth
+/// number is left out) for each; else as it is. They are drawn in place of those of transfer functions, which
+/// give opacity alone.
+[[nodiscard]] std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeImage> image,
+                                                                 const DataArray& colors);
+
+/// Reads the voxels of the field that the input's spec names, with their own colours where it is the magnitude
+/// of some.
 /// @throws Error, Cancelled.
 [[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress);
 

@@ -43,7 +43,7 @@ bool GrowingLine::start(const Vec3& seed, double arc, double time) noexcept {
     const LinePoint& begin = one.walk->end();
     inside = std::isfinite(begin.speed);
     one.nodes[0] = node_of(begin, one.walk->direction(), side);
-    one.loop.start(seed, one.walk->direction());
+    one.loop.start(begin, one.walk->direction());
   }
   if (!inside) {
     for (OneSide& one : sides_)

@@ -26,7 +26,7 @@ class LoopDetector {
   };
 
   /// Begins with a line at its seed. @param direction unit tangent there.
-  void start(const Vec3& seed, const Vec3& direction) noexcept {
+  void start(const LinePoint& seed, const Vec3& direction) noexcept {
     *this = LoopDetector();
     seed_.put(seed, direction);
     anchor_ = seed_;
@@ -39,7 +39,7 @@ class LoopDetector {
     if (const auto closing = anchor_.passed(piece, begin, end)) return closing;
     if (++steps_ >= next_) {
       next_ = 2 * steps_;
-      anchor_.put(end.position, direction);
+      anchor_.put(end, direction);
     }
     return std::nullopt;
   }
@@ -50,16 +50,17 @@ class LoopDetector {
 
   class Anchor {
    public:
-    void put(const Vec3& position, const Vec3& normal) noexcept {
+    void put(const LinePoint& point, const Vec3& normal) noexcept {
       *this = Anchor();
-      position_ = position;
+      position_ = point.position;
+      error_ = point.error;
       normal_ = normal;
     }
 
     [[nodiscard]] std::optional<Closing> passed(const DensePiece& piece, const LinePoint& begin,
                                                 const LinePoint& end) {
       const Vec3 apart = end.position - position_;
-      const double before = side_;
+      const double before = side_, away = farthest_;
       side_ = glm::dot(apart, normal_);
       farthest_ = std::max(farthest_, glm::dot(apart, apart));
       if (!(before < 0.0 && side_ >= 0.0)) return std::nullopt;
@@ -71,13 +72,18 @@ class LoopDetector {
                          1.0, before, side_, kThetaTolerance);
       const LinePoint passing = piece.at(theta);
       if (glm::distance(passing.position, position_) > kErrors * passing.error) return std::nullopt;
-      const double point = kPoint * end.error;
-      return Closing{theta, farthest_ > point * point ? End::kLoop : End::kStagnation};
+      // A line that rounding has moved back by, and that now goes on its way, was never away.
+      const double uncertain = kErrors * error_, point = kPoint * end.error;
+      if (!(away > uncertain * uncertain)) return std::nullopt;
+      if (!(farthest_ > point * point)) return Closing{theta, End::kStagnation};
+      if (!(away > point * point)) return std::nullopt;
+      return Closing{theta, End::kLoop};
     }
 
    private:
     Vec3 position_{0.0};
     Vec3 normal_{0.0};
+    double error_ = 0.0;  ///< of the line there
     double side_ = 0.0;
     double farthest_ = 0.0;  ///< square of the largest distance from the anchor since it was put
   };

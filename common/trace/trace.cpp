@@ -32,7 +32,7 @@ bool fixed_step(Integrator integrator) {
 /// Follows one line to its end.
 void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
   LoopDetector loop;
-  loop.start(walk.end().position, walk.direction());
+  loop.start(walk.end(), walk.direction());
   builder.start(walk.end());
   for (std::int64_t n = 1;; ++n) {
     const std::optional<End> ended = walk.advance();

@@ -1,8 +1,11 @@
 #include "common/window/saved_files.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
@@ -14,6 +17,56 @@
 #include "common/load/write/write_image.h"
 
 namespace palpate {
+namespace {
+
+/// The numbers in `Number`.
+template <typename Number>
+DataArray in_type(const std::vector<double>& values, ScalarType type) {
+  auto numbers = std::make_shared<std::vector<Number>>();
+  numbers->reserve(values.size());
+  for (const double value : values) numbers->push_back(static_cast<Number>(value));
+  DataArray array{.name = "scalars", .type = type, .tuples = values.size()};
+  array.bytes = std::as_bytes(std::span<const Number>(*numbers));
+  array.owner = std::move(numbers);
+  return array;
+}
+
+/// The values in the type of the data as far as the single precision of `image` holds them, else in doubles.
+DataArray as_stored(const std::vector<double>& values, const VolumeImage& image, bool& exact) {
+  constexpr double kWhole = 0x1p24;  // whole numbers up to this are exact in single precision
+  const bool whole = std::max(-image.lowest, image.highest) < kWhole;
+  exact = true;
+  switch (image.stored) {
+    case ScalarType::kInt8:
+      return in_type<std::int8_t>(values, image.stored);
+    case ScalarType::kUint8:
+      return in_type<std::uint8_t>(values, image.stored);
+    case ScalarType::kInt16:
+      return in_type<std::int16_t>(values, image.stored);
+    case ScalarType::kUint16:
+      return in_type<std::uint16_t>(values, image.stored);
+    case ScalarType::kInt32:
+      if (whole) return in_type<std::int32_t>(values, image.stored);
+      break;
+    case ScalarType::kUint32:
+      if (whole) return in_type<std::uint32_t>(values, image.stored);
+      break;
+    case ScalarType::kInt64:
+      if (whole) return in_type<std::int64_t>(values, image.stored);
+      break;
+    case ScalarType::kUint64:
+      if (whole) return in_type<std::uint64_t>(values, image.stored);
+      break;
+    case ScalarType::kFloat32:
+      return in_type<float>(values, image.stored);
+    case ScalarType::kFloat64:
+      break;
+  }
+  exact = false;
+  return in_type<double>(values, ScalarType::kFloat64);
+}
+
+}  // namespace
 
 SavedFiles::SavedFiles(const std::filesystem::path& folder, std::string program)
     : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
@@ -62,30 +115,22 @@ std::filesystem::path SavedFiles::save_annotations(std::span<const Annotation> a
   return path;
 }
 
-std::filesystem::path SavedFiles::save_region(const VolumeImage& image, const Box& region,
-                                              const std::string& ending, ImageSpace space) const {
+SavedFiles::SavedRegion SavedFiles::save_region(const VolumeImage& image, const Box& region,
+                                                const std::string& ending, ImageSpace space) const {
   const UniformTopology grid{.points = image.points, .origin = image.origin, .axes = image.axes};
   const auto part = points_in(grid, region);
   PALPATE_CHECK(part.has_value());
-  const Index3 n = part->points();
-  const std::size_t across = static_cast<std::size_t>(grid.points.x);
-  const std::size_t layer = across * static_cast<std::size_t>(grid.points.y);
-  std::vector<float> values;
-  values.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
-                 static_cast<std::size_t>(n.z));
+  std::vector<double> values;
+  values.reserve(count_of(part->points()));
   for (int k = part->first.z; k <= part->last.z; ++k) {
     for (int j = part->first.y; j <= part->last.y; ++j) {
-      for (int i = part->first.x; i <= part->last.x; ++i) {
-        const std::size_t at = static_cast<std::size_t>(i) + across * static_cast<std::size_t>(j) +
-                               layer * static_cast<std::size_t>(k);
-        values.push_back(static_cast<float>(image.value(at)));
-      }
+      for (int i = part->first.x; i <= part->last.x; ++i)
+        values.push_back(image.value(index_in(grid.points, {i, j, k})));
     }
   }
-  std::filesystem::path path = free_name("crop", ending);
-  write_image(path, part_of(grid, *part), make_array("scalars", Association::kPoint, 1, values), false,
-              space);
-  return path;
+  SavedRegion saved{.file = free_name("crop", ending)};
+  write_image(saved.file, part_of(grid, *part), as_stored(values, image, saved.exact), false, space);
+  return saved;
 }
 
 std::filesystem::path SavedFiles::free_name(const std::string& stem, const std::string& ending) const {

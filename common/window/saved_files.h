@@ -39,11 +39,15 @@ class SavedFiles {
   /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
   [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
                                                        const std::string& ending) const;
+  struct SavedRegion {
+    std::filesystem::path file;
+    bool exact = true;  ///< false: wide numbers, of which a picture has the digits of single precision alone
+  };
   /// Saves the voxels of `image` in `region` as `crop` and `ending`, .nii.gz, .nrrd or .vti, under the first
-  /// number that is free: in single precision, the lowest value where there is none, as the verb `clip` does.
+  /// number that is free: in the type of the data, as the verb `clip` does, or in doubles where not exact.
   /// @pre some are in it.
-  [[nodiscard]] std::filesystem::path save_region(const VolumeImage& image, const Box& region,
-                                                  const std::string& ending, ImageSpace space) const;
+  [[nodiscard]] SavedRegion save_region(const VolumeImage& image, const Box& region,
+                                        const std::string& ending, ImageSpace space) const;
   /// Saves a picture under the first number that is free.
   [[nodiscard]] std::filesystem::path save_picture(const Image& image,
                                                    const std::vector<PngText>& texts) const;

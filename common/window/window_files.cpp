@@ -75,10 +75,11 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
   }
   if (!actions.region.crop.empty()) {
     attempt([&] {
-      return saved_
-          .save_region(*view.volume->image, *region, actions.region.crop,
-                       view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown)
-          .string();
+      const SavedFiles::SavedRegion saved =
+          saved_.save_region(*view.volume->image, *region, actions.region.crop,
+                             view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown);
+      return saved.file.string() +
+             (saved.exact ? "" : " (to seven digits, as pictures have them; the command clip keeps all)");
     });
   }
 }

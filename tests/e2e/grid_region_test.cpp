@@ -1,10 +1,15 @@
 // A region of interest: what the window crops is what `grid clip --box` writes.
 #include <fstream>
+#include <memory>
+#include <span>
 #include <sstream>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "common/field/analytic/volume_examples.h"
 #include "common/hand/technique/box_hold.h"
+#include "common/load/write/write_image.h"
 #include "common/window/controls/region_control.h"
 #include "common/window/saved_files.h"
 #include "tests/e2e/explorer_test.h"
@@ -29,7 +34,7 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
   region.upper.x += 0.1 * image->bounds().size().x;
   const SavedFiles files(folder_.path(), "grid");
   for (const std::string ending : {".nrrd", ".vti", ".nii.gz"}) {
-    const auto cropped = files.save_region(*image, region, ending, ImageSpace::kUnknown);
+    const auto cropped = files.save_region(*image, region, ending, ImageSpace::kUnknown).file;
     const auto clipped = "clip" + ending;
     const ProgramResult result =
         run({"clip", "--example", "shells", "--box", box_text(region), "--out", clipped});
@@ -38,8 +43,47 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
     EXPECT_FALSE(wanted.empty());
     EXPECT_EQ(bytes_of(cropped), wanted) << ending;
     // Never over a file that is there.
-    EXPECT_NE(files.save_region(*image, region, ending, ImageSpace::kUnknown), cropped);
+    EXPECT_NE(files.save_region(*image, region, ending, ImageSpace::kUnknown).file, cropped);
   }
+}
+
+// In the type of the data, as far as a picture's single precision holds it.
+TEST_F(GridRegion, TheWindowCropsInTheTypeOfTheData) {
+  DataSet block = volume_example("shells");
+  std::vector<double> values(block.arrays.at(0).tuples);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1000.0 / 3.0 - static_cast<double>(i % 701);
+  const auto stored_as = [&]<typename Number>(ScalarType type, Number) {
+    auto numbers = std::make_shared<std::vector<Number>>(values.begin(), values.end());
+    DataArray& array = block.arrays.at(0);
+    array.type = type;
+    array.bytes = std::as_bytes(std::span<const Number>(*numbers));
+    array.owner = numbers;
+  };
+  const SavedFiles files(folder_.path(), "grid");
+  const auto compare = [&](bool exact) {
+    const auto image = make_volume_image(block, kVolumeArray, "shells");
+    const Box region = new_region(image->bounds());
+    write_image(folder_.path("whole.nrrd"), std::get<UniformTopology>(block.topology), block.arrays.at(0),
+                true, ImageSpace::kUnknown);
+    const auto cropped = files.save_region(*image, region, ".nrrd", ImageSpace::kUnknown);
+    EXPECT_EQ(cropped.exact, exact);
+    const ProgramResult clipped =
+        run({"clip", "whole.nrrd", "--box", box_text(region), "--out", "clipped.nrrd", "--force"});
+    ASSERT_EQ(clipped.exit_code, 0) << clipped.err;
+    const std::string made = bytes_of(cropped.file), wanted = bytes_of(folder_.path("clipped.nrrd"));
+    EXPECT_TRUE(!exact || made == wanted) << name_of(block.arrays.at(0).type);
+  };
+  stored_as(ScalarType::kInt16, std::int16_t());
+  compare(true);
+  stored_as(ScalarType::kInt32, std::int32_t());
+  compare(true);
+  stored_as(ScalarType::kFloat32, float());
+  compare(true);
+  stored_as(ScalarType::kFloat64, double());
+  compare(false);
+  for (double& value : values) value *= 1e9;
+  stored_as(ScalarType::kInt64, std::int64_t());
+  compare(false);
 }
 
 // Verbs without a box leave it to those that have one.

@@ -44,6 +44,44 @@ TEST_F(Grid, ListsItsOwnExamplesAndSaysWhatTheyHold) {
   EXPECT_EQ(run({"info", "--example", "tornado"}).exit_code, 2);
 }
 
+// A ball that is red on one side and blue on the other: their magnitudes are one.
+TEST_F(Grid, DrawsColoursAsColours) {
+  constexpr int n = 24;
+  std::string voxels;
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const double x = i - 11.5, y = j - 11.5, z = k - 11.5;
+        const bool in = x * x + y * y + z * z < 81.0;
+        voxels += {in && x < 0.0 ? '\xff' : '\0', '\0', in && x >= 0.0 ? '\xff' : '\0'};
+      }
+    }
+  }
+  folder_.write("ball.nrrd",
+                "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 24 24 24\nkinds: RGB-color domain domain "
+                "domain\nspacings: nan 1 1 1\nencoding: raw\n\n" +
+                    voxels);
+  for (const std::vector<std::string>& drawn :
+       {std::vector<std::string>{"render", "ball.nrrd"}, {"clip", "ball.nrrd", "--plane", "0,1,0,11.5"}}) {
+    std::vector<std::string> arguments = drawn;
+    arguments.insert(arguments.end(), {"--size", "96x96", "--out", "a.png", "--force"});
+    const ProgramResult result = run(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* const pixels = stbi_load(folder_.path("a.png").c_str(), &width, &height, &channels, 3);
+    ASSERT_NE(pixels, nullptr);
+    int red = 0, blue = 0;
+    for (int i = 0; i < width * height; ++i) {
+      const int difference = pixels[3 * i] - pixels[3 * i + 2];
+      red += difference > 60 ? 1 : 0;
+      blue += difference < -60 ? 1 : 0;
+    }
+    stbi_image_free(pixels);
+    EXPECT_GT(red, 200) << drawn[0];
+    EXPECT_GT(blue, 200) << drawn[0];
+  }
+}
+
 TEST_F(Grid, SaysWhatAHeaderlessFileHoldsByOptionsSidecarOrName) {
   std::string voxels;
   for (int i = 0; i < 24; ++i) voxels += {'\0', static_cast<char>(i)};

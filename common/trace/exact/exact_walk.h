@@ -55,7 +55,7 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] std::optional<End> robust_piece();
   /// From `start` to `stop` = start + h, times of the modes.
   [[nodiscard]] RobustFlow robust_flow(double start, double h, double stop) const;
-  void move_onto_face(RobustFlow& flow, int face) const;
+  void move_onto_face(RobustFlow& flow, int face, double stop) const;
   [[nodiscard]] std::optional<End> cross(int face);
   [[nodiscard]] std::optional<End> cross_standing(int face);
   void settle(CellIndex cell, const Vec3& x);

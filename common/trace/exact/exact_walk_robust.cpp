@@ -43,13 +43,15 @@ ExactWalk::RobustFlow ExactWalk::robust_flow(double start, double h, double stop
 }
 
 /// A time has no more digits than a double, so a fast line is on its face only within them: by the flow itself, which moves
-/// the point along its curve. What is left is moved straight.
-void ExactWalk::move_onto_face(RobustFlow& flow, int face) const {
+/// the point along its curve. What is left is moved straight: where the line grazes the face, the point would
+/// go a long way back on its curve for a last digit of its coordinate, against its time.
+void ExactWalk::move_onto_face(RobustFlow& flow, int face, double stop) const {
   for (int n = 0; n < 2; ++n) {
     const Pack4 a = apply(cell_, flow.w), j = apply(cell_, a);
     const double d = -flow.b[face] / flow.w[face];
     constexpr double kNear = 0x1p-8;  // of the time in which the flow changes
-    if (!(std::abs(d) * cell_.norm <= kNear)) break;
+    constexpr double kOfTime = 16.0 * kUlp;
+    if (!(std::abs(d) * cell_.norm <= kNear && std::abs(d) <= kOfTime * stop)) break;
     flow.b += d * (flow.w + (0.5 * d) * (a + (d * (1.0 / 3)) * j));
     flow.w += d * (a + (0.5 * d) * j);
   }
@@ -96,7 +98,7 @@ std::optional<End> ExactWalk::robust_piece() {
     }
     const Arc arc = arc_length(end_.speed, flow.speed, h);
     const bool last = whole && leaves;
-    if (last) move_onto_face(flow, exit.face);
+    if (last) move_onto_face(flow, exit.face, stop);
     const double chord = glm::distance(position(cell_, flow.b).xyz(), x0);
     const bool still = arc.length <= kUlp * cell_.size;
     const bool sound = turn >= kMaxTurn && arc.sound && chord >= kMinChord * arc.length;

@@ -104,5 +104,24 @@ TEST(ClosedLines, LimitCyclesEndLinesThatRunOntoThem) {
   }
 }
 
+// Seeds on vertices, edges and faces, where rounding may first move a line back: it has not returned.
+TEST(ClosedLines, LinesThatLeaveTheirSeedAreOpen) {
+  const Mat3 helix = rows(0, -1, 0, 1, 0, 0, 0, 0, 0.5);
+  std::vector<Vec3> seeds;
+  for (int k = 0; k < 5; ++k) {
+    for (int j = 0; j < 9; ++j) {
+      for (int i = 0; i < 9; ++i) seeds.push_back(Vec3{-0.8, -0.8, -0.9} + Vec3{0.2 * i, 0.2 * j, 0.15 * k});
+    }
+  }
+  for (const double speed : {1e-30, 0.7, 1.0, 3e7, 1e30}) {
+    const LinearField flow(speed * helix, {-0.3, 0.0, -3.0});
+    const auto field =
+        make_vector_field({sample_tetrahedra(flow, Index3{6}, 0.0, 1, SampledType::kFloat64)},
+                          VectorChoice{.arrays = {kSampledName}, .label = "velocity"}, "sampled");
+    for (const Line& line : trace_lines(*field, seeds, {.backward = true, .threads = 1}).lines)
+      EXPECT_EQ(line.end, End::kLeftDomain) << speed << ", seed " << line.seed << ": " << name_of(line.end);
+  }
+}
+
 }  // namespace
 }  // namespace palpate::test

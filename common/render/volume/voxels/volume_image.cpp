@@ -235,6 +235,7 @@ std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block, const
   image->points = grid->points;
   image->origin = grid->origin;
   image->axes = grid->axes;
+  image->stored = values->type;
   if (values->tuples != image->point_count() || values->tuples == 0) {
     throw problem(file, array, "has " + std::to_string(values->tuples) + " values",
                   std::to_string(image->point_count()) + ", one a voxel");

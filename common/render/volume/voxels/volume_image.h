@@ -22,10 +22,11 @@ namespace palpate {
 struct VolumeImage {
   Index3 points{0};
   Vec3 origin{0.0};
-  Mat3 axes{1.0};                          ///< columns: steps along i, j, k [data units]
-  ScalarType type = ScalarType::kFloat32;  ///< kUint8, kUint16 or kFloat32
-  std::span<const std::byte> bytes;        ///< points.x * points.y * points.z numbers, x fastest
-  std::shared_ptr<const void> owner;       ///< keeps `bytes` alive
+  Mat3 axes{1.0};                            ///< columns: steps along i, j, k [data units]
+  ScalarType type = ScalarType::kFloat32;    ///< kUint8, kUint16 or kFloat32
+  ScalarType stored = ScalarType::kFloat32;  ///< of the numbers of the data that it is made from
+  std::span<const std::byte> bytes;          ///< points.x * points.y * points.z numbers, x fastest
+  std::shared_ptr<const void> owner;         ///< keeps `bytes` alive
   /// Where not null, the numbers stand here, in single precision, and `bytes` are none.
   std::shared_ptr<const SparseNumbers> sparse;
   /// A colour for each point, sRGB with an unused fourth byte, for parts that are drawn in it
