@@ -180,7 +180,7 @@ std::vector<std::filesystem::path> write_carp(const Task& task, const Document& 
   return out.files();
 }
 
-/// The mesh at a time with its arrays of points, beside the collection that names it.
+/// The mesh at a time with its arrays, beside the collection that names it.
 std::filesystem::path step_file(const std::filesystem::path& pvd, std::size_t step) {
   const std::string digits = std::to_string(step);
   constexpr std::size_t kDigits = 4;
@@ -190,8 +190,6 @@ std::filesystem::path step_file(const std::filesystem::path& pvd, std::size_t st
 
 std::vector<std::filesystem::path> write_pvd(const Task& task, const Document& options,
                                              const VerbContext& context) {
-  if (task.heart && task.heart->fibre.association == Association::kCell)
-    throw usage_error(options.output.file.string() + ": fibres of cells are not written as .pvd: try .pts");
   const std::size_t steps = std::max<std::size_t>(1, task.times.size());
   for (std::size_t step = 0; step < steps; ++step)
     check_mesh_output(step_file(options.output.file, step), options.common.force);
@@ -204,8 +202,10 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Document& o
     const Tetrahedra cells(data, task.input.title());
     std::vector<MeshColumn> columns;
     for (const DataArray& array : data.arrays)
-      if (array.association == Association::kPoint)
-        columns.push_back({array.name, cells.values(array), static_cast<std::size_t>(array.components)});
+      columns.push_back({.name = array.name,
+                         .values = cells.values(array),
+                         .components = static_cast<std::size_t>(array.components),
+                         .of_cells = array.association == Association::kCell});
     files.push_back(step_file(options.output.file, step));
     write_mesh(files.back(), cells.mesh().points, cells.mesh().tets, columns, options.common.force,
                task.input.file()->long_axis);

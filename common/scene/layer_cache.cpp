@@ -13,7 +13,7 @@ namespace palpate {
 namespace {
 
 /// Goes up with every change of how cells are split and layers are solved.
-constexpr CachedFile::Kind kLayers{.what = "layers", .version = "palpate layers 4"};
+constexpr CachedFile::Kind kLayers{.what = "layers", .version = "palpate layers 5"};
 
 /// Of all that layers depend on.
 std::string key_of(const DataSet& mesh, int threads) {

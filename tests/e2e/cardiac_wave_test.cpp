@@ -101,6 +101,18 @@ TEST_F(CardiacWave, IsWrittenAsATimeSeriesOfVtkAndReadBack) {
   EXPECT_NEAR(map["bands"].front()["mean"].get<double>(), 60.0, 2.0);
 }
 
+TEST_F(CardiacWave, FibresAndRegionsOfCellsAreWrittenForVtkToo) {
+  folder_.write("m.pts", "5\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n1000 1000 1000\n");
+  folder_.write("m.elem", "2\nTt 0 1 2 3 7\nTt 1 2 3 4 9\n");
+  folder_.write("m.lon", "1\n1 0 0\n0 3 4\n");
+  EXPECT_EQ(json({"convert", "m.pts", "--out", "m.pvd"})["files"].size(), 2U);
+  const ProgramResult info = run({"info", "m.pvd"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  for (const char* line : {"fibre (cells, 3 x float64): 0 … 1, 0 … 0.6, 0 … 0.8",
+                           "region (cells, 1 x float64): 7 … 9", "field      fibre"})
+    EXPECT_NE(info.out.find(line), std::string::npos) << line << "\n" << info.out;
+}
+
 TEST_F(CardiacWave, WhatCannotBeWrittenIsNamedAndNothingIsLeft) {
   EXPECT_EQ(run({"convert", "--example", "wave", "--json"}).exit_code, 2);
   EXPECT_EQ(run({"convert", "--example", "wave", "--out", "wave.vtk", "--json"}).exit_code, 2);

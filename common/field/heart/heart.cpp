@@ -84,10 +84,10 @@ void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mes
   } else {
     std::optional<WallLayer> layer = kept != nullptr ? kept->find(mesh) : std::nullopt;
     if (!layer && layers == LayersNeeded::kSurfaces) {
-      std::string found = find_wall_surfaces(*grid, mesh, file).note;
+      const std::vector<std::string> found = notes_of(find_wall_surfaces(*grid, mesh, file));
       heart.notes.emplace_back(
           "layers by Laplace's equation from the inner to the outer surface, solved when they are needed");
-      heart.notes.push_back(std::move(found));
+      heart.notes.insert(heart.notes.end(), found.begin(), found.end());
       return;
     }
     if (!layer) {

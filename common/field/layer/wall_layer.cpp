@@ -244,7 +244,7 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
   const System system = assemble(*grid.tets, surfaces.of_point, reached, threads);
 
   WallLayer layer;
-  layer.notes.push_back(surfaces.note);
+  layer.notes = notes_of(surfaces);
   Eigen::VectorXd depths = Eigen::VectorXd::Zero(system.right.size());
   if (system.right.norm() != 0.0) {  // else zero is the solution
     layer.residual = 1.0;

@@ -3,64 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
-#include <numeric>
+#include <optional>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/wall_border.h"
 
 namespace palpate {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
-
-/// The corners opposite each vertex of a positively oriented tetrahedron, their normal outwards.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-std::vector<Triangle> border_of(const TetMesh& mesh) {
-  std::vector<Triangle> border;
-  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
-    const TetMesh::Tet& tet = mesh.cells()[c];
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (mesh.neighbors()[c][f] != kNoCell) continue;
-      border.push_back({tet[kFaces[f][0]], tet[kFaces[f][1]], tet[kFaces[f][2]]});
-    }
-  }
-  return border;
-}
-
-/// Twice the area, outwards.
-Vec3 area_vector(std::span<const Vec3> points, const Triangle& t) {
-  return glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
-}
-
-/// Sets that are merged two by two.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void merge(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-struct Edge {
-  std::uint32_t low, high, triangle;
-};
-
-constexpr double kCrease = 40.0 * std::numbers::pi / 180.0;
-constexpr double kSmallPart = 0.01;  // of the border's area
-constexpr double kFlat = 0.99;       // of a part's area, that its normals add up to
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kCreases[3] = {40.0 * kDegree, 30.0 * kDegree, 20.0 * kDegree};
+constexpr double kSmallPart = 0.01;    // of the border's area
+constexpr double kHasOpening = 0.05;   // mean normal of a surface that does not go all round
+constexpr double kLevel = 0.02;        // bulge of what is flat or a saddle; a half sphere has 0.13
+constexpr double kFacesUp = 0.3;       // mean of normal times axis of what does not lie along the wall
+constexpr double kFacesOpening = 0.6;  // that of a base; at most 0.5 for the inside of half a sphere
+constexpr double kMost = 0.75;         // of a part's area that says what all of it is
+constexpr double kLeastConfidence = 0.9;
+constexpr double kRounder = 1.2;  // how much rounder the left ventricle should be than the next
 
 bool both(const std::vector<WallSurface>& of_point) {
   const auto has = [&](WallSurface surface) {
@@ -81,62 +48,315 @@ std::vector<WallSurface> tagged(const FieldGrid& grid, const DataArray& array) {
   return of_point;
 }
 
+/// The border at one crease, and what its parts are.
+class BorderReading {
+ public:
+  BorderReading(const TetMesh& mesh, const WallBorder& border, double crease)
+      : mesh_(mesh),
+        border_(border),
+        parts_(border_parts(mesh, border, crease)),
+        part_of_(border.triangles.size()),
+        roles_(border.triangles.size(), BorderRole::kLeft) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      area_ += parts_[p].area;
+      for (const std::uint32_t t : parts_[p].triangles) part_of_[t] = p;
+    }
+    for (const auto& [a, b] : border.joints)
+      if (part_of_[a] != part_of_[b]) beside_.insert(std::minmax(part_of_[a], part_of_[b]));
+    part_roles_.assign(parts_.size(), BorderRole::kLeft);
+    find_outer();
+    if (outer_ == parts_.size()) return;
+    find_base();
+    find_cavities();
+  }
+
+  [[nodiscard]] bool has(BorderRole role) const {
+    return std::find(part_roles_.begin(), part_roles_.end(), role) != part_roles_.end();
+  }
+  /// Whether the outer surface or a cavity goes round but for an opening.
+  [[nodiscard]] bool open() const {
+    return axis_.has_value() || std::any_of(cavities_.begin(), cavities_.end(), [this](const Cavity& cavity) {
+             Vec3 normal{0.0};
+             double area = 0.0;
+             for (const std::size_t p : cavity) {
+               normal += parts_[p].normal * parts_[p].area;
+               area += parts_[p].area;
+             }
+             return glm::length(normal) > kHasOpening * area;
+           });
+  }
+  [[nodiscard]] std::size_t part_count() const { return parts_.size(); }
+  [[nodiscard]] std::size_t cavity_count() const { return cavities_.size(); }
+
+  /// The roles of all triangles. @param doubts gets what should be looked at.
+  std::vector<BorderRole> roles(std::vector<std::string>& doubts) {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const std::uint32_t t : parts_[p].triangles) roles_[t] = part_roles_[p];
+    if (cavities_.size() > 1) find_septum(doubts);
+    return roles_;
+  }
+
+ private:
+  using Cavity = std::vector<std::size_t>;  // parts
+
+  [[nodiscard]] bool large(std::size_t part) const { return parts_[part].area >= kSmallPart * area_; }
+  [[nodiscard]] bool touches(std::size_t part, BorderRole role) const {
+    return std::any_of(beside_.begin(), beside_.end(), [&](const auto& pair) {
+      return (pair.first == part && part_roles_[pair.second] == role) ||
+             (pair.second == part && part_roles_[pair.first] == role);
+    });
+  }
+  [[nodiscard]] double facing(std::size_t part) const {
+    return axis_ ? glm::dot(parts_[part].normal, *axis_) : 0.0;
+  }
+
+  void find_outer() {
+    outer_ = parts_.size();
+    double extent = -1.0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!large(p) || parts_[p].flat() || !(parts_[p].bounds.diagonal() > extent)) continue;
+      outer_ = p;
+      extent = parts_[p].bounds.diagonal();
+    }
+    if (outer_ == parts_.size()) return;
+    part_roles_[outer_] = BorderRole::kOuter;
+    const double length = glm::length(parts_[outer_].normal);
+    if (length > kHasOpening) axis_ = -parts_[outer_].normal / length;
+  }
+
+  void find_base() {
+    // Parts of the outer surface first: what is beside them may be base.
+    for (bool more = true; more;) {
+      more = false;
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        if (!large(p) || part_roles_[p] != BorderRole::kLeft || parts_[p].flat()) continue;
+        if (parts_[p].bulge > kLevel && facing(p) < kFacesUp && touches(p, BorderRole::kOuter)) {
+          part_roles_[p] = BorderRole::kOuter;
+          more = true;
+        }
+      }
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!large(p) || part_roles_[p] != BorderRole::kLeft) continue;
+      const bool level = std::abs(parts_[p].bulge) < kLevel && (!axis_ || facing(p) > kFacesUp);
+      const bool opening = facing(p) > kFacesOpening && touches(p, BorderRole::kOuter);
+      if (parts_[p].flat() || level || opening) part_roles_[p] = BorderRole::kBase;
+    }
+  }
+
+  void find_cavities() {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (large(p) && part_roles_[p] == BorderRole::kLeft) part_roles_[p] = BorderRole::kInner;
+    std::set<std::size_t> seen;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (part_roles_[p] != BorderRole::kInner || !seen.insert(p).second) continue;
+      Cavity cavity{p};
+      for (std::size_t i = 0; i < cavity.size(); ++i) {
+        for (const auto& [a, b] : beside_) {
+          if (a != cavity[i] && b != cavity[i]) continue;
+          const std::size_t other = a == cavity[i] ? b : a;
+          if (part_roles_[other] == BorderRole::kInner && seen.insert(other).second) cavity.push_back(other);
+        }
+      }
+      cavities_.push_back(std::move(cavity));
+    }
+    std::stable_sort(cavities_.begin(), cavities_.end(),
+                     [this](const Cavity& a, const Cavity& b) { return roundness(a) > roundness(b); });
+    for (std::size_t c = 1; c < cavities_.size(); ++c)
+      for (const std::size_t p : cavities_[c]) part_roles_[p] = BorderRole::kRight;
+  }
+
+  /// 36 pi V^2 / A^3 of a cavity closed at the middle of its rim: 1 for a sphere.
+  [[nodiscard]] double roundness(const Cavity& cavity) const {
+    std::vector<bool> in(parts_.size());
+    for (const std::size_t p : cavity) in[p] = true;
+    Vec3 middle{0.0}, area{0.0};
+    double count = 0.0, total = 0.0, volume = 0.0;
+    for (const auto& [a, b] : border_.joints) {
+      if (in[part_of_[a]] == in[part_of_[b]]) continue;
+      for (const std::uint32_t corner : border_.triangles[a]) {
+        const auto& other = border_.triangles[b];
+        if (std::find(other.begin(), other.end(), corner) == other.end()) continue;
+        middle += mesh_.points()[corner];
+        count += 1.0;
+      }
+    }
+    if (count == 0.0) middle = parts_[cavity.front()].bounds.center();
+    if (count > 0.0) middle /= count;
+    for (const std::size_t p : cavity) {
+      total += parts_[p].area;
+      area += parts_[p].normal * parts_[p].area;
+      for (const std::uint32_t t : parts_[p].triangles) {
+        Vec3 center{0.0};
+        for (const std::uint32_t corner : border_.triangles[t]) center += mesh_.points()[corner] / 3.0;
+        volume -= glm::dot(center - middle, border_.areas[t]) / 3.0;
+      }
+    }
+    total += glm::length(area);  // the plane over the rim
+    return volume > 0.0 ? 36.0 * std::numbers::pi * volume * volume / (total * total * total) : 0.0;
+  }
+
+  void find_septum(std::vector<std::string>& doubts) {
+    enum class Behind : std::uint8_t { kUnknown, kFree, kLeft };
+    const WallCrossing crossing(mesh_, border_);
+    std::vector<Behind> behind(border_.triangles.size(), Behind::kUnknown);
+    double septum = 0.0, mixed = 0.0, right = 0.0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (part_roles_[p] != BorderRole::kRight) continue;
+      double left = 0.0, free = 0.0;
+      for (const std::uint32_t t : parts_[p].triangles) {
+        const std::size_t met = crossing.from(t);
+        const BorderRole role = met < roles_.size() ? roles_[met] : BorderRole::kLeft;
+        if (role == BorderRole::kInner) behind[t] = Behind::kLeft;
+        if (role == BorderRole::kOuter || role == BorderRole::kRight) behind[t] = Behind::kFree;
+        if (behind[t] == Behind::kLeft) left += glm::length(border_.areas[t]);
+        if (behind[t] == Behind::kFree) free += glm::length(border_.areas[t]);
+      }
+      right += parts_[p].area;
+      const bool all_left = left > kMost * (left + free), all_free = !(left > (1.0 - kMost) * (left + free));
+      if (!all_left && !all_free) mixed += parts_[p].area;
+      for (const std::uint32_t t : parts_[p].triangles) {
+        if (all_left) behind[t] = Behind::kLeft;
+        if (all_free) behind[t] = Behind::kFree;
+      }
+    }
+    spread(behind, Behind::kUnknown);
+    for (std::size_t t = 0; t < behind.size(); ++t) {
+      if (roles_[t] != BorderRole::kRight || behind[t] != Behind::kLeft) continue;
+      roles_[t] = BorderRole::kSeptum;
+      septum += glm::length(border_.areas[t]);
+    }
+    const double first = roundness(cavities_[0]), second = roundness(cavities_[1]);
+    if (first < kRounder * second)
+      doubts.push_back("which of the cavities is the left ventricle's: they are as round as " +
+                       short_number(first) + " and " + short_number(second) + " of a sphere");
+    if (cavities_.size() > 2)
+      doubts.push_back(std::to_string(cavities_.size()) + " cavities" +
+                       " were found: the roundest one is taken for the left ventricle's");
+    if (septum == 0.0) doubts.emplace_back("no wall between the cavities was found: none has a septum");
+    if (mixed > 0.5 * right)
+      doubts.emplace_back(
+          "where the septum ends in the right ventricle: there is no crease, the way through the wall says so");
+  }
+
+  /// Fills what is not known from beside, within the right ventricle, and takes single triangles for what
+  /// most of those beside them are.
+  template <typename Kind>
+  void spread(std::vector<Kind>& of, Kind unknown) const {
+    std::vector<std::vector<std::uint32_t>> beside(of.size());
+    for (const auto& [a, b] : border_.joints) {
+      if (roles_[a] != BorderRole::kRight || roles_[b] != BorderRole::kRight) continue;
+      beside[a].push_back(b);
+      beside[b].push_back(a);
+    }
+    std::vector<std::uint32_t> front;
+    for (std::size_t t = 0; t < of.size(); ++t)
+      if (of[t] != unknown) front.push_back(static_cast<std::uint32_t>(t));
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      const std::uint32_t from = front[i];  // `front` may move
+      for (const std::uint32_t t : beside[from]) {
+        if (of[t] != unknown) continue;
+        of[t] = of[from];
+        front.push_back(t);
+      }
+    }
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<Kind> before = of;
+      for (std::size_t t = 0; t < of.size(); ++t) {
+        const auto others = std::count_if(beside[t].begin(), beside[t].end(),
+                                          [&](std::uint32_t b) { return before[b] != before[t]; });
+        if (2 * as_size(others) > beside[t].size()) {
+          const auto other = std::find_if(beside[t].begin(), beside[t].end(),
+                                          [&](std::uint32_t b) { return before[b] != before[t]; });
+          of[t] = before[*other];
+        }
+      }
+    }
+  }
+
+  const TetMesh& mesh_;
+  const WallBorder& border_;
+  std::vector<BorderPart> parts_;
+  std::vector<std::size_t> part_of_;  ///< of each triangle
+  std::vector<BorderRole> roles_;     ///< of each triangle
+  std::vector<BorderRole> part_roles_;
+  std::set<std::pair<std::size_t, std::size_t>> beside_;  ///< parts that share an edge, the lower first
+  double area_ = 0.0;
+  std::size_t outer_ = 0;
+  std::optional<Vec3> axis_;  ///< the way that the outer surface opens
+  std::vector<Cavity> cavities_;
+};
+
+/// Areas, pieces and confidence of the roles.
+void measure(const FieldGrid& grid, const WallBorder& border, WallSurfaces& surfaces) {
+  const double scale = grid.frame.length_scale();
+  std::vector<std::vector<std::uint32_t>> beside(border.triangles.size());
+  for (const auto& [a, b] : border.joints) {
+    if (surfaces.roles[a] != surfaces.roles[b]) continue;
+    beside[a].push_back(b);
+    beside[b].push_back(a);
+  }
+  double total = 0.0;
+  for (const Vec3& area : border.areas) total += glm::length(area);
+  std::vector<bool> seen(border.triangles.size());
+  for (std::size_t t = 0; t < seen.size(); ++t) {
+    if (seen[t]) continue;
+    std::vector<std::uint32_t> piece{static_cast<std::uint32_t>(t)};
+    seen[t] = true;
+    double area = 0.0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const std::uint32_t from = piece[i];
+      area += glm::length(border.areas[from]);
+      for (const std::uint32_t b : beside[from]) {
+        if (seen[b]) continue;
+        seen[b] = true;
+        piece.push_back(b);
+      }
+    }
+    const std::size_t role = as_size(surfaces.roles[t]);
+    surfaces.areas[role] += area * scale * scale;
+    if (area >= kSmallPart * total) ++surfaces.pieces[role];
+  }
+  double left = 0.0;
+  for (std::size_t t = 0; t < border.areas.size(); ++t)
+    if (surfaces.roles[t] == BorderRole::kLeft) left += glm::length(border.areas[t]);
+  surfaces.confidence = total > 0.0 ? 1.0 - left / total : 0.0;
+}
+
+std::string list_of(const WallSurfaces& surfaces) {
+  std::string text;
+  for (const BorderRole role :
+       {BorderRole::kInner, BorderRole::kRight, BorderRole::kSeptum, BorderRole::kOuter, BorderRole::kBase}) {
+    const double area = surfaces.areas[as_size(role)];
+    if (!(area > 0.0)) continue;
+    const std::size_t pieces = surfaces.pieces[as_size(role)];
+    const bool several = surfaces.areas[as_size(BorderRole::kRight)] > 0.0 ||
+                         surfaces.areas[as_size(BorderRole::kSeptum)] > 0.0;
+    text += (text.empty() ? "" : ", ") +
+            std::string(role == BorderRole::kInner && !several ? "endocardium" : name_of(role)) + " (area " +
+            short_number(area) + (pieces > 1 ? ", " + counted(pieces, "piece") : "") + ")";
+  }
+  return text;
+}
+
 }  // namespace
 
-std::vector<BoundaryPatch> boundary_patches(const TetMesh& mesh, double crease) {
-  const std::vector<Triangle> border = border_of(mesh);
-  const std::span<const Vec3> points = mesh.points();
-  std::vector<Vec3> normals;
-  normals.reserve(border.size());
-  for (const Triangle& t : border) {
-    const Vec3 area = area_vector(points, t);
-    const double length = glm::length(area);
-    normals.push_back(length > 0.0 ? area / length : Vec3{0.0});
+const char* name_of(BorderRole role) noexcept {
+  switch (role) {
+    case BorderRole::kOuter:
+      return "epicardium";
+    case BorderRole::kInner:
+      return "left endocardium";
+    case BorderRole::kRight:
+      return "right endocardium";
+    case BorderRole::kSeptum:
+      return "septum on the right";
+    case BorderRole::kBase:
+      return "base";
+    default:
+      return "none";
   }
-
-  std::vector<Edge> edges;
-  edges.reserve(3 * border.size());
-  for (std::size_t t = 0; t < border.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = border[t][i], b = border[t][(i + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t)});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    if (a.low != b.low) return a.low < b.low;
-    return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-  });
-  Groups groups(border.size());
-  const double least_cosine = std::cos(crease);
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    const Edge &a = edges[e - 1], &b = edges[e];
-    if (a.low != b.low || a.high != b.high) continue;
-    // A triangle without area has no normal and goes with its neighbours.
-    const Vec3 &m = normals[a.triangle], &n = normals[b.triangle];
-    const bool flat = m == Vec3{0.0} || n == Vec3{0.0};
-    if (flat || glm::dot(m, n) > least_cosine) groups.merge(a.triangle, b.triangle);
-  }
-
-  std::vector<BoundaryPatch> patches;
-  std::vector<std::int64_t> patch_of(border.size(), -1);
-  for (std::size_t t = 0; t < border.size(); ++t) {
-    const std::uint32_t root = groups.find(static_cast<std::uint32_t>(t));
-    if (patch_of[root] < 0) {
-      patch_of[root] = static_cast<std::int64_t>(patches.size());
-      patches.emplace_back();
-    }
-    BoundaryPatch& patch = patches[as_size(patch_of[root])];
-    const Vec3 area = 0.5 * area_vector(points, border[t]);
-    patch.triangles.push_back(border[t]);
-    patch.area += glm::length(area);
-    patch.normal += area;
-    for (const std::uint32_t p : border[t]) patch.bounds.include(points[p]);
-  }
-  for (BoundaryPatch& patch : patches)
-    if (patch.area > 0.0) patch.normal /= patch.area;
-  std::stable_sort(patches.begin(), patches.end(),
-                   [](const BoundaryPatch& a, const BoundaryPatch& b) { return a.area > b.area; });
-  return patches;
 }
 
 WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, const std::string& file) {
@@ -153,36 +373,62 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
     return surfaces;
   }
 
-  const std::vector<BoundaryPatch> patches = boundary_patches(*grid.tets, kCrease);
-  double area = 0.0;
-  for (const BoundaryPatch& patch : patches) area += patch.area;
-  const BoundaryPatch* outer = nullptr;
-  std::vector<const BoundaryPatch*> inner;
-  std::size_t cuts = 0;
-  for (const BoundaryPatch& patch : patches) {
-    if (patch.area < kSmallPart * area) continue;
-    if (glm::length(patch.normal) > kFlat) {
-      ++cuts;
-    } else if (outer == nullptr || patch.bounds.diagonal() > outer->bounds.diagonal()) {
-      if (outer != nullptr) inner.push_back(outer);
-      outer = &patch;
-    } else {
-      inner.push_back(&patch);
+  const WallBorder border = border_of(*grid.tets);
+  std::optional<BorderReading> reading;
+  double crease = 0.0;
+  for (const double each : kCreases) {
+    BorderReading next(*grid.tets, border, each);
+    const bool tells = next.has(BorderRole::kInner) && next.has(BorderRole::kOuter);
+    const bool whole = tells && (next.has(BorderRole::kBase) || !next.open());
+    if (!reading || whole || (tells && !reading->has(BorderRole::kInner))) {
+      reading.emplace(std::move(next));
+      crease = each;
     }
+    if (whole) break;
   }
-  if (outer == nullptr || inner.empty())
-    refuse("has a border of " + counted(patches.size(), "smooth part") + ", none of them an inner surface");
+  if (!reading->has(BorderRole::kOuter) || !reading->has(BorderRole::kInner))
+    refuse("has a border of " + counted(reading->part_count(), "smooth part") +
+           ", none of them an inner surface");
+  surfaces.triangles = border.triangles;
+  surfaces.roles = reading->roles(surfaces.doubts);
+  measure(grid, border, surfaces);
   surfaces.of_point.assign(grid.point_count(), WallSurface::kNone);
-  const auto mark = [&surfaces](const BoundaryPatch& patch, WallSurface surface) {
-    for (const auto& triangle : patch.triangles)
-      for (const std::uint32_t p : triangle) surfaces.of_point[p] = surface;
+  const auto mark = [&surfaces](BorderRole role, WallSurface surface) {
+    for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
+      if (surfaces.roles[t] != role) continue;
+      for (const std::uint32_t p : surfaces.triangles[t]) surfaces.of_point[p] = surface;
+    }
   };
-  mark(*outer, WallSurface::kOuter);
-  for (const BoundaryPatch* patch : inner) mark(*patch, WallSurface::kInner);
-  surfaces.note = "found by the creases of the border: an outer surface, " +
-                  counted(inner.size(), "inner surface") + ", " + counted(cuts, "flat cut");
+  mark(BorderRole::kOuter, WallSurface::kOuter);
+  mark(BorderRole::kSeptum, WallSurface::kOuter);
+  mark(BorderRole::kRight, WallSurface::kInner);
+  mark(BorderRole::kInner, WallSurface::kInner);
   if (!both(surfaces.of_point)) refuse("has an inner surface that is all rim");
+
+  if (crease < kCreases[0])
+    surfaces.doubts.push_back("its parts show only where it is parted at " + short_number(crease / kDegree) +
+                              " degrees in place of 40");
+  if (!reading->has(BorderRole::kBase) && reading->open())
+    surfaces.doubts.emplace_back("no base was found between the inner and the outer surface");
+  if (surfaces.confidence < kLeastConfidence)
+    surfaces.doubts.push_back("parts without a role are " +
+                              short_number(std::round(100.0 * (1.0 - surfaces.confidence))) +
+                              " % of its area");
+  for (const BorderRole role : {BorderRole::kOuter, BorderRole::kInner, BorderRole::kSeptum})
+    if (surfaces.pieces[as_size(role)] > 1)
+      surfaces.doubts.push_back(std::string(name_of(role)) + " is of " +
+                                counted(surfaces.pieces[as_size(role)], "piece"));
+  surfaces.note = "found by the creases of the border: " + list_of(surfaces) + "; confidence " +
+                  short_number(std::round(100.0 * surfaces.confidence)) + " %";
   return surfaces;
+}
+
+std::vector<std::string> notes_of(const WallSurfaces& surfaces) {
+  std::vector<std::string> notes{surfaces.note};
+  for (const std::string& doubt : surfaces.doubts)
+    notes.push_back("WARNING: surfaces of the wall are in doubt: " + doubt + "; a point array '" +
+                    kSurfaceArray + "' names them (1 inner, 2 outer)");
+  return notes;
 }
 
 }  // namespace palpate

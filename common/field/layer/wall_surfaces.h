@@ -8,7 +8,6 @@
 
 #include "common/field/data_set.h"
 #include "common/field/field_grid.h"
-#include "common/field/grid/tet_mesh.h"
 
 namespace palpate {
 
@@ -17,32 +16,50 @@ inline constexpr const char* kSurfaceArray = "surface";
 /// What it holds.
 enum class WallSurface : std::uint8_t { kNone = 0, kInner = 1, kOuter = 2 };
 
+/// What a triangle of the border is part of.
+enum class BorderRole : std::uint8_t {
+  kLeft,    ///< none of them: too small a part
+  kOuter,   ///< epicardium
+  kInner,   ///< of the only cavity, or of the left ventricle's
+  kRight,   ///< of another cavity, where the wall behind it ends at the outer surface
+  kSeptum,  ///< of another cavity, where the wall behind it ends in the left ventricle: counts as outer
+  kBase     ///< where the wall is cut: no surface
+};
+inline constexpr int kBorderRoleCount = 6;
+/// "epicardium", "base", …
+[[nodiscard]] const char* name_of(BorderRole role) noexcept;
+
 struct WallSurfaces {
   std::vector<WallSurface> of_point;  ///< of the grid's points
   std::string note;                   ///< how they were found, for the user
+  /// @name Where they were found by the border's shape; else empty
+  /// @{
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of the border: points of the grid, outwards
+  std::vector<BorderRole> roles;                        ///< of each triangle
+  std::array<double, kBorderRoleCount> areas{};         ///< in the data's unit of length, squared
+  std::array<std::size_t, kBorderRoleCount> pieces{};   ///< that hang together, of 1 % of the border at least
+  double confidence = 1.0;                              ///< the part of the border's area that has a role
+  std::vector<std::string> doubts;                      ///< what the user should look at
+  /// @}
 };
 
-/// Takes them from the array kSurfaceArray where `mesh` has it, else from the shape of the border: it is
-/// parted where it bends by more than 40 degrees; parts below 1 % of its area are left out, flat ones (all of
-/// a part faces one way within some 8 degrees) are cuts; of the others the one with the largest extent is the
-/// outer surface, the rest are inner ones.
+/// Takes them from the array kSurfaceArray where `mesh` has it, else from the shape of the border, which is
+/// parted where it bends by more than 40 degrees (30 or 20, where that tells no surfaces or no base, which is
+/// a doubt). Parts below 1 % of its area have no role. Of the others
+/// - the one with the largest extent that is not flat is the outer surface, and so are those beside it that
+///   bulge outwards (BorderPart::bulge);
+/// - flat ones, those that neither bulge nor lie along the wall, and those beside the outer surface that face
+///   the way in which it opens are the base: flat, slanted, a saddle or jagged;
+/// - the rest, by what hangs together, are cavities. Of several the roundest one is the left ventricle's
+///   (volume squared over the cube of its area). Where the straight way through the wall from another one
+///   ends in it, there is the septum, whose side counts as outer, so that the septum, too, runs from 0 to 1
+///   (as Bayer et al., Ann Biomed Eng 40 (2012) 2243, and universal ventricular coordinates have it: Bayer
+///   et al., Med Image Anal 45 (2018) 83).
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".
 [[nodiscard]] WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh,
                                               const std::string& file);
 
-// The border of a tetrahedral mesh, parted at its creases.
-
-/// A smooth part of the border.
-struct BoundaryPatch {
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< points of the mesh, the normal outwards
-  double area = 0.0;                                    ///< frame L
-  Vec3 normal{
-      0.0};    ///< the sum of the triangles' normals over `area`: of unit length where the patch is flat
-  Box bounds;  ///< frame L
-};
-
-/// Faces of the border belong to one patch where their normals differ by less than `crease` [rad] over the
-/// edge that they share. Patches by falling area. Faces of zero-volume cells are border like any others.
-[[nodiscard]] std::vector<BoundaryPatch> boundary_patches(const TetMesh& mesh, double crease);
+/// What the user is told of them: how they were found, and a WARNING for each doubt.
+[[nodiscard]] std::vector<std::string> notes_of(const WallSurfaces& surfaces);
 
 }  // namespace palpate

@@ -35,18 +35,27 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
             "</DataArray>\n</FieldData>\n";
   head += "<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOfCells=\"" +
           std::to_string(cells.size()) + "\">\n<PointData>\n";
-  for (const MeshColumn& column : columns)
-    head += appendix.declare("Float64", column.name, static_cast<int>(column.components),
-                             column.components * per_point);
-  head += "</PointData>\n<Points>\n" + appendix.declare("Float64", "Points", 3, 3 * per_point);
+  const auto declare = [&](bool of_cells) {
+    for (const MeshColumn& column : columns)
+      if (column.of_cells == of_cells)
+        head += appendix.declare("Float64", column.name, static_cast<int>(column.components),
+                                 column.values.size() * sizeof(double));
+  };
+  declare(false);
+  head += "</PointData>\n<CellData>\n";
+  declare(true);
+  head += "</CellData>\n<Points>\n" + appendix.declare("Float64", "Points", 3, 3 * per_point);
   head += "</Points>\n<Cells>\n" + appendix.declare("Int64", "connectivity", 1, 4 * per_cell);
   head += appendix.declare("Int64", "offsets", 1, per_cell);
   head += appendix.declare("UInt8", "types", 1, cells.size());
   head += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   file.write(head);
-  for (const MeshColumn& column : columns) {
-    file.write_number(column.components * per_point);
-    for (const double value : column.values) file.write_number(value);
+  for (const bool of_cells : {false, true}) {
+    for (const MeshColumn& column : columns) {
+      if (column.of_cells != of_cells) continue;
+      file.write_number(std::uint64_t{column.values.size() * sizeof(double)});
+      for (const double value : column.values) file.write_number(value);
+    }
   }
   file.write_number(3 * per_point);
   for (const Vec3& x : points)
@@ -64,14 +73,14 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
 void write_csv(OutputFile& file, std::span<const Vec3> points, std::span<const MeshColumn> columns) {
   std::string row = "x,y,z";
   for (const MeshColumn& column : columns) {
-    for (std::size_t c = 1; c <= column.components; ++c)
+    for (std::size_t c = 1; !column.of_cells && c <= column.components; ++c)
       (row += ',') += column.components == 1 ? column.name : column.name + "_" + std::to_string(c);
   }
   file.write(row + "\n");
   for (std::size_t p = 0; p < points.size(); ++p) {
     row = exact_text(points[p]);
     for (const MeshColumn& column : columns)
-      for (std::size_t c = 0; c < column.components; ++c)
+      for (std::size_t c = 0; !column.of_cells && c < column.components; ++c)
         (row += ',') += exact_number(column.values[column.components * p + c]);
     file.write(row + "\n");
   }
@@ -91,7 +100,8 @@ void write_mesh(const std::filesystem::path& path, std::span<const Vec3> points,
                 bool overwrite, const std::optional<Vec3>& long_axis) {
   check_mesh_output(path, overwrite);
   for (const MeshColumn& column : columns)
-    PALPATE_CHECK(column.values.size() == column.components * points.size());
+    PALPATE_CHECK(column.values.size() ==
+                  column.components * (column.of_cells ? cells.size() : points.size()));
   OutputFile file(path, overwrite);
   if (lower_ending(path) == ".vtu") {
     write_vtu(file, points, cells, columns, long_axis);
