@@ -9,6 +9,7 @@
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
 #include "common/field/tensor/orientation_check.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -62,26 +63,49 @@ double positive_part(const DataArray& array, TensorOrder order) {
   return asked > 0 ? static_cast<double>(positive) / static_cast<double>(asked) : 0.0;
 }
 
-struct Axes {
-  Mat3 matrix;
-  const char* name;
-};
-
 /// Axes that tensors of that order may be along, the likeliest first.
-std::vector<Axes> axes_of(StoredOrder order, const UniformTopology& topology) {
-  const Axes fsl{fsl_axes(topology.axes),
-                 "FSL's image axes (the first turned around where the image is right-handed)"};
-  const Axes world{Mat3{1.0}, "the axes of the coordinates"};
-  const Axes image{image_axes(topology.axes), "the image's axes"};
-  if (order == StoredOrder::kFsl) return {fsl};
-  if (order == StoredOrder::kMrtrix) return {world};
-  return {image, world, fsl};
+std::vector<VectorFrame> frames_of(StoredOrder order) {
+  if (order == StoredOrder::kFsl) return {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps};
+  if (order == StoredOrder::kMrtrix) return {VectorFrame::kScanner, VectorFrame::kImage, VectorFrame::kLps};
+  return {VectorFrame::kVoxel, VectorFrame::kScanner, VectorFrame::kImage, VectorFrame::kLps};
 }
 
-/// How well main directions line up along the tensors' own reading.
-double coherence(const std::vector<float>& tensors, const UniformTopology& topology, int threads) {
-  const Mat3 identity{1.0};
-  return DirectionMap(tensors, topology, threads).coherence(std::span(&identity, 1), threads).front();
+/// The frame of numbers as stored, and how well main directions line up in it.
+struct FrameChoice {
+  VectorFrame frame = VectorFrame::kScanner;
+  double coherence = 0.0;
+  std::string why;
+};
+
+/// Of `frames`, the likeliest first, the one in which directions line up best.
+FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology& topology,
+                         const std::vector<VectorFrame>& frames, int threads) {
+  const DirectionMap map(stored, topology, threads);
+  std::vector<Mat3> matrices;
+  for (const VectorFrame frame : frames) matrices.push_back(matrix_of(frame, topology.axes));
+  const std::vector<double> scores = map.coherence(matrices, threads);
+  FrameChoice choice{.frame = frames.front(),
+                     .coherence = scores.front(),
+                     .why = ": the file does not say, and nothing in the image speaks against it"};
+  if (map.size() < kLeastCoherent) {
+    choice.why = ": the file does not say, and the image has too few fibres to tell";
+    return choice;
+  }
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    if (scores[f] <= choice.coherence + kClearCoherence) continue;
+    choice = {.frame = frames[f],
+              .coherence = scores[f],
+              .why = ": the file does not say, and neighbouring directions line up best so"};
+  }
+  return choice;
+}
+
+void turn_stored(const Mat3& axes, std::vector<float>& tensors) {
+  for (std::size_t at = 0; at + 6 <= tensors.size(); at += 6) {
+    Six six{};
+    std::copy_n(tensors.begin() + static_cast<std::ptrdiff_t>(at), 6, six.begin());
+    store(six, axes, &tensors[at]);
+  }
 }
 
 /// Tensors of six numbers whose order or axes the file leaves open.
@@ -96,34 +120,33 @@ std::vector<float> read_unstated(const DataArray& array, const UniformTopology& 
         {file, "", "has six volumes that are positive tensors in no known order", "tensors",
          "name the gradients of a diffusion-weighted series (--bval, --bvec), or --tensor-order"});
   constexpr double kAsGood = 0.02;
-  constexpr double kClear = 1.01;
   std::vector<float> best;
-  double best_coherence = -1.0;
-  std::string chosen;
+  FrameChoice chosen;
+  std::string name;
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
-    const Reading& reading = kReadings[r];
-    const bool taken = wanted == StoredOrder::kAuto ? positive[r] >= most - kAsGood : wanted == reading.order;
+    const Reading& way = kReadings[r];
+    const bool taken = wanted == StoredOrder::kAuto ? positive[r] >= most - kAsGood : wanted == way.order;
     if (!taken) continue;
-    for (const Axes& axes : axes_of(reading.order, topology)) {
-      std::vector<float> tensors = read_array(array, reading.places, axes.matrix);
-      const double score = coherence(tensors, topology, threads);
-      if (score <= kClear * best_coherence) continue;
-      best = std::move(tensors);
-      best_coherence = score;
-      chosen = std::string(reading.name) + " along " + axes.name;
-    }
+    std::vector<float> tensors = read_array(array, way.places, Mat3{1.0});
+    FrameChoice choice = choose_frame(tensors, topology, frames_of(way.order), threads);
+    if (!best.empty() && choice.coherence <= chosen.coherence + kClearCoherence) continue;
+    best = std::move(tensors);
+    chosen = std::move(choice);
+    name = way.name;
   }
+  turn_stored(matrix_of(chosen.frame, topology.axes), best);
   std::string parts;
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
     parts += (r == 0 ? "" : ", ") + short_number(std::round(1000.0 * positive[r]) / 10.0) + " % in " +
              kReadings[r].name;
   }
-  notes.push_back("tensors taken in " + chosen + (wanted == StoredOrder::kAuto ? "" : ", as asked for") +
+  notes.push_back("tensors taken in " + name + (wanted == StoredOrder::kAuto ? "" : ", as asked for") +
                   "; without an eigenvalue below zero: " + parts + " (--tensor-order)");
+  notes.push_back("tensors taken along " + std::string(words_of(chosen.frame)) + chosen.why);
   return best;
 }
 
-std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& source, const Mat3& axes) {
+std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& source) {
   std::array<const DataArray*, 6> arrays{};  // V1 V2 V3 L1 L2 L3
   for (std::size_t a = 0; a < arrays.size(); ++a)
     arrays[a] = image.find(source.arrays[a], Association::kPoint);
@@ -134,7 +157,7 @@ std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& sour
       const Vec3 v{arrays[e]->at(p, 0), arrays[e]->at(p, 1), arrays[e]->at(p, 2)};
       sum += arrays[e + 3]->at(p) * glm::outerProduct(v, v);
     }
-    store(six_numbers(sum), axes, &tensors[6 * p]);
+    store(six_numbers(sum), Mat3{1.0}, &tensors[6 * p]);
   }
   return tensors;
 }
@@ -143,7 +166,7 @@ std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& sour
 constexpr double kMeanDiffusivity = 0.7e-3;
 
 /// With eigenvalues MD (1 + 2 t), MD (1 - t) twice, FA = sqrt(3 t^2 / (1 + 2 t^2)).
-std::vector<float> from_directions(const DataSet& image, const TensorSource& source, const Mat3& axes) {
+std::vector<float> from_directions(const DataSet& image, const TensorSource& source) {
   const DataArray& directions = *image.find(source.arrays[0], Association::kPoint);
   const DataArray& anisotropies = *image.find(source.arrays[1], Association::kPoint);
   std::vector<float> tensors(6 * image.point_count());
@@ -157,7 +180,7 @@ std::vector<float> from_directions(const DataSet& image, const TensorSource& sou
       const Vec3 unit = v / length;
       tensor = kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
     }
-    store(six_numbers(tensor), axes, &tensors[6 * p]);
+    store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
   }
   return tensors;
 }
@@ -173,20 +196,17 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
                                        const TensorSource& source, TensorLayout layout, StoredOrder order,
                                        int threads, std::vector<std::string>& notes,
                                        const std::string& file) {
-  const std::string along =
-      ", along FSL's image axes (the first turned around where the image is right-handed)";
-  switch (source.kind) {
-    case TensorSource::Kind::kEigenSet:
-      notes.push_back("tensors put together from eigenvectors and eigenvalues" + along);
-      return from_eigen_set(image, source, fsl_axes(topology.axes));
-    case TensorSource::Kind::kDirections:
-      notes.push_back(
-          "V1 and FA alone do not determine tensors: taken as alike across V1, with a mean diffusivity "
-          "of 0.0007 mm^2/s" +
-          along);
-      return from_directions(image, source, fsl_axes(topology.axes));
-    default:
-      break;
+  if (source.kind == TensorSource::Kind::kEigenSet || source.kind == TensorSource::Kind::kDirections) {
+    const bool set = source.kind == TensorSource::Kind::kEigenSet;
+    std::vector<float> tensors = set ? from_eigen_set(image, source) : from_directions(image, source);
+    const FrameChoice choice = choose_frame(
+        tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, threads);
+    turn_stored(matrix_of(choice.frame, topology.axes), tensors);
+    notes.push_back((set ? "tensors put together from eigenvectors and eigenvalues"
+                         : "V1 and FA alone do not determine tensors: taken as alike across V1, with a mean "
+                           "diffusivity of 0.0007 mm^2/s") +
+                    std::string(", along ") + std::string(words_of(choice.frame)) + choice.why);
+    return tensors;
   }
   const DataArray& array = *image.find(source.arrays.front(), Association::kPoint);
   if (layout == TensorLayout::kData) return read_array(array, order_of_size(array.components), Mat3{1.0});

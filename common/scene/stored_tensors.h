@@ -18,8 +18,8 @@ namespace palpate {
 ///
 /// Of six numbers in an order that the file does not state, `order` says which it is. kAuto takes the order
 /// that makes the most tensors positive definite, and of equals the one whose main directions line up best.
-/// FSL's are along fsl_axes(), MRtrix's along those of the coordinates; for NIfTI's symmetric matrices the
-/// axes that make main directions line up best are taken: programs differ. Notes say what was taken and why.
+/// The axes are, of the likely ones, those in which main directions line up best (vector_frame.h): programs
+/// write FSL's and the scanner's axes under the same names, and ITK's programs LPS. Notes say what was taken.
 /// @throws Error (bad input) with `file` where kAuto finds no order in which half of the tensors are
 /// positive.
 /// @param source of any kind but kSignals, whose arrays `image` has.

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/math/symmetric3.h"
 #include "common/scene/fit_image.h"
 #include "common/scene/stored_tensors.h"
 
@@ -74,6 +75,24 @@ void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn
       verdict.best.words() + (turn.is_identity() ? "" : " in addition to the turn that was asked for"));
 }
 
+/// How many of the tensors have an eigenvalue below zero, of at most 20000 that are asked.
+void count_negative(const std::vector<float>& tensors, std::vector<std::string>& notes) {
+  constexpr std::size_t kMostAsked = 20'000;
+  const std::size_t count = tensors.size() / 6, stride = std::max<std::size_t>(1, count / kMostAsked);
+  std::size_t asked = 0, negative = 0;
+  for (std::size_t p = 0; p < count; p += stride) {
+    const float* const d = tensors.data() + 6 * p;
+    if (!std::all_of(d, d + 6, [](float x) { return std::isfinite(x); })) continue;
+    ++asked;
+    const Vec3 values =
+        symmetric_eigenvalues({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
+    // A zero of single precision may come out below zero.
+    constexpr double kRounding = 1e-6;
+    negative += values[2] < -kRounding * values[0] ? 1 : 0;
+  }
+  say_negative(negative, asked, notes);
+}
+
 }  // namespace
 
 TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& input,
@@ -94,11 +113,13 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
   if (input.source.kind == TensorSource::Kind::kSignals) {
     const DataArray& signals = *result.image.find(kSignalArray, Association::kPoint);
     result.fit = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
-                           result.notes, progress);
+                           result.notes, progress)
+                     .fit;
     tensors = std::exchange(result.fit->tensors, {});
   } else {
     tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion.layout, reading.order,
                                   threads, result.notes, input.file);
+    count_negative(tensors, result.notes);
   }
   if (!reading.turn.is_identity()) {
     const Mat3 image = image_axes(grid.axes);

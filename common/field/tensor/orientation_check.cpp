@@ -7,6 +7,7 @@
 #include "common/base/parallel.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 
@@ -86,66 +87,124 @@ DirectionMap::DirectionMap(std::span<const float> tensors, const UniformTopology
       std::count_if(directions_.begin(), directions_.end(), [](const auto& d) { return d[3] > 0.0F; }));
 }
 
+namespace {
+
+/// Lines through the origin, each once.
+class LineSet {
+ public:
+  std::size_t index_of(const Vec3& line) {
+    constexpr double kSame = 1e-9;  // of 1 - cos
+    for (std::size_t l = 0; l < lines_.size(); ++l) {
+      if (1.0 - std::abs(glm::dot(lines_[l], line)) < kSame) return l;
+    }
+    lines_.push_back(line);
+    return lines_.size() - 1;
+  }
+  [[nodiscard]] const std::vector<Vec3>& lines() const noexcept { return lines_; }
+
+ private:
+  std::vector<Vec3> lines_;
+};
+
+/// FA (d . line)^4 of the voxels of a slice, a row of all lines for each that counts.
+class SliceParts {
+ public:
+  SliceParts(std::span<const std::array<float, 4>> slice, const std::vector<Vec3>& lines)
+      : rows_(slice.size(), kNone) {
+    for (std::size_t v = 0; v < slice.size(); ++v) {
+      const auto& d = slice[v];
+      if (!(d[3] > 0.0F)) continue;
+      rows_[v] = parts_.size();
+      for (const Vec3& line : lines) {
+        const double a = glm::dot(Vec3{d[0], d[1], d[2]}, line);
+        parts_.push_back(static_cast<float>(static_cast<double>(d[3]) * a * a * a * a));
+      }
+    }
+  }
+  /// Null where the voxel does not count.
+  [[nodiscard]] const float* row(std::size_t voxel) const noexcept {
+    return rows_[voxel] == kNone ? nullptr : parts_.data() + rows_[voxel];
+  }
+
+ private:
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  std::vector<std::size_t> rows_;
+  std::vector<float> parts_;
+};
+
+/// (2) of P, whose column o stands in column `line_of[o]` of `sums`.
+double excess(std::span<const double> sums, std::size_t width, std::span<const std::size_t> line_of) {
+  const std::size_t n = line_of.size();
+  std::vector<double> rows(n, 0.0), columns(n, 0.0);
+  double along = 0.0, total = 0.0;
+  for (std::size_t step = 0; step < n; ++step) {
+    for (std::size_t o = 0; o < n; ++o) {
+      const double part = sums[step * width + line_of[o]];
+      rows[step] += part;
+      columns[o] += part;
+      total += part;
+      if (o == step) along += part;
+    }
+  }
+  double expected = 0.0;
+  for (std::size_t o = 0; o < n; ++o) expected += rows[o] * columns[o];
+  return expected > 0.0 ? along * total / expected - 1.0 : 0.0;
+}
+
+}  // namespace
+
 std::vector<double> DirectionMap::coherence(std::span<const Mat3> turns, int threads) const {
   const std::vector<Index3> offsets = half_neighbourhood();
-  // (T d) . o = d . (T^T o).
-  std::vector<Vec3> lines;
-  for (const Index3& offset : offsets) {
-    const Vec3 o = glm::normalize(axes_ * Vec3(offset));
-    for (const Mat3& turn : turns) lines.push_back(glm::transpose(turn) * o);
+  LineSet set;
+  std::vector<std::size_t> line_of;  // a row a turn: (T d) . o = d . (T^T o)
+  for (const Mat3& turn : turns) {
+    for (const Index3& offset : offsets)
+      line_of.push_back(set.index_of(glm::transpose(turn) * glm::normalize(axes_ * Vec3(offset))));
   }
+  const std::size_t width = set.lines().size();
   const auto slices = as_size(points_.z);
-  std::vector<double> sums(slices * turns.size(), 0.0);  // a row a slice: the order of sums is fixed
+  const std::size_t in_slice = as_size(points_.x) * as_size(points_.y);
+  std::vector<double> sums(slices * offsets.size() * width, 0.0);  // by slice: the order of sums is fixed
   parallel_for(slices, threads, [&](std::size_t first, std::size_t last) {
+    const auto parts_of = [&](std::size_t slice) {
+      return SliceParts(std::span(directions_).subspan(slice * in_slice, in_slice), set.lines());
+    };
     for (std::size_t slice = first; slice < last; ++slice) {
-      double* const sum = sums.data() + slice * turns.size();
-      const int k = static_cast<int>(slice);
-      const auto at = [&](const Index3& p) { return directions_[index_in(points_, p)]; };
+      double* const sum = sums.data() + slice * offsets.size() * width;
+      const SliceParts here = parts_of(slice);
+      const SliceParts above = parts_of(std::min(slice + 1, slices - 1));
       for (int j = 0; j < points_.y; ++j) {
         for (int i = 0; i < points_.x; ++i) {
-          const Index3 here{i, j, k};
-          const auto u = at(here);
-          if (!(u[3] > 0.0F)) continue;
+          const float* const u = here.row(index_in(points_, {i, j, 0}));
+          if (u == nullptr) continue;
           for (std::size_t n = 0; n < offsets.size(); ++n) {
-            const Index3 there = here + offsets[n];
+            const Index3 there{i + offsets[n].x, j + offsets[n].y, 0};
             if (there.x < 0 || there.y < 0 || there.x >= points_.x || there.y >= points_.y ||
-                there.z >= points_.z) {
+                (offsets[n].z > 0 && slice + 1 == slices)) {
               continue;
             }
-            const auto v = at(there);
-            if (!(v[3] > 0.0F)) continue;
-            const double weight = static_cast<double>(u[3]) * static_cast<double>(v[3]);
-            for (std::size_t t = 0; t < turns.size(); ++t) {
-              const Vec3& o = lines[n * turns.size() + t];
-              const double a = glm::dot(Vec3{u[0], u[1], u[2]}, o), b = glm::dot(Vec3{v[0], v[1], v[2]}, o);
-              const double part = a * a * b * b;
-              sum[t] += weight * part * part;
-            }
+            const float* const v = (offsets[n].z > 0 ? above : here).row(index_in(points_, there));
+            if (v == nullptr) continue;
+            double* const row = sum + n * width;
+            for (std::size_t l = 0; l < width; ++l) row[l] += static_cast<double>(u[l] * v[l]);
           }
         }
       }
     }
   });
-  std::vector<double> scores(turns.size(), 0.0);
-  for (std::size_t slice = 0; slice < slices; ++slice) {
-    for (std::size_t t = 0; t < turns.size(); ++t) scores[t] += sums[slice * turns.size() + t];
-  }
+  std::vector<double> all(offsets.size() * width, 0.0);
+  for (std::size_t i = 0; i < sums.size(); ++i) all[i % all.size()] += sums[i];
+  std::vector<double> scores;
+  for (std::size_t t = 0; t < turns.size(); ++t)
+    scores.push_back(excess(all, width, std::span(line_of).subspan(t * offsets.size(), offsets.size())));
   return scores;
 }
 
 OrientationVerdict check_orientation(const DirectionMap& directions, const UniformTopology& topology,
                                      int threads) {
-  // Fewer voxels are no anatomy; and a gain that chance does not give.
-  constexpr std::size_t kLeastVoxels = 200;
-  constexpr double kClear = 1.03;
   OrientationVerdict verdict;
-  if (directions.size() < kLeastVoxels) return verdict;
-  // Where voxels are long, the lines between neighbours crowd around their long axis and favour some turns.
-  constexpr double kMostUneven = 2.0;
-  const Vec3 steps{glm::length(topology.axes[0]), glm::length(topology.axes[1]),
-                   glm::length(topology.axes[2])};
-  if (std::max({steps.x, steps.y, steps.z}) > kMostUneven * std::min({steps.x, steps.y, steps.z}))
-    return verdict;
+  // Fewer voxels are no anatomy.
+  if (directions.size() < kLeastCoherent) return verdict;
   const Mat3 image = image_axes(topology.axes);
   const std::vector<AxisTurn> turns = axis_turns();
   std::vector<Mat3> matrices;
@@ -153,10 +212,10 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   for (const AxisTurn& turn : turns) matrices.push_back(image * turn.matrix() * glm::transpose(image));
   const std::vector<double> scores = directions.coherence(matrices, threads);
   const auto best = std::max_element(scores.begin(), scores.end());
-  if (!(scores.front() > 0.0)) return verdict;
   verdict.best = turns[as_size(best - scores.begin())];
-  verdict.gain = *best / scores.front();
-  verdict.suspicious = verdict.gain > kClear;
+  constexpr double kLeastSum = 1e-3;  // 1 + s is none below zero
+  verdict.gain = (1.0 + *best) / std::max(1.0 + scores.front(), kLeastSum);
+  verdict.suspicious = *best - scores.front() > kClearCoherence;
   return verdict;
 }
 

@@ -1,15 +1,15 @@
 /// Whether the axes of a tensor image are those that its anatomy has: a gradient table with a flipped or
 /// swapped axis gives tensors that fit well and point the wrong way.
 ///
-/// Along a bundle, main directions point at the neighbours that share them. For every turn T of the tensors
-/// that a wrong table can stand for, all pairs (u, v) of neighbouring voxels are asked how well their main
-/// directions d lie along the line o between them:
-///
-///   s(T) = sum FA_u FA_v (T d_u . o)^4 (T d_v . o)^4                                     (1)
-///
-/// over voxels with FA > 0.2 and the 26 neighbours of each; o in space, of unit length. A smooth form of the
-/// fibre coherence index of Schilling et al. 2019 ("A fiber coherence index for quality control of B-table
-/// orientation in diffusion MRI scans"), which counts pairs within an angle.
+/// Along a bundle, main directions d point at the neighbours that share them. For pairs (u, v) of neighbours a
+/// step o' apart, and every turn T of the tensors that a wrong table can stand for, over FA > 0.2:
+///   P(o', o) = sum FA_u FA_v (T d_u . o)^4 (T d_v . o)^4                                  (1)
+/// with o, o' the 13 lines to the 26 neighbours. Directions that know nothing of their places make P a product
+/// of its row sums R and column sums C, as uniform fibres do whatever the shape of voxels and the turn. So
+///   s(T) = sum_o P(o, o) / ( sum_o R(o) C(o) / sum_o R(o) ) - 1                           (2)
+/// counts only whether alike neighbours lie along the fibre. A smooth form of the fibre coherence index of
+/// Schilling et al. 2019 ("A fiber coherence index for quality control of B-table orientation in diffusion MRI
+/// scans"), which counts pairs within an angle; the comparison with independence is ours.
 #pragma once
 
 #include <array>
@@ -58,12 +58,12 @@ class DirectionMap {
 
 struct OrientationVerdict {
   AxisTurn best;
-  double gain = 1.0;        ///< s(best) / s(identity)
+  double gain = 1.0;        ///< (1 + s(best)) / (1 + s(identity))
   bool suspicious = false;  ///< the best turn is not the identity, by so much that it is no chance
 };
 
-/// Scores all turns along the image's axes. Nothing is suspicious where fewer than 200 voxels count, or where
-/// the steps of the image differ by more than a factor of two.
+/// Scores all turns along the image's axes. Nothing is suspicious where fewer than 200 voxels count: these
+/// are no anatomy.
 [[nodiscard]] OrientationVerdict check_orientation(const DirectionMap& directions,
                                                    const UniformTopology& topology, int threads);
 
